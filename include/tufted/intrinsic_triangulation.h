@@ -1,0 +1,50 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "tufted/types.h"
+
+namespace tufted {
+
+/// A closed, edge-manifold, oriented triangulation given by its connectivity and edge lengths alone
+/// (Sections 3.2 and 4.1): a Delta-complex, so two faces may share several edges, a face may be glued to
+/// itself and an edge may join a vertex to itself.
+///
+/// Side `s` of face `f` has the number 3 f + s and runs from corner `s` to corner `(s + 1) % 3`. `glue` maps a
+/// side to the one side it is glued to, which runs the other way. As built, face 2 t is the front and face
+/// 2 t + 1 the back of triangle t, with the corners (i, j, k) and (i, k, j).
+struct IntrinsicTriangulation {
+  int vertices = 0;                       ///< number of vertices; corners lie in [0, vertices)
+  std::vector<std::array<int, 3>> faces;  ///< F corners
+  std::vector<int> glue;                  ///< 3 F sides
+  std::vector<double> length;             ///< 3 F lengths, equal on both sides of an edge
+
+  std::int64_t size() const { return static_cast<std::int64_t>(faces.size()); }
+};
+
+/// The side after `side` in its face.
+constexpr int nextSide(int side) { return side % 3 == 2 ? side - 2 : side + 1; }
+/// The side before `side` in its face.
+constexpr int previousSide(int side) { return side % 3 == 0 ? side + 2 : side - 1; }
+
+/// Violations found by `validate`, each a number of sides or faces. All are zero for the cover of a `Laplacian`.
+struct CoverCheck {
+  std::int64_t not_closed = 0;           ///< sides glued to nothing or out of range
+  std::int64_t not_edge_manifold = 0;    ///< sides whose mate is glued elsewhere, or glued to themselves
+  std::int64_t not_oriented = 0;         ///< sides whose mate does not run the other way between the same vertices
+  std::int64_t unequal_lengths = 0;      ///< sides whose mate has another length
+  std::int64_t triangle_inequality = 0;  ///< faces whose lengths are not those of a triangle (negative slack)
+  std::int64_t not_delaunay = 0;         ///< edges with cot + cot below -tolerance (Equation 2)
+  double smallest_cotan_sum = 0;         ///< the least cot + cot, at most 0
+
+  bool ok() const {
+    return not_closed + not_edge_manifold + not_oriented + unequal_lengths + triangle_inequality + not_delaunay == 0;
+  }
+};
+
+/// Checks everything that the guarantees of L rest on. O(F).
+CoverCheck validate(const IntrinsicTriangulation& cover, double delaunay_tolerance = 1e-9);
+
+}  // namespace tufted

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "tufted/intrinsic_triangulation.h"
+#include "tufted/options.h"
+#include "tufted/report.h"
+#include "tufted/types.h"
+
+namespace tufted {
+
+/// Tangent frame of every point. Rows of points that are not active may be zero. The sign of a normal is
+/// arbitrary on clouds; the second tangent is cross(normal, tangent).
+struct Frames {
+  Points normals;   ///< N x 3, unit length
+  Points tangents;  ///< N x 3, unit length
+};
+
+/// The Laplacian of a point cloud or a mesh, with what is known about each point.
+///
+/// L is the weak (integrated) Laplacian: symmetric, positive semidefinite, off-diagonals <= 0, rows sum to 0.
+/// L is -Delta integrated: libigl and PMP use the opposite sign. M holds lumped areas.
+///   Poisson        L u = M f
+///   eigenproblem   L x = lambda M x
+struct Laplacian {
+  SparseMatrix L;                         ///< N x N, column-major, compressed, rows ascending; no unit (lengths cancel)
+  VectorXd M;                             ///< N areas in length^2; their sum approximates the surface area
+  std::vector<PointStatus> status;        ///< N
+  std::vector<int> representative;        ///< N; the point itself unless coincident, then the lowest equal index
+  std::vector<std::uint8_t> boundary;     ///< N; 1 where the surface ends: an open star, a lost triangle, a free edge
+  Frames frames;                          ///< clouds only; 0 x 3 on meshes
+  Report report;
+
+  /// The tufted cover after flips to intrinsic Delaunay, vertices numbered as the caller's points.
+  /// Throws InvalidInput after `keep_cover = false`.
+  const IntrinsicTriangulation& cover() const;
+
+  std::shared_ptr<const IntrinsicTriangulation> stored_cover;  ///< use cover()
+};
+
+/// The point cloud Laplacian of Section 5.7.
+/// @param points N x 3; NaN and infinite rows keep their index and are skipped.
+/// @throws InvalidInput for options out of range, arrays of the wrong size, more than 59 million points
+/// @throws Cancelled when `options.progress` returns false
+Laplacian pointCloudLaplacian(const Points& points, const CloudOptions& options = {});
+
+/// The mesh Laplacian of Algorithm 3, for triangles of any connectivity.
+/// @param points V x 3; coincident vertices stay separate.
+/// @param triangles F x 3 indices into `points`; triangles with a repeated vertex are dropped and counted.
+/// @throws InvalidInput for indices or options out of range, more than 357 million triangles
+/// @throws Cancelled when `options.progress` returns false
+Laplacian meshLaplacian(const Points& points, const Triangles& triangles, const MeshOptions& options = {});
+
+}  // namespace tufted

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string_view>
+
+#include "tufted/types.h"
+
+namespace tufted {
+
+/// Called from the calling thread with a stage's name and the fraction of it that is done, in [0, 1].
+/// Returns false to stop the build, which then throws `Cancelled`.
+using Progress = std::function<bool(std::string_view stage, double fraction)>;
+
+/// How the edges of the union of stars are named before Algorithm 1 glues around them.
+enum class Gluing {
+  star,         ///< the two faces of p's star at a spoke meet each other only; link edges are shared between stars
+  vertex_pair,  ///< all copies of an edge meet, as in the paper (5 % off on spectra at any N)
+};
+
+/// Circular order of the faces around an edge (Section 5.4).
+enum class FaceOrder {
+  angle,   ///< dihedral angle
+  area,    ///< ascending area
+  random,  ///< shuffled by `seed`
+};
+
+/// Who finds the Delaunay stars. Both give the same triangles.
+enum class Delaunay {
+  star,  ///< angular sort and in-circle test around each point
+  cgal,  ///< CGAL::Delaunay_triangulation_2 (GPL; needs TUFTED_WITH_GPL)
+};
+
+struct CloudOptions {
+  int neighbors = 30;                        ///< k >= 3; larger than N - 1 is clamped and reported
+  Gluing gluing = Gluing::star;
+  FaceOrder order = FaceOrder::angle;
+  std::uint64_t seed = 0;                    ///< for FaceOrder::random
+  Delaunay delaunay = Delaunay::star;
+  double mollify = 1e-5;                     ///< delta of Section 4.5 in mean edge lengths, >= 0
+  int threads = 0;                           ///< at most this many; 0: what OpenMP offers
+  bool keep_cover = true;                    ///< false frees the cover (about 600 bytes per point)
+  const Points* normals = nullptr;           ///< N x 3, any length and sign, used instead of the PCA's; borrowed
+  const Neighborhoods* neighborhoods = nullptr;  ///< N x k indices used as they are, never grown; borrowed
+  Progress progress = {};
+};
+
+struct MeshOptions {
+  FaceOrder order = FaceOrder::angle;
+  std::uint64_t seed = 0;     ///< for FaceOrder::random
+  double mollify = 1e-4;      ///< delta of Section 4.5 in mean edge lengths, >= 0
+  int threads = 0;            ///< at most this many; 0: what OpenMP offers
+  bool keep_cover = true;     ///< false frees the cover (96 bytes per triangle)
+  Progress progress = {};
+};
+
+}  // namespace tufted

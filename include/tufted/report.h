@@ -1,0 +1,63 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace tufted {
+
+/// Cost of one stage of a build.
+struct StageCost {
+  std::string name;
+  double seconds = 0;     ///< wall-clock; stages that share a parallel loop split its time by their CPU shares
+  std::size_t bytes = 0;  ///< memory held by what the stage leaves behind
+};
+
+/// What happened in a build. Odd data is never printed and never throws: it is counted here.
+struct Report {
+  // Input
+  std::int64_t points = 0;      ///< rows of the caller's array
+  std::int64_t active = 0;      ///< points with a positive diagonal
+  std::int64_t not_finite = 0;  ///< NaN, infinite, or beyond 1e100 median spreads
+  std::int64_t coincident = 0;  ///< merged with an earlier equal point (clouds)
+  std::int64_t isolated = 0;    ///< points without a triangle
+
+  // Clouds
+  int neighbors = 0;                      ///< k in use, after clamping to N - 1
+  bool neighbors_clamped = false;         ///< the caller's k exceeded N - 1
+  std::int64_t rejected_normals = 0;      ///< caller's normals that are zero or not finite, replaced by PCA
+  std::int64_t rejected_neighbors = 0;    ///< caller's neighbours that repeat or name the point or an unusable one
+  std::int64_t grown_neighborhoods = 0;   ///< k doubled because the neighbours lie on one scan line
+  std::int64_t grown_stars = 0;           ///< k doubled because a closed star was not certified
+  std::int64_t open_stars = 0;            ///< points whose Voronoi cell is not compact
+  std::int64_t dropped_triangles = 0;     ///< star triangles removed by the circumradius filter
+  std::array<std::int64_t, 3> votes = {}; ///< distinct triangles found by 1, 2, 3 of their corners
+
+  // Meshes
+  std::int64_t repeated_vertex_triangles = 0;  ///< dropped: a vertex occurs twice
+  std::int64_t not_finite_triangles = 0;       ///< dropped: a vertex is not finite
+  std::int64_t boundary_edges = 0;             ///< edges of exactly one triangle
+  std::int64_t nonmanifold_edges = 0;          ///< edges of more than two triangles
+
+  // Cover
+  std::int64_t triangles = 0;         ///< triangles under the cover, all copies counted; the cover has twice as many
+  double mean_edge = 0;               ///< mean length over the triangles' sides, before mollification
+  double mollify_length = 0;          ///< length added to every edge (Section 4.5)
+  std::int64_t degenerate_faces = 0;  ///< cover faces of no area even after mollification; they contribute nothing
+  std::int64_t flips = 0;             ///< intrinsic edge flips
+  std::int64_t flip_failures = 0;     ///< edges given up after 100 flips; 0 unless something is wrong
+
+  // Operator
+  std::int64_t nonzeros = 0;         ///< stored entries of L
+  std::int64_t components = 0;       ///< connected components among active points
+  std::int64_t clamped_weights = 0;  ///< negative weights set to 0, within 1e-9 of the larger diagonal
+  std::int64_t clamped_large = 0;    ///< negative weights beyond that, a failure of the flips; 0 unless something is wrong
+  double largest_clamped = 0;        ///< largest clamped |weight| over the larger diagonal of its row and column
+
+  int threads = 1;
+  std::vector<StageCost> stages;
+};
+
+}  // namespace tufted

@@ -1,0 +1,10 @@
+#pragma once
+
+// Everything in the core library. Files and the PCL filters have headers of their own (tufted/io, tufted/pcl).
+#include "tufted/errors.h"
+#include "tufted/intrinsic_triangulation.h"
+#include "tufted/laplacian.h"
+#include "tufted/options.h"
+#include "tufted/polygons.h"
+#include "tufted/report.h"
+#include "tufted/types.h"

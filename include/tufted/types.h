@@ -1,0 +1,30 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/SparseCore>
+#include <cstdint>
+#include <vector>
+
+namespace tufted {
+
+/// N x 3 positions or directions, one row per point, in the caller's unit of length.
+using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
+/// F x 3 vertex indices, one row per triangle.
+using Triangles = Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>;
+/// N x k neighbour indices, one row per point; negative entries are padding.
+using Neighborhoods = Eigen::Matrix<int, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+/// Vertex indices of each polygon, in order around it.
+using Polygons = std::vector<std::vector<int>>;
+
+using SparseMatrix = Eigen::SparseMatrix<double>;
+using VectorXd = Eigen::VectorXd;
+
+/// Why a point does or does not take part. A point that does not has a zero row, column and mass.
+enum class PointStatus : std::uint8_t {
+  active = 0,      ///< has a positive diagonal in L
+  not_finite = 1,  ///< NaN, infinite, or more than 1e100 median spreads away from the rest
+  coincident = 2,  ///< equals an earlier point of the cloud, its `representative`
+  isolated = 3,    ///< no triangle: too few neighbours, all collinear, or an unreferenced vertex
+};
+
+}  // namespace tufted
