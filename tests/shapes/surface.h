@@ -1,0 +1,42 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+#include <string>
+
+#include "shapes/shapes.h"
+
+namespace tufted::shapes {
+
+/// A point of a surface, the unit normal there, and the area per unit of the parameters (t, s).
+struct SurfacePoint {
+  Eigen::Vector3d point;
+  Eigen::Vector3d normal;
+  double stretch;
+};
+
+/// A surface made of rows: t in [0, span] counts the rows (as arc length where possible), s in [0, 1] runs along one.
+struct Surface {
+  std::string name{};
+  double span = 1;
+  std::function<SurfacePoint(double t, double s)> at{};
+  double max_stretch = 1;  ///< bound of the stretch, for rejection sampling
+  double area = 0;
+  bool rim_first = false;  ///< t = 0 is a boundary
+  bool rim_last = false;   ///< t = span is a boundary
+  bool rim_sides = false;  ///< s = 0 and s = 1 are boundaries; otherwise rows are closed
+  VectorXd eigenvalues{};
+};
+
+Surface sphereSurface();
+Surface ellipsoidSurface(double a, double b, double c);  ///< a >= b >= c
+Surface squareSurface();
+Surface diskSurface();
+Surface torusSurface(double major_radius, double minor_radius);
+Surface cylinderSurface();
+Surface saddleSurface();
+
+/// n points of the surface (Sampling::lattice: about n).
+Cloud sampleSurface(const Surface& surface, int n, Sampling sampling, Rim rim, std::uint64_t seed);
+
+}  // namespace tufted::shapes
