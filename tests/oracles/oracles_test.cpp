@@ -1,0 +1,140 @@
+#include "oracles/oracles.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <cmath>
+#include <numbers>
+
+#include "shapes/random.h"
+#include "shapes/shapes.h"
+
+namespace tufted::oracles {
+namespace {
+
+using shapes::Sampling;
+
+TEST(Hull, OfSpherePointsIsATriangulatedSphere) {
+  const shapes::Cloud cloud = shapes::sphere(1000);
+  const Triangles hull = convexHullMesh(cloud.points);
+  const Topology found = topology(hull);
+  EXPECT_EQ(hull.rows(), 2 * 1000 - 4);
+  EXPECT_EQ(found.euler, 2);
+  EXPECT_EQ(found.boundary_edges, 0);
+  EXPECT_NEAR(surfaceArea(cloud.points, hull), cloud.area, 0.02 * cloud.area);
+  for (Eigen::Index f = 0; f < hull.rows(); ++f) {
+    const Eigen::RowVector3d a = cloud.points.row(hull(f, 0)), b = cloud.points.row(hull(f, 1)),
+                             c = cloud.points.row(hull(f, 2));
+    EXPECT_GT(a.dot(b.cross(c)), 0);
+  }
+}
+
+// Second order: the error falls by four when the number of points grows by four.
+TEST(Eigenvalues, OfTheHullConvergeToTheSphere) {
+  for (const auto& [n, expected] : {std::pair(1000, 4.2e-2), std::pair(4000, 1.0e-2), std::pair(16000, 2.5e-3)}) {
+    const shapes::Cloud cloud = shapes::sphere(n);
+    const Operators operators = cotanLaplacian(cloud.points, convexHullMesh(cloud.points));
+    const double error = meanRelativeError(smallestEigenvalues(operators.L, operators.M, 49), cloud.eigenvalues);
+    EXPECT_NEAR(error, expected, 0.15 * expected) << n;
+  }
+}
+
+TEST(Eigenvalues, OfMeshesConvergeToTheirTruth) {
+  for (const shapes::Mesh& mesh : {shapes::gridSquare(40), shapes::icosphere(4), shapes::book(3, 24),
+                                   shapes::book(5, 24), shapes::mixedOrientation(40)}) {
+    const Operators operators = cotanLaplacian(mesh.points, mesh.triangles);
+    const VectorXd values = smallestEigenvalues(operators.L, operators.M, 20);
+    EXPECT_LT(meanRelativeError(values, mesh.eigenvalues), 2e-2) << mesh.name;
+  }
+}
+
+TEST(Eigenvalues, AreMOrthonormalAndSolveTheProblem) {
+  const shapes::Mesh mesh = shapes::icosphere(3);
+  const auto [L, M] = cotanLaplacian(mesh.points, mesh.triangles);
+  const Spectrum spectrum = smallestEigenpairs(L, M, 30);
+  const Eigen::MatrixXd gram = spectrum.vectors.transpose() * M.asDiagonal() * spectrum.vectors;
+  EXPECT_LT((gram - Eigen::MatrixXd::Identity(30, 30)).cwiseAbs().maxCoeff(), 1e-8);
+  const Eigen::MatrixXd residual =
+      L * spectrum.vectors - M.asDiagonal() * spectrum.vectors * spectrum.values.asDiagonal();
+  EXPECT_LT(residual.cwiseAbs().maxCoeff(), 1e-8);
+}
+
+// Exactly multiple eigenvalues are what Krylov methods miss: six equal components.
+TEST(Eigenvalues, OfEqualComponentsAreAllFound) {
+  const shapes::Mesh one = shapes::gridSquare(8);
+  constexpr int copies = 6;
+  const Eigen::Index n = one.points.rows(), faces = one.triangles.rows();
+  Points points(copies * n, 3);
+  Triangles triangles(copies * faces, 3);
+  for (int copy = 0; copy < copies; ++copy) {
+    points.middleRows(copy * n, n) = one.points.rowwise() + Eigen::RowVector3d(2.0 * copy, 0, 0);
+    triangles.middleRows(copy * faces, faces) = one.triangles.array() + static_cast<int>(copy * n);
+  }
+  const Operators single = cotanLaplacian(one.points, one.triangles), all = cotanLaplacian(points, triangles);
+  const VectorXd values = smallestEigenvalues(single.L, single.M, 5), found = smallestEigenvalues(all.L, all.M, 30);
+  for (int i = 0; i < 30; ++i) EXPECT_NEAR(found[i], values[i / copies], 1e-8) << i;
+}
+
+TEST(Eigenvalues, IgnoreInactivePointsAndScale) {
+  const shapes::Mesh mesh = shapes::gridSquare(10), padded = shapes::unreferencedVertices(10);
+  const Operators plain = cotanLaplacian(mesh.points, mesh.triangles),
+                  other = cotanLaplacian(padded.points * 1024, padded.triangles);
+  const VectorXd a = smallestEigenvalues(plain.L, plain.M, 10), b = smallestEigenvalues(other.L, other.M, 10);
+  EXPECT_LT((a - b * 0x1p20).cwiseAbs().maxCoeff(), 1e-7);
+}
+
+TEST(Cotan, RepeatedTrianglesWithoutAreaAreSkipped) {
+  const shapes::Mesh mesh = shapes::gridSquare(6), repeated = shapes::repeatedVertices(6);
+  const Operators a = cotanLaplacian(mesh.points, mesh.triangles),
+                  b = cotanLaplacian(repeated.points, repeated.triangles);
+  EXPECT_EQ((a.L - b.L).norm(), 0);
+  EXPECT_NEAR(a.M.sum(), 1, 1e-12);
+}
+
+TEST(DelaunayStar, OfASquareAndItsNeighbours) {
+  Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> points(6, 2);
+  points << 1, 0, 0, 1, -1, 0, 0, -1, 3, 3, 1, 0;
+  const PlanarStar star = delaunayStarOracle(points);
+  EXPECT_TRUE(star.closed);
+  ASSERT_EQ(star.triangles.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(star.triangles[i][1], star.triangles[(i + 1) % 4][0]);
+    EXPECT_EQ((star.triangles[i][0] + 1) % 4, star.triangles[i][1]);
+  }
+  const PlanarStar open = delaunayStarOracle(points.topRows(3));
+  EXPECT_FALSE(open.closed);
+  ASSERT_EQ(open.triangles.size(), 2u);
+  EXPECT_EQ(open.triangles[0], (std::array<int, 2>{0, 1}));
+  EXPECT_EQ(open.triangles[1], (std::array<int, 2>{1, 2}));
+}
+
+TEST(DelaunayStar, HasEmptyCircles) {
+  shapes::Random random(4);
+  Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> points(200, 2);
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    points(i, 0) = random.normal();
+    points(i, 1) = random.normal();
+  }
+  const PlanarStar star = delaunayStarOracle(points);
+  ASSERT_TRUE(star.closed);
+  for (const auto& [i, j] : star.triangles) {
+    // Circle through the origin, a and b: 2 c.p = |p|^2 for both.
+    Eigen::Matrix2d sides;
+    sides << points.row(i), points.row(j);
+    const Eigen::Vector2d centre =
+        sides.inverse() * Eigen::Vector2d(points.row(i).squaredNorm(), points.row(j).squaredNorm()) / 2;
+    for (Eigen::Index k = 0; k < points.rows(); ++k) {
+      EXPECT_GE((points.row(k).transpose() - centre).norm(), centre.norm() * (1 - 1e-9));
+    }
+  }
+}
+
+TEST(DelaunayStar, OfCollinearPointsIsEmpty) {
+  Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> points(2, 2);
+  points << 1, 1, 2, 2;
+  EXPECT_TRUE(delaunayStarOracle(points).triangles.empty());
+}
+
+}  // namespace
+}  // namespace tufted::oracles
