@@ -49,6 +49,18 @@ TEST(Eigenvalues, OfMeshesConvergeToTheirTruth) {
   }
 }
 
+// The cube's spectrum is a table; its numeric entries are checked to second order, by Richardson's rule.
+TEST(Eigenvalues, OfTheCubeExtrapolateToItsTable) {
+  const auto values = [](int n) {
+    const shapes::Mesh mesh = shapes::cubeQuads(n);
+    const Operators operators = cotanLaplacian(mesh.points, mesh.triangles);
+    return smallestEigenvalues(operators.L, operators.M, 50);
+  };
+  const VectorXd table = shapes::cubeQuads(1).eigenvalues, extrapolated = (4 * values(40) - values(20)) / 3;
+  ASSERT_EQ(table.size(), 50);
+  for (int i = 1; i < 50; ++i) EXPECT_NEAR(extrapolated[i] / table[i], 1, 2e-3) << i;
+}
+
 TEST(Eigenvalues, AreMOrthonormalAndSolveTheProblem) {
   const shapes::Mesh mesh = shapes::icosphere(3);
   const auto [L, M] = cotanLaplacian(mesh.points, mesh.triangles);

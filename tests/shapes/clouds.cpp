@@ -64,11 +64,13 @@ Cloud square(int n, Sampling sampling, Rim rim, std::uint64_t seed) {
 }
 
 Cloud disk(int n, Sampling sampling, Rim rim, std::uint64_t seed) {
-  return sampleSurface(diskSurface(), n, sampling, rim, seed);
+  static const Surface surface = diskSurface();  // its spectrum takes a while
+  return sampleSurface(surface, n, sampling, rim, seed);
 }
 
 Cloud torus(int n, Sampling sampling, std::uint64_t seed) {
-  return sampleSurface(torusSurface(1, 0.4), n, sampling, Rim::none, seed);
+  static const Surface surface = torusSurface(1, 0.4);  // its spectrum takes a while
+  return sampleSurface(surface, n, sampling, Rim::none, seed);
 }
 
 Cloud cylinderPatch(int n, Sampling sampling, Rim rim, std::uint64_t seed) {

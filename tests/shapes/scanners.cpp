@@ -83,7 +83,7 @@ Vector3d beam(double azimuth, double elevation) {
 
 // A beam of solid angle w covers the area w range^2 / cos(angle of incidence).
 double visibleArea(double low, double high) {
-  constexpr int rows = 512, columns = 720;
+  constexpr int rows = 256, columns = 360;
   const double row_step = (high - low) / rows, column_step = 2 * std::numbers::pi / columns;
   double area = 0;
   for (int row = 0; row < rows; ++row) {

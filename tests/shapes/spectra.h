@@ -12,7 +12,7 @@ VectorXd rectangleSpectrum(double width, double height, int count);  ///< pi^2 (
 VectorXd diskSpectrum(int count);                                    ///< radius 1: squared zeros of J'_m
 /// Torus of revolution; numeric (Galerkin with Fourier functions), accurate to 1e-10.
 VectorXd torusSpectrum(double major_radius, double minor_radius, int count);
-/// Unit cube's surface; numeric, accurate to 1e-5. At most 36 values are known.
+/// Unit cube's surface; numeric, relative accuracy 1e-5. 50 values are known.
 VectorXd cubeSpectrum(int count);
 /// `pages` rectangles, each `width` wide, that meet at one spine of length `height`: functions agree along the spine
 /// and their derivatives sum to 0 there. So one copy is free at the spine, pages - 1 copies vanish there.
