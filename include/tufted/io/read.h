@@ -10,8 +10,8 @@
 
 namespace tufted {
 
-/// Number type of a field, as PCD and PLY name them.
-enum class FieldType : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
+/// Number type of a field, as PCD and PLY name them (64-bit integers: PCD only).
+enum class FieldType : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32, float64 };
 
 /// A further value per point that the file carries (colour, intensity, label, ...), kept as it was stored.
 struct Field {
@@ -29,9 +29,9 @@ struct Geometry {
   int width = 0;              ///< columns of an organized cloud; N otherwise
   int height = 1;             ///< rows of an organized cloud; 1 otherwise
   bool is_mesh = false;
-  Triangles triangles;                  ///< F x 3; polygons are triangulated, in order
-  std::int64_t polygons = 0;            ///< faces of more than three corners that were triangulated
-  std::int64_t merged_vertices = 0;     ///< STL corners merged with an equal earlier one
+  Triangles triangles;               ///< F x 3; polygons are triangulated, in order
+  std::int64_t polygons = 0;         ///< faces of more than three corners that were triangulated
+  std::int64_t merged_vertices = 0;  ///< STL corners merged with an equal earlier one
 };
 
 /// How to take a file that may be either.

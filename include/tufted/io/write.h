@@ -8,19 +8,34 @@
 
 namespace tufted {
 
+struct WriteOptions {
+  std::string source;                   ///< the file the points are from, recorded in report.json
+  const CloudOptions* cloud = nullptr;  ///< the options of the build, recorded in report.json; borrowed
+  const MeshOptions* mesh = nullptr;    ///< the same for a mesh; borrowed
+  Progress progress = {};               ///< called between files; returning false leaves no file
+};
+
 /// Writes a Laplacian into the directory `dir`, which is made if missing:
-///   L.npz               scipy.sparse.load_npz, csc
+///   L.npz               scipy.sparse.load_npz, csc, float64 with int32 indices
 ///   M.npy               float64, N
 ///   status.npy          uint8, N, see PointStatus
 ///   representative.npy  int32, N
 ///   boundary.npy        uint8, N, 0 or 1
 ///   report.json         the Report, with sign and scale stated
-///   points.ply          binary copy of the points (and faces) with mass, boundary and status as fields
-/// Every file is written under a temporary name and renamed, so that none is ever half there.
+///   points.ply          binary little endian: x y z and normals (where known) as double, the fields of the input,
+///                       mass (double), boundary, status (uchar), representative (int), and the triangles of a mesh
+/// In points.ply a field of several values becomes `name_0`, `name_1`, ...; packed colours (rgb, rgba) become red,
+/// green, blue (and alpha); 64-bit integers become double, the largest type of PLY; an organized cloud states its
+/// size as obj_info num_cols and num_rows.
+/// All files are written under temporary names and renamed at the end, so that none is ever half there. Files of
+/// these names are replaced.
+/// @throws InvalidInput if the arrays of `laplacian` and `geometry` differ in length
 /// @throws IoError naming the path
-void writeLaplacian(const std::filesystem::path& dir, const Laplacian& laplacian, const Geometry& geometry);
+/// @throws Cancelled when `options.progress` returns false
+void writeLaplacian(const std::filesystem::path& dir, const Laplacian& laplacian, const Geometry& geometry,
+                    const WriteOptions& options = {});
 
-/// The report as JSON text (two-space indent).
+/// The report as a JSON object (two-space indent), with a member per member of Report.
 std::string toJson(const Report& report);
 
 }  // namespace tufted

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tufted/io/read.h"
+
+namespace tufted::io {
+
+/// Calls `visit` with a zero of the type that `type` names.
+template <class Visitor>
+decltype(auto) visitType(FieldType type, Visitor&& visit) {
+  switch (type) {
+    case FieldType::int8:
+      return visit(std::int8_t());
+    case FieldType::uint8:
+      return visit(std::uint8_t());
+    case FieldType::int16:
+      return visit(std::int16_t());
+    case FieldType::uint16:
+      return visit(std::uint16_t());
+    case FieldType::int32:
+      return visit(std::int32_t());
+    case FieldType::uint32:
+      return visit(std::uint32_t());
+    case FieldType::int64:
+      return visit(std::int64_t());
+    case FieldType::uint64:
+      return visit(std::uint64_t());
+    case FieldType::float32:
+      return visit(float());
+    case FieldType::float64:
+      break;
+  }
+  return visit(double());
+}
+
+std::size_t sizeOf(FieldType type);
+bool isInteger(FieldType type);
+/// The value at `bytes`, in native byte order. 64-bit integers beyond 2^53 are rounded.
+double valueOf(FieldType type, const std::byte* bytes);
+/// Parses a token and stores it at `bytes`. False if it is not a number of that type.
+bool parseInto(std::string_view token, FieldType type, std::byte* bytes);
+
+/// What a file holds per point, before x, y, z and the normals are told apart.
+struct Columns {
+  std::vector<Field> fields;
+  std::int64_t rows = 0;
+};
+
+/// Makes room for `rows` values in each field.
+void allocate(Columns& columns, std::int64_t rows);
+
+/// Moves x, y, z to `points`, a full set of normal_x, normal_y, normal_z or nx, ny, nz to `normals`, and all other
+/// fields to `fields`, except padding (named "_"). Width and height are those of an unorganized cloud.
+/// @throws IoError without x, y, z
+Geometry toGeometry(const std::filesystem::path& path, Columns&& columns);
+
+/// Rows that fit: points are numbered by int. @throws IoError beyond
+std::int64_t checkedRows(const std::filesystem::path& path, std::int64_t rows);
+
+}  // namespace tufted::io

@@ -1,0 +1,63 @@
+#include "io/line_scanner.h"
+
+#include <algorithm>
+
+#include "io/errors.h"
+#include "io/number.h"
+
+namespace tufted::io {
+
+LineScanner::LineScanner(const std::filesystem::path& path, std::string_view text, Syntax syntax)
+    : path_(path), text_(text), syntax_(syntax) {
+  if (text_.starts_with("\xEF\xBB\xBF")) offset_ = 3;  // the mark some editors put before UTF-8
+}
+
+bool LineScanner::next() {
+  tokens_.clear();
+  while (tokens_.empty() && offset_ < text_.size()) {
+    appendTokens();
+    while (syntax_.continued && !tokens_.empty() && tokens_.back() == "\\") {
+      tokens_.pop_back();
+      appendTokens();
+    }
+  }
+  return !tokens_.empty();
+}
+
+void LineScanner::appendTokens() {
+  if (offset_ >= text_.size()) return;
+  const std::size_t end = std::min(text_.find('\n', offset_), text_.size());
+  const std::string_view line = text_.substr(offset_, end - offset_);
+  offset_ = end + 1;
+  ++line_;
+  std::size_t begin = 0;
+  while ((begin = line.find_first_not_of(syntax_.separators, begin)) != std::string_view::npos) {
+    if (syntax_.comment != '\0' && line[begin] == syntax_.comment) return;
+    const std::size_t stop = std::min(line.find_first_of(syntax_.separators, begin), line.size());
+    tokens_.push_back(line.substr(begin, stop - begin));
+    begin = stop;
+  }
+}
+
+double LineScanner::number(std::size_t token) const {
+  double value = 0;
+  if (!parseNumber(tokens_[token], value)) refuse(quote(tokens_[token]) + " is not a number");
+  return value;
+}
+
+std::int64_t LineScanner::integer(std::size_t token) const {
+  return integerBefore(token, '\0');
+}
+
+std::int64_t LineScanner::integerBefore(std::size_t token, char end) const {
+  std::int64_t value = 0;
+  const std::string_view text = tokens_[token];
+  if (!parseNumber(text.substr(0, text.find(end)), value)) refuse(quote(text) + " is not an integer");
+  return value;
+}
+
+void LineScanner::refuse(const std::string& reason) const {
+  refuseLine(path_, line_, reason);
+}
+
+}  // namespace tufted::io

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tufted::io {
+
+/// The lines of a text as tokens. Blank lines are passed over, `\r\n` ends a line as `\n` does.
+class LineScanner {
+ public:
+  struct Syntax {
+    std::string_view separators = " \t\r\f\v";
+    char comment = '\0';     ///< a token that begins with it ends the line
+    bool continued = false;  ///< a line whose last token is a backslash goes on in the next
+  };
+
+  /// `path` and `text` are borrowed.
+  LineScanner(const std::filesystem::path& path, std::string_view text, Syntax syntax);
+  LineScanner(const std::filesystem::path& path, std::string_view text) : LineScanner(path, text, Syntax()) {}
+
+  /// Goes on from byte `offset`, the beginning of the line after number `line`.
+  void seek(std::size_t offset, std::int64_t line) {
+    offset_ = offset;
+    line_ = line;
+  }
+
+  /// Moves to the next line that holds a token. False at the end of the text.
+  bool next();
+
+  const std::vector<std::string_view>& tokens() const { return tokens_; }
+  std::int64_t line() const { return line_; }     ///< number of the current line, from 1
+  std::size_t offset() const { return offset_; }  ///< where the following line begins
+
+  /// The number in a token of this line. @throws IoError naming the line
+  double number(std::size_t token) const;
+  std::int64_t integer(std::size_t token) const;
+  /// The integer in front of the first `end` in a token, or the whole token. @throws IoError naming the line
+  std::int64_t integerBefore(std::size_t token, char end) const;
+
+  /// Throws IoError naming the line.
+  [[noreturn]] void refuse(const std::string& reason) const;
+
+ private:
+  void appendTokens();
+
+  const std::filesystem::path& path_;
+  std::string_view text_;
+  Syntax syntax_;
+  std::size_t offset_ = 0;
+  std::int64_t line_ = 0;
+  std::vector<std::string_view> tokens_;
+};
+
+}  // namespace tufted::io

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <string_view>
+
+namespace tufted::io {
+
+/// A file being written. Every error of the system (no space, no permission) throws IoError naming the path.
+class OutputFile {
+ public:
+  /// @param path where the bytes go
+  /// @param shown the path to name in errors, that of the finished file
+  OutputFile(const std::filesystem::path& path, const std::filesystem::path& shown);
+
+  void write(const void* bytes, std::size_t size);
+  void write(std::string_view text) { write(text.data(), text.size()); }
+  /// Writes what is still buffered. A file that is not closed may be incomplete.
+  void close();
+
+ private:
+  std::filesystem::path shown_;
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> file_;
+};
+
+}  // namespace tufted::io

@@ -1,0 +1,55 @@
+#include <cstring>
+
+#include "io/errors.h"
+#include "io/file_text.h"
+#include "io/formats.h"
+#include "io/line_scanner.h"
+#include "io/pcd_binary.h"
+#include "io/pcd_header.h"
+
+namespace tufted::io {
+namespace {
+
+/// One point per line. PCL reads `a b c` as numbers and takes short lines, so the text is scanned here.
+void readAscii(const std::filesystem::path& path, std::string_view text, PcdHeader& header) {
+  // Two bytes, a digit and a separator, are the least a value takes.
+  const std::size_t rest = text.size() - std::min(header.body, text.size());
+  if (static_cast<double>(header.points) * static_cast<double>(header.row_values) * 2 > static_cast<double>(rest) + 1)
+    refuse(path, "too short for the " + std::to_string(header.points) + " points of its header");
+  allocate(header.columns, header.points);
+  LineScanner scanner(path, text, {.comment = '#'});
+  scanner.seek(header.body, header.line);
+  for (std::int64_t i = 0; i < header.points; ++i) {
+    if (!scanner.next())
+      refuseLine(path, scanner.line(),
+                 "ends after " + std::to_string(i) + " of " + std::to_string(header.points) + " points");
+    if (static_cast<std::int64_t>(scanner.tokens().size()) != header.row_values)
+      scanner.refuse(std::to_string(scanner.tokens().size()) + " values where " + std::to_string(header.row_values) +
+                     " are expected");
+    std::size_t token = 0;
+    for (Field& field : header.columns.fields) {
+      const std::size_t size = sizeOf(field.type);
+      for (int c = 0; c < field.count; ++c, ++token) {
+        if (!parseInto(scanner.tokens()[token], field.type, field.bytes.data() + (i * field.count + c) * size))
+          scanner.refuse(quote(scanner.tokens()[token]) + " is not a number for the field " + quote(field.name));
+      }
+    }
+  }
+}
+
+}  // namespace
+
+Geometry readPcd(const std::filesystem::path& path) {
+  const std::string text = readBytes(path);
+  PcdHeader header = parsePcdHeader(path, text);
+  if (header.data == PcdHeader::Data::ascii)
+    readAscii(path, text, header);
+  else
+    readPcdBinary(path, text, header);
+  Geometry geometry = toGeometry(path, std::move(header.columns));
+  geometry.width = static_cast<int>(header.width);
+  geometry.height = static_cast<int>(header.height);
+  return geometry;
+}
+
+}  // namespace tufted::io

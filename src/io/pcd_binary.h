@@ -1,0 +1,15 @@
+#pragma once
+
+#include <filesystem>
+#include <string_view>
+
+#include "io/pcd_header.h"
+
+namespace tufted::io {
+
+/// Fills the columns of `header` from a binary or binary_compressed PCD file through PCL's reader, after checking
+/// that the file is as long as the header says.
+/// @param bytes the whole file
+void readPcdBinary(const std::filesystem::path& path, std::string_view bytes, PcdHeader& header);
+
+}  // namespace tufted::io

@@ -1,0 +1,135 @@
+#include "io/pcd_header.h"
+
+#include <optional>
+
+#include "io/errors.h"
+#include "io/line_scanner.h"
+
+namespace tufted::io {
+namespace {
+
+std::optional<FieldType> fieldType(char kind, std::int64_t size) {
+  constexpr FieldType with_sign[] = {FieldType::int8, FieldType::int16, FieldType::int32, FieldType::int64};
+  constexpr FieldType without[] = {FieldType::uint8, FieldType::uint16, FieldType::uint32, FieldType::uint64};
+  const int power = size == 1 ? 0 : size == 2 ? 1 : size == 4 ? 2 : size == 8 ? 3 : -1;
+  if (power < 0) return std::nullopt;
+  if (kind == 'I') return with_sign[power];
+  if (kind == 'U') return without[power];
+  if (kind == 'F' && power >= 2) return power == 2 ? FieldType::float32 : FieldType::float64;
+  return std::nullopt;
+}
+
+class PcdHeaderParser {
+ public:
+  PcdHeaderParser(const std::filesystem::path& path, std::string_view text)
+      : path_(path), scanner_(path, text, {.comment = '#'}) {}
+
+  PcdHeader parse() {
+    while (scanner_.next()) {
+      if (keyword()) return finish();
+    }
+    refuse(path_, "the header has no DATA line");
+  }
+
+ private:
+  /// Takes a line. True at DATA, which ends the header.
+  bool keyword() {
+    const auto& tokens = scanner_.tokens();
+    const std::string_view word = tokens[0];
+    if (word == "FIELDS" || word == "COLUMNS") {
+      if (tokens.size() < 2) scanner_.refuse("no fields");
+      for (std::size_t t = 1; t < tokens.size(); ++t) names_.emplace_back(tokens[t]);
+    } else if (word == "SIZE") {
+      sizes_ = perField();
+    } else if (word == "COUNT") {
+      counts_ = perField();
+    } else if (word == "TYPE") {
+      if (tokens.size() != names_.size() + 1) scanner_.refuse("TYPE does not name as many fields as FIELDS");
+      for (std::size_t t = 1; t < tokens.size(); ++t) kinds_ += tokens[t][0];
+    } else if (word == "WIDTH") {
+      width_ = single();
+    } else if (word == "HEIGHT") {
+      height_ = single();
+    } else if (word == "POINTS") {
+      points_ = single();
+    } else if (word == "DATA") {
+      data();
+      return true;
+    } else if (word != "VERSION" && word != "VIEWPOINT") {
+      scanner_.refuse("unknown keyword " + quote(word));
+    }
+    return false;
+  }
+
+  std::vector<std::int64_t> perField() const {
+    if (scanner_.tokens().size() != names_.size() + 1)
+      scanner_.refuse(std::string(scanner_.tokens()[0]) + " does not name as many fields as FIELDS");
+    std::vector<std::int64_t> values;
+    for (std::size_t t = 1; t < scanner_.tokens().size(); ++t) {
+      values.push_back(scanner_.integer(t));
+      if (values.back() < 1 || values.back() > 1'000'000)
+        scanner_.refuse("out of range: " + quote(scanner_.tokens()[t]));
+    }
+    return values;
+  }
+
+  std::int64_t single() const {
+    if (scanner_.tokens().size() != 2) scanner_.refuse("one number expected");
+    const std::int64_t value = scanner_.integer(1);
+    if (value < 0) scanner_.refuse("negative: " + quote(scanner_.tokens()[1]));
+    return checkedRows(path_, value);
+  }
+
+  void data() {
+    const std::string_view kind = scanner_.tokens().size() == 2 ? scanner_.tokens()[1] : "";
+    if (kind == "ascii")
+      header_.data = PcdHeader::Data::ascii;
+    else if (kind == "binary")
+      header_.data = PcdHeader::Data::binary;
+    else if (kind == "binary_compressed")
+      header_.data = PcdHeader::Data::binary_compressed;
+    else
+      scanner_.refuse("DATA is none of ascii, binary, binary_compressed");
+  }
+
+  PcdHeader finish() {
+    if (names_.empty()) refuse(path_, "the header has no FIELDS line");
+    // SIZE, TYPE and COUNT may be missing in old files: floats, one per field.
+    if (sizes_.empty()) sizes_.assign(names_.size(), 4);
+    if (kinds_.empty()) kinds_.assign(names_.size(), 'F');
+    if (counts_.empty()) counts_.assign(names_.size(), 1);
+    for (std::size_t f = 0; f < names_.size(); ++f) {
+      const auto type = fieldType(kinds_[f], sizes_[f]);
+      if (!type) refuse(path_, "the field " + quote(names_[f]) + " has an unknown SIZE and TYPE");
+      header_.columns.fields.push_back({names_[f], *type, static_cast<int>(counts_[f]), {}});
+      header_.row_bytes += sizes_[f] * counts_[f];
+      header_.row_values += counts_[f];
+    }
+    header_.height = height_.value_or(1);
+    header_.width = width_.value_or(points_.value_or(0));
+    header_.points = points_.value_or(header_.width * header_.height);
+    if (header_.points != header_.width * header_.height)
+      refuse(path_, "POINTS " + std::to_string(header_.points) + " is not WIDTH " + std::to_string(header_.width) +
+                        " x HEIGHT " + std::to_string(header_.height));
+    checkedRows(path_, header_.points);
+    header_.body = scanner_.offset();
+    header_.line = scanner_.line();
+    return std::move(header_);
+  }
+
+  const std::filesystem::path& path_;
+  LineScanner scanner_;
+  std::vector<std::string> names_;
+  std::vector<std::int64_t> sizes_, counts_;
+  std::string kinds_;
+  std::optional<std::int64_t> width_, height_, points_;
+  PcdHeader header_;
+};
+
+}  // namespace
+
+PcdHeader parsePcdHeader(const std::filesystem::path& path, std::string_view text) {
+  return PcdHeaderParser(path, text).parse();
+}
+
+}  // namespace tufted::io

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string_view>
+
+#include "io/columns.h"
+
+namespace tufted::io {
+
+/// The header of a PCD file, versions .5 to .7.
+struct PcdHeader {
+  enum class Data { ascii, binary, binary_compressed };
+
+  Columns columns;  ///< fields in the file's order, padding included; no values yet
+  std::int64_t points = 0;
+  std::int64_t width = 0;
+  std::int64_t height = 1;
+  Data data = Data::ascii;
+  std::size_t body = 0;       ///< byte at which the values begin
+  std::int64_t line = 0;      ///< lines of the header
+  std::size_t row_bytes = 0;  ///< bytes per point
+  std::int64_t row_values = 0;
+};
+
+/// Parses and checks a header: counts and sizes are in range and points = width x height.
+/// @param text at least the header
+/// @throws IoError naming the line
+PcdHeader parsePcdHeader(const std::filesystem::path& path, std::string_view text);
+
+}  // namespace tufted::io

@@ -1,0 +1,129 @@
+#include <algorithm>
+
+#include "io/columns.h"
+#include "io/errors.h"
+#include "io/file_text.h"
+#include "io/formats.h"
+#include "io/ply_body.h"
+#include "io/ply_header.h"
+#include "io/polygon_soup.h"
+
+// PLY is decoded here, although PCL and CGAL read it too. Of 24 pairs of list types (4 of the length, 6 of the corners)
+// PCL 1.13 returns empty faces for 10 without a word, and it packs colours into a float. CGAL 5.5 refuses 16, crashes
+// on integer coordinates and drops all further properties.
+namespace tufted::io {
+namespace {
+
+/// One value per point and property; lists have no place in a Field and are passed over.
+Columns readVertices(const std::filesystem::path& path, const PlyElement& element, PlyBody& body) {
+  Columns columns;
+  for (const PlyProperty& property : element.properties)
+    if (!property.is_list) columns.fields.push_back({property.name, property.type, 1, {}});
+  if (columns.fields.empty()) refuse(path, "has no fields x, y, z");
+  allocate(columns, checkedRows(path, element.count));
+  for (std::int64_t i = 0; i < element.count; ++i) {
+    body.beginItem(element);
+    std::size_t field = 0;
+    for (const PlyProperty& property : element.properties) {
+      if (property.is_list)
+        body.skip(property);
+      else
+        body.value(property.type, columns.fields[field++].bytes.data() + i * sizeOf(property.type));
+    }
+    body.endItem();
+  }
+  return columns;
+}
+
+/// The triangles of a strip, every other one turned over; -1 begins a new strip. Triangles with a repeated vertex
+/// only lead from one part of a strip to the next.
+void addStrip(const std::vector<int>& strip, std::int64_t place, PolygonSoup& soup) {
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i < strip.size(); ++i) {
+    if (strip[i] == -1) {
+      begin = i + 1;
+    } else if (i >= begin + 2) {
+      int a = strip[i - 2], b = strip[i - 1];
+      if ((i - begin) % 2 == 1) std::swap(a, b);
+      if (a == b || b == strip[i] || a == strip[i]) continue;
+      soup.polygons.push_back({a, b, strip[i]});
+      soup.places.push_back(place);
+    }
+  }
+}
+
+void readFaces(const PlyElement& element, bool strips, PlyBody& body, PolygonSoup& soup) {
+  const auto corners =
+      std::find_if(element.properties.begin(), element.properties.end(), [](const PlyProperty& property) {
+        return property.is_list && isInteger(property.type) &&
+               (property.name == "vertex_indices" || property.name == "vertex_index");
+      });
+  if (corners == element.properties.end())
+    body.refuse("the element " + quote(element.name) + " has no list of integers 'vertex_indices'");
+  soup.place_name = body.placeName();
+  for (std::int64_t f = 0; f < element.count; ++f) {
+    body.beginItem(element);
+    std::vector<int> polygon;
+    for (auto property = element.properties.begin(); property != element.properties.end(); ++property) {
+      if (property != corners) {
+        body.skip(*property);
+        continue;
+      }
+      polygon.resize(body.listLength(*property));
+      for (int& corner : polygon) {
+        const std::int64_t vertex = body.integer(property->type);
+        if (vertex != static_cast<int>(vertex)) body.refuse("no vertex " + std::to_string(vertex));
+        corner = static_cast<int>(vertex);
+      }
+    }
+    body.endItem();
+    if (strips) {
+      addStrip(polygon, body.place(), soup);
+    } else {
+      soup.polygons.push_back(std::move(polygon));
+      soup.places.push_back(body.place());
+    }
+  }
+}
+
+void skipElement(const PlyElement& element, PlyBody& body) {
+  if (element.properties.empty()) return;
+  for (std::int64_t i = 0; i < element.count; ++i) {
+    body.beginItem(element);
+    for (const PlyProperty& property : element.properties) body.skip(property);
+    body.endItem();
+  }
+}
+
+}  // namespace
+
+Geometry readPly(const std::filesystem::path& path, bool with_faces) {
+  const std::string bytes = readBytes(path);
+  const PlyHeader header = parsePlyHeader(path, bytes);
+  const auto body = makePlyBody(path, bytes, header);
+  Columns columns;
+  PolygonSoup soup;
+  bool has_vertices = false;
+  for (const PlyElement& element : header.elements) {
+    const bool strips = element.name == "tristrips";
+    if (element.name == "vertex" && !has_vertices) {
+      columns = readVertices(path, element, *body);
+      has_vertices = true;
+    } else if (with_faces && element.count > 0 && (element.name == "face" || strips)) {
+      readFaces(element, strips, *body, soup);
+    } else {
+      skipElement(element, *body);
+    }
+  }
+  if (!has_vertices) refuse(path, "has no element 'vertex'");
+  Geometry geometry = toGeometry(path, std::move(columns));
+  if (header.columns > 0 && header.rows > 0 && header.rows < (std::int64_t{1} << 31) &&
+      header.columns < (std::int64_t{1} << 31) && header.columns * header.rows == geometry.points.rows()) {
+    geometry.width = static_cast<int>(header.columns);
+    geometry.height = static_cast<int>(header.rows);
+  }
+  setPolygons(path, soup, geometry);
+  return geometry;
+}
+
+}  // namespace tufted::io

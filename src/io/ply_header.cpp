@@ -1,0 +1,138 @@
+#include "io/ply_header.h"
+
+#include <algorithm>
+#include <limits>
+#include <optional>
+
+#include "io/columns.h"
+#include "io/errors.h"
+#include "io/line_scanner.h"
+
+namespace tufted::io {
+namespace {
+
+std::optional<FieldType> fieldType(std::string_view name) {
+  if (name == "char" || name == "int8") return FieldType::int8;
+  if (name == "uchar" || name == "uint8") return FieldType::uint8;
+  if (name == "short" || name == "int16") return FieldType::int16;
+  if (name == "ushort" || name == "uint16") return FieldType::uint16;
+  if (name == "int" || name == "int32") return FieldType::int32;
+  if (name == "uint" || name == "uint32") return FieldType::uint32;
+  if (name == "float" || name == "float32") return FieldType::float32;
+  if (name == "double" || name == "float64") return FieldType::float64;
+  return std::nullopt;
+}
+
+class PlyHeaderParser {
+ public:
+  PlyHeaderParser(const std::filesystem::path& path, std::string_view bytes)
+      : path_(path), bytes_(bytes), scanner_(path, bytes) {}
+
+  PlyHeader parse() {
+    if (!scanner_.next() || scanner_.tokens()[0] != "ply") refuseLine(path_, 1, "does not begin with 'ply'");
+    while (scanner_.next()) {
+      if (keyword()) return finish();
+    }
+    refuse(path_, "the header has no end_header line");
+  }
+
+ private:
+  /// Takes a line. True at end_header.
+  bool keyword() {
+    const auto& tokens = scanner_.tokens();
+    if (tokens[0] == "end_header") return true;
+    if (tokens[0] == "format") {
+      format();
+    } else if (tokens[0] == "element") {
+      element();
+    } else if (tokens[0] == "property") {
+      property();
+    } else if (tokens[0] == "obj_info") {
+      if (tokens.size() == 3 && tokens[1] == "num_cols") header_.columns = scanner_.integer(2);
+      if (tokens.size() == 3 && tokens[1] == "num_rows") header_.rows = scanner_.integer(2);
+    } else if (tokens[0] != "comment") {
+      scanner_.refuse("unknown keyword " + quote(tokens[0]));
+    }
+    return false;
+  }
+
+  void format() {
+    const std::string_view name = scanner_.tokens().size() >= 2 ? scanner_.tokens()[1] : "";
+    if (name == "ascii")
+      header_.format = PlyHeader::Format::ascii;
+    else if (name == "binary_little_endian")
+      header_.format = PlyHeader::Format::little_endian;
+    else if (name == "binary_big_endian")
+      header_.format = PlyHeader::Format::big_endian;
+    else
+      scanner_.refuse("the format is none of ascii, binary_little_endian, binary_big_endian");
+    has_format_ = true;
+  }
+
+  void element() {
+    if (scanner_.tokens().size() != 3) scanner_.refuse("a name and a count expected");
+    PlyElement element = {std::string(scanner_.tokens()[1]), scanner_.integer(2), {}};
+    if (element.count < 0 || element.count > std::numeric_limits<int>::max())
+      scanner_.refuse("a count of " + quote(scanner_.tokens()[2]) + " is not in [0, 2^31)");
+    header_.elements.push_back(std::move(element));
+  }
+
+  void property() {
+    const auto& tokens = scanner_.tokens();
+    if (header_.elements.empty()) scanner_.refuse("a property before the first element");
+    const bool is_list = tokens.size() == 5 && tokens[1] == "list";
+    if (!is_list && tokens.size() != 3) scanner_.refuse("a type and a name expected");
+    PlyProperty property = {std::string(tokens.back()), type(is_list ? 3 : 1), is_list, FieldType::uint8};
+    if (is_list) {
+      property.count_type = type(2);
+      if (!isInteger(property.count_type)) scanner_.refuse("the length of a list is no integer");
+    }
+    header_.elements.back().properties.push_back(std::move(property));
+  }
+
+  FieldType type(std::size_t token) const {
+    const auto type = fieldType(scanner_.tokens()[token]);
+    if (!type) scanner_.refuse("unknown type " + quote(scanner_.tokens()[token]));
+    return *type;
+  }
+
+  PlyHeader finish() {
+    if (!has_format_) refuse(path_, "the header has no format line");
+    header_.body = scanner_.offset();
+    header_.line = scanner_.line();
+    checkSize();
+    return std::move(header_);
+  }
+
+  /// The least the elements can take: lists without values; in ascii a digit and a separator per number.
+  void checkSize() const {
+    std::uint64_t least = 0;  // counts < 2^31 times a header line's properties: far below 2^64
+    for (const PlyElement& element : header_.elements) {
+      std::uint64_t item = 0;
+      for (const PlyProperty& property : element.properties)
+        item += header_.format == PlyHeader::Format::ascii
+                    ? 2
+                    : sizeOf(property.is_list ? property.count_type : property.type);
+      least += item * static_cast<std::uint64_t>(element.count);
+    }
+    if (header_.format == PlyHeader::Format::ascii && least > 0) --least;  // no end of line at the end of the file
+    const std::size_t rest = bytes_.size() - std::min(header_.body, bytes_.size());
+    if (least > rest)
+      refuseByte(path_, bytes_.size(),
+                 "ends there; the elements of the header need at least " + std::to_string(header_.body + least));
+  }
+
+  const std::filesystem::path& path_;
+  std::string_view bytes_;
+  LineScanner scanner_;
+  bool has_format_ = false;
+  PlyHeader header_;
+};
+
+}  // namespace
+
+PlyHeader parsePlyHeader(const std::filesystem::path& path, std::string_view bytes) {
+  return PlyHeaderParser(path, bytes).parse();
+}
+
+}  // namespace tufted::io

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "tufted/io/read.h"
+
+namespace tufted::io {
+
+struct PlyProperty {
+  std::string name;
+  FieldType type = FieldType::float32;  ///< of the value, or of the values of a list
+  bool is_list = false;
+  FieldType count_type = FieldType::uint8;  ///< of the number in front of a list's values
+};
+
+struct PlyElement {
+  std::string name;
+  std::int64_t count = 0;
+  std::vector<PlyProperty> properties;
+};
+
+/// The header of a PLY file.
+struct PlyHeader {
+  enum class Format { ascii, little_endian, big_endian };
+
+  Format format = Format::ascii;
+  std::vector<PlyElement> elements;
+  std::int64_t columns = 0, rows = 0;  ///< obj_info num_cols, num_rows of an organized cloud
+  std::size_t body = 0;                ///< byte at which the values begin
+  std::int64_t line = 0;               ///< lines of the header
+};
+
+/// Parses a header and checks that the file is long enough for the elements it counts.
+/// @param bytes the whole file
+/// @throws IoError naming the line
+PlyHeader parsePlyHeader(const std::filesystem::path& path, std::string_view bytes);
+
+}  // namespace tufted::io

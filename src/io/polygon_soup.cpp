@@ -1,0 +1,26 @@
+#include "io/polygon_soup.h"
+
+#include <algorithm>
+
+#include "io/errors.h"
+#include "tufted/polygons.h"
+
+namespace tufted::io {
+
+void setPolygons(const std::filesystem::path& path, const PolygonSoup& soup, Geometry& geometry) {
+  for (std::size_t p = 0; p < soup.polygons.size(); ++p) {
+    for (const int corner : soup.polygons[p]) {
+      if (corner >= 0 && corner < geometry.points.rows()) continue;
+      const std::string place =
+          p < soup.places.size() ? std::string(soup.place_name) + " " + std::to_string(soup.places[p]) + ": " : "";
+      refuse(path, place + "a face names vertex " + std::to_string(corner) + " (counted from 0) of " +
+                       std::to_string(geometry.points.rows()));
+    }
+  }
+  geometry.is_mesh = !soup.polygons.empty();
+  geometry.triangles = triangulate(geometry.points, soup.polygons);
+  geometry.polygons =
+      std::count_if(soup.polygons.begin(), soup.polygons.end(), [](const auto& polygon) { return polygon.size() > 3; });
+}
+
+}  // namespace tufted::io

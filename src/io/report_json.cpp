@@ -1,0 +1,109 @@
+#include "io/report_json.h"
+
+#include <nlohmann/json.hpp>
+
+namespace tufted {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int indent = 2;
+
+Json reportObject(const Report& report) {
+  Json stages = Json::array();
+  for (const StageCost& stage : report.stages)
+    stages.push_back({{"name", stage.name}, {"seconds", stage.seconds}, {"bytes", stage.bytes}});
+  return {
+      {"points", report.points},
+      {"active", report.active},
+      {"not_finite", report.not_finite},
+      {"coincident", report.coincident},
+      {"isolated", report.isolated},
+      {"neighbors", report.neighbors},
+      {"neighbors_clamped", report.neighbors_clamped},
+      {"rejected_normals", report.rejected_normals},
+      {"rejected_neighbors", report.rejected_neighbors},
+      {"grown_neighborhoods", report.grown_neighborhoods},
+      {"grown_stars", report.grown_stars},
+      {"open_stars", report.open_stars},
+      {"dropped_triangles", report.dropped_triangles},
+      {"votes", report.votes},
+      {"repeated_vertex_triangles", report.repeated_vertex_triangles},
+      {"not_finite_triangles", report.not_finite_triangles},
+      {"boundary_edges", report.boundary_edges},
+      {"nonmanifold_edges", report.nonmanifold_edges},
+      {"triangles", report.triangles},
+      {"mean_edge", report.mean_edge},
+      {"mollify_length", report.mollify_length},
+      {"degenerate_faces", report.degenerate_faces},
+      {"flips", report.flips},
+      {"flip_failures", report.flip_failures},
+      {"nonzeros", report.nonzeros},
+      {"components", report.components},
+      {"clamped_weights", report.clamped_weights},
+      {"clamped_large", report.clamped_large},
+      {"largest_clamped", report.largest_clamped},
+      {"threads", report.threads},
+      {"stages", std::move(stages)},
+  };
+}
+
+Json conventions() {
+  return {
+      {"L", "weak (integrated) Laplacian, symmetric positive semidefinite, off-diagonals <= 0, rows sum to 0"},
+      {"sign", "L is minus the Laplacian, integrated; libigl and PMP use the opposite sign"},
+      {"M", "lumped areas in length^2, N values; their sum approximates the surface area"},
+      {"poisson", "L u = M f"},
+      {"eigenproblem", "L x = lambda M x"},
+      {"status", {"active", "not_finite", "coincident", "isolated"}},
+      {"inactive", "points of status other than 0 keep their index; their row and column of L and their mass are zero"},
+  };
+}
+
+const char* name(Gluing gluing) {
+  return gluing == Gluing::star ? "star" : "vertex-pair";
+}
+const char* name(Delaunay delaunay) {
+  return delaunay == Delaunay::star ? "star" : "cgal";
+}
+const char* name(FaceOrder order) {
+  return order == FaceOrder::angle ? "angle" : order == FaceOrder::area ? "area" : "random";
+}
+
+/// What clouds and meshes have in common.
+template <class Options>
+Json commonOptions(const Options& options) {
+  return {{"order", name(options.order)},
+          {"seed", options.seed},
+          {"mollify", options.mollify},
+          {"threads", options.threads}};
+}
+
+Json optionsObject(const CloudOptions& options) {
+  Json json = {{"neighbors", options.neighbors},
+               {"gluing", name(options.gluing)},
+               {"delaunay", name(options.delaunay)},
+               {"given_normals", options.normals != nullptr},
+               {"given_neighborhoods", options.neighborhoods != nullptr}};
+  json.update(commonOptions(options));
+  return json;
+}
+
+}  // namespace
+
+std::string toJson(const Report& report) {
+  return reportObject(report).dump(indent) + "\n";
+}
+
+std::string io::reportJson(const Report& report, const WriteOptions& options) {
+  Json json = {{"tufted", TUFTED_VERSION}};
+  if (!options.source.empty()) json["source"] = options.source;
+  if (options.cloud) json["cloud_options"] = optionsObject(*options.cloud);
+  if (options.mesh) json["mesh_options"] = commonOptions(*options.mesh);
+  json["conventions"] = conventions();
+  json["report"] = reportObject(report);
+  // A path need not be UTF-8.
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace tufted

@@ -1,0 +1,48 @@
+#include "io/staged_files.h"
+
+#include <unistd.h>
+
+#include <atomic>
+#include <system_error>
+
+#include "io/errors.h"
+
+namespace tufted::io {
+
+StagedFiles::StagedFiles(const std::filesystem::path& dir) : dir_(dir) {
+  std::error_code error;
+  for (auto missing = std::filesystem::absolute(dir_); !std::filesystem::exists(missing, error) && !error;
+       missing = missing.parent_path())
+    made_.insert(made_.begin(), missing);
+  std::filesystem::create_directories(dir_, error);
+  if (error) refuse(dir_, "cannot make the directory: " + error.message());
+  if (!std::filesystem::is_directory(dir_, error)) refuse(dir_, "is not a directory");
+}
+
+StagedFiles::~StagedFiles() {
+  std::error_code ignored;
+  for (const File& file : files_) std::filesystem::remove(file.temporary, ignored);
+  // Only directories that are empty go.
+  for (auto made = made_.rbegin(); made != made_.rend(); ++made) std::filesystem::remove(*made, ignored);
+}
+
+std::filesystem::path StagedFiles::stage(const std::string& name) {
+  static std::atomic<unsigned> counter = 0;
+  const std::string suffix = ".tmp-" + std::to_string(::getpid()) + "-" + std::to_string(counter++);
+  files_.push_back({dir_ / ("." + name + suffix), finished(name)});
+  return files_.back().temporary;
+}
+
+void StagedFiles::commit() {
+  std::error_code error;
+  for (const File& file : files_)
+    if (std::filesystem::is_directory(file.finished, error)) refuse(file.finished, "cannot write: is a directory");
+  for (const File& file : files_) {
+    std::filesystem::rename(file.temporary, file.finished, error);
+    if (error) refuse(file.finished, "cannot write: " + error.message());
+  }
+  files_.clear();
+  made_.clear();
+}
+
+}  // namespace tufted::io

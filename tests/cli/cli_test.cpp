@@ -1,0 +1,159 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "../io/temporary_dir.h"
+#include "command.h"
+
+namespace {
+
+const char* const outputs[] = {"L.npz",        "M.npy",       "status.npy", "representative.npy",
+                               "boundary.npy", "report.json", "points.ply"};
+
+const char* const tetrahedron = "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
+
+/// N points of the unit sphere.
+std::string sphere(int points) {
+  std::mt19937_64 generator(1);
+  const auto uniform = [&] { return static_cast<double>(generator() >> 11) * 0x1p-53; };
+  std::string text;
+  for (int i = 0; i < points; ++i) {
+    const double z = 2 * uniform() - 1, angle = 2 * M_PI * uniform(), r = std::sqrt(1 - z * z);
+    text += std::to_string(r * std::cos(angle)) + ' ' + std::to_string(r * std::sin(angle)) + ' ' + std::to_string(z) +
+            '\n';
+  }
+  return text;
+}
+
+bool isOneLine(const std::string& text) {
+  return std::count(text.begin(), text.end(), '\n') == 1;
+}
+
+class Command : public testing::Test {
+ protected:
+  std::string out() const { return (dir_ / "out").string(); }
+  bool noOutputs() const { return !std::filesystem::exists(out()); }
+
+  void expectUsageError(const std::vector<std::string>& arguments) {
+    const Result result = runTufted(arguments);
+    EXPECT_EQ(result.code, 2) << result.err;
+    EXPECT_TRUE(isOneLine(result.err)) << result.err;
+    EXPECT_TRUE(result.err.starts_with("tufted: ")) << result.err;
+    EXPECT_EQ(result.out, "");
+    EXPECT_TRUE(noOutputs());
+  }
+
+  TemporaryDir dir_;
+};
+
+TEST_F(Command, WritesAllFilesForACloudAndSaysWhatHappened) {
+  const auto file = dir_.write("sphere.xyz", sphere(500));
+  const Result result = runTufted({"laplacian", file, "--out", out()});
+  ASSERT_EQ(result.code, 0) << result.err;
+  for (const char* name : outputs) EXPECT_TRUE(std::filesystem::exists(dir_ / "out" / name)) << name;
+  for (const char* part : {"points", "active", "triangles", "nonzeros/row", "components", "sum of M", "flips",
+                           "clamped", "peak memory", "written to"})
+    EXPECT_NE(result.out.find(part), std::string::npos) << part;
+  EXPECT_NE(result.out.find("500"), std::string::npos);
+  EXPECT_NE(result.out.find(out()), std::string::npos);
+}
+
+TEST_F(Command, WritesAllFilesForAMesh) {
+  const auto file = dir_.write("tetrahedron.off", tetrahedron);
+  const Result result = runTufted({"laplacian", file, "--out", out(), "--order", "area", "--mollify", "0"});
+  ASSERT_EQ(result.code, 0) << result.err;
+  for (const char* name : outputs) EXPECT_TRUE(std::filesystem::exists(dir_ / "out" / name)) << name;
+  EXPECT_NE(result.out.find("(mesh)"), std::string::npos);
+  EXPECT_NE(readAll(dir_ / "out/report.json").find("\"order\": \"area\""), std::string::npos);
+}
+
+TEST_F(Command, TakesAMeshAsACloudWhenAsked) {
+  const auto file = dir_.write("tetrahedron.off", tetrahedron);
+  const Result result = runTufted({"laplacian", file, "--out", out(), "--as", "cloud", "--neighbors", "3"});
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_NE(result.out.find("(cloud)"), std::string::npos);
+}
+
+TEST_F(Command, IsSilentOnStderrWhenThatIsNoTerminal) {
+  const auto file = dir_.write("sphere.xyz", sphere(2000));
+  EXPECT_EQ(runTufted({"laplacian", file, "--out", out()}).err, "");
+}
+
+TEST_F(Command, MistakesOnTheCommandLineAreOneLineAndTwo) {
+  const std::string file = dir_.write("sphere.xyz", sphere(50));
+  expectUsageError({});
+  expectUsageError({"laplacians"});
+  expectUsageError({"laplacian"});
+  expectUsageError({"laplacian", file});
+  expectUsageError({"laplacian", file, file, "--out", out()});
+  expectUsageError({"laplacian", file, "--out", out(), "--neighbor", "7"});
+  expectUsageError({"laplacian", file, "--out", out(), "--neighbors", "2"});
+  expectUsageError({"laplacian", file, "--out", out(), "--neighbors", "many"});
+  expectUsageError({"laplacian", file, "--out", out(), "--neighbors", "99999999999"});
+  expectUsageError({"laplacian", file, "--out", out(), "--gluing", "tape"});
+  expectUsageError({"laplacian", file, "--out", out(), "--mollify", "-1"});
+  expectUsageError({"laplacian", file, "--out", out(), "--threads", "0"});
+  expectUsageError({"laplacian", file, "--out", out(), "--seed", "-1"});
+  expectUsageError({"laplacian", file, "--out", out(), "--as", "surface"});
+}
+
+TEST_F(Command, OptionsOfCloudsAreRefusedForAMesh) {
+  const std::string file = dir_.write("tetrahedron.off", tetrahedron);
+  expectUsageError({"laplacian", file, "--out", out(), "--neighbors", "12"});
+  expectUsageError({"laplacian", file, "--out", out(), "--gluing", "star"});
+  expectUsageError({"laplacian", file, "--out", out(), "--delaunay", "star"});
+}
+
+TEST_F(Command, FilesThatCannotBeReadOrWrittenAreOneLineAndOne) {
+  const std::string good = dir_.write("sphere.xyz", sphere(50));
+  const std::string bad = dir_.write("bad.xyz", "1 2 3\n1 two 3\n");
+  const std::string missing = (dir_ / "missing.ply").string();
+  const std::string blocked = dir_.write("blocked", "");
+  const std::vector<std::vector<std::string>> cases = {
+      {"laplacian", bad, "--out", out()},         {"laplacian", missing, "--out", out()},
+      {"laplacian", dir_.path(), "--out", out()}, {"laplacian", good, "--out", out(), "--as", "mesh"},
+      {"laplacian", good, "--out", blocked},      {"laplacian", good, "--out", blocked + "/below"},
+  };
+  for (const auto& arguments : cases) {
+    const Result result = runTufted(arguments);
+    EXPECT_EQ(result.code, 1) << result.err;
+    EXPECT_TRUE(isOneLine(result.err)) << result.err;
+    EXPECT_EQ(result.out, "");
+    EXPECT_TRUE(noOutputs());
+  }
+  EXPECT_EQ(runTufted({"laplacian", bad, "--out", out()}).err, "tufted: " + bad + ": line 2: 'two' is not a number\n");
+  EXPECT_EQ(runTufted({"laplacian", missing, "--out", out()}).err, "tufted: " + missing + ": no such file\n");
+}
+
+TEST_F(Command, HelpStatesSignScaleAndFiles) {
+  const Result result = runTufted({"laplacian", "--help"});
+  EXPECT_EQ(result.code, 0);
+  EXPECT_EQ(result.err, "");
+  for (const char* part : {"positive semidefinite", "opposite sign", "length^2", "L u = M f", "L x = lambda M x"})
+    EXPECT_NE(result.out.find(part), std::string::npos) << part;
+  for (const char* name : outputs) EXPECT_NE(result.out.find(name), std::string::npos) << name;
+  const Result overview = runTufted({"--help"});
+  EXPECT_EQ(overview.code, 0);
+  EXPECT_NE(overview.out.find("laplacian"), std::string::npos);
+  EXPECT_NE(overview.out.find("130"), std::string::npos);
+}
+
+TEST_F(Command, VersionIsOneLine) {
+  const Result result = runTufted({"--version"});
+  EXPECT_EQ(result.code, 0);
+  EXPECT_TRUE(isOneLine(result.out));
+  EXPECT_TRUE(result.out.starts_with("tufted ")) << result.out;
+}
+
+TEST_F(Command, ShowsProgressOnATerminalAndCtrlCLeavesNothingBehind) {
+  const auto file = dir_.write("sphere.xyz", sphere(200000));
+  const Result result = interruptTufted({"laplacian", file, "--out", out()});
+  EXPECT_EQ(result.code, 130) << result.err;
+  EXPECT_NE(result.err.find('\r'), std::string::npos);
+  EXPECT_NE(result.err.find("tufted: cancelled"), std::string::npos) << result.err;
+  EXPECT_TRUE(noOutputs());
+}
+
+}  // namespace

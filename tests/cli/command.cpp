@@ -1,0 +1,86 @@
+#include "command.h"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <spawn.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <stdexcept>
+
+extern char** environ;
+
+namespace {
+
+// posix_spawn and not fork: libgomp does not survive a fork.
+pid_t spawn(const std::vector<std::string>& arguments, int out, int err) {
+  std::vector<std::string> words = {TUFTED_COMMAND};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  argv.push_back(nullptr);
+  posix_spawn_file_actions_t actions;
+  posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, out, STDOUT_FILENO);
+  posix_spawn_file_actions_adddup2(&actions, err, STDERR_FILENO);
+  pid_t pid = 0;
+  const int error = posix_spawn(&pid, TUFTED_COMMAND, &actions, nullptr, argv.data(), environ);
+  posix_spawn_file_actions_destroy(&actions);
+  if (error != 0) throw std::runtime_error("cannot start " TUFTED_COMMAND);
+  return pid;
+}
+
+int wait(pid_t pid) {
+  int status = 0;
+  waitpid(pid, &status, 0);
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
+
+/// Appends what can be read. False at the end.
+bool readSome(int file, std::string& text) {
+  char buffer[4096];
+  const ssize_t count = read(file, buffer, sizeof(buffer));
+  if (count <= 0) return false;
+  text.append(buffer, static_cast<std::size_t>(count));
+  return true;
+}
+
+}  // namespace
+
+Result runTufted(const std::vector<std::string>& arguments) {
+  int out[2], err[2];
+  if (pipe2(out, O_CLOEXEC) != 0 || pipe2(err, O_CLOEXEC) != 0) throw std::runtime_error("pipe");
+  const pid_t pid = spawn(arguments, out[1], err[1]);
+  close(out[1]);
+  close(err[1]);
+  Result result;
+  pollfd files[2] = {{out[0], POLLIN, 0}, {err[0], POLLIN, 0}};
+  while (files[0].fd >= 0 || files[1].fd >= 0) {
+    poll(files, 2, -1);
+    for (pollfd& file : files)
+      if (file.revents != 0 && !readSome(file.fd, file.fd == out[0] ? result.out : result.err)) file.fd = -1;
+  }
+  close(out[0]);
+  close(err[0]);
+  result.code = wait(pid);
+  return result;
+}
+
+Result interruptTufted(const std::vector<std::string>& arguments) {
+  const int terminal = posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
+  if (terminal < 0 || grantpt(terminal) != 0 || unlockpt(terminal) != 0) throw std::runtime_error("no terminal");
+  const int err = open(ptsname(terminal), O_RDWR | O_NOCTTY | O_CLOEXEC);
+  const int out = open("/dev/null", O_WRONLY | O_CLOEXEC);
+  const pid_t pid = spawn(arguments, out, err);
+  close(out);
+  close(err);
+  Result result;
+  if (readSome(terminal, result.err)) kill(pid, SIGINT);
+  while (readSome(terminal, result.err)) {
+  }
+  close(terminal);
+  result.code = wait(pid);
+  return result;
+}

@@ -1,0 +1,18 @@
+#pragma once
+
+#include <CLI/App.hpp>
+#include <functional>
+
+/// Exit codes of the command.
+enum ExitCode : int {
+  exit_done = 0,
+  exit_failed = 1,       ///< data or numerics
+  exit_usage = 2,        ///< the command line
+  exit_cancelled = 130,  ///< Ctrl-C, as shells report it
+};
+
+/// A subcommand adds itself to the application. When the command line names it, it puts into `run` what then is to
+/// be done; `run` returns an exit code or throws.
+using Run = std::function<int()>;
+
+void addLaplacian(CLI::App& app, Run& run);

@@ -1,0 +1,55 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <csignal>
+#include <cstdio>
+#include <exception>
+#include <new>
+#include <string>
+
+#include "command.h"
+#include "interrupt.h"
+#include "tufted/errors.h"
+
+namespace {
+
+/// One line on stderr.
+int fail(std::string message, int code) {
+  std::replace(message.begin(), message.end(), '\n', ' ');
+  std::fprintf(stderr, "tufted: %s\n", message.c_str());
+  return code;
+}
+
+int runCommand(const Run& run) {
+  try {
+    return run();
+  } catch (const tufted::Cancelled&) {
+    return fail("cancelled", exit_cancelled);
+  } catch (const tufted::InvalidInput& error) {
+    return fail(error.what(), exit_usage);
+  } catch (const std::bad_alloc&) {
+    return fail("out of memory", exit_failed);
+  } catch (const std::exception& error) {
+    return fail(error.what(), exit_failed);
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file size limit is an error of the write, not a crash
+  catchInterrupt();
+  CLI::App app("A Laplacian for point clouds and triangle meshes of any connectivity.", "tufted");
+  app.set_version_flag("--version", "tufted " TUFTED_VERSION);
+  app.require_subcommand(1);
+  app.footer("Exit codes: 0 done, 1 data or numerics, 2 usage, 130 cancelled.");
+  Run run;
+  addLaplacian(app, run);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::Success& help) {
+    return app.exit(help);
+  } catch (const CLI::ParseError& error) {
+    return fail(std::string(error.what()) + " (see tufted --help)", exit_usage);
+  }
+  return runCommand(run);
+}
