@@ -1,0 +1,50 @@
+#include "base/parallel.h"
+
+#include <omp.h>
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+
+#include "tufted/errors.h"
+
+namespace tufted {
+
+Workers::Workers(int threads, const Progress& progress)
+    : count_(threads > 0 ? threads : std::max(1, omp_get_max_threads())), progress_(progress) {}
+
+void Workers::report(std::string_view stage, double fraction) const {
+  if (progress_ && !progress_(stage, fraction)) {
+    throw Cancelled("cancelled during " + std::string(stage));
+  }
+}
+
+void Workers::forBlocks(std::string_view stage, std::int64_t size, std::int64_t block,
+                        const std::function<void(std::int64_t, std::int64_t, int)>& work) const {
+  const std::int64_t blocks = (size + block - 1) / block;
+  std::atomic<std::int64_t> next{0};
+  std::atomic<bool> stop{false};
+  std::exception_ptr error;
+  report(stage, 0);
+  const int team = static_cast<int>(std::min<std::int64_t>(count_, blocks));
+  const auto run = [&](int worker) {
+    try {
+      for (std::int64_t b = next++; b < blocks && !stop; b = next++) {
+        work(b * block, std::min(size, (b + 1) * block), worker);
+        // Only the caller's own thread talks to the caller.
+        if (worker == 0) report(stage, static_cast<double>(std::min(next.load(), blocks)) / blocks);
+      }
+    } catch (...) {
+      if (!stop.exchange(true)) error = std::current_exception();
+    }
+  };
+  if (team <= 1) {
+    run(0);
+  } else {
+#pragma omp parallel num_threads(team)
+    run(omp_get_thread_num());
+  }
+  if (error) std::rethrow_exception(error);
+}
+
+}  // namespace tufted

@@ -1,0 +1,62 @@
+#include "base/scaling.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tufted {
+namespace {
+
+constexpr double kFarthest = 1e100;  // in median spreads; squares and fourth powers of it still fit a double
+
+double median(std::vector<double>& values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+}  // namespace
+
+double Scaling::scaled(double x) const {
+  // Adding 0 turns -0 into 0, so that equal coordinates have equal bits.
+  return std::ldexp(x, -exponent) + 0.0;
+}
+
+Scaling measureScaling(const Points& points, std::vector<PointStatus>& status) {
+  const Eigen::Index n = points.rows();
+  status.assign(static_cast<std::size_t>(n), PointStatus::active);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    if (!points.row(i).allFinite()) status[i] = PointStatus::not_finite;
+  }
+
+  Scaling scaling;
+  std::vector<double> values;
+  values.reserve(static_cast<std::size_t>(n));
+  for (int axis = 0; axis < 3; ++axis) {
+    values.clear();
+    for (Eigen::Index i = 0; i < n; ++i) {
+      if (status[i] == PointStatus::active) values.push_back(points(i, axis));
+    }
+    scaling.center[axis] = median(values);
+  }
+
+  const auto deviation = [&](Eigen::Index i) {
+    return (points.row(i) - scaling.center.transpose()).cwiseAbs().maxCoeff();
+  };
+  values.clear();
+  for (Eigen::Index i = 0; i < n; ++i) {
+    // Points at the centre itself say nothing about the spread; many copies of one point must not make it 0.
+    if (status[i] == PointStatus::active && deviation(i) > 0) values.push_back(deviation(i));
+  }
+  const double spread = median(values);
+  if (spread > 0 && std::isfinite(spread)) std::frexp(spread, &scaling.exponent);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    // Relative to 2^exponent, so that the bound itself cannot overflow.
+    if (status[i] == PointStatus::active && !(std::ldexp(deviation(i), -scaling.exponent) <= kFarthest)) {
+      status[i] = PointStatus::not_finite;
+    }
+  }
+  return scaling;
+}
+
+}  // namespace tufted

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "tufted/types.h"
+
+namespace tufted {
+
+/// Where most of a point set lies and how wide it is, by medians, so that no sentinel or outlier can flatten it.
+/// Computed from differences only: moving the points by an exact offset moves `center` and changes nothing else.
+struct Scaling {
+  Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< median of each coordinate
+  int exponent = 0;                                  ///< 2^exponent is just above the median spread
+
+  /// x / 2^exponent, which is exact short of underflow.
+  double scaled(double x) const;
+};
+
+/// Scaling of the finite rows. Rows that are not finite, or more than 1e100 median spreads from the centre,
+/// get PointStatus::not_finite in `status` (resized to N; all others active).
+Scaling measureScaling(const Points& points, std::vector<PointStatus>& status);
+
+}  // namespace tufted

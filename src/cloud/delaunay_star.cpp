@@ -1,0 +1,141 @@
+#include "cloud/delaunay_star.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tufted {
+namespace {
+
+constexpr std::size_t kNearPart = 12;  // most stars are settled by so many nearest candidates
+
+double squaredNorm(const PlanarPoint& q) { return q.u * q.u + q.v * q.v; }
+
+/// Grows with the angle from the u axis, in [0, 4].
+double pseudoAngle(const PlanarPoint& q) {
+  if (q.v >= 0) return q.u >= 0 ? q.v / (q.u + q.v) : 1 - q.u / (q.v - q.u);
+  return q.u < 0 ? 2 + q.v / (q.u + q.v) : 3 + q.u / (q.u - q.v);
+}
+
+/// Nearer to the origin, for points in exactly the same direction.
+bool isNearer(const PlanarPoint& a, const PlanarPoint& b) {
+  return std::abs(a.u) + std::abs(a.v) < std::abs(b.u) + std::abs(b.v);
+}
+
+/// Sorts by direction and keeps the nearest in each.
+void sortByDirection(std::vector<PlanarPoint>& points) {
+  const auto before = [](const PlanarPoint& a, const PlanarPoint& b) {
+    const double difference = pseudoAngle(b) - pseudoAngle(a);
+    // Rounding moves the pseudo-angle by a few 1e-16; closer calls are decided exactly.
+    return std::abs(difference) > 1e-14 ? difference > 0 : orientation(a, b) > 0;
+  };
+  std::stable_sort(points.begin(), points.end(), before);
+  std::size_t kept = 0;
+  for (const PlanarPoint& q : points) {
+    if (kept > 0 && !before(points[kept - 1], q)) {
+      if (isNearer(q, points[kept - 1])) points[kept - 1] = q;
+    } else {
+      points[kept++] = q;
+    }
+  }
+  points.resize(kept);
+}
+
+/// Whether link vertex b leaves the star: the diagonal (a, c) is Delaunay in the quadrilateral (p, a, b, c).
+bool isCutOff(int p, const PlanarPoint& a, const PlanarPoint& b, const PlanarPoint& c) {
+  if (orientation(a, c) <= 0) return false;  // without b the gap would be pi or more
+  switch (sideOfCircle(a, b, c)) {
+    case CircleSide::inside: return true;
+    case CircleSide::outside: return false;
+    case CircleSide::tie: break;
+  }
+  return std::min(a.index, c.index) < std::min(p, b.index);
+}
+
+}  // namespace
+
+double DelaunayStar::circumradius(int i) const {
+  const PlanarPoint& a = link[i];
+  const PlanarPoint& b = after(i);
+  const double cross = a.u * b.v - a.v * b.u;
+  if (!(cross > 0)) return std::numeric_limits<double>::infinity();
+  return std::sqrt(squaredNorm(a)) * std::sqrt(squaredNorm(b)) * std::hypot(a.u - b.u, a.v - b.v) / (2 * cross);
+}
+
+double DelaunayStar::largestCircumradius() const {
+  double largest = 0;
+  for (int i = 0; i < triangles(); ++i) largest = std::max(largest, circumradius(i));
+  return largest;
+}
+
+void wrapChosen(int p, StarScratch& scratch, DelaunayStar& star) {
+  std::vector<PlanarPoint>& ring = scratch.chosen;
+  sortByDirection(ring);
+  const int m = static_cast<int>(ring.size());
+  star.link.clear();
+  star.closed = false;
+  if (m < 2) {
+    star.link = ring;
+    return;
+  }
+
+  // A gap of pi or more, if there is one, becomes the end of the link.
+  star.closed = m >= 3;
+  for (int i = 0; i < m; ++i) {
+    if (orientation(ring[i], ring[(i + 1) % m]) <= 0) {
+      std::rotate(ring.begin(), ring.begin() + (i + 1) % m, ring.end());
+      star.closed = false;
+      break;
+    }
+  }
+  if (m == 2 && orientation(ring[0], ring[1]) <= 0) return;  // on one line through p: no triangle
+
+  scratch.next.resize(m);
+  scratch.previous.resize(m);
+  for (int i = 0; i < m; ++i) {
+    scratch.next[i] = (i + 1) % m;
+    scratch.previous[i] = (i + m - 1) % m;
+  }
+  int left = m;
+  int first = 0;
+  int settled = 0;  // vertices in a row that stay
+  for (int b = 0; settled < left && left > 2;) {
+    const int a = scratch.previous[b], c = scratch.next[b];
+    const bool is_end = !star.closed && (b == first || c == first);
+    if (is_end || !isCutOff(p, ring[a], ring[b], ring[c])) {
+      ++settled;
+      b = c;
+      continue;
+    }
+    scratch.next[a] = c;
+    scratch.previous[c] = a;
+    if (b == first) first = c;
+    --left;
+    settled = 0;
+    b = a;
+  }
+  for (int i = 0, at = first; i < left; ++i, at = scratch.next[at]) star.link.push_back(ring[at]);
+}
+
+void delaunayStar(const std::vector<PlanarPoint>& candidates, int p, StarScratch& scratch, DelaunayStar& star) {
+  std::vector<PlanarPoint>& chosen = scratch.chosen;
+  const auto hasDirection = [](const PlanarPoint& q) { return q.u != 0 || q.v != 0; };
+  const std::size_t near = std::min(kNearPart, candidates.size());
+  chosen.clear();
+  std::copy_if(candidates.begin(), candidates.begin() + near, std::back_inserter(chosen), hasDirection);
+  const std::size_t chosen_near = chosen.size();
+  wrapChosen(p, scratch, star);
+  if (near == candidates.size()) return;
+
+  // Circles through p reach no further than twice their radius, so only candidates within that can change a closed
+  // star. The slack covers the tie band.
+  double reach = std::numeric_limits<double>::infinity();
+  if (star.closed) reach = std::pow(2 * star.largestCircumradius(), 2) * 1.001;
+  chosen.clear();
+  std::copy_if(candidates.begin(), candidates.begin() + near, std::back_inserter(chosen), hasDirection);
+  std::copy_if(candidates.begin() + near, candidates.end(), std::back_inserter(chosen),
+               [&](const PlanarPoint& q) { return hasDirection(q) && squaredNorm(q) <= reach; });
+  if (chosen.size() > chosen_near) wrapChosen(p, scratch, star);
+}
+
+}  // namespace tufted

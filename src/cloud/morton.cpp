@@ -1,0 +1,90 @@
+#include "cloud/morton.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+
+#include "base/scaling.h"
+
+namespace tufted {
+namespace {
+
+constexpr int kBits = 21;         // per axis
+constexpr int kCellExponent = 16; // cells per median spread: 2^16; so 2^21 cells reach over 32 spreads
+
+/// Spreads the low 21 bits of v to every third bit.
+std::uint64_t spreadBits(std::uint64_t v) {
+  v = (v | v << 32) & 0x001f00000000ffffULL;
+  v = (v | v << 16) & 0x001f0000ff0000ffULL;
+  v = (v | v << 8) & 0x100f00f00f00f00fULL;
+  v = (v | v << 4) & 0x10c30c30c30c30c3ULL;
+  return (v | v << 2) & 0x1249249249249249ULL;
+}
+
+std::uint64_t mortonCode(const Eigen::Vector3d& from_corner) {
+  std::uint64_t code = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double cell = std::ldexp(from_corner[axis], kCellExponent);
+    const double clamped = std::clamp(cell, 0.0, std::ldexp(1.0, kBits) - 1);  // outliers go to the border
+    code |= spreadBits(static_cast<std::uint64_t>(clamped)) << axis;
+  }
+  return code;
+}
+
+struct Key {
+  std::uint64_t code;
+  int index;
+};
+
+}  // namespace
+
+RankedCloud rankPoints(const Points& points, std::vector<PointStatus>& status, std::vector<int>& representative) {
+  RankedCloud cloud;
+  const Scaling scaling = measureScaling(points, status);
+  cloud.exponent = scaling.exponent;
+  representative.resize(static_cast<std::size_t>(points.rows()));
+  std::iota(representative.begin(), representative.end(), 0);
+
+  Points scaled(points.rows(), 3);
+  Eigen::Vector3d lowest = Eigen::Vector3d::Constant(INFINITY);
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    if (status[i] == PointStatus::not_finite) continue;
+    for (int axis = 0; axis < 3; ++axis) scaled(i, axis) = scaling.scaled(points(i, axis));
+    lowest = lowest.cwiseMin(scaled.row(i).transpose());
+  }
+  // The grid starts at a corner of the data, but not further than 16 spreads from its middle.
+  Eigen::Vector3d corner;
+  for (int axis = 0; axis < 3; ++axis) {
+    corner[axis] = std::max(lowest[axis], scaling.scaled(scaling.center[axis]) - 16);
+  }
+
+  std::vector<Key> keys;
+  keys.reserve(static_cast<std::size_t>(points.rows()));
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    if (status[i] == PointStatus::not_finite) continue;
+    keys.push_back({mortonCode(scaled.row(i).transpose() - corner), static_cast<int>(i)});
+  }
+  std::sort(keys.begin(), keys.end(), [&](const Key& a, const Key& b) {
+    if (a.code != b.code) return a.code < b.code;
+    for (int axis = 0; axis < 3; ++axis) {
+      if (scaled(a.index, axis) != scaled(b.index, axis)) return scaled(a.index, axis) < scaled(b.index, axis);
+    }
+    return a.index < b.index;
+  });
+
+  cloud.caller.reserve(keys.size());
+  for (const Key& key : keys) {
+    if (!cloud.caller.empty() && scaled.row(key.index) == scaled.row(cloud.caller.back())) {
+      status[key.index] = PointStatus::coincident;
+      representative[key.index] = cloud.caller.back();
+    } else {
+      cloud.caller.push_back(key.index);
+    }
+  }
+  cloud.points.resize(cloud.size(), 3);
+  for (int rank = 0; rank < cloud.size(); ++rank) cloud.points.row(rank) = scaled.row(cloud.caller[rank]);
+  return cloud;
+}
+
+}  // namespace tufted

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "tufted/types.h"
+
+namespace tufted {
+
+/// The distinct finite points of a cloud along a Morton curve. The position in this order is the point's rank;
+/// every tie rule of the pipeline compares ranks, so a permuted cloud gives the permuted result.
+struct RankedCloud {
+  Points points;            ///< n x 3, in units of 2^exponent
+  std::vector<int> caller;  ///< n, the caller's index of each rank (of coincident points, the lowest)
+  int exponent = 0;
+
+  int size() const { return static_cast<int>(caller.size()); }
+};
+
+/// Scales, sorts and merges. Fills `status` (not_finite, coincident, else active) and `representative` (N each).
+RankedCloud rankPoints(const Points& points, std::vector<PointStatus>& status, std::vector<int>& representative);
+
+}  // namespace tufted

@@ -1,0 +1,82 @@
+#include "cloud/neighbors.h"
+
+#include <flann/algorithms/kdtree_single_index.h>
+#include <flann/algorithms/dist.h>
+
+#include <algorithm>
+#include <limits>
+
+namespace tufted {
+namespace {
+
+using Distance = flann::L2_Simple<double>;
+
+/// The k smallest candidates by (distance, index), without the query point itself.
+///
+/// FLANN's own sets keep whichever of two equally distant points comes first in the tree, and its pruning sums
+/// rounded terms. So the bound shown to FLANN is a little wider than the k-th distance, which is all the slack its
+/// rounding needs, and ties are decided here. L2_Simple adds the squared differences in the order x, y, z, so its
+/// distances are the same bits for any tree.
+class NearestSet final : public flann::ResultSet<double> {
+ public:
+  NearestSet(int self, int k, std::vector<Neighbor>& found) : self_(self), k_(static_cast<std::size_t>(k)), found_(found) {
+    found_.clear();
+    found_.reserve(k_ + 1);
+  }
+
+  bool full() const override { return found_.size() == k_; }
+  double worstDist() const override { return worst_; }
+
+  void addPoint(double squared_distance, size_t index) override {
+    const Neighbor candidate{squared_distance, static_cast<int>(index)};
+    if (candidate.index == self_ || (full() && !(candidate < found_.back()))) return;
+    if (full()) found_.pop_back();
+    std::size_t place = found_.size();
+    found_.push_back(candidate);
+    for (; place > 0 && candidate < found_[place - 1]; --place) found_[place] = found_[place - 1];
+    found_[place] = candidate;
+    if (full()) worst_ = found_.back().squared_distance * (1 + 1e-12) + std::numeric_limits<double>::denorm_min();
+  }
+
+ private:
+  int self_;
+  std::size_t k_;
+  std::vector<Neighbor>& found_;
+  double worst_ = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace
+
+struct NeighborSearch::Tree {
+  flann::KDTreeSingleIndex<Distance> index;
+  flann::SearchParams params{flann::FLANN_CHECKS_UNLIMITED};
+
+  explicit Tree(const Points& points)
+      // The points are in Morton order already, so FLANN's reordered copy would only cost memory.
+      : index(flann::Matrix<double>(const_cast<double*>(points.data()), static_cast<size_t>(points.rows()), 3),
+              flann::KDTreeSingleIndexParams(10, false)) {
+    index.buildIndex();
+  }
+};
+
+NeighborSearch::NeighborSearch(const Points& points) : points_(points) {
+  if (points.rows() > 1) tree_ = std::make_unique<Tree>(points);
+}
+
+NeighborSearch::~NeighborSearch() = default;
+
+void NeighborSearch::nearest(int p, int k, std::vector<Neighbor>& found) const {
+  const int available = static_cast<int>(points_.rows()) - 1;
+  NearestSet set(p, std::min(k, available), found);
+  if (k <= 0 || available <= 0) return;
+  tree_->index.findNeighbors(set, points_.row(p).data(), tree_->params);
+}
+
+std::size_t NeighborSearch::bytes() const {
+  // Tree nodes by FLANN's own count, then a pointer and an index per point.
+  return tree_ ? static_cast<std::size_t>(tree_->index.usedMemory()) +
+                     static_cast<std::size_t>(points_.rows()) * (sizeof(double*) + sizeof(int))
+               : 0;
+}
+
+}  // namespace tufted

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <vector>
+
+#include "tufted/types.h"
+
+namespace tufted {
+
+struct Neighbor {
+  double squared_distance;
+  int index;  ///< rank
+
+  friend bool operator<(const Neighbor& a, const Neighbor& b) {
+    return a.squared_distance < b.squared_distance ||
+           (a.squared_distance == b.squared_distance && a.index < b.index);
+  }
+};
+
+/// Exact nearest neighbours by FLANN's KDTreeSingleIndex in double.
+class NeighborSearch {
+ public:
+  /// @param points n x 3, distinct, finite, in Morton order; borrowed for the life of the search
+  explicit NeighborSearch(const Points& points);
+  ~NeighborSearch();
+  NeighborSearch(const NeighborSearch&) = delete;
+  NeighborSearch& operator=(const NeighborSearch&) = delete;
+
+  /// The min(k, n - 1) points nearest to point p, itself left out by index, ascending by (distance, index).
+  /// `found` is overwritten and keeps its memory. Safe to call from several threads.
+  void nearest(int p, int k, std::vector<Neighbor>& found) const;
+
+  std::size_t bytes() const;
+
+ private:
+  struct Tree;
+  std::unique_ptr<Tree> tree_;
+  const Points& points_;
+};
+
+}  // namespace tufted

@@ -1,0 +1,22 @@
+#pragma once
+
+namespace tufted {
+
+/// A neighbour in the tangent plane of p, which lies at the origin.
+struct PlanarPoint {
+  double u, v;
+  int index;  ///< rank
+};
+
+/// Sign of the turn from a to b seen from the origin: 1 counterclockwise, -1 clockwise, 0 collinear. Exact.
+int orientation(const PlanarPoint& a, const PlanarPoint& b);
+
+/// Where c lies against the circle through the origin, a and b (counterclockwise).
+enum class CircleSide { outside, tie, inside };
+
+/// In-circle test with a tie band: `tie` when the angles at the origin and at b of the quadrilateral (origin, a, b, c)
+/// sum to pi within 1e-9 rad. The rounding of the double test is a million times narrower than the band, so its sign
+/// is right outside of it; where products may underflow, CGAL's exact predicate decides.
+CircleSide sideOfCircle(const PlanarPoint& a, const PlanarPoint& b, const PlanarPoint& c);
+
+}  // namespace tufted

@@ -1,0 +1,244 @@
+#include "cloud/stars.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+
+#include "cloud/delaunay_star.h"
+#include "cloud/tangent_frame.h"
+#include "tufted/errors.h"
+
+namespace tufted {
+namespace {
+
+constexpr std::int64_t kBlock = 1024;  // points per block: its neighbour lists stay in the second-level cache
+constexpr int kLineGrowth = 8;         // a neighbourhood on one scan line grows to at most 8 k
+
+/// One point's way through the stages of a block.
+struct Local {
+  std::vector<Neighbor> neighbors;
+  Eigen::Vector3d normal;
+};
+
+/// What one block of points leaves behind.
+struct BlockOfStars {
+  std::vector<int> link;
+  std::vector<double> radius;
+};
+
+/// Memory, counts and times of one worker.
+struct WorkerState {
+  std::vector<Local> locals;
+  std::vector<PlanarPoint> planar;
+  StarScratch scratch;
+  DelaunayStar star;
+  std::int64_t grown_neighborhoods = 0, grown_stars = 0, open_stars = 0, flat_triangles = 0;
+  std::array<double, 3> seconds = {};  // neighbours, frames, stars
+};
+
+class StarBuilder {
+ public:
+  StarBuilder(const RankedCloud& cloud, const NeighborSource& source, Delaunay delaunay, Stars& stars)
+      : cloud_(cloud), source_(source), wrap_(delaunay == Delaunay::star ? delaunayStar : cgalBackend()), stars_(stars) {}
+
+  void build(std::int64_t begin, std::int64_t end, WorkerState& state, BlockOfStars& block) const {
+    const int count = static_cast<int>(end - begin);
+    const int first = static_cast<int>(begin);
+    state.locals.resize(std::max<std::size_t>(state.locals.size(), count));
+    Stopwatch watch;
+    for (int i = 0; i < count; ++i) findNeighbors(first + i, state.locals[i]);
+    state.seconds[0] += watch.restart();
+    for (int i = 0; i < count; ++i) fitFrame(first + i, state.locals[i], state);
+    state.seconds[1] += watch.restart();
+    for (int i = 0; i < count; ++i) wrapStar(first + i, state.locals[i], state, block);
+    state.seconds[2] += watch.restart();
+  }
+
+ private:
+  using Wrap = void (*)(const std::vector<PlanarPoint>&, int, StarScratch&, DelaunayStar&);
+
+  static Wrap cgalBackend() {
+#ifdef TUFTED_WITH_GPL
+    return delaunayStarCgal;
+#else
+    return delaunayStar;  // not reached: options are checked first
+#endif
+  }
+
+  void findNeighbors(int p, Local& local) const {
+    if (source_.search != nullptr) {
+      source_.search->nearest(p, source_.k, local.neighbors);
+      return;
+    }
+    local.neighbors.clear();
+    for (int i = source_.list_offset[p]; i < source_.list_offset[p + 1]; ++i) {
+      const int q = source_.list[i];
+      local.neighbors.push_back({(cloud_.points.row(q) - cloud_.points.row(p)).squaredNorm(), q});
+    }
+    std::sort(local.neighbors.begin(), local.neighbors.end());
+  }
+
+  /// Doubles the neighbourhood, but not past `cap` or the whole cloud. False when there is nothing to gain.
+  bool grow(int p, int cap, Local& local) const {
+    const int k = static_cast<int>(local.neighbors.size());
+    const int wanted = std::min({2 * k, cap, cloud_.size() - 1});
+    if (source_.isFixed() || wanted <= k) return false;
+    source_.search->nearest(p, wanted, local.neighbors);
+    return true;
+  }
+
+  void fitFrame(int p, Local& local, WorkerState& state) const {
+    PrincipalAxes axes = principalAxes(cloud_.points, p, local.neighbors);
+    bool grown = false;
+    while (liesOnOneLine(axes) && grow(p, kLineGrowth * source_.k, local)) {
+      axes = principalAxes(cloud_.points, p, local.neighbors);
+      grown = true;
+    }
+    state.grown_neighborhoods += grown ? 1 : 0;
+    local.normal = axes.normal;
+    if (source_.normals.rows() > 0 && !source_.normals.row(p).isZero(0)) local.normal = source_.normals.row(p);
+    stars_.normals.row(p) = local.normal;
+    stars_.reach[p] = local.neighbors.empty() ? 0 : std::sqrt(local.neighbors.back().squared_distance);
+  }
+
+  /// Coordinates in the tangent plane of p, in units of `unit`.
+  void project(int p, const Local& local, double unit, std::vector<PlanarPoint>& planar) const {
+    const Eigen::Vector3d tangent_x = tangentOf(local.normal);
+    const Eigen::Vector3d tangent_y = local.normal.cross(tangent_x);
+    planar.clear();
+    for (const Neighbor& q : local.neighbors) {
+      const Eigen::Vector3d d = (cloud_.points.row(q.index) - cloud_.points.row(p)).transpose() * unit;
+      planar.push_back({d.dot(tangent_x), d.dot(tangent_y), q.index});
+    }
+  }
+
+  void wrapStar(int p, Local& local, WorkerState& state, BlockOfStars& block) const {
+    // A power of two near the reach, so that the predicates meet numbers near 1 and scaling rounds nothing.
+    const double reach = stars_.reach[p];
+    const int exponent = reach > 0 ? std::ilogb(reach) : 0;
+    const double unit = std::ldexp(1.0, -exponent);
+    DelaunayStar& star = state.star;
+    project(p, local, unit, state.planar);
+    wrap_(state.planar, p, state.scratch, star);
+
+    // Certificate: no circle of a closed star leaves the ball that was searched. Otherwise look once further.
+    if (star.closed && 2 * star.largestCircumradius() > reach * unit &&
+        grow(p, 2 * static_cast<int>(local.neighbors.size()), local)) {
+      ++state.grown_stars;
+      project(p, local, unit, state.planar);
+      wrap_(state.planar, p, state.scratch, star);
+    }
+
+    state.open_stars += star.closed ? 0 : 1;
+    stars_.ends[p] = star.closed ? 0 : 1;
+    stars_.offset[p + 1] = static_cast<int>(star.link.size());
+    for (int i = 0; i < static_cast<int>(star.link.size()); ++i) {
+      block.link.push_back(star.link[i].index);
+      block.radius.push_back(i < star.triangles() ? std::ldexp(star.circumradius(i), exponent) : kNoTriangle);
+      if (i < star.triangles() && block.radius.back() == kNoTriangle) {  // too flat for a double
+        ++state.flat_triangles;
+        stars_.ends[p] = 1;
+      }
+    }
+  }
+
+  const RankedCloud& cloud_;
+  const NeighborSource& source_;
+  Wrap wrap_;
+  Stars& stars_;
+};
+
+}  // namespace
+
+std::size_t Stars::bytes() const {
+  return bytesOf(offset) + bytesOf(link) + bytesOf(radius) + bytesOf(reach) + bytesOf(ends) +
+         static_cast<std::size_t>(normals.size()) * sizeof(double);
+}
+
+void takeNeighborhoods(const Neighborhoods& lists, const RankedCloud& cloud, const std::vector<PointStatus>& status,
+                       const std::vector<int>& representative, NeighborSource& source, Report& report) {
+  const int n = static_cast<int>(status.size());
+  std::vector<int> rank(status.size(), -1);
+  for (int r = 0; r < cloud.size(); ++r) rank[cloud.caller[r]] = r;
+  source.list_offset.assign(1, 0);
+  for (int p = 0; p < cloud.size(); ++p) {
+    const std::size_t start = source.list.size();
+    for (Eigen::Index j = 0; j < lists.cols(); ++j) {
+      const int index = lists(cloud.caller[p], j);
+      if (index < 0) continue;  // padding
+      if (index >= n) {
+        throw InvalidInput("pointCloudLaplacian: neighborhoods(" + std::to_string(cloud.caller[p]) + ", " +
+                           std::to_string(j) + ") = " + std::to_string(index) + ", must be less than " +
+                           std::to_string(n) + ", the number of points");
+      }
+      const int q = rank[representative[index]];
+      const bool repeats = std::find(source.list.begin() + start, source.list.end(), q) != source.list.end();
+      if (q < 0 || q == p || repeats) {
+        ++report.rejected_neighbors;
+      } else {
+        source.list.push_back(q);
+      }
+    }
+    source.list_offset.push_back(static_cast<int>(source.list.size()));
+    source.k = std::max(source.k, static_cast<int>(source.list.size() - start));
+  }
+}
+
+void takeNormals(const Points& normals, const RankedCloud& cloud, NeighborSource& source, Report& report) {
+  source.normals.setZero(cloud.size(), 3);
+  for (int p = 0; p < cloud.size(); ++p) {
+    const Eigen::Vector3d normal = normals.row(cloud.caller[p]);
+    const double length = normal.stableNorm();
+    if (length > 0 && std::isfinite(length)) {
+      source.normals.row(p) = (normal / length).normalized();
+    } else {
+      ++report.rejected_normals;
+    }
+  }
+}
+
+Stars buildStars(const RankedCloud& cloud, const NeighborSource& source, Delaunay delaunay, const Workers& workers,
+                 Report& report) {
+  const int n = cloud.size();
+  Stars stars;
+  stars.offset.assign(static_cast<std::size_t>(n) + 1, 0);
+  stars.reach.resize(n);
+  stars.ends.resize(n);
+  stars.normals.resize(n, 3);
+
+  Stopwatch wall;
+  std::vector<BlockOfStars> blocks((n + kBlock - 1) / kBlock);
+  std::vector<WorkerState> states(workers.count());
+  const StarBuilder builder(cloud, source, delaunay, stars);
+  workers.forBlocks("stars", n, kBlock, [&](std::int64_t begin, std::int64_t end, int worker) {
+    builder.build(begin, end, states[worker], blocks[begin / kBlock]);
+  });
+
+  std::partial_sum(stars.offset.begin(), stars.offset.end(), stars.offset.begin());
+  stars.link.reserve(stars.offset.back());
+  stars.radius.reserve(stars.offset.back());
+  for (BlockOfStars& block : blocks) {
+    stars.link.insert(stars.link.end(), block.link.begin(), block.link.end());
+    stars.radius.insert(stars.radius.end(), block.radius.begin(), block.radius.end());
+    block = {};
+  }
+
+  std::array<double, 3> seconds = {};
+  for (const WorkerState& state : states) {
+    report.grown_neighborhoods += state.grown_neighborhoods;
+    report.grown_stars += state.grown_stars;
+    report.open_stars += state.open_stars;
+    report.dropped_triangles += state.flat_triangles;
+    for (int i = 0; i < 3; ++i) seconds[i] += state.seconds[i];
+  }
+  const double cpu = seconds[0] + seconds[1] + seconds[2];
+  const double share = cpu > 0 ? wall.seconds() / cpu : 0;
+  report.stages.push_back({"neighbors", seconds[0] * share, 0});
+  report.stages.push_back({"frames", seconds[1] * share, 0});
+  report.stages.push_back({"stars", seconds[2] * share, stars.bytes()});
+  return stars;
+}
+
+}  // namespace tufted

@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <vector>
+
+#include "base/parallel.h"
+#include "base/stage_clock.h"
+#include "cloud/morton.h"
+#include "cloud/neighbors.h"
+#include "tufted/options.h"
+#include "tufted/report.h"
+
+namespace tufted {
+
+constexpr double kNoTriangle = std::numeric_limits<double>::infinity();
+
+/// The Delaunay stars of all points, one after the other, everything by rank.
+///
+/// Star p has the link vertices link[offset[p] .. offset[p + 1]), counterclockwise in the tangent plane of p. Entry i
+/// stands for the triangle (p, link[i], successor of i); its `radius` is kNoTriangle where there is none: at the last
+/// link vertex of an open star, and where a filter dropped it.
+struct Stars {
+  std::vector<int> offset;           ///< n + 1
+  std::vector<int> link;             ///< ranks
+  std::vector<double> radius;        ///< circumradius in the tangent plane, per link entry
+  std::vector<double> reach;         ///< n, r_k: distance to the last of the first k neighbours
+  std::vector<std::uint8_t> ends;    ///< n, 1 where the surface ends at p: an open star or a lost triangle
+  Points normals;                    ///< n x 3
+
+  int size() const { return static_cast<int>(reach.size()); }
+  /// The link entry after i in star p, cyclically.
+  int after(int p, int i) const { return i + 1 == offset[p + 1] ? offset[p] : i + 1; }
+  bool hasTriangle(int i) const { return radius[i] != kNoTriangle; }
+  std::size_t bytes() const;
+};
+
+/// Where the neighbours and normals of each point come from.
+struct NeighborSource {
+  int k = 0;                               ///< neighbours per point, at most n - 1
+  const NeighborSearch* search = nullptr;  ///< null when the caller's lists are used
+  std::vector<int> list_offset, list;      ///< the caller's lists by rank, checked; n + 1 and their sum
+  Points normals;                          ///< the caller's, by rank, unit length or zero where unusable; else 0 x 3
+
+  bool isFixed() const { return search == nullptr; }
+};
+
+/// Checks the caller's lists and brings them into rank order.
+/// @throws InvalidInput for another number of rows than `status`, or an index past the last point
+void takeNeighborhoods(const Neighborhoods& lists, const RankedCloud& cloud, const std::vector<PointStatus>& status,
+                       const std::vector<int>& representative, NeighborSource& source, Report& report);
+
+/// Normalises the caller's normals and brings them into rank order.
+void takeNormals(const Points& normals, const RankedCloud& cloud, NeighborSource& source, Report& report);
+
+/// Steps 1 and 2 for every point: neighbourhood with growth on single scan lines, tangent frame, projection,
+/// Delaunay star with its certificate. Counts growth and open stars, and books the three stages' costs.
+Stars buildStars(const RankedCloud& cloud, const NeighborSource& source, Delaunay delaunay, const Workers& workers,
+                 Report& report);
+
+}  // namespace tufted

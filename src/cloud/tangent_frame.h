@@ -1,0 +1,27 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "cloud/neighbors.h"
+#include "tufted/types.h"
+
+namespace tufted {
+
+/// Principal axes of a neighbourhood.
+struct PrincipalAxes {
+  Eigen::Vector3d normal;    ///< eigenvector of the smallest eigenvalue
+  Eigen::Vector3d variance;  ///< eigenvalues, ascending, in units of the neighbourhood's extent squared
+};
+
+/// PCA of p and its neighbours about their centroid, from coordinates relative to p, so that the distance from the
+/// origin does not matter.
+PrincipalAxes principalAxes(const Points& points, int p, const std::vector<Neighbor>& neighbors);
+
+/// One scan line only: the second axis has less than a tenth of the first one's variance.
+bool liesOnOneLine(const PrincipalAxes& axes);
+
+/// A unit vector perpendicular to the unit vector `normal`; depends on nothing else.
+Eigen::Vector3d tangentOf(const Eigen::Vector3d& normal);
+
+}  // namespace tufted

@@ -1,0 +1,41 @@
+#include "intrinsic/cover.h"
+
+#include <numeric>
+#include <vector>
+
+namespace tufted {
+namespace {
+
+constexpr std::int64_t kBlock = 8192;
+
+}  // namespace
+
+void resizeCover(IntrinsicTriangulation& cover, int vertices, std::int64_t triangles) {
+  cover.vertices = vertices;
+  cover.faces.resize(static_cast<std::size_t>(2 * triangles));
+  cover.glue.assign(static_cast<std::size_t>(6 * triangles), kUnglued);
+  cover.length.resize(static_cast<std::size_t>(6 * triangles));
+}
+
+void addTriangle(IntrinsicTriangulation& cover, int t, int i, int j, int k) {
+  cover.faces[2 * t] = {i, j, k};
+  cover.faces[2 * t + 1] = {i, k, j};
+}
+
+double measureLengths(IntrinsicTriangulation& cover, const Points& points, const Workers& workers) {
+  const std::int64_t triangles = cover.size() / 2;
+  std::vector<double> sums((triangles + kBlock - 1) / kBlock);  // per block, so that the mean has the same bits always
+  workers.forBlocks("lengths", triangles, kBlock, [&](std::int64_t begin, std::int64_t end, int) {
+    for (int t = static_cast<int>(begin); t < end; ++t) {
+      const auto& corner = cover.faces[2 * t];
+      for (int s = 0; s < 3; ++s) {
+        const double length = (points.row(corner[s]) - points.row(corner[(s + 1) % 3])).norm();
+        cover.length[frontSide(t, s)] = cover.length[backSide(t, s)] = length;
+        sums[begin / kBlock] += length;
+      }
+    }
+  });
+  return triangles > 0 ? std::accumulate(sums.begin(), sums.end(), 0.0) / static_cast<double>(3 * triangles) : 0;
+}
+
+}  // namespace tufted

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/parallel.h"
+#include "tufted/intrinsic_triangulation.h"
+#include "tufted/options.h"
+#include "tufted/report.h"
+#include "tufted/types.h"
+
+namespace tufted {
+
+constexpr int kUnglued = -1;
+/// Sides have int numbers: 6 per triangle under the cover.
+constexpr std::int64_t kMostTriangles = INT32_MAX / 6;
+
+/// Front and back of each triangle (Section 4.2), nothing glued yet: face 2 t is triangle t = (i, j, k), face 2 t + 1
+/// is (i, k, j).
+void addTriangle(IntrinsicTriangulation& cover, int t, int i, int j, int k);
+
+/// Makes room for `triangles` triangles.
+void resizeCover(IntrinsicTriangulation& cover, int vertices, std::int64_t triangles);
+
+/// The side of the back that lies on side `s` of the front of triangle `t`.
+constexpr int frontSide(int t, int s) { return 6 * t + s; }
+constexpr int backSide(int t, int s) { return 6 * t + 5 - s; }
+
+/// Glues two sides to each other.
+inline void glueSides(IntrinsicTriangulation& cover, int a, int b) {
+  cover.glue[a] = b;
+  cover.glue[b] = a;
+}
+
+/// Which circular order the faces around an edge are glued in (Section 5.4).
+struct EdgeOrder {
+  FaceOrder order = FaceOrder::angle;
+  std::uint64_t seed = 0;
+};
+
+struct EdgeCounts {
+  std::int64_t boundary = 0, manifold = 0, nonmanifold = 0;  ///< edges of one, two, more faces
+};
+
+/// Algorithm 1: puts all sides that are not glued yet into one pool per vertex pair, orders each pool circularly and
+/// glues front to back. `boundary`, if given, gets 1 at both vertices of an edge of a single face.
+EdgeCounts glueEdges(IntrinsicTriangulation& cover, const Points& points, const EdgeOrder& order,
+                     const Workers& workers, std::vector<std::uint8_t>* boundary = nullptr);
+
+/// Euclidean lengths of all sides (MEASUREEDGELENGTHS). Returns their mean over the triangles' sides.
+double measureLengths(IntrinsicTriangulation& cover, const Points& points, const Workers& workers);
+
+/// Section 4.5: adds to all lengths the least amount that leaves every triangle inequality a slack of `delta`.
+/// Returns that amount.
+double mollify(IntrinsicTriangulation& cover, double delta, const Workers& workers);
+
+struct FlipCounts {
+  std::int64_t flips = 0;
+  std::int64_t failures = 0;  ///< edges given up after 100 flips
+};
+
+/// Algorithm 2: flips edges until all are intrinsic Delaunay.
+FlipCounts flipToDelaunay(IntrinsicTriangulation& cover, const Workers& workers);
+
+}  // namespace tufted

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+#include "tufted/intrinsic_triangulation.h"
+
+namespace tufted {
+
+/// Slack of the triangle inequality, shortest + middle - longest, in an order that loses nothing to rounding.
+inline double triangleSlack(double a, double b, double c) {
+  if (a < b) std::swap(a, b);
+  if (b < c) std::swap(b, c);
+  if (a < b) std::swap(a, b);
+  return c - (a - b);
+}
+
+/// Heron's formula after Kahan, accurate for needles; 0 where the lengths fail the triangle inequality.
+inline double triangleArea(double a, double b, double c) {
+  if (a < b) std::swap(a, b);
+  if (b < c) std::swap(b, c);
+  if (a < b) std::swap(a, b);
+  const double square = (a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c));
+  return square > 0 ? 0.25 * std::sqrt(square) : 0;
+}
+
+/// b^2 + c^2 - a^2; negative exactly where the angle opposite a is obtuse.
+inline double cotanNumerator(double a, double b, double c) { return b * b + (c - a) * (c + a); }
+
+/// Cotangent of the angle opposite `side` in its face. Infinite or NaN in a face of no area.
+inline double oppositeCotan(const IntrinsicTriangulation& t, int side) {
+  const double a = t.length[side], b = t.length[nextSide(side)], c = t.length[previousSide(side)];
+  return cotanNumerator(a, b, c) / (4 * triangleArea(a, b, c));
+}
+
+inline double faceArea(const IntrinsicTriangulation& t, int face) {
+  return triangleArea(t.length[3 * face], t.length[3 * face + 1], t.length[3 * face + 2]);
+}
+
+/// First and last corner of a side.
+inline int tail(const IntrinsicTriangulation& t, int side) { return t.faces[side / 3][side % 3]; }
+inline int head(const IntrinsicTriangulation& t, int side) { return t.faces[side / 3][nextSide(side) % 3]; }
+
+}  // namespace tufted

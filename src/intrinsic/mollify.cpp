@@ -1,0 +1,32 @@
+#include <algorithm>
+#include <vector>
+
+#include "intrinsic/cover.h"
+#include "intrinsic/geometry.h"
+
+namespace tufted {
+namespace {
+
+constexpr std::int64_t kBlock = 16384;
+
+}  // namespace
+
+double mollify(IntrinsicTriangulation& cover, double delta, const Workers& workers) {
+  const std::int64_t triangles = cover.size() / 2;
+  std::vector<double> missing((triangles + kBlock - 1) / kBlock);
+  workers.forBlocks("mollify", triangles, kBlock, [&](std::int64_t begin, std::int64_t end, int) {
+    double most = 0;
+    for (std::int64_t t = begin; t < end; ++t) {  // front and back have the same lengths
+      const double* length = cover.length.data() + 6 * t;
+      most = std::max(most, delta - triangleSlack(length[0], length[1], length[2]));
+    }
+    missing[begin / kBlock] = most;
+  });
+  const double added = missing.empty() ? 0 : *std::max_element(missing.begin(), missing.end());
+  if (added > 0) {
+    for (double& length : cover.length) length += added;
+  }
+  return added;
+}
+
+}  // namespace tufted

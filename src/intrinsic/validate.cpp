@@ -1,0 +1,39 @@
+#include <algorithm>
+#include <cmath>
+
+#include "intrinsic/geometry.h"
+#include "tufted/intrinsic_triangulation.h"
+
+namespace tufted {
+
+CoverCheck validate(const IntrinsicTriangulation& cover, double delaunay_tolerance) {
+  CoverCheck check;
+  const int sides = static_cast<int>(3 * cover.size());
+  if (static_cast<int>(cover.glue.size()) != sides || static_cast<int>(cover.length.size()) != sides) {
+    check.not_closed = std::max(1, sides);
+    return check;
+  }
+  for (int side = 0; side < sides; ++side) {
+    const int mate = cover.glue[side];
+    if (mate < 0 || mate >= sides) {
+      ++check.not_closed;
+      continue;
+    }
+    if (mate == side || cover.glue[mate] != side) ++check.not_edge_manifold;
+    if (tail(cover, side) != head(cover, mate) || head(cover, side) != tail(cover, mate)) ++check.not_oriented;
+    if (cover.length[side] != cover.length[mate]) ++check.unequal_lengths;
+    if (side < mate && side / 3 != mate / 3) {
+      const double sum = oppositeCotan(cover, side) + oppositeCotan(cover, mate);
+      check.smallest_cotan_sum = std::min(check.smallest_cotan_sum, sum);
+      if (sum < -delaunay_tolerance) ++check.not_delaunay;
+    }
+  }
+  for (int side = 0; side < sides; side += 3) {
+    const double a = cover.length[side], b = cover.length[side + 1], c = cover.length[side + 2];
+    // Lengths are rounded, so a face flat to the last bits may miss by as much.
+    if (!(triangleSlack(a, b, c) >= -4e-16 * (a + b + c))) ++check.triangle_inequality;
+  }
+  return check;
+}
+
+}  // namespace tufted

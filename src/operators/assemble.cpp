@@ -1,0 +1,215 @@
+#include "operators/assemble.h"
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "intrinsic/geometry.h"
+
+namespace tufted {
+namespace {
+
+constexpr std::int64_t kBlock = 8192;
+constexpr double kRounding = 1e-9;  // of the larger diagonal
+
+struct Entry {
+  int column;
+  double weight;
+};
+
+/// Rows of entries, one after the other.
+struct Rows {
+  std::vector<int> offset;
+  std::vector<Entry> entries;
+};
+
+/// The weight of an edge, 1/2 (cot + cot). A face of no area has no cotangents and adds nothing.
+double edgeWeight(const IntrinsicTriangulation& cover, int side) {
+  const double here = oppositeCotan(cover, side), there = oppositeCotan(cover, cover.glue[side]);
+  return ((std::isfinite(here) ? here : 0) + (std::isfinite(there) ? there : 0)) / 2;
+}
+
+/// Sides, one per edge, filed under the smaller vertex; edges from a vertex to itself are left out.
+std::pair<std::vector<int>, std::vector<int>> sidesByVertex(const IntrinsicTriangulation& cover) {
+  const int sides = static_cast<int>(3 * cover.size());
+  const auto counts = [&](int side) { return side < cover.glue[side] && tail(cover, side) != head(cover, side); };
+  const auto owner = [&](int side) { return std::min(tail(cover, side), head(cover, side)); };
+  std::vector<int> offset(static_cast<std::size_t>(cover.vertices) + 1);
+  for (int side = 0; side < sides; ++side) {
+    if (counts(side)) ++offset[owner(side) + 1];
+  }
+  std::partial_sum(offset.begin(), offset.end(), offset.begin());
+  std::vector<int> list(offset.back());
+  std::vector<int> fill(offset.begin(), offset.end() - 1);
+  for (int side = 0; side < sides; ++side) {
+    if (counts(side)) list[fill[owner(side)]++] = side;
+  }
+  return {std::move(offset), std::move(list)};
+}
+
+/// The upper triangle: for each vertex the summed weights of its edges to larger vertices, ascending.
+Rows sumWeights(const IntrinsicTriangulation& cover, double scale, const Workers& workers) {
+  const auto [first, sides] = sidesByVertex(cover);
+  Rows upper;
+  upper.offset.assign(first.size(), 0);
+  std::vector<std::vector<Entry>> parts((cover.vertices + kBlock - 1) / kBlock);
+  workers.forBlocks("assemble", cover.vertices, kBlock, [&](std::int64_t begin, std::int64_t end, int) {
+    std::vector<Entry>& part = parts[begin / kBlock];
+    std::vector<Entry> row;
+    for (int v = static_cast<int>(begin); v < end; ++v) {
+      row.clear();
+      for (int i = first[v]; i < first[v + 1]; ++i) {
+        const int side = sides[i];
+        row.push_back({std::max(tail(cover, side), head(cover, side)), scale * edgeWeight(cover, side)});
+      }
+      // Stable, so that equal columns are summed in the order of their sides.
+      std::stable_sort(row.begin(), row.end(), [](const Entry& a, const Entry& b) { return a.column < b.column; });
+      const std::size_t start = part.size();
+      for (const Entry& entry : row) {
+        if (part.size() > start && part.back().column == entry.column) {
+          part.back().weight += entry.weight;
+        } else {
+          part.push_back(entry);
+        }
+      }
+      upper.offset[v + 1] = static_cast<int>(part.size() - start);
+    }
+  });
+  std::partial_sum(upper.offset.begin(), upper.offset.end(), upper.offset.begin());
+  upper.entries.reserve(upper.offset.back());
+  for (auto& part : parts) {
+    upper.entries.insert(upper.entries.end(), part.begin(), part.end());
+    part = {};
+  }
+  return upper;
+}
+
+/// Minus the row sums, in ascending order of both halves.
+std::vector<double> sumDiagonal(const Rows& upper) {
+  const int n = static_cast<int>(upper.offset.size()) - 1;
+  std::vector<double> diagonal(n);
+  for (int v = 0; v < n; ++v) {  // when row v comes, all smaller vertices have added theirs
+    for (int i = upper.offset[v]; i < upper.offset[v + 1]; ++i) {
+      diagonal[v] += upper.entries[i].weight;
+      diagonal[upper.entries[i].column] += upper.entries[i].weight;
+    }
+  }
+  return diagonal;
+}
+
+void clampNegative(Rows& upper, const std::vector<double>& diagonal, Report& report) {
+  const int n = static_cast<int>(diagonal.size());
+  for (int v = 0; v < n; ++v) {
+    for (int i = upper.offset[v]; i < upper.offset[v + 1]; ++i) {
+      Entry& entry = upper.entries[i];
+      if (entry.weight >= 0) continue;
+      const double larger = std::max(diagonal[v], diagonal[entry.column]);
+      const double relative = larger > 0 ? -entry.weight / larger : INFINITY;
+      ++(relative <= kRounding ? report.clamped_weights : report.clamped_large);
+      report.largest_clamped = std::max(report.largest_clamped, relative);
+      entry.weight = 0;
+    }
+  }
+}
+
+/// Both halves and the diagonal as compressed columns in the caller's numbering. Zero weights are not stored.
+SparseMatrix toCallerOrder(const Rows& upper, const std::vector<double>& diagonal, const std::vector<int>& caller,
+                           int size) {
+  const int n = static_cast<int>(diagonal.size());
+  SparseMatrix L(size, size);
+  std::vector<int> fill(static_cast<std::size_t>(size) + 1);
+  const auto forEachEntry = [&](auto visit) {  // visit(column, row, value), both halves
+    for (int v = 0; v < n; ++v) {
+      if (diagonal[v] > 0) visit(caller[v], caller[v], diagonal[v]);
+      for (int i = upper.offset[v]; i < upper.offset[v + 1]; ++i) {
+        const auto [column, weight] = upper.entries[i];
+        if (weight == 0) continue;
+        visit(caller[v], caller[column], -weight);
+        visit(caller[column], caller[v], -weight);
+      }
+    }
+  };
+  forEachEntry([&](int column, int, double) { ++fill[column + 1]; });
+  std::partial_sum(fill.begin(), fill.end(), fill.begin());
+  L.resizeNonZeros(fill.back());
+  std::copy(fill.begin(), fill.end(), L.outerIndexPtr());
+  forEachEntry([&](int column, int row, double value) {
+    const int place = fill[column]++;
+    L.innerIndexPtr()[place] = row;
+    L.valuePtr()[place] = value;
+  });
+  return L;
+}
+
+/// Sorts the rows within each column.
+void sortColumns(SparseMatrix& L, const Workers& workers) {
+  workers.forBlocks("assemble", L.cols(), kBlock, [&](std::int64_t begin, std::int64_t end, int) {
+    std::vector<std::pair<int, double>> column;
+    for (std::int64_t j = begin; j < end; ++j) {
+      column.clear();
+      const int first = L.outerIndexPtr()[j], last = L.outerIndexPtr()[j + 1];
+      for (int i = first; i < last; ++i) column.emplace_back(L.innerIndexPtr()[i], L.valuePtr()[i]);
+      std::sort(column.begin(), column.end());
+      for (int i = first; i < last; ++i) {
+        L.innerIndexPtr()[i] = column[i - first].first;
+        L.valuePtr()[i] = column[i - first].second;
+      }
+    }
+  });
+}
+
+/// A third of each face's area to each corner (Section 3.3), summed in the order of the faces.
+VectorXd lumpAreas(const IntrinsicTriangulation& cover, const std::vector<int>& caller, int size, double scale,
+                   Report& report) {
+  VectorXd M = VectorXd::Zero(size);
+  for (int f = 0; f < cover.size(); ++f) {
+    const double area = faceArea(cover, f);
+    report.degenerate_faces += area > 0 ? 0 : 1;
+    for (const int corner : cover.faces[f]) M[caller[corner]] += scale * area / 3;
+  }
+  return M;
+}
+
+}  // namespace
+
+Matrices assembleLaplacian(const IntrinsicTriangulation& cover, const std::vector<int>& caller, int size, double scale,
+                           const Workers& workers, Report& report) {
+  Rows upper = sumWeights(cover, scale, workers);
+  clampNegative(upper, sumDiagonal(upper), report);
+  Matrices matrices;
+  matrices.L = toCallerOrder(upper, sumDiagonal(upper), caller, size);
+  upper = {};
+  sortColumns(matrices.L, workers);
+  matrices.M = lumpAreas(cover, caller, size, scale, report);
+  for (int i = 0; i < size; ++i) {  // no row, no mass: the point takes no part
+    if (matrices.L.outerIndexPtr()[i] == matrices.L.outerIndexPtr()[i + 1]) matrices.M[i] = 0;
+  }
+  report.nonzeros = matrices.L.nonZeros();
+  report.components = countComponents(matrices.L);
+  return matrices;
+}
+
+std::int64_t countComponents(const SparseMatrix& L) {
+  std::vector<int> parent(L.cols());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&](int v) {
+    while (parent[v] != v) v = parent[v] = parent[parent[v]];
+    return v;
+  };
+  std::int64_t components = 0;
+  for (int j = 0; j < L.cols(); ++j) {
+    const int first = L.outerIndexPtr()[j], last = L.outerIndexPtr()[j + 1];
+    components += first < last ? 1 : 0;
+    for (int i = first; i < last && L.innerIndexPtr()[i] < j; ++i) {
+      const int a = root(L.innerIndexPtr()[i]), b = root(j);
+      if (a == b) continue;
+      parent[std::max(a, b)] = std::min(a, b);
+      --components;
+    }
+  }
+  return components;
+}
+
+}  // namespace tufted

@@ -1,0 +1,82 @@
+#include <algorithm>
+#include <numeric>
+
+#include "base/scaling.h"
+#include "operators/pipeline.h"
+
+namespace tufted {
+namespace {
+
+constexpr const char* kName = "meshLaplacian";
+
+/// Indices of the triangles that can be used; the others are counted.
+std::vector<int> usableTriangles(const Points& points, const Triangles& triangles,
+                                 const std::vector<PointStatus>& status, Report& report) {
+  std::vector<int> usable;
+  usable.reserve(static_cast<std::size_t>(triangles.rows()));
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+    const int i = triangles(t, 0), j = triangles(t, 1), k = triangles(t, 2);
+    for (const int v : {i, j, k}) {
+      if (v < 0 || v >= points.rows()) {
+        throw InvalidInput(std::string(kName) + ": triangle " + std::to_string(t) + " names vertex " +
+                           std::to_string(v) + ", must lie in [0, " + std::to_string(points.rows()) + ")");
+      }
+    }
+    const auto isOdd = [&](int v) { return status[v] == PointStatus::not_finite; };
+    if (i == j || j == k || k == i) {
+      ++report.repeated_vertex_triangles;
+    } else if (isOdd(i) || isOdd(j) || isOdd(k)) {
+      ++report.not_finite_triangles;
+    } else {
+      usable.push_back(static_cast<int>(t));
+    }
+  }
+  return usable;
+}
+
+}  // namespace
+
+Laplacian meshLaplacian(const Points& points, const Triangles& triangles, const MeshOptions& options) {
+  checkCommon(kName, options);
+  if (points.rows() > INT32_MAX || triangles.rows() > kMostTriangles) {
+    throw InvalidInput(std::string(kName) + ": " + std::to_string(triangles.rows()) + " triangles, must be at most " +
+                       std::to_string(kMostTriangles));
+  }
+  const Workers workers(options.threads, options.progress);
+  Laplacian result;
+  Report& report = result.report;
+  StageClock clock(report);
+  const int n = static_cast<int>(points.rows());
+  report.points = n;
+  report.threads = workers.count();
+
+  workers.report("scale", 0);
+  const Scaling scaling = measureScaling(points, result.status);
+  Points scaled(n, 3);
+  for (int i = 0; i < n; ++i) {
+    for (int axis = 0; axis < 3; ++axis) scaled(i, axis) = scaling.scaled(points(i, axis));
+  }
+  result.representative.resize(n);
+  std::iota(result.representative.begin(), result.representative.end(), 0);
+  result.boundary.assign(n, 0);
+  const std::vector<int> usable = usableTriangles(points, triangles, result.status, report);
+  clock.finish("scale", static_cast<std::size_t>(n) * 3 * sizeof(double) + bytesOf(usable));
+
+  auto cover = std::make_shared<IntrinsicTriangulation>();
+  resizeCover(*cover, n, static_cast<std::int64_t>(usable.size()));
+  for (std::size_t t = 0; t < usable.size(); ++t) {
+    const auto corner = triangles.row(usable[t]);
+    addTriangle(*cover, static_cast<int>(t), corner[0], corner[1], corner[2]);
+  }
+  const EdgeCounts edges = glueEdges(*cover, scaled, {options.order, options.seed}, workers, &result.boundary);
+  report.boundary_edges = edges.boundary;
+  report.nonmanifold_edges = edges.nonmanifold;
+  clock.finish("cover", bytesOf(*cover));
+
+  std::vector<int> caller(n);
+  std::iota(caller.begin(), caller.end(), 0);
+  finishLaplacian(std::move(cover), scaled, caller, scaling.exponent, 1.0 / 2, options, workers, clock, result);
+  return result;
+}
+
+}  // namespace tufted

@@ -1,0 +1,85 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/parallel.h"
+#include "base/stage_clock.h"
+#include "intrinsic/cover.h"
+#include "operators/assemble.h"
+#include "tufted/errors.h"
+#include "tufted/laplacian.h"
+
+namespace tufted {
+
+// What the cloud and the mesh pipeline have in common.
+
+inline std::size_t bytesOf(const IntrinsicTriangulation& cover) {
+  return bytesOf(cover.faces) + bytesOf(cover.glue) + bytesOf(cover.length);
+}
+
+/// @throws InvalidInput for options that both entry points share
+template <class Options>
+void checkCommon(const char* function, const Options& options) {
+  const std::string name = function;
+  if (!(options.mollify >= 0 && std::isfinite(options.mollify))) {
+    throw InvalidInput(name + ": mollify = " + std::to_string(options.mollify) + ", must be finite and >= 0");
+  }
+  if (options.threads < 0) {
+    throw InvalidInput(name + ": threads = " + std::to_string(options.threads) + ", must be >= 0");
+  }
+}
+
+/// Algorithm 3 from the glued cover on: lengths, mollification, flips, matrices, and the cover in the caller's
+/// numbering and unit.
+/// @param points by vertex of the cover, in units of 2^exponent of the caller's
+/// @param caller the caller's index of each vertex
+/// @param scale 1/2 for the two sheets, times 1/3 where every triangle comes thrice
+template <class Options>
+void finishLaplacian(std::shared_ptr<IntrinsicTriangulation> cover, const Points& points,
+                     const std::vector<int>& caller, int exponent, double scale, const Options& options,
+                     const Workers& workers, StageClock& clock, Laplacian& result) {
+  Report& report = result.report;
+  const double mean_edge = measureLengths(*cover, points, workers);
+  const double added = mollify(*cover, options.mollify * mean_edge, workers);
+  clock.finish("lengths", 0);
+
+  const FlipCounts flips = flipToDelaunay(*cover, workers);
+  clock.finish("flips", bytesOf(*cover));
+
+  Matrices matrices = assembleLaplacian(*cover, caller, static_cast<int>(result.status.size()), scale, workers, report);
+  result.L = std::move(matrices.L);
+  result.M = std::move(matrices.M);
+
+  // Back from units of 2^exponent, which is exact.
+  for (double& mass : result.M) mass = std::ldexp(mass, 2 * exponent);
+  for (std::size_t i = 0; i < result.status.size(); ++i) {
+    const bool has_row = result.L.outerIndexPtr()[i] != result.L.outerIndexPtr()[i + 1];
+    if (result.status[i] == PointStatus::active && !has_row) result.status[i] = PointStatus::isolated;
+    report.active += result.status[i] == PointStatus::active ? 1 : 0;
+    report.not_finite += result.status[i] == PointStatus::not_finite ? 1 : 0;
+    report.coincident += result.status[i] == PointStatus::coincident ? 1 : 0;
+    report.isolated += result.status[i] == PointStatus::isolated ? 1 : 0;
+  }
+  report.triangles = cover->size() / 2;
+  report.mean_edge = std::ldexp(mean_edge, exponent);
+  report.mollify_length = std::ldexp(added, exponent);
+  report.flips = flips.flips;
+  report.flip_failures = flips.failures;
+  if (options.keep_cover) {
+    cover->vertices = static_cast<int>(result.status.size());
+    for (auto& face : cover->faces) {
+      for (int& corner : face) corner = caller[corner];
+    }
+    for (double& length : cover->length) length = std::ldexp(length, exponent);
+    result.stored_cover = std::move(cover);
+  }
+  clock.finish("matrices", static_cast<std::size_t>(result.L.nonZeros()) * (sizeof(double) + sizeof(int)) +
+                               result.status.size() * (sizeof(int) + sizeof(double)));
+  workers.report("done", 1);
+}
+
+}  // namespace tufted

@@ -1,0 +1,159 @@
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <numeric>
+#include <optional>
+
+#include "cloud/morton.h"
+#include "cloud/neighbors.h"
+#include "cloud/star_filter.h"
+#include "cloud/stars.h"
+#include "cloud/tangent_frame.h"
+#include "operators/pipeline.h"
+
+namespace tufted {
+namespace {
+
+constexpr std::int64_t kBlock = 4096;
+constexpr const char* kName = "pointCloudLaplacian";
+
+void checkOptions(const Points& points, const CloudOptions& options) {
+  const std::string name = kName;
+  checkCommon(kName, options);
+  if (options.neighbors < 3) {
+    throw InvalidInput(name + ": neighbors = " + std::to_string(options.neighbors) + ", must be at least 3");
+  }
+  const auto checkRows = [&](const char* what, Eigen::Index rows) {
+    if (rows != points.rows()) {
+      throw InvalidInput(name + ": " + what + " has " + std::to_string(rows) + " rows, must have " +
+                         std::to_string(points.rows()) + ", one per point");
+    }
+  };
+  if (options.normals != nullptr) checkRows("normals", options.normals->rows());
+  if (options.neighborhoods != nullptr) checkRows("neighborhoods", options.neighborhoods->rows());
+#ifndef TUFTED_WITH_GPL
+  if (options.delaunay == Delaunay::cgal) {
+    throw InvalidInput(name + ": delaunay = cgal, must be star: this library was built without TUFTED_WITH_GPL");
+  }
+#endif
+}
+
+[[noreturn]] void tooMany(std::int64_t points, std::int64_t triangles) {
+  throw InvalidInput(std::string(kName) + ": " + std::to_string(points) + " points in stars of " +
+                     std::to_string(triangles) + " triangles, must be at most " + std::to_string(kMostTriangles) +
+                     " triangles (about 59 million points)");
+}
+
+/// The union of all stars, front and back of every copy of a triangle. With `Gluing::star` the two faces of a star that
+/// share a spoke are glued to each other here, front to front and back to back.
+void addStars(const Stars& stars, Gluing gluing, IntrinsicTriangulation& cover, const Workers& workers) {
+  const int n = stars.size();
+  std::vector<std::int64_t> first(static_cast<std::size_t>(n) + 1);
+  for (int p = 0; p < n; ++p) {
+    const auto begin = stars.radius.begin() + stars.offset[p], end = stars.radius.begin() + stars.offset[p + 1];
+    first[p + 1] = first[p] + std::count_if(begin, end, [](double radius) { return radius != kNoTriangle; });
+  }
+  if (first[n] > kMostTriangles) tooMany(n, first[n]);
+  resizeCover(cover, n, first[n]);
+  workers.forBlocks("union", n, kBlock, [&](std::int64_t begin, std::int64_t end, int) {
+    for (int p = static_cast<int>(begin); p < end; ++p) {
+      int t = static_cast<int>(first[p]);
+      int previous = -1;      // triangle before link vertex i, if there is one
+      int first_entry = -1;   // triangle after the first link vertex
+      for (int i = stars.offset[p]; i < stars.offset[p + 1]; ++i) {
+        const bool has = stars.hasTriangle(i);
+        if (has) addTriangle(cover, t, p, stars.link[i], stars.link[stars.after(p, i)]);
+        if (i == stars.offset[p] && has) first_entry = t;
+        // Triangle (p, a, v) ends on the spoke v p with side 2, triangle (p, v, b) begins on it with side 0.
+        const auto glueSpoke = [&](int before, int after) {
+          glueSides(cover, frontSide(before, 2), frontSide(after, 0));
+          glueSides(cover, backSide(before, 2), backSide(after, 0));
+        };
+        if (gluing == Gluing::star && has && previous >= 0) glueSpoke(previous, t);
+        previous = has ? t++ : -1;
+        const bool is_last = i + 1 == stars.offset[p + 1];
+        if (gluing == Gluing::star && is_last && previous >= 0 && first_entry >= 0) glueSpoke(previous, first_entry);
+      }
+    }
+  });
+}
+
+/// Boundary tags and frames in the caller's order; coincident points take their representative's.
+void describePoints(const Stars& stars, const RankedCloud& cloud, Laplacian& result) {
+  const auto n = static_cast<Eigen::Index>(result.status.size());
+  result.boundary.assign(result.status.size(), 0);
+  result.frames.normals.setZero(n, 3);
+  result.frames.tangents.setZero(n, 3);
+  for (int p = 0; p < stars.size(); ++p) {
+    const int i = cloud.caller[p];
+    result.boundary[i] = stars.ends[p];
+    result.frames.normals.row(i) = stars.normals.row(p);
+    result.frames.tangents.row(i) = tangentOf(stars.normals.row(p));
+  }
+  for (Eigen::Index i = 0; i < n; ++i) {
+    if (result.status[i] != PointStatus::coincident) continue;
+    const int same = result.representative[i];
+    result.boundary[i] = result.boundary[same];
+    result.frames.normals.row(i) = result.frames.normals.row(same);
+    result.frames.tangents.row(i) = result.frames.tangents.row(same);
+  }
+}
+
+}  // namespace
+
+Laplacian pointCloudLaplacian(const Points& points, const CloudOptions& options) {
+  checkOptions(points, options);
+  if (points.rows() > INT32_MAX) tooMany(points.rows(), 6 * points.rows());
+  const Workers workers(options.threads, options.progress);
+  Laplacian result;
+  Report& report = result.report;
+  StageClock clock(report);
+  report.points = points.rows();
+  report.threads = workers.count();
+
+  workers.report("order", 0);
+  const RankedCloud cloud = rankPoints(points, result.status, result.representative);
+  clock.finish("order", static_cast<std::size_t>(cloud.size()) * (3 * sizeof(double) + sizeof(int)));
+
+  NeighborSource source;
+  source.k = std::min(options.neighbors, std::max(0, cloud.size() - 1));
+  if (options.normals != nullptr) takeNormals(*options.normals, cloud, source, report);
+  std::optional<NeighborSearch> search;
+  if (options.neighborhoods != nullptr) {
+    source.k = 0;
+    takeNeighborhoods(*options.neighborhoods, cloud, result.status, result.representative, source, report);
+  } else {
+    workers.report("tree", 0);
+    search.emplace(cloud.points);
+    source.search = &*search;
+    report.neighbors_clamped = source.k < options.neighbors;
+  }
+  report.neighbors = source.k;
+  clock.finish("tree", search ? search->bytes() : bytesOf(source.list) + bytesOf(source.list_offset));
+
+  Stars stars = buildStars(cloud, source, options.delaunay, workers, report);
+  search.reset();
+  clock.restart();  // buildStars books its own stages
+  filterStars(stars, source.k, workers, report);
+  countVotes(stars, workers, report);
+  describePoints(stars, cloud, result);
+  clock.finish("filter", 0);
+
+  auto cover = std::make_shared<IntrinsicTriangulation>();
+  addStars(stars, options.gluing, *cover, workers);
+  stars = {};
+  const EdgeCounts edges = glueEdges(*cover, cloud.points, {options.order, options.seed}, workers);
+  report.boundary_edges = edges.boundary;
+  report.nonmanifold_edges = edges.nonmanifold;
+  clock.finish("cover", bytesOf(*cover));
+
+  finishLaplacian(std::move(cover), cloud.points, cloud.caller, cloud.exponent, 1.0 / 2 / 3, options, workers, clock,
+                  result);
+  return result;
+}
+
+const IntrinsicTriangulation& Laplacian::cover() const {
+  if (!stored_cover) throw InvalidInput("Laplacian::cover: keep_cover = false, must be true to ask for the cover");
+  return *stored_cover;
+}
+
+}  // namespace tufted
