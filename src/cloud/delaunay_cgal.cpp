@@ -23,8 +23,9 @@ void delaunayStarCgal(const std::vector<PlanarPoint>& candidates, int p, StarScr
   center->info() = nullptr;
   for (const PlanarPoint& q : candidates) {
     if (q.u == 0 && q.v == 0) continue;
+    const auto before = triangulation.number_of_vertices();
     const auto vertex = triangulation.insert(Kernel::Point_2(q.u, q.v));
-    if (vertex->info() == nullptr) vertex->info() = &q;  // the first of equal places stays
+    if (triangulation.number_of_vertices() > before) vertex->info() = &q;  // the first of equal places stays
   }
 
   // CGAL cuts cocircular polygons as it likes. So p's star is handed over together with every vertex that is
@@ -52,6 +53,7 @@ void delaunayStarCgal(const std::vector<PlanarPoint>& candidates, int p, StarScr
       const PlanarPoint& a = *inner->vertex(Triangulation::ccw(edge))->info();
       const PlanarPoint& c = *inner->vertex(Triangulation::cw(edge))->info();
       const int opposite = outer->index(inner);
+      if (outer->vertex(opposite) == center) continue;  // back in the star, through another link edge
       const PlanarPoint& b = *outer->vertex(opposite)->info();
       if (orientation(a, b) <= 0 || orientation(b, c) <= 0 || sideOfCircle(a, b, c) != CircleSide::tie) continue;
       scratch.chosen.push_back(b);

@@ -9,7 +9,8 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-constexpr double kTieAngle = 1e-9;
+constexpr double kTieAngle = 1e-9;  // rad
+constexpr double kFlatSine = 1e-6;
 
 Kernel::Point_2 toCgal(const PlanarPoint& p) { return {p.u, p.v}; }
 
@@ -38,15 +39,20 @@ CircleSide sideOfCircle(const PlanarPoint& a, const PlanarPoint& b, const Planar
   const double cosine = dot_p * dot_b - cross_p * cross_b;
   const double sides = dot(a.u, a.v, a.u, a.v) * dot(c.u, c.v, c.u, c.v) * dot(abu, abv, abu, abv) *
                        dot(cbu, cbv, cbu, cbv);
-  if (!(sides > 1e-280 && sides < 1e280)) {
-    switch (CGAL::side_of_oriented_circle(Kernel::Point_2(0, 0), toCgal(a), toCgal(b), toCgal(c))) {
-      case CGAL::ON_POSITIVE_SIDE: return CircleSide::inside;
-      case CGAL::ON_NEGATIVE_SIDE: return CircleSide::outside;
-      default: return CircleSide::tie;
-    }
+  const bool in_range = sides > 1e-280 && sides < 1e280;
+  if (in_range && sine * sine > kTieAngle * kTieAngle * sides) {
+    return sine > 0 ? CircleSide::inside : CircleSide::outside;
   }
-  if (cosine < 0 && sine * sine <= kTieAngle * kTieAngle * sides) return CircleSide::tie;
-  return sine > 0 ? CircleSide::inside : CircleSide::outside;
+  // Within the band the sum is near 0, pi or 2 pi. Near pi it is a tie, unless all four points are nearly collinear:
+  // such a quadrilateral has no two diagonals to choose from.
+  const double cross_a = cross(-a.u, -a.v, -abu, -abv);
+  const double sides_a = dot(a.u, a.v, a.u, a.v) * dot(abu, abv, abu, abv);
+  if (in_range && cosine < 0 && cross_a * cross_a > kFlatSine * kFlatSine * sides_a) return CircleSide::tie;
+  switch (CGAL::side_of_oriented_circle(Kernel::Point_2(0, 0), toCgal(a), toCgal(b), toCgal(c))) {
+    case CGAL::ON_POSITIVE_SIDE: return CircleSide::inside;
+    case CGAL::ON_NEGATIVE_SIDE: return CircleSide::outside;
+    default: return CircleSide::tie;
+  }
 }
 
 }  // namespace tufted

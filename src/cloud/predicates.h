@@ -15,8 +15,9 @@ int orientation(const PlanarPoint& a, const PlanarPoint& b);
 enum class CircleSide { outside, tie, inside };
 
 /// In-circle test with a tie band: `tie` when the angles at the origin and at b of the quadrilateral (origin, a, b, c)
-/// sum to pi within 1e-9 rad. The rounding of the double test is a million times narrower than the band, so its sign
-/// is right outside of it; where products may underflow, CGAL's exact predicate decides.
+/// sum to pi within 1e-9 rad. The rounding of the double test is a million times narrower than the band, so its sign is
+/// right outside of it. Where all four points are nearly collinear, or products may underflow, CGAL's exact predicate
+/// decides, and only its zero is a tie.
 CircleSide sideOfCircle(const PlanarPoint& a, const PlanarPoint& b, const PlanarPoint& c);
 
 }  // namespace tufted

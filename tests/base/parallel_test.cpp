@@ -1,0 +1,45 @@
+#include "base/parallel.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <vector>
+
+#include "tufted/errors.h"
+
+namespace tufted {
+namespace {
+
+TEST(Workers, VisitEveryItemOnce) {
+  const Progress silent;
+  for (const int threads : {1, 2, 5}) {
+    for (const int size : {0, 1, 99, 100, 101}) {
+      std::vector<std::atomic<int>> visits(size);
+      Workers(threads, silent).forBlocks("", size, 10, [&](std::int64_t begin, std::int64_t end, int worker) {
+        EXPECT_LT(worker, threads);
+        for (std::int64_t i = begin; i < end; ++i) ++visits[i];
+      });
+      for (const auto& count : visits) EXPECT_EQ(count, 1);
+    }
+  }
+}
+
+TEST(Workers, PassOnTheFirstException) {
+  const Progress silent;
+  for (const int threads : {1, 3}) {
+    EXPECT_THROW(Workers(threads, silent).forBlocks("", 1000, 1, [](std::int64_t, std::int64_t, int) {
+      throw InvalidInput("stop");
+    }), InvalidInput);
+  }
+}
+
+TEST(Workers, StopSoonAfterTheCallerSaysSo) {
+  std::atomic<int> blocks{0};
+  const Progress stop = [](std::string_view, double fraction) { return fraction < 0.1; };
+  EXPECT_THROW(
+      Workers(2, stop).forBlocks("", 1000, 1, [&](std::int64_t, std::int64_t, int) { ++blocks; }), Cancelled);
+  EXPECT_LT(blocks, 1000);
+}
+
+}  // namespace
+}  // namespace tufted

@@ -1,0 +1,96 @@
+// Our stars against CGAL's Delaunay triangulation of the same projected doubles.
+#include "cloud/delaunay_star.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+
+#include "cloud/morton.h"
+#include "cloud/neighbors.h"
+#include "support/compare_stars.h"
+#include "cloud/tangent_frame.h"
+#include "oracles/oracles.h"
+#include "shapes/random.h"
+#include "shapes/shapes.h"
+
+namespace tufted {
+namespace {
+
+void expectStarsOfCloud(const std::string& name, const Points& points) {
+  const support::StarComparison comparison = support::compareStars(points, 1);
+  EXPECT_EQ(comparison.different, 0) << name << ": " << comparison.first_difference;
+  EXPECT_GT(comparison.stars, 0) << name;
+}
+
+TEST(DelaunayStar, EqualsCgalOnEveryPointOfEveryGeneratedCloud) {
+  for (const auto& cloud : shapes::allClouds(1500)) expectStarsOfCloud(cloud.name, cloud.points);
+}
+
+TEST(DelaunayStar, OfALatticeTakesTheDiagonalOfTheSmallestIndex) {
+  // The unit square around its corner p = 0 or with p as the largest index.
+  const std::vector<PlanarPoint> square = {{1, 0, 1}, {0, 1, 2}, {1, 1, 3}};
+  StarScratch scratch;
+  DelaunayStar star;
+  delaunayStar(square, 0, scratch, star);
+  EXPECT_EQ(star.triangles(), 2);  // the diagonal starts at 0
+  std::vector<PlanarPoint> shifted = square;
+  for (PlanarPoint& q : shifted) --q.index;  // now 0, 1, 2 and p = 3
+  delaunayStar(shifted, 3, scratch, star);
+  EXPECT_EQ(star.triangles(), 1);  // the diagonal joins 0 and 1
+}
+
+TEST(DelaunayStar, HasNoTriangleAmongCollinearPoints) {
+  StarScratch scratch;
+  DelaunayStar star;
+  for (const double slope : {0.0, 1.0, 0.375}) {
+    std::vector<PlanarPoint> line;
+    for (int i = -5; i <= 5; ++i) line.push_back({double(i), slope * i, i + 5});
+    delaunayStar(line, 20, scratch, star);
+    EXPECT_EQ(star.triangles(), 0);
+    EXPECT_FALSE(star.closed);
+  }
+}
+
+TEST(DelaunayStar, DropsWhatHasNoDirectionAndKeepsTheNearestInEach) {
+  StarScratch scratch;
+  DelaunayStar star;
+  const std::vector<PlanarPoint> points = {{0, 0, 1}, {2, 0, 2}, {1, 0, 3}, {0, 1, 4}, {-1, 0, 5}, {0, -1, 6}, {1, 0, 7}};
+  delaunayStar(points, 0, scratch, star);
+  ASSERT_EQ(star.link.size(), 4U);
+  EXPECT_EQ(star.link[0].index, 3);  // not 7, which projects to the same place but is further away in space
+  EXPECT_TRUE(star.closed);
+}
+
+TEST(DelaunayStar, IsRightForPointsOnTinyAndHugeScales) {
+  shapes::Random random(4);
+  StarScratch scratch;
+  DelaunayStar star, scaled_star;
+  for (const int exponent : {-300, -150, 150, 300}) {
+    std::vector<PlanarPoint> points, scaled;
+    for (int i = 0; i < 30; ++i) points.push_back({random.uniform(-1, 1), random.uniform(-1, 1), i});
+    for (const auto& q : points) scaled.push_back({std::ldexp(q.u, exponent), std::ldexp(q.v, exponent), q.index});
+    delaunayStar(points, 99, scratch, star);
+    delaunayStar(scaled, 99, scratch, scaled_star);
+    ASSERT_EQ(star.link.size(), scaled_star.link.size()) << exponent;
+    for (std::size_t i = 0; i < star.link.size(); ++i) EXPECT_EQ(star.link[i].index, scaled_star.link[i].index);
+  }
+}
+
+TEST(SideOfCircle, AgreesWithTheSignOfTheAngleSum) {
+  shapes::Random random(9);
+  for (int i = 0; i < 10000; ++i) {
+    const double s = random.uniform(0.1, 3), t = random.uniform(s, 3.1), r = random.uniform(0.2, 2);
+    // a, b, c in order on a circle through the origin, then b's opposite moved by a relative amount.
+    const auto on = [&](double angle) { return PlanarPoint{r * (1 - std::cos(angle)), -r * std::sin(angle), 0}; };
+    const PlanarPoint c = on(s), b = on(t), a = on(random.uniform(t, 6.2));
+    if (orientation(a, b) <= 0 || orientation(b, c) <= 0) continue;
+    EXPECT_EQ(sideOfCircle(a, b, c), CircleSide::tie);
+    EXPECT_EQ(sideOfCircle(a, b, {c.u * 0.99, c.v * 0.99, 0}), CircleSide::inside);
+    EXPECT_EQ(sideOfCircle(a, b, {c.u * 1.01, c.v * 1.01, 0}), CircleSide::outside);
+  }
+}
+
+}  // namespace
+}  // namespace tufted

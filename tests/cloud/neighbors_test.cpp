@@ -1,0 +1,67 @@
+#include "cloud/neighbors.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "cloud/morton.h"
+#include "shapes/shapes.h"
+
+namespace tufted {
+namespace {
+
+TEST(Neighbors, EqualBruteForceWithTiesToTheSmallerIndex) {
+  for (const auto& cloud : {shapes::sphere(1500), shapes::squareLattice(30), shapes::lidar({.azimuth_step = 4})}) {
+    std::vector<PointStatus> status;
+    std::vector<int> representative;
+    const RankedCloud ranked = rankPoints(cloud.points, status, representative);
+    const NeighborSearch search(ranked.points);
+    std::vector<Neighbor> found, expected;
+    for (int p = 0; p < ranked.size(); ++p) {
+      search.nearest(p, 30, found);
+      expected.clear();
+      for (int q = 0; q < ranked.size(); ++q) {
+        const Eigen::RowVector3d d = ranked.points.row(q) - ranked.points.row(p);
+        if (q != p) expected.push_back({d.x() * d.x() + d.y() * d.y() + d.z() * d.z(), q});
+      }
+      std::sort(expected.begin(), expected.end());
+      ASSERT_EQ(found.size(), 30U);
+      for (int j = 0; j < 30; ++j) {
+        ASSERT_EQ(found[j].index, expected[j].index) << cloud.name << " point " << p << " neighbour " << j;
+        ASSERT_EQ(found[j].squared_distance, expected[j].squared_distance);
+      }
+    }
+  }
+}
+
+TEST(Neighbors, AreAllOthersWhenThereAreFewer) {
+  Points points(3, 3);
+  points << 0, 0, 0, 1, 0, 0, 0, 3, 0;
+  const NeighborSearch search(points);
+  std::vector<Neighbor> found;
+  search.nearest(0, 30, found);
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_EQ(found[0].index, 1);
+  EXPECT_EQ(found[1].squared_distance, 9);
+}
+
+TEST(Rank, DoesNotDependOnTheCallersOrder) {
+  const auto lattice = shapes::squareLattice(40);
+  std::vector<PointStatus> status;
+  std::vector<int> representative;
+  const RankedCloud a = rankPoints(lattice.points, status, representative);
+  const RankedCloud b = rankPoints(shapes::shuffled(lattice).points, status, representative);
+  EXPECT_EQ(a.points, b.points);
+}
+
+TEST(Rank, NamesTheLowestIndexOfCoincidentPoints) {
+  Points points(5, 3);
+  points << 1, 2, 3, 0, 0, 0, 1, 2, 3, -0.0, 0, 0, 1, 2, 3;
+  std::vector<PointStatus> status;
+  std::vector<int> representative;
+  EXPECT_EQ(rankPoints(points, status, representative).size(), 2);
+  EXPECT_EQ(representative, (std::vector<int>{0, 1, 0, 1, 0}));
+}
+
+}  // namespace
+}  // namespace tufted

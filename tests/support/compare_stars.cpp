@@ -1,0 +1,94 @@
+#include "support/compare_stars.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "cloud/delaunay_star.h"
+#include "cloud/morton.h"
+#include "cloud/neighbors.h"
+#include "cloud/tangent_frame.h"
+#include "oracles/oracles.h"
+
+namespace tufted::support {
+namespace {
+
+std::vector<PlanarPoint> project(const RankedCloud& cloud, int p, const std::vector<Neighbor>& neighbors) {
+  const Eigen::Vector3d normal = principalAxes(cloud.points, p, neighbors).normal;
+  const Eigen::Vector3d x = tangentOf(normal), y = normal.cross(x);
+  std::vector<PlanarPoint> planar;
+  for (const Neighbor& q : neighbors) {
+    const Eigen::Vector3d d = (cloud.points.row(q.index) - cloud.points.row(p)).transpose();
+    planar.push_back({d.dot(x), d.dot(y), q.index});
+  }
+  return planar;
+}
+
+std::vector<int> linkOf(const DelaunayStar& star) {
+  std::vector<int> link;
+  if (star.triangles() == 0) return link;
+  for (const PlanarPoint& q : star.link) link.push_back(q.index);
+  if (star.closed) std::rotate(link.begin(), std::min_element(link.begin(), link.end()), link.end());
+  return link;
+}
+
+/// Whether p, q and two neighbours next to q in `ring` are cocircular within the band, so that either diagonal is right.
+bool isTied(const PlanarPoint& q, const std::vector<PlanarPoint>& ring) {
+  for (const PlanarPoint& a : ring) {
+    for (const PlanarPoint& c : ring) {
+      if (a.index == q.index || c.index == q.index || orientation(a, q) <= 0 || orientation(q, c) <= 0) continue;
+      if (orientation(a, c) > 0 && sideOfCircle(a, q, c) == CircleSide::tie) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
+
+StarComparison compareStars(const Points& points, int step) {
+  std::vector<PointStatus> status;
+  std::vector<int> representative;
+  const RankedCloud cloud = rankPoints(points, status, representative);
+  const NeighborSearch search(cloud.points);
+  std::vector<Neighbor> neighbors;
+  StarScratch scratch;
+  DelaunayStar ours, backend;
+  StarComparison result;
+  for (int p = 0; p < cloud.size(); p += step) {
+    search.nearest(p, 30, neighbors);
+    const std::vector<PlanarPoint> planar = project(cloud, p, neighbors);
+    Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> plane(planar.size(), 2);
+    for (std::size_t i = 0; i < planar.size(); ++i) plane.row(i) << planar[i].u, planar[i].v;
+    const oracles::PlanarStar oracle = oracles::delaunayStarOracle(plane);
+    delaunayStar(planar, p, scratch, ours);
+    ++result.stars;
+
+    std::set<int> our_link, oracle_link;
+    std::vector<PlanarPoint> ring;  // both links together
+    for (const int q : linkOf(ours)) our_link.insert(q);
+    for (const auto& [a, b] : oracle.triangles) oracle_link.insert({planar[a].index, planar[b].index});
+    for (const PlanarPoint& q : planar) {
+      if (our_link.count(q.index) + oracle_link.count(q.index) > 0) ring.push_back(q);
+    }
+    bool tied = false, different = ours.triangles() > 0 && ours.closed != oracle.closed;
+    for (const PlanarPoint& q : ring) {
+      if (our_link.count(q.index) == oracle_link.count(q.index)) continue;
+      (isTied(q, ring) ? tied : different) = true;
+    }
+#ifdef TUFTED_WITH_GPL
+    delaunayStarCgal(planar, p, scratch, backend);
+    different |= linkOf(backend) != linkOf(ours);  // the backend applies our tie rule, so nothing may differ
+#endif
+    result.with_ties += tied ? 1 : 0;
+    result.different += different ? 1 : 0;
+    if (different && result.first_difference.empty()) {
+      result.first_difference = "point " + std::to_string(cloud.caller[p]) + ": our link has " +
+                                std::to_string(our_link.size()) + " vertices, CGAL's " +
+                                std::to_string(oracle_link.size());
+    }
+  }
+  return result;
+}
+
+}  // namespace tufted::support
