@@ -25,11 +25,10 @@ std::vector<PlanarPoint> project(const RankedCloud& cloud, int p, const std::vec
   return planar;
 }
 
-std::vector<int> linkOf(const DelaunayStar& star) {
-  std::vector<int> link;
+std::set<int> linkOf(const DelaunayStar& star) {
+  std::set<int> link;
   if (star.triangles() == 0) return link;
-  for (const PlanarPoint& q : star.link) link.push_back(q.index);
-  if (star.closed) std::rotate(link.begin(), std::min_element(link.begin(), link.end()), link.end());
+  for (const PlanarPoint& q : star.link) link.insert(q.index);
   return link;
 }
 
@@ -64,21 +63,23 @@ StarComparison compareStars(const Points& points, int step) {
     delaunayStar(planar, p, scratch, ours);
     ++result.stars;
 
-    std::set<int> our_link, oracle_link;
-    std::vector<PlanarPoint> ring;  // both links together
-    for (const int q : linkOf(ours)) our_link.insert(q);
+    std::set<int> oracle_link;
     for (const auto& [a, b] : oracle.triangles) oracle_link.insert({planar[a].index, planar[b].index});
-    for (const PlanarPoint& q : planar) {
-      if (our_link.count(q.index) + oracle_link.count(q.index) > 0) ring.push_back(q);
-    }
+    const std::set<int> our_link = linkOf(ours);
     bool tied = false, different = ours.triangles() > 0 && ours.closed != oracle.closed;
-    for (const PlanarPoint& q : ring) {
-      if (our_link.count(q.index) == oracle_link.count(q.index)) continue;
-      (isTied(q, ring) ? tied : different) = true;
-    }
+    const auto compareWith = [&](const std::set<int>& link) {
+      std::vector<PlanarPoint> ring;  // both links together
+      for (const PlanarPoint& q : planar) {
+        if (our_link.count(q.index) + link.count(q.index) > 0) ring.push_back(q);
+      }
+      for (const PlanarPoint& q : ring) {
+        if (our_link.count(q.index) != link.count(q.index)) (isTied(q, ring) ? tied : different) = true;
+      }
+    };
+    compareWith(oracle_link);
 #ifdef TUFTED_WITH_GPL
     delaunayStarCgal(planar, p, scratch, backend);
-    different |= linkOf(backend) != linkOf(ours);  // the backend applies our tie rule, so nothing may differ
+    compareWith(linkOf(backend));
 #endif
     result.with_ties += tied ? 1 : 0;
     result.different += different ? 1 : 0;

@@ -1,0 +1,55 @@
+#include <tufted/tufted.h>
+
+#include <cmath>
+#include <cstdio>
+#include <numbers>
+
+namespace {
+
+/// Points spread evenly over the unit sphere, along a spiral of the golden angle.
+tufted::Points spiral(int n) {
+  tufted::Points points(n, 3);
+  for (int i = 0; i < n; ++i) {
+    const double z = 1 - (2 * i + 1.0) / n;
+    const double angle = i * std::numbers::pi * (3 - std::sqrt(5.0));
+    const double radius = std::sqrt(1 - z * z);
+    points.row(i) << radius * std::cos(angle), radius * std::sin(angle), z;
+  }
+  return points;
+}
+
+bool check(const char* what, double found, double expected, double tolerance) {
+  if (std::abs(found - expected) <= tolerance) return true;
+  std::fprintf(stderr, "%s: %.17g, expected %.17g\n", what, found, expected);
+  return false;
+}
+
+bool cloud() {
+  const tufted::Laplacian laplacian = tufted::pointCloudLaplacian(spiral(2000));
+  const tufted::VectorXd sums = laplacian.L * tufted::VectorXd::Ones(2000);
+  return check("sum(M) of a sphere", laplacian.M.sum(), 4 * std::numbers::pi, 0.05) &
+         check("rows of L", sums.cwiseAbs().maxCoeff(), 0, 1e-12) &
+         check("cover", tufted::validate(laplacian.cover()).ok(), true, 0);
+}
+
+bool mesh() {
+  const tufted::Points square{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
+  const tufted::Triangles triangles{{0, 1, 2}, {0, 2, 3}};
+  const tufted::Laplacian laplacian = tufted::meshLaplacian(square, triangles);
+  return check("sum(M) of a square", laplacian.M.sum(), 1, 1e-3) &
+         check("diagonal of a square", laplacian.L.coeff(0, 0), 1, 1e-3);
+}
+
+bool errors() {
+  try {
+    tufted::pointCloudLaplacian(spiral(10), {.neighbors = 2});
+  } catch (const tufted::InvalidInput&) {
+    return true;
+  }
+  std::fprintf(stderr, "two neighbours are not refused\n");
+  return false;
+}
+
+}  // namespace
+
+int main() { return cloud() & mesh() & errors() ? 0 : 1; }

@@ -1,0 +1,122 @@
+#!/usr/bin/env python3
+"""Reads the includes of the project and names every one that runs backwards.
+
+    base <- cloud <- intrinsic <- operators <- algorithms <- pcl        (src/ and include/tufted/pcl)
+    io knows public headers only; tools know public headers and the fixtures of the tests
+    public headers know Eigen and the standard library only (those in tufted/pcl also PCL)
+    nothing in the library writes to a stream
+"""
+import pathlib
+import re
+import sys
+
+LAYERS = ["base", "cloud", "intrinsic", "operators", "algorithms", "pcl"]
+FIXTURES = ["shapes", "oracles"]  # folders of tests/ that tools for developers may use
+SUFFIXES = {".h", ".hpp", ".cpp"}
+
+INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)', re.MULTILINE)
+COMMENT_OR_TEXT = re.compile(
+    r'//[^\n]*|/\*.*?\*/|R"([^\s()\\]{0,16})\(.*?\)\1"|"(?:\\.|[^"\\\n])*"|(?<![0-9a-zA-Z])\'(?:\\.|[^\'\\\n])+\'', re.DOTALL)
+STREAM = re.compile(
+    r"\bstd::w?(?:cout|cerr|clog)\b|\b(?:stdout|stderr)\b"
+    r"|(?<![\w.>])(?:std::|::)?(?:v?f?printf|f?puts|f?putc|putchar|perror)\s*\(")
+
+
+def part_of(name):
+    """Where a public header belongs: "core", "io" or "pcl"."""
+    parts = name.split("/")
+    return parts[1] if len(parts) > 2 and parts[1] in ("io", "pcl") else "core"
+
+
+def is_standard(name):
+    """<vector> and <cstdint>, but not <omp.h> or <pcl/point_types.h>."""
+    return "/" not in name and "." not in name
+
+
+def public_fault(header, name):
+    own, other = part_of(header), part_of(name)
+    if name.startswith("tufted/"):
+        visible = {"core": ["core"], "io": ["core", "io"], "pcl": ["core", "pcl"]}[own]
+        return None if other in visible else f"{own} headers may not include {name}"
+    if name == "iostream":
+        return "public headers do not include <iostream>"
+    if is_standard(name) or name.startswith("Eigen/") or (own == "pcl" and name.startswith("pcl/")):
+        return None
+    return f"public headers do not include {name}"
+
+
+def source_fault(layer, name, quoted):
+    if name.startswith("tufted/"):
+        other = part_of(name)
+        return None if other in ("core", layer) else f"{layer} may not include {name}"
+    if name == "iostream":
+        return "the library does not include <iostream>"
+    if not quoted:
+        return None
+    other = name.split("/")[0]
+    if layer == "io":
+        return None if other == "io" else f"io may include public headers and its own only, not {name}"
+    if other not in LAYERS:
+        return f"{name} is in no layer"
+    if LAYERS.index(other) > LAYERS.index(layer):
+        return f"{layer} lies before {other} and may not include {name}"
+    return None
+
+
+def tool_fault(path, name, quoted):
+    if not quoted or name.startswith("tufted/") or name.split("/")[0] in FIXTURES or (path.parent / name).is_file():
+        return None
+    return f"tools may include public headers only, not {name}"
+
+
+def files(folder):
+    return sorted(path for path in folder.rglob("*") if path.suffix in SUFFIXES) if folder.is_dir() else []
+
+
+def check(root):
+    """The faults in the project at `root`, as lines `path: what is wrong`."""
+    faults = []
+
+    def report(path, fault):
+        if fault:
+            faults.append(f"{path.relative_to(root)}: {fault}")
+
+    def includes(path):
+        code = re.sub(r"/\*.*?\*/", "", path.read_text(encoding="utf-8"), flags=re.DOTALL)
+        return [(quoted or angle, bool(quoted)) for quoted, angle in INCLUDE.findall(code)]
+
+    def check_streams(path):
+        code = COMMENT_OR_TEXT.sub('""', path.read_text(encoding="utf-8"))
+        for match in STREAM.finditer(code):
+            report(path, f"the library writes to no stream: {match.group().strip()}")
+
+    public = files(root / "include" / "tufted")
+    for path in public:
+        header = path.relative_to(root / "include").as_posix()
+        for name, _ in includes(path):
+            report(path, public_fault(header, name))
+        check_streams(path)
+
+    sources = files(root / "src")
+    for path in sources:
+        layer = path.relative_to(root / "src").parts[0]
+        if layer not in [*LAYERS, "io"]:
+            report(path, f"{layer} is in no layer")
+            continue
+        for name, quoted in includes(path):
+            report(path, source_fault(layer, name, quoted))
+        check_streams(path)
+
+    for path in files(root / "tools"):
+        for name, quoted in includes(path):
+            report(path, tool_fault(path, name, quoted))
+
+    if not public or not sources:
+        faults.append(f"{root}: holds no include/tufted or no src")
+    return faults
+
+
+if __name__ == "__main__":
+    found = check(pathlib.Path(sys.argv[1]).resolve())
+    print("\n".join(found) if found else "every include runs the right way")
+    sys.exit(1 if found else 0)

@@ -1,0 +1,81 @@
+#!/usr/bin/env python3
+"""Plants one fault at a time in a small sound project and expects check_layers.py to name exactly that one."""
+import pathlib
+import subprocess
+import sys
+import tempfile
+
+CHECKER = pathlib.Path(__file__).with_name("check_layers.py")
+
+SOUND = {
+    "include/tufted/types.h": "#include <Eigen/Core>\n#include <vector>\n",
+    "include/tufted/laplacian.h": '#include "tufted/types.h"\n',
+    "include/tufted/io/read.h": '#include "tufted/types.h"\n#include <filesystem>\n',
+    "include/tufted/pcl/smooth.h": '#include <pcl/filters/filter.h>\n#include "tufted/laplacian.h"\n',
+    "src/base/scaling.cpp": '#include "base/scaling.h"\n// printf("not code")\n',
+    "src/cloud/neighbors.cpp": '#include <flann/flann.hpp>\n#include "base/scaling.h"\n#include "tufted/types.h"\n',
+    "src/intrinsic/flips.cpp": 'const char* text = "std::cout";\n/* #include "operators/assemble.h" */\n',
+    "src/operators/assemble.cpp": '#include "cloud/stars.h"\nvoid f() { std::snprintf(a, 1, "x"); }\n',
+    "src/io/read.cpp": '#include "io/errors.h"\n#include "tufted/io/read.h"\n#include <zip.h>\n',
+    "src/pcl/smooth.cpp": '#include "tufted/pcl/smooth.h"\n',
+    "tools/command.h": "#include <CLI/App.hpp>\n",
+    "tools/tufted.cpp": '#include "command.h"\n#include "tufted/io/read.h"\nint main() { std::puts("ok"); }\n',
+    "tools/make_datasets.cpp": '#include "shapes/shapes.h"\n',
+}
+
+# file, line added to it, part of the fault that must be named
+FAULTS = [
+    ("src/base/scaling.cpp", '#include "cloud/morton.h"', "base lies before cloud"),
+    ("src/cloud/neighbors.cpp", '#include "intrinsic/cover.h"', "cloud lies before intrinsic"),
+    ("src/cloud/neighbors.cpp", '  #  include "operators/assemble.h"', "cloud lies before operators"),
+    ("src/intrinsic/flips.cpp", '#include "algorithms/heat.h"', "intrinsic lies before algorithms"),
+    ("src/operators/assemble.cpp", '#include "pcl/smooth.h"', "operators lies before pcl"),
+    ("src/operators/assemble.cpp", '#include "io/errors.h"', "io/errors.h is in no layer"),
+    ("src/operators/assemble.cpp", '#include "tufted/io/read.h"', "operators may not include tufted/io"),
+    ("src/operators/assemble.cpp", '#include "../tools/command.h"', "is in no layer"),
+    ("src/operators/assemble.cpp", "#include <iostream>", "<iostream>"),
+    ("src/io/read.cpp", '#include "base/scaling.h"', "io may include public headers and its own only"),
+    ("src/io/read.cpp", '#include "tufted/pcl/smooth.h"', "io may not include tufted/pcl"),
+    ("src/extra/new.cpp", "int x;", "extra is in no layer"),
+    ("include/tufted/laplacian.h", '#include "tufted/io/read.h"', "core headers may not include tufted/io"),
+    ("include/tufted/laplacian.h", '#include "base/scaling.h"', "do not include base/scaling.h"),
+    ("include/tufted/laplacian.h", "#include <CGAL/Point_3.h>", "do not include CGAL"),
+    ("include/tufted/laplacian.h", "#include <flann/flann.hpp>", "do not include flann"),
+    ("include/tufted/laplacian.h", "#include <omp.h>", "do not include omp.h"),
+    ("include/tufted/laplacian.h", "#include <pcl/point_types.h>", "do not include pcl"),
+    ("include/tufted/laplacian.h", "#include <iostream>", "<iostream>"),
+    ("include/tufted/io/read.h", "#include <zip.h>", "do not include zip.h"),
+    ("include/tufted/io/read.h", "#include <nlohmann/json.hpp>", "do not include nlohmann"),
+    ("include/tufted/io/read.h", "#include <CLI/CLI.hpp>", "do not include CLI"),
+    ("include/tufted/io/read.h", '#include "tufted/pcl/smooth.h"', "io headers may not include tufted/pcl"),
+    ("include/tufted/pcl/smooth.h", "#include <CGAL/Point_3.h>", "do not include CGAL"),
+    ("tools/tufted.cpp", '#include "cloud/stars.h"', "tools may include public headers only"),
+    ("src/cloud/neighbors.cpp", "void f() { std::cerr << 1; }", "std::cerr"),
+    ("src/cloud/neighbors.cpp", 'void f() { printf("x"); }', "printf"),
+    ("src/io/read.cpp", 'void f() { std::fputs("x", file); }', "fputs"),
+    ("src/base/scaling.cpp", "void f() { std::fwrite(a, 1, 1, stderr); }", "stderr"),
+]
+
+
+def run(tree):
+    """Exit code and lines of the checker on a project of these files."""
+    with tempfile.TemporaryDirectory() as folder:
+        for name, text in tree.items():
+            path = pathlib.Path(folder, name)
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text, encoding="utf-8")
+        done = subprocess.run([sys.executable, CHECKER, folder], capture_output=True, text=True, check=False)
+        return done.returncode, done.stdout.splitlines()
+
+
+problems = []
+if run(SOUND)[0] != 0:
+    problems.append(f"the sound project is refused: {run(SOUND)[1]}")
+if run({})[0] == 0:
+    problems.append("an empty project passes")
+for file, line, expected in FAULTS:
+    code, lines = run({**SOUND, file: SOUND.get(file, "") + line + "\n"})
+    if code == 0 or len(lines) != 1 or file not in lines[0] or expected not in lines[0]:
+        problems.append(f"{file} with {line!r}: expected one fault with {expected!r}, got {lines}")
+print("\n".join(problems) if problems else f"{len(FAULTS)} planted faults found")
+sys.exit(1 if problems else 0)

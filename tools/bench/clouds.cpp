@@ -1,0 +1,94 @@
+#include "base/stage_clock.h"
+#include "bench/costs.h"
+#include "cloud/morton.h"
+#include "cloud/neighbors.h"
+#include "shapes/shapes.h"
+#include "tufted/laplacian.h"
+
+namespace tufted::bench {
+namespace {
+
+constexpr int kNeighbors = 30;
+
+struct CloudCase {
+  int points;
+  Gluing gluing;
+  Delaunay delaunay;
+  int threads;
+
+  std::string name() const {
+    return std::string("cloud/") + (delaunay == Delaunay::star ? "star" : "cgal") + "/" +
+           (gluing == Gluing::star ? "star" : "vertex_pair") + "/" + std::to_string(points) + "/" +
+           threadsName(threads);
+  }
+};
+
+/// Independent random points on the unit sphere, in random order. Only the last size asked for is kept.
+const Points& sphere(int n) {
+  static Points points;
+  if (points.rows() != n) points = shapes::sphere(n).points;
+  return points;
+}
+
+/// What any method based on k nearest neighbours pays: the tree and one query per point, in Morton order, one thread.
+double flannSeconds(const RankedCloud& cloud) {
+  Stopwatch watch;
+  const NeighborSearch search(cloud.points);
+  std::vector<Neighbor> found;
+  for (int p = 0; p < cloud.size(); ++p) {
+    search.nearest(p, kNeighbors, found);
+    benchmark::DoNotOptimize(found.data());
+  }
+  return watch.seconds();
+}
+
+RankedCloud ranked(const Points& points) {
+  std::vector<PointStatus> status;
+  std::vector<int> representative;
+  return rankPoints(points, status, representative);
+}
+
+/// One build per iteration. With one thread, every build is followed by the search alone (not timed), so that both
+/// medians come from the same minutes: `whole_per_flann`.
+void runCloud(benchmark::State& state, const CloudCase& c) {
+  const Points& points = sphere(c.points);
+  Costs costs(c.points);
+  for ([[maybe_unused]] auto _ : state) {
+    {
+      Stopwatch watch;
+      const Laplacian laplacian = pointCloudLaplacian(
+          points, {.neighbors = kNeighbors, .gluing = c.gluing, .delaunay = c.delaunay, .threads = c.threads});
+      const double seconds = watch.seconds();
+      state.SetIterationTime(seconds);
+      costs.addBuild(seconds, laplacian.report);
+    }
+    if (c.threads == 1) costs.addSeconds("flann", flannSeconds(ranked(points)));
+  }
+  costs.publish(state);
+  if (c.threads == 1) {
+    state.counters["whole_per_flann"] = costs.medianSeconds("whole") / costs.medianSeconds("flann");
+  }
+}
+
+}  // namespace
+
+void registerClouds() {
+  for (const int points : {10'000, 100'000, 1'000'000}) {
+    for (const int threads : {1, 0}) {
+      for (const Gluing gluing : {Gluing::star, Gluing::vertex_pair}) {
+        for (const Delaunay delaunay : {Delaunay::star, Delaunay::cgal}) {
+#ifndef TUFTED_WITH_GPL
+          if (delaunay == Delaunay::cgal) continue;
+#endif
+          const CloudCase c{points, gluing, delaunay, threads};
+          benchmark::RegisterBenchmark(c.name().c_str(), [c](benchmark::State& state) { runCloud(state, c); })
+              ->UseManualTime()
+              ->Iterations(iterationsFor(points))
+              ->Unit(benchmark::kMillisecond);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace tufted::bench

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <benchmark/benchmark.h>
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "tufted/report.h"
+
+namespace tufted::bench {
+
+/// Collects what the builds of one case cost and writes medians as counters of the benchmark:
+///   s:<stage>       seconds
+///   B:<stage>       bytes that the stage leaves behind
+///   B_per_item      sum of these per point (clouds) or triangle (meshes)
+///   peak_B_per_item highest resident memory of the process so far, per item; of this case only if it ran alone
+class Costs {
+ public:
+  /// @param items points or triangles
+  explicit Costs(std::int64_t items) : items_(items) {}
+
+  void addBuild(double seconds, const Report& report);
+  /// A measurement beside the stages of the build.
+  void addSeconds(const std::string& name, double seconds) { seconds_[name].push_back(seconds); }
+
+  /// Median of what was added as `name` so far; "whole" is the build.
+  double medianSeconds(const std::string& name) const;
+
+  void publish(benchmark::State& state) const;
+
+ private:
+  std::int64_t items_;
+  std::map<std::string, std::vector<double>> seconds_;
+  std::map<std::string, std::size_t> bytes_;
+  double peak_bytes_ = 0;
+};
+
+/// Fewer repetitions of larger cases.
+benchmark::IterationCount iterationsFor(std::int64_t items);
+
+std::string threadsName(int threads);
+
+void registerClouds();
+void registerMeshes();
+
+}  // namespace tufted::bench

@@ -1,0 +1,14 @@
+# shellcheck shell=bash
+# To be sourced by demo.sh and test.sh, so that both configure build/release alike: `configure_arguments`.
+
+# A compiler launcher in the environment wins; CMake reads it when it configures for the first time.
+export CMAKE_C_COMPILER_LAUNCHER=${CMAKE_C_COMPILER_LAUNCHER-ccache}
+export CMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER-ccache}
+
+configure_arguments=()
+# GCC knows mold from 12.1 on.
+if command -v mold >/dev/null && echo 'int main() {}' | "${CXX:-c++}" -fuse-ld=mold -x c++ -o /dev/null - 2>/dev/null; then
+  for kind in EXE SHARED MODULE; do
+    configure_arguments+=("-DCMAKE_${kind}_LINKER_FLAGS=-fuse-ld=mold")
+  done
+fi

@@ -1,0 +1,90 @@
+#!/usr/bin/env bash
+# Installs what is missing, builds everything and runs all tests. The last line counts them: N passed, N failed.
+#   --quick   the release build alone
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+quick=false
+case "${1-}" in
+  '') ;;
+  --quick) quick=true ;;
+  *)
+    echo "usage: tools/test.sh [--quick]" >&2
+    exit 2
+    ;;
+esac
+
+tools/install_dependencies.sh
+# shellcheck source=tools/build_settings.sh
+source tools/build_settings.sh
+export CTEST_PARALLEL_LEVEL=${CTEST_PARALLEL_LEVEL:-$(nproc)}
+
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+passed=0 failed=0 skipped=0
+
+# step NAME COMMAND...: runs a step of the build; its output is shown when it fails, which counts as a failed test.
+step() {
+  local name=$1 seconds=$SECONDS
+  shift
+  if "$@" >"$scratch/log" 2>&1; then
+    echo "$name: done ($((SECONDS - seconds)) s)"
+  else
+    tail -n 200 "$scratch/log"
+    echo "$name: FAILED"
+    failed=$((failed + 1))
+    return 1
+  fi
+}
+
+# tests NAME DIR: runs the tests built in DIR and adds them up. ctest counts a test that it cannot start as failed and
+# one that skips itself as passed, so the latter are taken off.
+tests() {
+  local name=$1 dir=$2 seconds=$SECONDS summary bad total odd
+  ctest --test-dir "$dir" --output-on-failure --no-tests=error >"$scratch/log" 2>&1 || true
+  summary=$(grep -Eo '[0-9]+ tests? failed out of [0-9]+' "$scratch/log" | tail -n 1 || true)
+  if [[ ! $summary =~ ^([0-9]+)\ tests?\ failed\ out\ of\ ([0-9]+)$ ]]; then
+    cat "$scratch/log"
+    echo "$name: FAILED, ctest has no summary"
+    failed=$((failed + 1))
+    return
+  fi
+  bad=${BASH_REMATCH[1]} total=${BASH_REMATCH[2]}
+  odd=$(grep -Ec '^ *[0-9]+/[0-9]+ Test .*\*\*\*Skipped' "$scratch/log" || true)
+  ((bad == 0)) || cat "$scratch/log"
+  passed=$((passed + total - bad - odd)) failed=$((failed + bad)) skipped=$((skipped + odd))
+  echo "$name: $((total - bad - odd)) passed, $bad failed, $odd skipped ($((SECONDS - seconds)) s)"
+}
+
+# preset NAME: configures, builds and tests one of CMakePresets.json.
+preset() {
+  step "$1: configure" cmake --preset "$1" "${configure_arguments[@]}" &&
+    step "$1: build" cmake --build "build/$1" &&
+    tests "$1: tests" "build/$1"
+}
+
+# consumer NAME BUILD ARGUMENTS...: installs BUILD and builds a project of a user's against what is installed.
+consumer() {
+  local name=$1 build=$2 dir=$scratch/$1
+  shift 2
+  step "$name: install" cmake --install "$build" --prefix "$dir/prefix" &&
+    step "$name: configure" cmake -S tests/consumer -B "$dir/build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
+      -DCMAKE_PREFIX_PATH="$dir/prefix" "$@" &&
+    step "$name: build" cmake --build "$dir/build" &&
+    tests "$name: tests" "$dir/build"
+}
+
+# A failed step is counted already and must not keep the rest from running.
+preset release || true
+if ! $quick; then
+  consumer installed build/release -DCONSUMER_IO=ON || true
+  preset dev || true
+  preset no-gpl || true
+  # Without tufted::io the package may not ask for PCL or libzip.
+  consumer installed-core build/no-gpl -DCMAKE_DISABLE_FIND_PACKAGE_PclIo=ON || true
+fi
+
+total="$passed passed, $failed failed"
+((skipped == 0)) || total+=", $skipped skipped"
+echo "$total"
+((failed == 0))
