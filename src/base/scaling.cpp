@@ -50,7 +50,14 @@ Scaling measureScaling(const Points& points, std::vector<PointStatus>& status) {
     if (status[i] == PointStatus::active && deviation(i) > 0) values.push_back(deviation(i));
   }
   const double spread = median(values);
-  if (spread > 0 && std::isfinite(spread)) std::frexp(spread, &scaling.exponent);
+  if (spread > 0 && std::isfinite(spread)) {
+    std::frexp(spread, &scaling.exponent);
+    double largest = 0;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      if (status[i] == PointStatus::active) largest = std::max(largest, points.row(i).cwiseAbs().maxCoeff());
+    }
+    scaling.exponent = std::max(scaling.exponent, std::ilogb(largest) - 1000);  // scaled coordinates stay finite
+  }
   for (Eigen::Index i = 0; i < n; ++i) {
     if (status[i] != PointStatus::active) continue;
     // Relative to 2^exponent, so that the bound itself cannot overflow.
