@@ -20,7 +20,7 @@ struct Report {
   // Input
   std::int64_t points = 0;      ///< rows of the caller's array
   std::int64_t active = 0;      ///< points with a positive diagonal
-  std::int64_t not_finite = 0;  ///< NaN, infinite, or beyond 1e100 median spreads
+  std::int64_t not_finite = 0;  ///< NaN, infinite, or beyond 1e100 median spreads or 1e150
   std::int64_t coincident = 0;  ///< merged with an earlier equal point (clouds)
   std::int64_t isolated = 0;    ///< points without a triangle
 

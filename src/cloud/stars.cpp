@@ -117,7 +117,7 @@ class StarBuilder {
   void wrapStar(int p, Local& local, WorkerState& state, BlockOfStars& block) const {
     // A power of two near the reach, so that the predicates meet numbers near 1 and scaling rounds nothing.
     const double reach = stars_.reach[p];
-    const int exponent = reach > 0 ? std::ilogb(reach) : 0;
+    const int exponent = reach > 0 ? std::max(std::ilogb(reach), -1022) : 0;
     const double unit = std::ldexp(1.0, -exponent);
     DelaunayStar& star = state.star;
     project(p, local, unit, state.planar);

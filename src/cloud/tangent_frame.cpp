@@ -14,7 +14,7 @@ PrincipalAxes principalAxes(const Points& points, int p, const std::vector<Neigh
     extent = std::max(extent, (points.row(q.index) - points.row(p)).cwiseAbs().maxCoeff());
   }
   if (extent == 0) return {Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Zero()};
-  const double unit = std::ldexp(1.0, -std::ilogb(extent));
+  const double unit = std::ldexp(1.0, -std::max(std::ilogb(extent), -1022));  // finite for any extent
 
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
