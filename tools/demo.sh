@@ -39,16 +39,15 @@ download_package() {
   ((EUID != 0)) || download+=(-o APT::Sandbox::User=root)
   "${download[@]}" 2>/dev/null && return
   if ((EUID == 0)); then
-    apt-get update -qq
+    apt-get update -qq >&2
   elif command -v sudo >/dev/null; then
-    sudo apt-get update -qq
+    sudo apt-get update -qq >&2
   fi
   "${download[@]}"
 }
 
 echo "Building the command"
-cmake --preset release "${configure_arguments[@]}" >build.log 2>&1 || { cat build.log; rm -f build.log; exit 1; }
-rm -f build.log
+cmake --preset release "${configure_arguments[@]}" >/dev/null  # errors and warnings go to stderr
 cmake --build build/release --target tufted_command
 
 if ! input=$(fetch_scan); then
