@@ -25,9 +25,13 @@ struct IntrinsicTriangulation {
 };
 
 /// The side after `side` in its face.
-constexpr int nextSide(int side) { return side % 3 == 2 ? side - 2 : side + 1; }
+constexpr int nextSide(int side) {
+  return side % 3 == 2 ? side - 2 : side + 1;
+}
 /// The side before `side` in its face.
-constexpr int previousSide(int side) { return side % 3 == 0 ? side + 2 : side - 1; }
+constexpr int previousSide(int side) {
+  return side % 3 == 0 ? side + 2 : side - 1;
+}
 
 /// Violations found by `validate`, each a number of sides or faces. All are zero for the cover of a `Laplacian`.
 struct CoverCheck {

@@ -20,20 +20,20 @@ struct Report {
   // Input
   std::int64_t points = 0;      ///< rows of the caller's array
   std::int64_t active = 0;      ///< points with a positive diagonal
-  std::int64_t not_finite = 0;  ///< NaN, infinite, or beyond 1e100 median spreads or 1e150
+  std::int64_t not_finite = 0;  ///< NaN, infinite, or beyond 1e100 median spreads or 1e152
   std::int64_t coincident = 0;  ///< merged with an earlier equal point (clouds)
   std::int64_t isolated = 0;    ///< points without a triangle
 
   // Clouds
-  int neighbors = 0;                      ///< k in use, after clamping to N - 1
-  bool neighbors_clamped = false;         ///< the caller's k exceeded N - 1
-  std::int64_t rejected_normals = 0;      ///< caller's normals that are zero or not finite, replaced by PCA
-  std::int64_t rejected_neighbors = 0;    ///< caller's neighbours that repeat or name the point or an unusable one
-  std::int64_t grown_neighborhoods = 0;   ///< k doubled because the neighbours lie on one scan line
-  std::int64_t grown_stars = 0;           ///< k doubled because a closed star was not certified
-  std::int64_t open_stars = 0;            ///< points whose Voronoi cell is not compact
-  std::int64_t dropped_triangles = 0;     ///< star triangles removed by the circumradius filter
-  std::array<std::int64_t, 3> votes = {}; ///< distinct triangles found by 1, 2, 3 of their corners
+  int neighbors = 0;                       ///< k in use, after clamping to N - 1
+  bool neighbors_clamped = false;          ///< the caller's k exceeded N - 1
+  std::int64_t rejected_normals = 0;       ///< caller's normals that are zero or not finite, replaced by PCA
+  std::int64_t rejected_neighbors = 0;     ///< caller's neighbours that repeat or name the point or an unusable one
+  std::int64_t grown_neighborhoods = 0;    ///< k doubled because the neighbours lie on one scan line
+  std::int64_t grown_stars = 0;            ///< k doubled because a closed star was not certified
+  std::int64_t open_stars = 0;             ///< points whose Voronoi cell is not compact
+  std::int64_t dropped_triangles = 0;      ///< star triangles removed by the circumradius filter
+  std::array<std::int64_t, 3> votes = {};  ///< distinct triangles found by 1, 2, 3 of their corners
 
   // Meshes
   std::int64_t repeated_vertex_triangles = 0;  ///< dropped: a vertex occurs twice
@@ -53,8 +53,9 @@ struct Report {
   std::int64_t nonzeros = 0;         ///< stored entries of L
   std::int64_t components = 0;       ///< connected components among active points
   std::int64_t clamped_weights = 0;  ///< negative weights set to 0, within 1e-9 of the larger diagonal
-  std::int64_t clamped_large = 0;    ///< negative weights beyond that, a failure of the flips; 0 unless something is wrong
-  double largest_clamped = 0;        ///< largest clamped |weight| over the larger diagonal of its row and column
+  std::int64_t clamped_large =
+      0;                       ///< negative weights beyond that, a failure of the flips; 0 unless something is wrong
+  double largest_clamped = 0;  ///< largest clamped |weight| over the larger diagonal of its row and column
 
   int threads = 1;
   std::vector<StageCost> stages;

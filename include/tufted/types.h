@@ -22,7 +22,7 @@ using VectorXd = Eigen::VectorXd;
 /// Why a point does or does not take part. A point that does not has a zero row, column and mass.
 enum class PointStatus : std::uint8_t {
   active = 0,      ///< has a positive diagonal in L
-  not_finite = 1,  ///< NaN, infinite, or more than 1e100 median spreads or 1e150 away from the rest
+  not_finite = 1,  ///< NaN, infinite, or more than 1e100 median spreads or 1e152 away from the rest
   coincident = 2,  ///< equals an earlier point of the cloud, its `representative`
   isolated = 3,    ///< no triangle: too few neighbours, all collinear, or an unreferenced vertex
 };

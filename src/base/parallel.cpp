@@ -32,7 +32,8 @@ void Workers::forBlocks(std::string_view stage, std::int64_t size, std::int64_t 
       for (std::int64_t b = next++; b < blocks && !stop; b = next++) {
         work(b * block, std::min(size, (b + 1) * block), worker);
         // Only the caller's own thread talks to the caller.
-        if (worker == 0) report(stage, static_cast<double>(std::min(next.load(), blocks)) / blocks);
+        if (worker == 0)
+          report(stage, static_cast<double>(std::min(next.load(), blocks)) / static_cast<double>(blocks));
       }
     } catch (...) {
       if (!stop.exchange(true)) error = std::current_exception();
@@ -45,6 +46,7 @@ void Workers::forBlocks(std::string_view stage, std::int64_t size, std::int64_t 
     run(omp_get_thread_num());
   }
   if (error) std::rethrow_exception(error);
+  report(stage, 1);  // other workers may have done it all before the caller's thread had a turn
 }
 
 }  // namespace tufted

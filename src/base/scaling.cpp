@@ -7,7 +7,7 @@ namespace tufted {
 namespace {
 
 constexpr double kFarthest = 1e100;  // in median spreads; squares and fourth powers of it still fit a double
-constexpr double kLargest = 1e150;   // in the caller's unit; an area still fits a double
+constexpr double kLargest = 1e152;   // in the caller's unit; an area still fits a double
 
 double median(std::vector<double>& values) {
   if (values.empty()) return 0;
@@ -50,22 +50,20 @@ Scaling measureScaling(const Points& points, std::vector<PointStatus>& status) {
     if (status[i] == PointStatus::active && deviation(i) > 0) values.push_back(deviation(i));
   }
   const double spread = median(values);
-  if (spread > 0 && std::isfinite(spread)) {
-    std::frexp(spread, &scaling.exponent);
-    double largest = 0;
-    for (Eigen::Index i = 0; i < n; ++i) {
-      if (status[i] == PointStatus::active) largest = std::max(largest, points.row(i).cwiseAbs().maxCoeff());
-    }
-    scaling.exponent = std::max(scaling.exponent, std::ilogb(largest) - 1000);  // scaled coordinates stay finite
-  }
+  if (spread > 0 && std::isfinite(spread)) std::frexp(spread, &scaling.exponent);
+  double largest = 0;  // coordinate of a usable point
   for (Eigen::Index i = 0; i < n; ++i) {
     if (status[i] != PointStatus::active) continue;
     // Relative to 2^exponent, so that the bound itself cannot overflow.
     const double distance = deviation(i);
-    if (!(std::ldexp(distance, -scaling.exponent) <= kFarthest && distance <= kLargest)) {
+    if (std::ldexp(distance, -scaling.exponent) <= kFarthest && distance <= kLargest) {
+      largest = std::max(largest, points.row(i).cwiseAbs().maxCoeff());
+    } else {
       status[i] = PointStatus::not_finite;
     }
   }
+  // A tiny cloud very far away: its scaled coordinates must stay finite.
+  if (largest > 0) scaling.exponent = std::max(scaling.exponent, std::ilogb(largest) - 1000);
   return scaling;
 }
 

@@ -30,7 +30,9 @@ class StageClock {
  public:
   explicit StageClock(Report& report) : report_(report) {}
   /// Books the time since the last call under `stage`, with the bytes that the stage leaves behind.
-  void finish(std::string stage, std::size_t bytes) { report_.stages.push_back({std::move(stage), watch_.restart(), bytes}); }
+  void finish(std::string stage, std::size_t bytes) {
+    report_.stages.push_back({std::move(stage), watch_.restart(), bytes});
+  }
   /// Time since the last call, for stages that are booked in parts.
   double restart() { return watch_.restart(); }
 

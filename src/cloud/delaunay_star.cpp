@@ -7,9 +7,12 @@
 namespace tufted {
 namespace {
 
-constexpr std::size_t kNearPart = 12;  // most stars are settled by so many nearest candidates
+constexpr std::size_t kNearPart = 12;   // most stars are settled by so many nearest candidates
+constexpr std::size_t kFewPoints = 48;  // insertion sort up to here
 
-double squaredNorm(const PlanarPoint& q) { return q.u * q.u + q.v * q.v; }
+double squaredNorm(const PlanarPoint& q) {
+  return q.u * q.u + q.v * q.v;
+}
 
 /// Grows with the angle from the u axis, in [0, 4].
 double pseudoAngle(const PlanarPoint& q) {
@@ -22,32 +25,47 @@ bool isNearer(const PlanarPoint& a, const PlanarPoint& b) {
   return std::abs(a.u) + std::abs(a.v) < std::abs(b.u) + std::abs(b.v);
 }
 
-/// Sorts by direction and keeps the nearest in each.
-void sortByDirection(std::vector<PlanarPoint>& points) {
-  const auto before = [](const PlanarPoint& a, const PlanarPoint& b) {
-    const double difference = pseudoAngle(b) - pseudoAngle(a);
-    // Rounding moves the pseudo-angle by a few 1e-16; closer calls are decided exactly.
-    return std::abs(difference) > 1e-14 ? difference > 0 : orientation(a, b) > 0;
-  };
-  std::stable_sort(points.begin(), points.end(), before);
-  std::size_t kept = 0;
-  for (const PlanarPoint& q : points) {
-    if (kept > 0 && !before(points[kept - 1], q)) {
-      if (isNearer(q, points[kept - 1])) points[kept - 1] = q;
-    } else {
-      points[kept++] = q;
+bool comesBefore(const Directed& a, const Directed& b) {
+  const double difference = b.key - a.key;
+  // Rounding moves the pseudo-angle by a few 1e-16; closer calls are decided exactly.
+  return std::abs(difference) > 1e-14 ? difference > 0 : orientation(a.point, b.point) > 0;
+}
+
+/// Sorts by direction and keeps the nearest in each; of those at one place the first.
+void sortByDirection(std::vector<PlanarPoint>& points, std::vector<Directed>& directed) {
+  directed.clear();
+  for (const PlanarPoint& q : points) directed.push_back({pseudoAngle(q), q});
+  if (directed.size() > kFewPoints) {
+    std::stable_sort(directed.begin(), directed.end(), comesBefore);
+  } else {
+    for (auto at = directed.begin(); at != directed.end(); ++at) {
+      const Directed moved = *at;
+      auto place = at;
+      for (; place != directed.begin() && comesBefore(moved, *(place - 1)); --place) *place = *(place - 1);
+      *place = moved;
     }
   }
-  points.resize(kept);
+  points.clear();
+  for (std::size_t i = 0; i < directed.size(); ++i) {
+    const PlanarPoint& q = directed[i].point;
+    if (i == 0 || comesBefore(directed[i - 1], directed[i])) {
+      points.push_back(q);
+    } else if (isNearer(q, points.back())) {
+      points.back() = q;
+    }
+  }
 }
 
 /// Whether link vertex b leaves the star: the diagonal (a, c) is Delaunay in the quadrilateral (p, a, b, c).
 bool isCutOff(int p, const PlanarPoint& a, const PlanarPoint& b, const PlanarPoint& c) {
   if (orientation(a, c) <= 0) return false;  // without b the gap would be pi or more
   switch (sideOfCircle(a, b, c)) {
-    case CircleSide::inside: return true;
-    case CircleSide::outside: return false;
-    case CircleSide::tie: break;
+    case CircleSide::inside:
+      return true;
+    case CircleSide::outside:
+      return false;
+    case CircleSide::tie:
+      break;
   }
   return std::min(a.index, c.index) < std::min(p, b.index);
 }
@@ -59,7 +77,9 @@ double DelaunayStar::circumradius(int i) const {
   const PlanarPoint& b = after(i);
   const double cross = a.u * b.v - a.v * b.u;
   if (!(cross > 0)) return std::numeric_limits<double>::infinity();
-  return std::sqrt(squaredNorm(a)) * std::sqrt(squaredNorm(b)) * std::hypot(a.u - b.u, a.v - b.v) / (2 * cross);
+  // Root by root: the product of the squares could leave the range of a double.
+  const double opposite = (a.u - b.u) * (a.u - b.u) + (a.v - b.v) * (a.v - b.v);
+  return std::sqrt(squaredNorm(a)) * std::sqrt(squaredNorm(b)) * std::sqrt(opposite) / (2 * cross);
 }
 
 double DelaunayStar::largestCircumradius() const {
@@ -70,7 +90,7 @@ double DelaunayStar::largestCircumradius() const {
 
 void wrapChosen(int p, StarScratch& scratch, DelaunayStar& star) {
   std::vector<PlanarPoint>& ring = scratch.chosen;
-  sortByDirection(ring);
+  sortByDirection(ring, scratch.directed);
   const int m = static_cast<int>(ring.size());
   star.link.clear();
   star.closed = false;

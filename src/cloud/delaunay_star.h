@@ -18,11 +18,17 @@ struct DelaunayStar {
   double largestCircumradius() const;
 };
 
+/// A planar point with a number that grows with the angle of its direction.
+struct Directed {
+  double key;
+  PlanarPoint point;
+};
+
 /// Memory that one worker reuses from star to star.
 struct StarScratch {
   std::vector<PlanarPoint> chosen;
   std::vector<int> next, previous;
-  std::vector<double> key;
+  std::vector<Directed> directed;
 };
 
 /// The star of the origin among `candidates`, which are given by ascending distance in space; of those that project to

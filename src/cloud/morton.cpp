@@ -10,8 +10,8 @@
 namespace tufted {
 namespace {
 
-constexpr int kBits = 21;         // per axis
-constexpr int kCellExponent = 16; // cells per median spread: 2^16; so 2^21 cells reach over 32 spreads
+constexpr int kBits = 21;          // per axis
+constexpr int kCellExponent = 16;  // cells per median spread: 2^16; so 2^21 cells reach over 32 spreads
 
 /// Spreads the low 21 bits of v to every third bit.
 std::uint64_t spreadBits(std::uint64_t v) {

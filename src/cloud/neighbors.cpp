@@ -1,7 +1,7 @@
 #include "cloud/neighbors.h"
 
-#include <flann/algorithms/kdtree_single_index.h>
 #include <flann/algorithms/dist.h>
+#include <flann/algorithms/kdtree_single_index.h>
 
 #include <algorithm>
 #include <limits>
@@ -19,7 +19,8 @@ using Distance = flann::L2_Simple<double>;
 /// distances are the same bits for any tree.
 class NearestSet final : public flann::ResultSet<double> {
  public:
-  NearestSet(int self, int k, std::vector<Neighbor>& found) : self_(self), k_(static_cast<std::size_t>(k)), found_(found) {
+  NearestSet(int self, int k, std::vector<Neighbor>& found)
+      : self_(self), k_(static_cast<std::size_t>(k)), found_(found) {
     found_.clear();
     found_.reserve(k_ + 1);
   }

@@ -13,8 +13,7 @@ struct Neighbor {
   int index;  ///< rank
 
   friend bool operator<(const Neighbor& a, const Neighbor& b) {
-    return a.squared_distance < b.squared_distance ||
-           (a.squared_distance == b.squared_distance && a.index < b.index);
+    return a.squared_distance < b.squared_distance || (a.squared_distance == b.squared_distance && a.index < b.index);
   }
 };
 

@@ -12,10 +12,16 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 constexpr double kTieAngle = 1e-9;  // rad
 constexpr double kFlatSine = 1e-6;
 
-Kernel::Point_2 toCgal(const PlanarPoint& p) { return {p.u, p.v}; }
+Kernel::Point_2 toCgal(const PlanarPoint& p) {
+  return {p.u, p.v};
+}
 
-double cross(double au, double av, double bu, double bv) { return au * bv - av * bu; }
-double dot(double au, double av, double bu, double bv) { return au * bu + av * bv; }
+double cross(double au, double av, double bu, double bv) {
+  return au * bv - av * bu;
+}
+double dot(double au, double av, double bu, double bv) {
+  return au * bu + av * bv;
+}
 
 }  // namespace
 
@@ -37,8 +43,8 @@ CircleSide sideOfCircle(const PlanarPoint& a, const PlanarPoint& b, const Planar
   // Sine and cosine of the sum of the angles at p and b, times the product of the four sides.
   const double sine = cross_p * dot_b + dot_p * cross_b;
   const double cosine = dot_p * dot_b - cross_p * cross_b;
-  const double sides = dot(a.u, a.v, a.u, a.v) * dot(c.u, c.v, c.u, c.v) * dot(abu, abv, abu, abv) *
-                       dot(cbu, cbv, cbu, cbv);
+  const double sides =
+      dot(a.u, a.v, a.u, a.v) * dot(c.u, c.v, c.u, c.v) * dot(abu, abv, abu, abv) * dot(cbu, cbv, cbu, cbv);
   const bool in_range = sides > 1e-280 && sides < 1e280;
   if (in_range && sine * sine > kTieAngle * kTieAngle * sides) {
     return sine > 0 ? CircleSide::inside : CircleSide::outside;
@@ -49,9 +55,12 @@ CircleSide sideOfCircle(const PlanarPoint& a, const PlanarPoint& b, const Planar
   const double sides_a = dot(a.u, a.v, a.u, a.v) * dot(abu, abv, abu, abv);
   if (in_range && cosine < 0 && cross_a * cross_a > kFlatSine * kFlatSine * sides_a) return CircleSide::tie;
   switch (CGAL::side_of_oriented_circle(Kernel::Point_2(0, 0), toCgal(a), toCgal(b), toCgal(c))) {
-    case CGAL::ON_POSITIVE_SIDE: return CircleSide::inside;
-    case CGAL::ON_NEGATIVE_SIDE: return CircleSide::outside;
-    default: return CircleSide::tie;
+    case CGAL::ON_POSITIVE_SIDE:
+      return CircleSide::inside;
+    case CGAL::ON_NEGATIVE_SIDE:
+      return CircleSide::outside;
+    default:
+      return CircleSide::tie;
   }
 }
 

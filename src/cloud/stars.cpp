@@ -41,7 +41,10 @@ struct WorkerState {
 class StarBuilder {
  public:
   StarBuilder(const RankedCloud& cloud, const NeighborSource& source, Delaunay delaunay, Stars& stars)
-      : cloud_(cloud), source_(source), wrap_(delaunay == Delaunay::star ? delaunayStar : cgalBackend()), stars_(stars) {}
+      : cloud_(cloud),
+        source_(source),
+        wrap_(delaunay == Delaunay::star ? delaunayStar : cgalBackend()),
+        stars_(stars) {}
 
   void build(std::int64_t begin, std::int64_t end, WorkerState& state, BlockOfStars& block) const {
     const int count = static_cast<int>(end - begin);

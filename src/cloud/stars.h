@@ -22,12 +22,12 @@ constexpr double kNoTriangle = std::numeric_limits<double>::infinity();
 /// stands for the triangle (p, link[i], successor of i); its `radius` is kNoTriangle where there is none: at the last
 /// link vertex of an open star, and where a filter dropped it.
 struct Stars {
-  std::vector<int> offset;           ///< n + 1
-  std::vector<int> link;             ///< ranks
-  std::vector<double> radius;        ///< circumradius in the tangent plane, per link entry
-  std::vector<double> reach;         ///< n, r_k: distance to the last of the first k neighbours
-  std::vector<std::uint8_t> ends;    ///< n, 1 where the surface ends at p: an open star or a lost triangle
-  Points normals;                    ///< n x 3
+  std::vector<int> offset;         ///< n + 1
+  std::vector<int> link;           ///< ranks
+  std::vector<double> radius;      ///< circumradius in the tangent plane, per link entry
+  std::vector<double> reach;       ///< n, r_k: distance to the last of the first k neighbours
+  std::vector<std::uint8_t> ends;  ///< n, 1 where the surface ends at p: an open star or a lost triangle
+  Points normals;                  ///< n x 3
 
   int size() const { return static_cast<int>(reach.size()); }
   /// The link entry after i in star p, cyclically.

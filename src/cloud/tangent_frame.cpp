@@ -37,7 +37,9 @@ PrincipalAxes principalAxes(const Points& points, int p, const std::vector<Neigh
   return axes;
 }
 
-bool liesOnOneLine(const PrincipalAxes& axes) { return axes.variance[1] < 0.1 * axes.variance[2]; }
+bool liesOnOneLine(const PrincipalAxes& axes) {
+  return axes.variance[1] < 0.1 * axes.variance[2];
+}
 
 Eigen::Vector3d tangentOf(const Eigen::Vector3d& normal) {
   int axis = 0;

@@ -23,8 +23,12 @@ void addTriangle(IntrinsicTriangulation& cover, int t, int i, int j, int k);
 void resizeCover(IntrinsicTriangulation& cover, int vertices, std::int64_t triangles);
 
 /// The side of the back that lies on side `s` of the front of triangle `t`.
-constexpr int frontSide(int t, int s) { return 6 * t + s; }
-constexpr int backSide(int t, int s) { return 6 * t + 5 - s; }
+constexpr int frontSide(int t, int s) {
+  return 6 * t + s;
+}
+constexpr int backSide(int t, int s) {
+  return 6 * t + 5 - s;
+}
 
 /// Glues two sides to each other.
 inline void glueSides(IntrinsicTriangulation& cover, int a, int b) {

@@ -10,9 +10,9 @@ namespace tufted {
 namespace {
 
 constexpr std::int64_t kBlock = 16384;
-constexpr double kFlipBelow = -1e-10;       // on cot + cot; ties of cocircular quadrilaterals stay
-constexpr std::uint8_t kMostFlips = 100;    // per edge
-constexpr std::uint8_t kQueued = 0x80;      // flag beside the count
+constexpr double kFlipBelow = -1e-10;     // on cot + cot; ties of cocircular quadrilaterals stay
+constexpr std::uint8_t kMostFlips = 100;  // per edge
+constexpr std::uint8_t kQueued = 0x80;    // flag beside the count
 constexpr std::int64_t kReportEvery = 1 << 16;
 
 /// Equation 2. An edge with both sides in one triangle is Delaunay: its two opposite angles sum to less than pi.

@@ -27,7 +27,9 @@ inline double triangleArea(double a, double b, double c) {
 }
 
 /// b^2 + c^2 - a^2; negative exactly where the angle opposite a is obtuse.
-inline double cotanNumerator(double a, double b, double c) { return b * b + (c - a) * (c + a); }
+inline double cotanNumerator(double a, double b, double c) {
+  return b * b + (c - a) * (c + a);
+}
 
 /// Cotangent of the angle opposite `side` in its face. Infinite or NaN in a face of no area.
 inline double oppositeCotan(const IntrinsicTriangulation& t, int side) {
@@ -40,7 +42,11 @@ inline double faceArea(const IntrinsicTriangulation& t, int face) {
 }
 
 /// First and last corner of a side.
-inline int tail(const IntrinsicTriangulation& t, int side) { return t.faces[side / 3][side % 3]; }
-inline int head(const IntrinsicTriangulation& t, int side) { return t.faces[side / 3][nextSide(side) % 3]; }
+inline int tail(const IntrinsicTriangulation& t, int side) {
+  return t.faces[side / 3][side % 3];
+}
+inline int head(const IntrinsicTriangulation& t, int side) {
+  return t.faces[side / 3][nextSide(side) % 3];
+}
 
 }  // namespace tufted

@@ -47,9 +47,15 @@ class EdgePool {
     for (std::size_t i = 0; i < count; ++i) keys_.push_back({0, sides[i].side});
     if (count > 2) {
       switch (order_.order) {
-        case FaceOrder::angle: setAngles(low, high); break;
-        case FaceOrder::area: setAreas(); break;
-        case FaceOrder::random: setRandom(); break;
+        case FaceOrder::angle:
+          setAngles(low, high);
+          break;
+        case FaceOrder::area:
+          setAreas();
+          break;
+        case FaceOrder::random:
+          setRandom();
+          break;
       }
       std::sort(keys_.begin(), keys_.end());
     }

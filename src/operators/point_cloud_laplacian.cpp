@@ -57,8 +57,8 @@ void addStars(const Stars& stars, Gluing gluing, IntrinsicTriangulation& cover, 
   workers.forBlocks("union", n, kBlock, [&](std::int64_t begin, std::int64_t end, int) {
     for (int p = static_cast<int>(begin); p < end; ++p) {
       int t = static_cast<int>(first[p]);
-      int previous = -1;      // triangle before link vertex i, if there is one
-      int first_entry = -1;   // triangle after the first link vertex
+      int previous = -1;     // triangle before link vertex i, if there is one
+      int first_entry = -1;  // triangle after the first link vertex
       for (int i = stars.offset[p]; i < stars.offset[p + 1]; ++i) {
         const bool has = stars.hasTriangle(i);
         if (has) addTriangle(cover, t, p, stars.link[i], stars.link[stars.after(p, i)]);

@@ -9,11 +9,11 @@
 
 #include "cloud/morton.h"
 #include "cloud/neighbors.h"
-#include "support/compare_stars.h"
 #include "cloud/tangent_frame.h"
 #include "oracles/oracles.h"
 #include "shapes/random.h"
 #include "shapes/shapes.h"
+#include "support/compare_stars.h"
 
 namespace tufted {
 namespace {
@@ -56,7 +56,8 @@ TEST(DelaunayStar, HasNoTriangleAmongCollinearPoints) {
 TEST(DelaunayStar, DropsWhatHasNoDirectionAndKeepsTheNearestInEach) {
   StarScratch scratch;
   DelaunayStar star;
-  const std::vector<PlanarPoint> points = {{0, 0, 1}, {2, 0, 2}, {1, 0, 3}, {0, 1, 4}, {-1, 0, 5}, {0, -1, 6}, {1, 0, 7}};
+  const std::vector<PlanarPoint> points = {{0, 0, 1},  {2, 0, 2},  {1, 0, 3}, {0, 1, 4},
+                                           {-1, 0, 5}, {0, -1, 6}, {1, 0, 7}};
   delaunayStar(points, 0, scratch, star);
   ASSERT_EQ(star.link.size(), 4U);
   EXPECT_EQ(star.link[0].index, 3);  // not 7, which projects to the same place but is further away in space

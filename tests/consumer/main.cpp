@@ -52,4 +52,6 @@ bool errors() {
 
 }  // namespace
 
-int main() { return cloud() & mesh() & errors() ? 0 : 1; }
+int main() {
+  return cloud() & mesh() & errors() ? 0 : 1;
+}

@@ -26,7 +26,8 @@ std::vector<int> upTo(int n) {
 }
 
 TEST(EarClipping, CoversAConcavePolygonExactlyOnce) {
-  const Points comb = planar({{0, 0}, {7, 0}, {7, 3}, {6, 3}, {6, 1}, {4, 1}, {4, 3}, {3, 3}, {3, 1}, {1, 1}, {1, 3}, {0, 3}});
+  const Points comb =
+      planar({{0, 0}, {7, 0}, {7, 3}, {6, 3}, {6, 1}, {4, 1}, {4, 3}, {3, 3}, {3, 1}, {1, 1}, {1, 3}, {0, 3}});
   for (const bool reversed : {false, true}) {
     std::vector<int> polygon = upTo(12);
     if (reversed) std::reverse(polygon.begin(), polygon.end());

@@ -82,13 +82,14 @@ TEST(Frames, AreOrthonormalAndTangent) {
 TEST(CallersProgress, IsToldEveryStageFromItsOwnThread) {
   std::set<std::string> stages;
   const auto self = std::this_thread::get_id();
-  pointCloudLaplacian(shapes::sphere(20000).points, {.threads = 2, .progress = [&](std::string_view stage, double part) {
-                        EXPECT_EQ(std::this_thread::get_id(), self);
-                        EXPECT_GE(part, 0);
-                        EXPECT_LE(part, 1);
-                        stages.emplace(stage);
-                        return true;
-                      }});
+  pointCloudLaplacian(shapes::sphere(20000).points,
+                      {.threads = 2, .progress = [&](std::string_view stage, double part) {
+                         EXPECT_EQ(std::this_thread::get_id(), self);
+                         EXPECT_GE(part, 0);
+                         EXPECT_LE(part, 1);
+                         stages.emplace(stage);
+                         return true;
+                       }});
   for (const char* stage : {"order", "tree", "stars", "filter", "glue", "flips", "assemble", "done"}) {
     EXPECT_EQ(stages.count(stage), 1U) << stage;
   }
@@ -99,8 +100,7 @@ TEST(CallersProgress, CancelsAtEveryStage) {
   int calls = 0;
   const auto buildUntil = [&](int stop) {  // on one thread, so that every build makes the same calls
     calls = 0;
-    pointCloudLaplacian(points,
-                        {.threads = 1, .progress = [&](std::string_view, double) { return ++calls < stop; }});
+    pointCloudLaplacian(points, {.threads = 1, .progress = [&](std::string_view, double) { return ++calls < stop; }});
   };
   buildUntil(INT32_MAX);
   const int all = calls;

@@ -21,7 +21,9 @@ Laplacian build(const Points& points, const CloudOptions& options = {}) {
   return laplacian;
 }
 
-Points sphere(int n) { return shapes::sphere(n, shapes::Sampling::uniform, 5).points; }
+Points sphere(int n) {
+  return shapes::sphere(n, shapes::Sampling::uniform, 5).points;
+}
 
 Points stack(const Points& a, const Points& b) {
   Points both(a.rows() + b.rows(), 3);

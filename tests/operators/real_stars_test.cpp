@@ -14,8 +14,8 @@ TEST(RealScans, HaveCgalsStarsAtEveryPoint) {
   if (!std::filesystem::is_directory(folder)) GTEST_SKIP() << folder << " is absent";
   for (const auto& entry : std::filesystem::directory_iterator(folder)) {
     const support::StarComparison comparison = support::compareStars(read(entry.path(), ReadAs::cloud).points, 1);
-    RecordProperty(entry.path().stem().string(), std::to_string(comparison.stars) + " stars, " +
-                                                     std::to_string(comparison.with_ties) + " with ties");
+    RecordProperty(entry.path().stem().string(),
+                   std::to_string(comparison.stars) + " stars, " + std::to_string(comparison.with_ties) + " with ties");
     EXPECT_EQ(comparison.different, 0) << entry.path() << ": " << comparison.first_difference;
     EXPECT_GT(comparison.stars, 0) << entry.path();
   }

@@ -32,7 +32,8 @@ std::set<int> linkOf(const DelaunayStar& star) {
   return link;
 }
 
-/// Whether p, q and two neighbours next to q in `ring` are cocircular within the band, so that either diagonal is right.
+/// Whether p, q and two neighbours next to q in `ring` are cocircular within the band, so that either diagonal is
+/// right.
 bool isTied(const PlanarPoint& q, const std::vector<PlanarPoint>& ring) {
   for (const PlanarPoint& a : ring) {
     for (const PlanarPoint& c : ring) {
