@@ -48,7 +48,7 @@ struct CoverCheck {
   }
 };
 
-/// Checks everything that the guarantees of L rest on. O(F).
+/// Checks what the guarantees of L rest on, for corners in [0, vertices). O(F).
 CoverCheck validate(const IntrinsicTriangulation& cover, double delaunay_tolerance = 1e-9);
 
 }  // namespace tufted

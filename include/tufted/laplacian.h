@@ -48,7 +48,7 @@ Laplacian pointCloudLaplacian(const Points& points, const CloudOptions& options 
 /// The mesh Laplacian of Algorithm 3, for triangles of any connectivity.
 /// @param points V x 3; coincident vertices stay separate.
 /// @param triangles F x 3 indices into `points`; triangles with a repeated vertex are dropped and counted.
-/// @throws InvalidInput for indices or options out of range, more than 357 million triangles
+/// @throws InvalidInput for indices or options out of range, more than 357 million triangles or 2^31 entries of L
 /// @throws Cancelled when `options.progress` returns false
 Laplacian meshLaplacian(const Points& points, const Triangles& triangles, const MeshOptions& options = {});
 

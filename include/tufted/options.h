@@ -32,16 +32,16 @@ enum class Delaunay {
 };
 
 struct CloudOptions {
-  int neighbors = 30;  ///< k >= 3; larger than N - 1 is clamped and reported
+  int neighbors = 30;  ///< k >= 3, far fewer than N; larger than N - 1 is clamped and reported
   Gluing gluing = Gluing::star;
   FaceOrder order = FaceOrder::angle;
   std::uint64_t seed = 0;  ///< for FaceOrder::random
   Delaunay delaunay = Delaunay::star;
-  double mollify = 1e-5;            ///< delta of Section 4.5 in mean edge lengths; 0 leaves flat triangles flat,
-                                    ///< and then rounding may break the guarantees
-  int threads = 0;                  ///< at most this many; 0: what OpenMP offers
-  bool keep_cover = true;           ///< false frees the cover (about 600 bytes per point)
-  const Points* normals = nullptr;  ///< N x 3, any length and sign, used instead of the PCA's; borrowed
+  double mollify = 1e-5;   ///< delta of Section 4.5 in mean edge lengths, 0 to 1; 0 leaves flat triangles flat,
+                           ///< and then rounding may break the guarantees
+  int threads = 0;         ///< at most this many; 0: what OpenMP offers
+  bool keep_cover = true;  ///< false frees the cover (about 600 bytes per point)
+  const Points* normals = nullptr;               ///< N x 3, any length and sign, used instead of the PCA's; borrowed
   const Neighborhoods* neighborhoods = nullptr;  ///< N x k indices used as they are, never grown; borrowed
   Progress progress = {};
 };

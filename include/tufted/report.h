@@ -47,7 +47,7 @@ struct Report {
   double mollify_length = 0;          ///< length added to every edge (Section 4.5)
   std::int64_t degenerate_faces = 0;  ///< cover faces of no area even after mollification; they contribute nothing
   std::int64_t flips = 0;             ///< intrinsic edge flips
-  std::int64_t flip_failures = 0;     ///< edges given up after 100 flips; 0 unless something is wrong
+  std::int64_t flip_failures = 0;     ///< times an edge was given up after 100 flips; 0 unless something is wrong
 
   // Operator
   std::int64_t nonzeros = 0;         ///< stored entries of L

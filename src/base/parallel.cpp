@@ -9,9 +9,18 @@
 #include "tufted/errors.h"
 
 namespace tufted {
+namespace {
+
+/// More threads than this never help, and a system may refuse to start them.
+int mostThreads() {
+  return std::max(16, 4 * omp_get_num_procs());
+}
+
+}  // namespace
 
 Workers::Workers(int threads, const Progress& progress)
-    : count_(threads > 0 ? threads : std::max(1, omp_get_max_threads())), progress_(progress) {}
+    : count_(std::max(1, std::min(threads > 0 ? threads : omp_get_max_threads(), mostThreads()))),
+      progress_(progress) {}
 
 void Workers::report(std::string_view stage, double fraction) const {
   if (progress_ && !progress_(stage, fraction)) {

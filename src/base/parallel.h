@@ -14,7 +14,7 @@ namespace tufted {
 /// own part of the output. So the result has the same bits for any number of threads.
 class Workers {
  public:
-  /// @param threads at most this many; 0 for what OpenMP offers
+  /// @param threads at most this many, and at most four per processor (16 if that is more); 0 for what OpenMP offers
   Workers(int threads, const Progress& progress);
 
   int count() const { return count_; }

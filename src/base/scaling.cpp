@@ -6,8 +6,8 @@
 namespace tufted {
 namespace {
 
-constexpr double kFarthest = 1e100;  // in median spreads; squares and fourth powers of it still fit a double
-constexpr double kLargest = 1e152;   // in the caller's unit; an area still fits a double
+constexpr double farthest_spreads = 1e100;  // in median spreads; squares and fourth powers of it still fit a double
+constexpr double largest_distance = 1e152;  // in the caller's unit; an area still fits a double
 
 double median(std::vector<double>& values) {
   if (values.empty()) return 0;
@@ -56,7 +56,7 @@ Scaling measureScaling(const Points& points, std::vector<PointStatus>& status) {
     if (status[i] != PointStatus::active) continue;
     // Relative to 2^exponent, so that the bound itself cannot overflow.
     const double distance = deviation(i);
-    if (std::ldexp(distance, -scaling.exponent) <= kFarthest && distance <= kLargest) {
+    if (std::ldexp(distance, -scaling.exponent) <= farthest_spreads && distance <= largest_distance) {
       largest = std::max(largest, points.row(i).cwiseAbs().maxCoeff());
     } else {
       status[i] = PointStatus::not_finite;

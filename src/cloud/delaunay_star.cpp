@@ -7,8 +7,8 @@
 namespace tufted {
 namespace {
 
-constexpr std::size_t kNearPart = 12;   // most stars are settled by so many nearest candidates
-constexpr std::size_t kFewPoints = 48;  // insertion sort up to here
+constexpr std::size_t near_part = 12;   // most stars are settled by so many nearest candidates
+constexpr std::size_t few_points = 48;  // insertion sort up to here
 
 double squaredNorm(const PlanarPoint& q) {
   return q.u * q.u + q.v * q.v;
@@ -35,7 +35,7 @@ bool comesBefore(const Directed& a, const Directed& b) {
 void sortByDirection(std::vector<PlanarPoint>& points, std::vector<Directed>& directed) {
   directed.clear();
   for (const PlanarPoint& q : points) directed.push_back({pseudoAngle(q), q});
-  if (directed.size() > kFewPoints) {
+  if (directed.size() > few_points) {
     std::stable_sort(directed.begin(), directed.end(), comesBefore);
   } else {
     for (auto at = directed.begin(); at != directed.end(); ++at) {
@@ -140,7 +140,7 @@ void wrapChosen(int p, StarScratch& scratch, DelaunayStar& star) {
 void delaunayStar(const std::vector<PlanarPoint>& candidates, int p, StarScratch& scratch, DelaunayStar& star) {
   std::vector<PlanarPoint>& chosen = scratch.chosen;
   const auto hasDirection = [](const PlanarPoint& q) { return q.u != 0 || q.v != 0; };
-  const std::size_t near = std::min(kNearPart, candidates.size());
+  const std::size_t near = std::min(near_part, candidates.size());
   chosen.clear();
   std::copy_if(candidates.begin(), candidates.begin() + near, std::back_inserter(chosen), hasDirection);
   const std::size_t chosen_near = chosen.size();

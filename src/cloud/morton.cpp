@@ -10,8 +10,8 @@
 namespace tufted {
 namespace {
 
-constexpr int kBits = 21;          // per axis
-constexpr int kCellExponent = 16;  // cells per median spread: 2^16; so 2^21 cells reach over 32 spreads
+constexpr int axis_bits = 21;      // per axis
+constexpr int cell_exponent = 16;  // cells per median spread: 2^16; so 2^21 cells reach over 32 spreads
 
 /// Spreads the low 21 bits of v to every third bit.
 std::uint64_t spreadBits(std::uint64_t v) {
@@ -25,8 +25,8 @@ std::uint64_t spreadBits(std::uint64_t v) {
 std::uint64_t mortonCode(const Eigen::Vector3d& from_corner) {
   std::uint64_t code = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    const double cell = std::ldexp(from_corner[axis], kCellExponent);
-    const double clamped = std::clamp(cell, 0.0, std::ldexp(1.0, kBits) - 1);  // outliers go to the border
+    const double cell = std::ldexp(from_corner[axis], cell_exponent);
+    const double clamped = std::clamp(cell, 0.0, std::ldexp(1.0, axis_bits) - 1);  // outliers go to the border
     code |= spreadBits(static_cast<std::uint64_t>(clamped)) << axis;
   }
   return code;

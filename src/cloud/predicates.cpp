@@ -9,8 +9,8 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-constexpr double kTieAngle = 1e-9;  // rad
-constexpr double kFlatSine = 1e-6;
+constexpr double tie_angle = 1e-9;  // rad
+constexpr double flat_sine = 1e-6;
 
 Kernel::Point_2 toCgal(const PlanarPoint& p) {
   return {p.u, p.v};
@@ -46,14 +46,14 @@ CircleSide sideOfCircle(const PlanarPoint& a, const PlanarPoint& b, const Planar
   const double sides =
       dot(a.u, a.v, a.u, a.v) * dot(c.u, c.v, c.u, c.v) * dot(abu, abv, abu, abv) * dot(cbu, cbv, cbu, cbv);
   const bool in_range = sides > 1e-280 && sides < 1e280;
-  if (in_range && sine * sine > kTieAngle * kTieAngle * sides) {
+  if (in_range && sine * sine > tie_angle * tie_angle * sides) {
     return sine > 0 ? CircleSide::inside : CircleSide::outside;
   }
   // Within the band the sum is near 0, pi or 2 pi. Near pi it is a tie, unless all four points are nearly collinear:
   // such a quadrilateral has no two diagonals to choose from.
   const double cross_a = cross(-a.u, -a.v, -abu, -abv);
   const double sides_a = dot(a.u, a.v, a.u, a.v) * dot(abu, abv, abu, abv);
-  if (in_range && cosine < 0 && cross_a * cross_a > kFlatSine * kFlatSine * sides_a) return CircleSide::tie;
+  if (in_range && cosine < 0 && cross_a * cross_a > flat_sine * flat_sine * sides_a) return CircleSide::tie;
   switch (CGAL::side_of_oriented_circle(Kernel::Point_2(0, 0), toCgal(a), toCgal(b), toCgal(c))) {
     case CGAL::ON_POSITIVE_SIDE:
       return CircleSide::inside;

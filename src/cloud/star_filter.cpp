@@ -7,7 +7,7 @@
 namespace tufted {
 namespace {
 
-constexpr std::int64_t kBlock = 8192;
+constexpr std::int64_t block_size = 8192;
 
 /// Whether the star of `a` contains the triangle (a, b, c), either way round.
 bool contains(const Stars& stars, int a, int b, int c) {
@@ -23,7 +23,7 @@ bool contains(const Stars& stars, int a, int b, int c) {
 void filterStars(Stars& stars, int k, const Workers& workers, Report& report) {
   const bool whole_cloud = stars.size() <= k + 1;
   std::atomic<std::int64_t> dropped{0};
-  workers.forBlocks("filter", stars.size(), kBlock, [&](std::int64_t begin, std::int64_t end, int) {
+  workers.forBlocks("filter", stars.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
     std::int64_t count = 0;
     for (int p = static_cast<int>(begin); p < end; ++p) {
       for (int i = stars.offset[p]; i < stars.offset[p + 1]; ++i) {
@@ -31,7 +31,7 @@ void filterStars(Stars& stars, int k, const Workers& workers, Report& report) {
         const int a = stars.link[i], b = stars.link[stars.after(p, i)];
         const double smallest = std::min({stars.reach[p], stars.reach[a], stars.reach[b]});
         if (stars.radius[i] <= stars.reach[p] && stars.radius[i] <= 4 * smallest) continue;
-        stars.radius[i] = kNoTriangle;
+        stars.radius[i] = no_triangle;
         stars.ends[p] = 1;
         ++count;
       }
@@ -43,7 +43,7 @@ void filterStars(Stars& stars, int k, const Workers& workers, Report& report) {
 
 void countVotes(const Stars& stars, const Workers& workers, Report& report) {
   std::array<std::atomic<std::int64_t>, 3> copies = {};
-  workers.forBlocks("votes", stars.size(), kBlock, [&](std::int64_t begin, std::int64_t end, int) {
+  workers.forBlocks("votes", stars.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
     std::array<std::int64_t, 3> found = {};
     for (int p = static_cast<int>(begin); p < end; ++p) {
       for (int i = stars.offset[p]; i < stars.offset[p + 1]; ++i) {

@@ -13,8 +13,8 @@
 namespace tufted {
 namespace {
 
-constexpr std::int64_t kBlock = 1024;  // points per block: its neighbour lists stay in the second-level cache
-constexpr int kLineGrowth = 8;         // a neighbourhood on one scan line grows to at most 8 k
+constexpr std::int64_t block_size = 1024;  // points per block: its neighbour lists stay in the second-level cache
+constexpr int line_growth = 8;             // a neighbourhood on one scan line grows to at most 8 k
 
 /// One point's way through the stages of a block.
 struct Local {
@@ -76,7 +76,7 @@ class StarBuilder {
       return;
     }
     local.neighbors.clear();
-    for (int i = source_.list_offset[p]; i < source_.list_offset[p + 1]; ++i) {
+    for (std::size_t i = source_.list_offset[p]; i < source_.list_offset[p + 1]; ++i) {
       const int q = source_.list[i];
       local.neighbors.push_back({(cloud_.points.row(q) - cloud_.points.row(p)).squaredNorm(), q});
     }
@@ -95,7 +95,7 @@ class StarBuilder {
   void fitFrame(int p, Local& local, WorkerState& state) const {
     PrincipalAxes axes = principalAxes(cloud_.points, p, local.neighbors);
     bool grown = false;
-    while (liesOnOneLine(axes) && grow(p, kLineGrowth * source_.k, local)) {
+    while (liesOnOneLine(axes) && grow(p, line_growth * source_.k, local)) {
       axes = principalAxes(cloud_.points, p, local.neighbors);
       grown = true;
     }
@@ -139,8 +139,8 @@ class StarBuilder {
     stars_.offset[p + 1] = static_cast<int>(star.link.size());
     for (int i = 0; i < static_cast<int>(star.link.size()); ++i) {
       block.link.push_back(star.link[i].index);
-      block.radius.push_back(i < star.triangles() ? std::ldexp(star.circumradius(i), exponent) : kNoTriangle);
-      if (i < star.triangles() && block.radius.back() == kNoTriangle) {  // too flat for a double
+      block.radius.push_back(i < star.triangles() ? std::ldexp(star.circumradius(i), exponent) : no_triangle);
+      if (i < star.triangles() && block.radius.back() == no_triangle) {  // too flat for a double
         ++state.flat_triangles;
         stars_.ends[p] = 1;
       }
@@ -184,7 +184,7 @@ void takeNeighborhoods(const Neighborhoods& lists, const RankedCloud& cloud, con
         source.list.push_back(q);
       }
     }
-    source.list_offset.push_back(static_cast<int>(source.list.size()));
+    source.list_offset.push_back(source.list.size());
     source.k = std::max(source.k, static_cast<int>(source.list.size() - start));
   }
 }
@@ -212,11 +212,11 @@ Stars buildStars(const RankedCloud& cloud, const NeighborSource& source, Delauna
   stars.normals.resize(n, 3);
 
   Stopwatch wall;
-  std::vector<BlockOfStars> blocks((n + kBlock - 1) / kBlock);
+  std::vector<BlockOfStars> blocks((n + block_size - 1) / block_size);
   std::vector<WorkerState> states(workers.count());
   const StarBuilder builder(cloud, source, delaunay, stars);
-  workers.forBlocks("stars", n, kBlock, [&](std::int64_t begin, std::int64_t end, int worker) {
-    builder.build(begin, end, states[worker], blocks[begin / kBlock]);
+  workers.forBlocks("stars", n, block_size, [&](std::int64_t begin, std::int64_t end, int worker) {
+    builder.build(begin, end, states[worker], blocks[begin / block_size]);
   });
 
   std::partial_sum(stars.offset.begin(), stars.offset.end(), stars.offset.begin());

@@ -14,25 +14,25 @@
 
 namespace tufted {
 
-constexpr double kNoTriangle = std::numeric_limits<double>::infinity();
+constexpr double no_triangle = std::numeric_limits<double>::infinity();
 
 /// The Delaunay stars of all points, one after the other, everything by rank.
 ///
 /// Star p has the link vertices link[offset[p] .. offset[p + 1]), counterclockwise in the tangent plane of p. Entry i
-/// stands for the triangle (p, link[i], successor of i); its `radius` is kNoTriangle where there is none: at the last
+/// stands for the triangle (p, link[i], successor of i); its `radius` is no_triangle where there is none: at the last
 /// link vertex of an open star, and where a filter dropped it.
 struct Stars {
   std::vector<int> offset;         ///< n + 1
   std::vector<int> link;           ///< ranks
   std::vector<double> radius;      ///< circumradius in the tangent plane, per link entry
-  std::vector<double> reach;       ///< n, r_k: distance to the last of the first k neighbours
+  std::vector<double> reach;       ///< n, r_k: distance to the last neighbour before a star grows
   std::vector<std::uint8_t> ends;  ///< n, 1 where the surface ends at p: an open star or a lost triangle
   Points normals;                  ///< n x 3
 
   int size() const { return static_cast<int>(reach.size()); }
   /// The link entry after i in star p, cyclically.
   int after(int p, int i) const { return i + 1 == offset[p + 1] ? offset[p] : i + 1; }
-  bool hasTriangle(int i) const { return radius[i] != kNoTriangle; }
+  bool hasTriangle(int i) const { return radius[i] != no_triangle; }
   std::size_t bytes() const;
 };
 
@@ -40,14 +40,15 @@ struct Stars {
 struct NeighborSource {
   int k = 0;                               ///< neighbours per point, at most n - 1
   const NeighborSearch* search = nullptr;  ///< null when the caller's lists are used
-  std::vector<int> list_offset, list;      ///< the caller's lists by rank, checked; n + 1 and their sum
+  std::vector<std::size_t> list_offset;    ///< n + 1, into `list`
+  std::vector<int> list;                   ///< the caller's lists by rank, checked
   Points normals;                          ///< the caller's, by rank, unit length or zero where unusable; else 0 x 3
 
   bool isFixed() const { return search == nullptr; }
 };
 
 /// Checks the caller's lists and brings them into rank order.
-/// @throws InvalidInput for another number of rows than `status`, or an index past the last point
+/// @throws InvalidInput for an index past the last point in the row of a usable point
 void takeNeighborhoods(const Neighborhoods& lists, const RankedCloud& cloud, const std::vector<PointStatus>& status,
                        const std::vector<int>& representative, NeighborSource& source, Report& report);
 

@@ -6,14 +6,14 @@
 namespace tufted {
 namespace {
 
-constexpr std::int64_t kBlock = 8192;
+constexpr std::int64_t block_size = 8192;
 
 }  // namespace
 
 void resizeCover(IntrinsicTriangulation& cover, int vertices, std::int64_t triangles) {
   cover.vertices = vertices;
   cover.faces.resize(static_cast<std::size_t>(2 * triangles));
-  cover.glue.assign(static_cast<std::size_t>(6 * triangles), kUnglued);
+  cover.glue.assign(static_cast<std::size_t>(6 * triangles), unglued);
   cover.length.resize(static_cast<std::size_t>(6 * triangles));
 }
 
@@ -24,14 +24,15 @@ void addTriangle(IntrinsicTriangulation& cover, int t, int i, int j, int k) {
 
 double measureLengths(IntrinsicTriangulation& cover, const Points& points, const Workers& workers) {
   const std::int64_t triangles = cover.size() / 2;
-  std::vector<double> sums((triangles + kBlock - 1) / kBlock);  // per block, so that the mean has the same bits always
-  workers.forBlocks("lengths", triangles, kBlock, [&](std::int64_t begin, std::int64_t end, int) {
+  std::vector<double> sums((triangles + block_size - 1) /
+                           block_size);  // per block, so that the mean has the same bits always
+  workers.forBlocks("lengths", triangles, block_size, [&](std::int64_t begin, std::int64_t end, int) {
     for (int t = static_cast<int>(begin); t < end; ++t) {
       const auto& corner = cover.faces[2 * t];
       for (int s = 0; s < 3; ++s) {
         const double length = (points.row(corner[s]) - points.row(corner[(s + 1) % 3])).norm();
         cover.length[frontSide(t, s)] = cover.length[backSide(t, s)] = length;
-        sums[begin / kBlock] += length;
+        sums[begin / block_size] += length;
       }
     }
   });

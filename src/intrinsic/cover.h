@@ -11,9 +11,9 @@
 
 namespace tufted {
 
-constexpr int kUnglued = -1;
+constexpr int unglued = -1;
 /// Sides have int numbers: 6 per triangle under the cover.
-constexpr std::int64_t kMostTriangles = INT32_MAX / 6;
+constexpr std::int64_t most_triangles = INT32_MAX / 6;
 
 /// Front and back of each triangle (Section 4.2), nothing glued yet: face 2 t is triangle t = (i, j, k), face 2 t + 1
 /// is (i, k, j).
@@ -43,7 +43,8 @@ struct EdgeOrder {
 };
 
 struct EdgeCounts {
-  std::int64_t boundary = 0, manifold = 0, nonmanifold = 0;  ///< edges of one, two, more faces
+  std::int64_t boundary = 0;     ///< edges of one face
+  std::int64_t nonmanifold = 0;  ///< edges of more than two faces
 };
 
 /// Algorithm 1: puts all sides that are not glued yet into one pool per vertex pair, orders each pool circularly and

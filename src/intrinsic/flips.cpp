@@ -9,17 +9,17 @@
 namespace tufted {
 namespace {
 
-constexpr std::int64_t kBlock = 16384;
-constexpr double kFlipBelow = -1e-10;     // on cot + cot; ties of cocircular quadrilaterals stay
-constexpr std::uint8_t kMostFlips = 100;  // per edge
-constexpr std::uint8_t kQueued = 0x80;    // flag beside the count
-constexpr std::int64_t kReportEvery = 1 << 16;
+constexpr std::int64_t block_size = 16384;
+constexpr double flip_below = -1e-10;       // on cot + cot; ties of cocircular quadrilaterals stay
+constexpr std::uint8_t most_flips = 100;    // per edge
+constexpr std::uint8_t queued_flag = 0x80;  // flag beside the count
+constexpr std::int64_t report_every = 1 << 16;
 
 /// Equation 2. An edge with both sides in one triangle is Delaunay: its two opposite angles sum to less than pi.
 bool isDelaunay(const IntrinsicTriangulation& t, int side) {
   const int mate = t.glue[side];
   if (side / 3 == mate / 3) return true;
-  return !(oppositeCotan(t, side) + oppositeCotan(t, mate) < kFlipBelow);
+  return !(oppositeCotan(t, side) + oppositeCotan(t, mate) < flip_below);
 }
 
 /// Whether the angle opposite the side is obtuse; an edge that is not Delaunay has one on at least one side.
@@ -79,11 +79,11 @@ void flip(IntrinsicTriangulation& t, int side, int mate) {
 
 /// The sides, one per edge, that are not Delaunay at the start, in order.
 std::vector<int> findSeeds(const IntrinsicTriangulation& cover, const Workers& workers) {
-  std::vector<std::vector<int>> found((cover.size() + kBlock - 1) / kBlock);
-  workers.forBlocks("flips", cover.size(), kBlock, [&](std::int64_t begin, std::int64_t end, int) {
+  std::vector<std::vector<int>> found((cover.size() + block_size - 1) / block_size);
+  workers.forBlocks("flips", cover.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
     for (int side = static_cast<int>(3 * begin); side < 3 * end; ++side) {
       if (isOppositeObtuse(cover, side) && !isDelaunay(cover, side)) {
-        found[begin / kBlock].push_back(std::min(side, cover.glue[side]));
+        found[begin / block_size].push_back(std::min(side, cover.glue[side]));
       }
     }
   });
@@ -99,14 +99,14 @@ FlipCounts flipToDelaunay(IntrinsicTriangulation& cover, const Workers& workers)
   const std::vector<int> seeds = findSeeds(cover, workers);
   if (seeds.empty()) return counts;
 
-  // Per place of a side: the flips done there and kQueued. A flip moves its outer edges to other places and queues
+  // Per place of a side: the flips done there and queued_flag. A flip moves its outer edges to other places and queues
   // them anew, so no edge is missed, and the bound per place ends the loop whatever the lengths are.
   std::vector<std::uint8_t> state(cover.glue.size());
   std::vector<int> queue;  // depth first
   const auto push = [&](int side) {
     const int edge = std::min(side, cover.glue[side]);
-    if ((state[edge] & kQueued) != 0) return;
-    state[edge] |= kQueued;
+    if ((state[edge] & queued_flag) != 0) return;
+    state[edge] |= queued_flag;
     queue.push_back(edge);
   };
   for (const int side : seeds) push(side);
@@ -114,16 +114,16 @@ FlipCounts flipToDelaunay(IntrinsicTriangulation& cover, const Workers& workers)
   while (!queue.empty()) {
     const int side = queue.back();
     queue.pop_back();
-    state[side] &= static_cast<std::uint8_t>(~kQueued);
+    state[side] &= static_cast<std::uint8_t>(~queued_flag);
     if (isDelaunay(cover, side)) continue;
-    if (state[side] >= kMostFlips) {
+    if (state[side] >= most_flips) {
       ++counts.failures;
       continue;
     }
     const int mate = cover.glue[side];
     flip(cover, side, mate);
     ++state[side];
-    if (++counts.flips % kReportEvery == 0) {
+    if (++counts.flips % report_every == 0) {
       workers.report("flips", 1 - static_cast<double>(queue.size()) / static_cast<double>(cover.glue.size()));
     }
     for (const int outer : {nextSide(side), previousSide(side), nextSide(mate), previousSide(mate)}) push(outer);

@@ -12,7 +12,7 @@
 namespace tufted {
 namespace {
 
-constexpr std::int64_t kBlock = 4096;
+constexpr std::int64_t block_size = 4096;
 
 /// A side of a triangle, filed under the smaller of its two vertices.
 struct PooledSide {
@@ -116,7 +116,7 @@ EdgeCounts glueEdges(IntrinsicTriangulation& cover, const Points& points, const 
                      const Workers& workers, std::vector<std::uint8_t>* boundary) {
   // All sides that are still open, grouped by their smaller vertex: count, prefix sum, fill.
   const int sides = static_cast<int>(3 * (cover.size() / 2));
-  const auto isOpen = [&](int side) { return cover.glue[frontSide(side / 3, side % 3)] == kUnglued; };
+  const auto isOpen = [&](int side) { return cover.glue[frontSide(side / 3, side % 3)] == unglued; };
   const auto ends = [&](int side) {
     const auto& corner = cover.faces[2 * (side / 3)];
     return std::minmax(corner[side % 3], corner[(side + 1) % 3]);
@@ -136,7 +136,7 @@ EdgeCounts glueEdges(IntrinsicTriangulation& cover, const Points& points, const 
   fill = {};
 
   std::array<std::atomic<std::int64_t>, 3> edges = {};
-  workers.forBlocks("glue", cover.vertices, kBlock, [&](std::int64_t begin, std::int64_t end, int) {
+  workers.forBlocks("glue", cover.vertices, block_size, [&](std::int64_t begin, std::int64_t end, int) {
     EdgePool pool(cover, points, order);
     std::array<std::int64_t, 3> count = {};
     for (int low = static_cast<int>(begin); low < end; ++low) {
@@ -164,7 +164,7 @@ EdgeCounts glueEdges(IntrinsicTriangulation& cover, const Points& points, const 
       (*boundary)[low] = (*boundary)[high] = 1;
     }
   }
-  return {edges[0], edges[1], edges[2]};
+  return {edges[0], edges[2]};
 }
 
 }  // namespace tufted

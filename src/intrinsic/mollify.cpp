@@ -7,20 +7,20 @@
 namespace tufted {
 namespace {
 
-constexpr std::int64_t kBlock = 16384;
+constexpr std::int64_t block_size = 16384;
 
 }  // namespace
 
 double mollify(IntrinsicTriangulation& cover, double delta, const Workers& workers) {
   const std::int64_t triangles = cover.size() / 2;
-  std::vector<double> missing((triangles + kBlock - 1) / kBlock);
-  workers.forBlocks("mollify", triangles, kBlock, [&](std::int64_t begin, std::int64_t end, int) {
+  std::vector<double> missing((triangles + block_size - 1) / block_size);
+  workers.forBlocks("mollify", triangles, block_size, [&](std::int64_t begin, std::int64_t end, int) {
     double most = 0;
     for (std::int64_t t = begin; t < end; ++t) {  // front and back have the same lengths
       const double* length = cover.length.data() + 6 * t;
       most = std::max(most, delta - triangleSlack(length[0], length[1], length[2]));
     }
-    missing[begin / kBlock] = most;
+    missing[begin / block_size] = most;
   });
   const double added = missing.empty() ? 0 : *std::max_element(missing.begin(), missing.end());
   if (added > 0) {

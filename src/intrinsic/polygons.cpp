@@ -74,7 +74,7 @@ class EarClipper {
       const Point2 &a = planar_[before], &b = planar_[i], &c = planar_[after];
       const double edges = (b - a).squaredNorm() + (c - b).squaredNorm() + (a - c).squaredNorm();
       double quality = edges > 0 ? turn(a, b, c) / edges : 0;
-      if (!(quality > best_quality - 1)) continue;
+      if (!(quality > best_quality)) continue;                        // it can only fall from here
       if (!(quality > 0 && isEmpty(before, i, after))) quality -= 1;  // |quality| < 1/2, so any true ear wins
       if (quality > best_quality) {
         best_quality = quality;

@@ -4,15 +4,17 @@
 #include <atomic>
 #include <cmath>
 #include <numeric>
+#include <string>
 #include <utility>
 
 #include "intrinsic/geometry.h"
+#include "tufted/errors.h"
 
 namespace tufted {
 namespace {
 
-constexpr std::int64_t kBlock = 8192;
-constexpr double kRounding = 1e-9;  // of the larger diagonal
+constexpr std::int64_t block_size = 8192;
+constexpr double rounding = 1e-9;  // of the larger diagonal
 
 struct Entry {
   int column;
@@ -31,8 +33,13 @@ double edgeWeight(const IntrinsicTriangulation& cover, int side) {
   return ((std::isfinite(here) ? here : 0) + (std::isfinite(there) ? there : 0)) / 2;
 }
 
+/// Side numbers of each vertex, one vertex after the other.
+struct SideLists {
+  std::vector<int> offset, sides;
+};
+
 /// Sides, one per edge, filed under the smaller vertex; edges from a vertex to itself are left out.
-std::pair<std::vector<int>, std::vector<int>> sidesByVertex(const IntrinsicTriangulation& cover) {
+SideLists sidesByVertex(const IntrinsicTriangulation& cover) {
   const int sides = static_cast<int>(3 * cover.size());
   const auto counts = [&](int side) { return side < cover.glue[side] && tail(cover, side) != head(cover, side); };
   const auto owner = [&](int side) { return std::min(tail(cover, side), head(cover, side)); };
@@ -51,17 +58,17 @@ std::pair<std::vector<int>, std::vector<int>> sidesByVertex(const IntrinsicTrian
 
 /// The upper triangle: for each vertex the summed weights of its edges to larger vertices, ascending.
 Rows sumWeights(const IntrinsicTriangulation& cover, double scale, const Workers& workers) {
-  const auto [first, sides] = sidesByVertex(cover);
+  const SideLists lists = sidesByVertex(cover);
   Rows upper;
-  upper.offset.assign(first.size(), 0);
-  std::vector<std::vector<Entry>> parts((cover.vertices + kBlock - 1) / kBlock);
-  workers.forBlocks("assemble", cover.vertices, kBlock, [&](std::int64_t begin, std::int64_t end, int) {
-    std::vector<Entry>& part = parts[begin / kBlock];
+  upper.offset.assign(lists.offset.size(), 0);
+  std::vector<std::vector<Entry>> parts((cover.vertices + block_size - 1) / block_size);
+  workers.forBlocks("assemble", cover.vertices, block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    std::vector<Entry>& part = parts[begin / block_size];
     std::vector<Entry> row;
     for (int v = static_cast<int>(begin); v < end; ++v) {
       row.clear();
-      for (int i = first[v]; i < first[v + 1]; ++i) {
-        const int side = sides[i];
+      for (int i = lists.offset[v]; i < lists.offset[v + 1]; ++i) {
+        const int side = lists.sides[i];
         row.push_back({std::max(tail(cover, side), head(cover, side)), scale * edgeWeight(cover, side)});
       }
       // Stable, so that equal columns are summed in the order of their sides.
@@ -107,7 +114,7 @@ void clampNegative(Rows& upper, const std::vector<double>& diagonal, Report& rep
       if (entry.weight >= 0) continue;
       const double larger = std::max(diagonal[v], diagonal[entry.column]);
       const double relative = larger > 0 ? -entry.weight / larger : INFINITY;
-      ++(relative <= kRounding ? report.clamped_weights : report.clamped_large);
+      ++(relative <= rounding ? report.clamped_weights : report.clamped_large);
       report.largest_clamped = std::max(report.largest_clamped, relative);
       entry.weight = 0;
     }
@@ -145,7 +152,7 @@ SparseMatrix toCallerOrder(const Rows& upper, const std::vector<double>& diagona
 
 /// Sorts the rows within each column.
 void sortColumns(SparseMatrix& L, const Workers& workers) {
-  workers.forBlocks("assemble", L.cols(), kBlock, [&](std::int64_t begin, std::int64_t end, int) {
+  workers.forBlocks("assemble", L.cols(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
     std::vector<std::pair<int, double>> column;
     for (std::int64_t j = begin; j < end; ++j) {
       column.clear();
@@ -177,6 +184,11 @@ VectorXd lumpAreas(const IntrinsicTriangulation& cover, const std::vector<int>& 
 Matrices assembleLaplacian(const IntrinsicTriangulation& cover, const std::vector<int>& caller, int size, double scale,
                            const Workers& workers, Report& report) {
   Rows upper = sumWeights(cover, scale, workers);
+  const auto most_entries = 2 * static_cast<std::int64_t>(upper.entries.size()) + cover.vertices;
+  if (most_entries > INT32_MAX) {
+    throw InvalidInput("assembleLaplacian: " + std::to_string(most_entries) + " entries of L, must be at most " +
+                       std::to_string(INT32_MAX) + ", what an int can number");
+  }
   clampNegative(upper, sumDiagonal(upper), report);
   Matrices matrices;
   matrices.L = toCallerOrder(upper, sumDiagonal(upper), caller, size);

@@ -7,7 +7,7 @@
 namespace tufted {
 namespace {
 
-constexpr const char* kName = "meshLaplacian";
+constexpr const char* function_name = "meshLaplacian";
 
 /// Indices of the triangles that can be used; the others are counted.
 std::vector<int> usableTriangles(const Points& points, const Triangles& triangles,
@@ -18,7 +18,7 @@ std::vector<int> usableTriangles(const Points& points, const Triangles& triangle
     const int i = triangles(t, 0), j = triangles(t, 1), k = triangles(t, 2);
     for (const int v : {i, j, k}) {
       if (v < 0 || v >= points.rows()) {
-        throw InvalidInput(std::string(kName) + ": triangle " + std::to_string(t) + " names vertex " +
+        throw InvalidInput(std::string(function_name) + ": triangle " + std::to_string(t) + " names vertex " +
                            std::to_string(v) + ", must lie in [0, " + std::to_string(points.rows()) + ")");
       }
     }
@@ -37,10 +37,10 @@ std::vector<int> usableTriangles(const Points& points, const Triangles& triangle
 }  // namespace
 
 Laplacian meshLaplacian(const Points& points, const Triangles& triangles, const MeshOptions& options) {
-  checkCommon(kName, options);
-  if (points.rows() > INT32_MAX || triangles.rows() > kMostTriangles) {
-    throw InvalidInput(std::string(kName) + ": " + std::to_string(triangles.rows()) + " triangles, must be at most " +
-                       std::to_string(kMostTriangles));
+  checkCommon(function_name, options);
+  if (points.rows() > INT32_MAX || triangles.rows() > most_triangles) {
+    throw InvalidInput(std::string(function_name) + ": " + std::to_string(triangles.rows()) +
+                       " triangles, must be at most " + std::to_string(most_triangles));
   }
   const Workers workers(options.threads, options.progress);
   Laplacian result;

@@ -25,8 +25,8 @@ inline std::size_t bytesOf(const IntrinsicTriangulation& cover) {
 template <class Options>
 void checkCommon(const char* function, const Options& options) {
   const std::string name = function;
-  if (!(options.mollify >= 0 && std::isfinite(options.mollify))) {
-    throw InvalidInput(name + ": mollify = " + std::to_string(options.mollify) + ", must be finite and >= 0");
+  if (!(options.mollify >= 0 && options.mollify <= 1)) {
+    throw InvalidInput(name + ": mollify = " + std::to_string(options.mollify) + ", must lie in [0, 1]");
   }
   if (options.threads < 0) {
     throw InvalidInput(name + ": threads = " + std::to_string(options.threads) + ", must be >= 0");
@@ -51,7 +51,7 @@ void finishLaplacian(std::shared_ptr<IntrinsicTriangulation> cover, const Points
   clock.finish("flips", 0);
 
   Matrices matrices = assembleLaplacian(*cover, caller, static_cast<int>(result.status.size()), scale, workers, report);
-  result.L = std::move(matrices.L);
+  result.L.swap(matrices.L);
   result.M = std::move(matrices.M);
 
   // Back from units of 2^exponent, which is exact.

@@ -13,12 +13,12 @@
 namespace tufted {
 namespace {
 
-constexpr std::int64_t kBlock = 4096;
-constexpr const char* kName = "pointCloudLaplacian";
+constexpr std::int64_t block_size = 4096;
+constexpr const char* function_name = "pointCloudLaplacian";
 
 void checkOptions(const Points& points, const CloudOptions& options) {
-  const std::string name = kName;
-  checkCommon(kName, options);
+  const std::string name = function_name;
+  checkCommon(function_name, options);
   if (options.neighbors < 3) {
     throw InvalidInput(name + ": neighbors = " + std::to_string(options.neighbors) + ", must be at least 3");
   }
@@ -38,8 +38,8 @@ void checkOptions(const Points& points, const CloudOptions& options) {
 }
 
 [[noreturn]] void tooMany(std::int64_t points, std::int64_t triangles) {
-  throw InvalidInput(std::string(kName) + ": " + std::to_string(points) + " points in stars of " +
-                     std::to_string(triangles) + " triangles, must be at most " + std::to_string(kMostTriangles) +
+  throw InvalidInput(std::string(function_name) + ": " + std::to_string(points) + " points in stars of " +
+                     std::to_string(triangles) + " triangles, must be at most " + std::to_string(most_triangles) +
                      " triangles (about 59 million points)");
 }
 
@@ -50,11 +50,11 @@ void addStars(const Stars& stars, Gluing gluing, IntrinsicTriangulation& cover, 
   std::vector<std::int64_t> first(static_cast<std::size_t>(n) + 1);
   for (int p = 0; p < n; ++p) {
     const auto begin = stars.radius.begin() + stars.offset[p], end = stars.radius.begin() + stars.offset[p + 1];
-    first[p + 1] = first[p] + std::count_if(begin, end, [](double radius) { return radius != kNoTriangle; });
+    first[p + 1] = first[p] + std::count_if(begin, end, [](double radius) { return radius != no_triangle; });
   }
-  if (first[n] > kMostTriangles) tooMany(n, first[n]);
+  if (first[n] > most_triangles) tooMany(n, first[n]);
   resizeCover(cover, n, first[n]);
-  workers.forBlocks("union", n, kBlock, [&](std::int64_t begin, std::int64_t end, int) {
+  workers.forBlocks("union", n, block_size, [&](std::int64_t begin, std::int64_t end, int) {
     for (int p = static_cast<int>(begin); p < end; ++p) {
       int t = static_cast<int>(first[p]);
       int previous = -1;     // triangle before link vertex i, if there is one
@@ -112,6 +112,7 @@ Laplacian pointCloudLaplacian(const Points& points, const CloudOptions& options)
 
   workers.report("order", 0);
   const RankedCloud cloud = rankPoints(points, result.status, result.representative);
+  if (cloud.size() > most_triangles / 6) tooMany(cloud.size(), 6 * static_cast<std::int64_t>(cloud.size()));
   clock.finish("order", static_cast<std::size_t>(cloud.size()) * (3 * sizeof(double) + sizeof(int)));
 
   NeighborSource source;
@@ -141,9 +142,7 @@ Laplacian pointCloudLaplacian(const Points& points, const CloudOptions& options)
   auto cover = std::make_shared<IntrinsicTriangulation>();
   addStars(stars, options.gluing, *cover, workers);
   stars = {};
-  const EdgeCounts edges = glueEdges(*cover, cloud.points, {options.order, options.seed}, workers);
-  report.boundary_edges = edges.boundary;
-  report.nonmanifold_edges = edges.nonmanifold;
+  glueEdges(*cover, cloud.points, {options.order, options.seed}, workers);
   clock.finish("cover", bytesOf(*cover));
 
   finishLaplacian(std::move(cover), cloud.points, cloud.caller, cloud.exponent, 1.0 / 2 / 3, options, workers, clock,

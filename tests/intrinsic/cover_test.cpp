@@ -168,7 +168,7 @@ TEST(Validate, FindsEveryPlantedFault) {
     change(cover);
     return validate(cover);
   };
-  EXPECT_GT(broken([](auto& c) { c.glue[4] = kUnglued; }).not_closed, 0);
+  EXPECT_GT(broken([](auto& c) { c.glue[4] = unglued; }).not_closed, 0);
   EXPECT_GT(broken([](auto& c) { c.glue[4] = 1 << 30; }).not_closed, 0);
   EXPECT_GT(broken([](auto& c) { c.glue[4] = 4; }).not_edge_manifold, 0);
   EXPECT_GT(broken([](auto& c) { std::swap(c.glue[0], c.glue[1]); }).not_edge_manifold, 0);

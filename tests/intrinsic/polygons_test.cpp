@@ -50,6 +50,14 @@ TEST(EarClipping, AlwaysGivesTwoLessThanTheCorners) {
   EXPECT_EQ(triangulate(crossing, {{}, {0}, {0, 1}, {0, 1, 2}}).rows(), 1);
 }
 
+TEST(EarClipping, OfThousandsOfCornersEnds) {
+  Points circle(5000, 3);
+  for (int i = 0; i < 5000; ++i) circle.row(i) << std::cos(2 * M_PI * i / 5000), std::sin(2 * M_PI * i / 5000), 0;
+  const Triangles triangles = triangulate(circle, {upTo(5000)});
+  EXPECT_EQ(triangles.rows(), 4998);
+  EXPECT_NEAR(oracles::surfaceArea(circle, triangles), M_PI, 1e-5);
+}
+
 TEST(EarClipping, OfFlatFacesLeavesNoTraceInTheLaplacian) {
   const shapes::Mesh quads = shapes::cubeQuads(6);
   const Laplacian a = meshLaplacian(quads.points, quads.triangles);  // the fans

@@ -12,7 +12,7 @@
 namespace tufted {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 /// Builds, and checks everything that L and M promise.
 Laplacian build(const Points& points, const CloudOptions& options = {}) {
@@ -99,7 +99,7 @@ TEST(OddCloud, PointsThatAreNotFiniteKeepTheirIndex) {
     int odd = 0;
     for (int i = 0; i < 3000; ++i) {
       if (i > 0 && random.uniform() >= part) continue;
-      points(i, i % 3) = i % 2 == 0 ? kNaN : INFINITY;
+      points(i, i % 3) = i % 2 == 0 ? not_a_number : INFINITY;
       ++odd;
     }
     const Laplacian laplacian = build(points);
@@ -152,7 +152,7 @@ TEST(OddCloud, TinyAndHugeScalesChangeOnlyTheUnit) {
 TEST(OddCloud, AllOddAtOnce) {
   Points points = stack(sphere(1000), Points(sphere(1000) * 1e-3));
   points = stack(points, Points(points.topRows(200)));
-  for (int i = 0; i < 500; ++i) points.row(3 * i).setConstant(kNaN);
+  for (int i = 0; i < 500; ++i) points.row(3 * i).setConstant(not_a_number);
   const Report report = build(points).report;
   EXPECT_EQ(report.points, report.active + report.not_finite + report.coincident + report.isolated);
 }
@@ -173,13 +173,17 @@ TEST(Mistake, NamesFunctionValueAndRule) {
   }
   EXPECT_EQ(message({.threads = -2}), "pointCloudLaplacian: threads = -2, must be >= 0");
   EXPECT_NE(message({.mollify = -1}).find("mollify = -1"), std::string::npos);
-  EXPECT_NE(message({.mollify = kNaN}).find("must be finite"), std::string::npos);
+  EXPECT_NE(message({.mollify = not_a_number}).find("must lie in [0, 1]"), std::string::npos);
   const Points normals = Points::Ones(99, 3);
   EXPECT_EQ(message({.normals = &normals}), "pointCloudLaplacian: normals has 99 rows, must have 100, one per point");
   Neighborhoods lists = Neighborhoods::Zero(100, 3);
   lists(7, 2) = 100;
   EXPECT_NE(message({.neighborhoods = &lists}).find("neighborhoods(7, 2) = 100"), std::string::npos);
   EXPECT_THROW(pointCloudLaplacian(points, {.keep_cover = false}).cover(), InvalidInput);
+}
+
+TEST(Mistake, MoreThreadsThanHelpAreNotStarted) {
+  EXPECT_LE(build(sphere(100), {.threads = INT32_MAX}).report.threads, 4096);
 }
 
 TEST(Mistake, TooManyNeighboursAreClampedAndReported) {
