@@ -2,14 +2,19 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 #include <chrono>
+#include <cstdint>
 #include <cstdio>
 #include <filesystem>
 #include <limits>
 #include <map>
 #include <memory>
 #include <optional>
+#include <sstream>
 #include <string>
+#include <system_error>
+#include <type_traits>
 #include <vector>
 
 #include "command.h"
@@ -27,12 +32,15 @@ constexpr const char* description = "Build L and M for a point cloud or a mesh a
 constexpr const char* footer = R"(Sign and scale:
   L is positive semidefinite: minus the Laplacian, integrated. libigl and PMP use the opposite sign.
   M holds an area per point in length^2; their sum approximates the surface area.
+  Scale on clouds: 1/2 (front and back of the cover) times 1/3 (each triangle is found by its three corners).
+  Scale on meshes: 1/2 (front and back of the cover).
   Poisson L u = M f, eigenproblem L x = lambda M x.
   Points that cannot take part keep their index, with zero row, column and mass; status.npy says why.
 
 Reads .pcd .ply .xyz .xyzn .pwn .txt .csv .asc .pts (clouds), .ply .obj .off .stl (meshes).
+The normals of a file are not used for L and M; points.ply passes them on.
 
-Writes into DIR, each file only when all are complete:
+Writes into DIR, renamed one after the other when all are complete:
   L.npz               sparse matrix, scipy.sparse.load_npz
   M.npy               areas
   status.npy          0 active, 1 not finite, 2 coincident, 3 isolated
@@ -70,6 +78,45 @@ CLI::Option* addChoice(CLI::App& app, const std::string& name, T& target, const 
   return app.add_option_function<std::string>(name, set, help)->check(check)->type_name(names);
 }
 
+std::string notEmpty(const std::string& path) {
+  return path.empty() ? "must not be empty" : "";
+}
+
+/// An option that takes a number in [least, most].
+template <class T, class Target>
+CLI::Option* addNumber(CLI::App& app, const std::string& name, Target& target, T least, T most,
+                       const std::string& help) {
+  const auto parse = [least, most](const std::string& text) -> std::optional<T> {
+    T value = {};
+    const char* const text_end = text.data() + text.size();
+    const auto [end, error] = std::from_chars(text.data(), text_end, value);
+    const bool valid = error == std::errc() && end == text_end && value >= least && value <= most;
+    return valid ? std::optional<T>(value) : std::nullopt;
+  };
+  const auto check = [parse, least, most](const std::string& text) {
+    if (parse(text)) return std::string();
+    std::ostringstream message;
+    message << text << " is not " << (std::is_integral_v<T> ? "an integer" : "a number") << " in [" << least << ", "
+            << most << ']';
+    return message.str();
+  };
+  const auto set = [&target, parse](const std::string& text) { target = parse(text).value(); };
+  return app.add_option_function<std::string>(name, set, help)->check(check);
+}
+
+/// Refuses what no build can be written to.
+void checkOutput(const Settings& settings) {
+  std::error_code error;
+  for (const char* name : tufted::result_files)
+    if (std::filesystem::equivalent(settings.file, settings.out / name, error))
+      throw tufted::InvalidInput(settings.file.string() + ": is the input, and --out " + settings.out.string() +
+                                 " would overwrite it");
+  const auto status = std::filesystem::status(settings.out, error);
+  if (status.type() == std::filesystem::file_type::not_found) return;
+  if (error) throw tufted::IoError(settings.out.string() + ": " + error.message());
+  if (!std::filesystem::is_directory(status)) throw tufted::IoError(settings.out.string() + ": is not a directory");
+}
+
 /// Options that have no meaning for a mesh.
 void refuseCloudOptions(const Settings& settings, const std::vector<CLI::Option*>& options) {
   for (const CLI::Option* option : options)
@@ -94,6 +141,9 @@ void printSummary(const Settings& settings, const tufted::Geometry& geometry, co
   const tufted::Report& report = laplacian.report;
   const auto count = [](std::int64_t n) { return static_cast<long long>(n); };
   std::printf("%-15s %s (%s)\n", "file", settings.file.c_str(), geometry.is_mesh ? "mesh" : "cloud");
+  if (geometry.polygons > 0) std::printf("%-15s %lld triangulated\n", "polygons", count(geometry.polygons));
+  if (geometry.merged_vertices > 0)
+    std::printf("%-15s %lld equal corners\n", "merged", count(geometry.merged_vertices));
   std::printf("%-15s %lld, %lld active, %lld not finite, %lld coincident, %lld isolated\n", "points",
               count(report.points), count(report.active), count(report.not_finite), count(report.coincident),
               count(report.isolated));
@@ -114,8 +164,7 @@ void printSummary(const Settings& settings, const tufted::Geometry& geometry, co
 
 int runLaplacian(Settings settings, const std::vector<CLI::Option*>& cloud_only) {
   const auto start = std::chrono::steady_clock::now();
-  if (std::filesystem::exists(settings.out) && !std::filesystem::is_directory(settings.out))
-    throw tufted::IoError(settings.out.string() + ": is not a directory");
+  checkOutput(settings);
   ProgressBar bar;
   const tufted::Progress progress = [&bar](std::string_view stage, double fraction) {
     bar.show(stage, fraction);
@@ -152,26 +201,30 @@ void addLaplacian(CLI::App& app, Run& run) {
   command.footer(footer);
   const auto settings = std::make_shared<Settings>();
   tufted::CloudOptions& options = settings->cloud;
-  command.add_option("FILE", settings->file, "Points or mesh")->required();
+  command.add_option("FILE", settings->file, "Points or mesh")->required()->check(notEmpty);
   command.add_option("--out", settings->out, "Directory for the results, made if missing")
       ->required()
+      ->check(notEmpty)
       ->type_name("DIR");
   const std::vector<CLI::Option*> cloud_only = {
-      command.add_option("--neighbors", options.neighbors, "Neighbours per point, clouds only (30)")
-          ->check(CLI::Range(3, std::numeric_limits<int>::max()).description(""))
+      addNumber(command, "--neighbors", options.neighbors, 3, std::numeric_limits<int>::max(),
+                "Neighbours per point, clouds only (30)")
           ->type_name("K"),
       addChoice(command, "--gluing", options.gluing, gluings, "How the stars are glued, clouds only (star)"),
       addChoice(command, "--delaunay", options.delaunay, backends, "Who finds the stars, clouds only (star)")};
   addChoice(command, "--order", options.order, orders, "Order of the faces around an edge (angle)");
-  command.add_option("--seed", options.seed, "Seed of --order random (0)")
-      ->check(CLI::Range(0.0, std::numeric_limits<double>::max()).description(""))
-      ->type_name("S");
-  command.add_option("--mollify", settings->mollify, "Mollification in mean edge lengths (1e-5 clouds, 1e-4 meshes)")
-      ->check(CLI::Range(0.0, std::numeric_limits<double>::max()).description(""))
+  const CLI::Option* const seed =
+      addNumber(command, "--seed", options.seed, std::uint64_t(0), std::numeric_limits<std::uint64_t>::max(),
+                "Seed, only with --order random (0)")
+          ->type_name("S");
+  addNumber(command, "--mollify", settings->mollify, 0.0, 1.0,
+            "Mollification in mean edge lengths, at most 1 (1e-5 clouds, 1e-4 meshes)")
       ->type_name("D");
-  command.add_option("--threads", options.threads, "At most this many threads (all)")
-      ->check(CLI::Range(1, 1 << 16).description(""))
-      ->type_name("N");
+  addNumber(command, "--threads", options.threads, 1, 1 << 16, "At most this many threads (all)")->type_name("N");
   addChoice(command, "--as", settings->as, kinds, "Take a file that may be either as one of them");
-  command.callback([&run, settings, cloud_only] { run = [=] { return runLaplacian(*settings, cloud_only); }; });
+  command.callback([&run, settings, cloud_only, seed] {
+    if (seed->count() > 0 && settings->cloud.order != tufted::FaceOrder::random)
+      throw CLI::RequiresError("--seed", "--order random");
+    run = [=] { return runLaplacian(*settings, cloud_only); };
+  });
 }

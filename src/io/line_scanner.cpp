@@ -30,13 +30,25 @@ void LineScanner::appendTokens() {
   const std::string_view line = text_.substr(offset_, end - offset_);
   offset_ = end + 1;
   ++line_;
-  std::size_t begin = 0;
-  while ((begin = line.find_first_not_of(syntax_.separators, begin)) != std::string_view::npos) {
-    if (syntax_.comment != '\0' && line[begin] == syntax_.comment) return;
-    const std::size_t stop = std::min(line.find_first_of(syntax_.separators, begin), line.size());
+  std::size_t stop = 0;
+  while (stop < line.size()) {
+    const std::size_t begin = std::min(line.find_first_not_of(syntax_.separators, stop), line.size());
+    checkGap(line.substr(stop, begin - stop));
+    if (begin == line.size() || (syntax_.comment != '\0' && line[begin] == syntax_.comment)) return;
+    stop = std::min(line.find_first_of(syntax_.separators, begin), line.size());
     tokens_.push_back(line.substr(begin, stop - begin));
-    begin = stop;
+    if (tokens_.size() == 1 && !syntax_.line_comment.empty() && tokens_[0].starts_with(syntax_.line_comment)) {
+      tokens_.clear();
+      return;
+    }
   }
+}
+
+void LineScanner::checkGap(std::string_view gap) const {
+  if (syntax_.delimiters.empty()) return;
+  const auto count = std::count_if(gap.begin(), gap.end(),
+                                   [this](char c) { return syntax_.delimiters.find(c) != std::string_view::npos; });
+  if (count > (tokens_.empty() ? 0 : 1)) refuse("value " + std::to_string(tokens_.size() + 1) + " is empty");
 }
 
 double LineScanner::number(std::size_t token) const {

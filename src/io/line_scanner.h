@@ -13,8 +13,10 @@ class LineScanner {
  public:
   struct Syntax {
     std::string_view separators = " \t\r\f\v";
-    char comment = '\0';     ///< a token that begins with it ends the line
-    bool continued = false;  ///< a line whose last token is a backslash goes on in the next
+    std::string_view delimiters = {};    ///< separators with a token before each and between any two
+    char comment = '\0';                 ///< a token that begins with it ends the line
+    std::string_view line_comment = {};  ///< a line that begins with it holds no token
+    bool continued = false;              ///< a line whose last token is a backslash goes on in the next
   };
 
   /// `path` and `text` are borrowed.
@@ -27,7 +29,7 @@ class LineScanner {
     line_ = line;
   }
 
-  /// Moves to the next line that holds a token. False at the end of the text.
+  /// Moves to the next line that holds a token. False at the end of the text. @throws IoError naming the line
   bool next();
 
   const std::vector<std::string_view>& tokens() const { return tokens_; }
@@ -45,6 +47,8 @@ class LineScanner {
 
  private:
   void appendTokens();
+  /// Refuses what lies between two tokens if it holds an empty field.
+  void checkGap(std::string_view gap) const;
 
   const std::filesystem::path& path_;
   std::string_view text_;

@@ -53,6 +53,9 @@ Json conventions() {
       {"L", "weak (integrated) Laplacian, symmetric positive semidefinite, off-diagonals <= 0, rows sum to 0"},
       {"sign", "L is minus the Laplacian, integrated; libigl and PMP use the opposite sign"},
       {"M", "lumped areas in length^2, N values; their sum approximates the surface area"},
+      {"scale",
+       {{"cloud", "1/2 (front and back of the cover) times 1/3 (each triangle is found by its three corners)"},
+        {"mesh", "1/2 (front and back of the cover)"}}},
       {"poisson", "L u = M f"},
       {"eigenproblem", "L x = lambda M x"},
       {"status", {"active", "not_finite", "coincident", "isolated"}},
@@ -95,9 +98,10 @@ std::string toJson(const Report& report) {
   return reportObject(report).dump(indent) + "\n";
 }
 
-std::string io::reportJson(const Report& report, const WriteOptions& options) {
+std::string io::reportJson(const Report& report, const Geometry& geometry, const WriteOptions& options) {
   Json json = {{"tufted", TUFTED_VERSION}};
   if (!options.source.empty()) json["source"] = options.source;
+  json["input"] = {{"polygons", geometry.polygons}, {"merged_vertices", geometry.merged_vertices}};
   if (options.cloud) json["cloud_options"] = optionsObject(*options.cloud);
   if (options.mesh) json["mesh_options"] = commonOptions(*options.mesh);
   json["conventions"] = conventions();

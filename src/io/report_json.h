@@ -6,7 +6,7 @@
 
 namespace tufted::io {
 
-/// The text of report.json: version, conventions, source, options where given, report.
-std::string reportJson(const Report& report, const WriteOptions& options);
+/// The text of report.json: version, source, what was changed in reading it, options where given, conventions, report.
+std::string reportJson(const Report& report, const Geometry& geometry, const WriteOptions& options);
 
 }  // namespace tufted::io

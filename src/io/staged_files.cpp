@@ -11,18 +11,28 @@ namespace tufted::io {
 
 StagedFiles::StagedFiles(const std::filesystem::path& dir) : dir_(dir) {
   std::error_code error;
-  for (auto missing = std::filesystem::absolute(dir_); !std::filesystem::exists(missing, error) && !error;
+  // Not what a link points to: a link that leads nowhere is not ours to remove.
+  for (auto missing = std::filesystem::absolute(dir_, error);
+       std::filesystem::symlink_status(missing, error).type() == std::filesystem::file_type::not_found &&
+       missing.has_relative_path();
        missing = missing.parent_path())
     made_.insert(made_.begin(), missing);
   std::filesystem::create_directories(dir_, error);
-  if (error) refuse(dir_, "cannot make the directory: " + error.message());
+  if (error) {
+    removeMade();  // some parents may be there by now
+    refuse(dir_, "cannot make the directory: " + error.message());
+  }
   if (!std::filesystem::is_directory(dir_, error)) refuse(dir_, "is not a directory");
 }
 
 StagedFiles::~StagedFiles() {
   std::error_code ignored;
   for (const File& file : files_) std::filesystem::remove(file.temporary, ignored);
-  // Only directories that are empty go.
+  removeMade();
+}
+
+void StagedFiles::removeMade() {
+  std::error_code ignored;
   for (auto made = made_.rbegin(); made != made_.rend(); ++made) std::filesystem::remove(*made, ignored);
 }
 

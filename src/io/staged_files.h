@@ -24,6 +24,9 @@ class StagedFiles {
   void commit();
 
  private:
+  /// Removes the directories that were made and are empty.
+  void removeMade();
+
   struct File {
     std::filesystem::path temporary, finished;
   };

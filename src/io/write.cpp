@@ -67,7 +67,9 @@ void writeLaplacian(const std::filesystem::path& dir, const Laplacian& laplacian
       {"boundary.npy",
        [&](const Path& path, const Path& shown) { writeNpy(path, shown, "|u1", laplacian.boundary.data(), points); }},
       {"report.json",
-       [&](const Path& path, const Path& shown) { writeText(path, shown, io::reportJson(laplacian.report, options)); }},
+       [&](const Path& path, const Path& shown) {
+         writeText(path, shown, io::reportJson(laplacian.report, geometry, options));
+       }},
       {"points.ply", [&](const Path& path, const Path& shown) { io::writePly(path, shown, laplacian, geometry); }},
   };
   io::StagedFiles files(dir);

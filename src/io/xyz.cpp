@@ -22,12 +22,6 @@ struct Numbers {
   std::size_t rows() const { return columns == 0 ? 0 : values.size() / columns; }
 };
 
-bool nextRow(LineScanner& scanner) {
-  while (scanner.next())
-    if (!scanner.tokens()[0].starts_with("//")) return true;
-  return false;
-}
-
 /// A first line of names, as in `x,y,z,intensity`.
 bool isHeading(const LineScanner& scanner) {
   const auto& tokens = scanner.tokens();
@@ -44,10 +38,11 @@ std::string lower(std::string_view text) {
 }
 
 Numbers readNumbers(const std::filesystem::path& path, std::string_view text) {
-  LineScanner scanner(path, text, {.separators = " \t\r\f\v,;", .comment = '#'});
+  LineScanner scanner(path, text,
+                      {.separators = " \t\r\f\v,;", .delimiters = ",;", .comment = '#', .line_comment = "//"});
   Numbers numbers;
   std::int64_t announced = -1;
-  while (nextRow(scanner)) {
+  while (scanner.next()) {
     const auto& tokens = scanner.tokens();
     if (numbers.columns == 0) {
       if (tokens.size() == 1 && announced < 0) {  // some writers put the number of points first

@@ -93,10 +93,66 @@ TEST_F(Command, MistakesOnTheCommandLineAreOneLineAndTwo) {
   expectUsageError({"laplacian", file, "--out", out(), "--neighbors", "many"});
   expectUsageError({"laplacian", file, "--out", out(), "--neighbors", "99999999999"});
   expectUsageError({"laplacian", file, "--out", out(), "--gluing", "tape"});
-  expectUsageError({"laplacian", file, "--out", out(), "--mollify", "-1"});
+  for (const char* mollify : {"-1", "1.5", "nan", "inf", "1e-3x"})
+    expectUsageError({"laplacian", file, "--out", out(), "--mollify", mollify});
   expectUsageError({"laplacian", file, "--out", out(), "--threads", "0"});
-  expectUsageError({"laplacian", file, "--out", out(), "--seed", "-1"});
+  for (const char* seed : {"-1", "99999999999999999999999", "18446744073709551616", "1.5", "0x1"})
+    expectUsageError({"laplacian", file, "--out", out(), "--order", "random", "--seed", seed});
+  expectUsageError({"laplacian", file, "--out", out(), "--seed", "1"});
+  expectUsageError({"laplacian", file, "--out", out(), "--seed", "1", "--order", "area"});
   expectUsageError({"laplacian", file, "--out", out(), "--as", "surface"});
+  expectUsageError({"laplacian", file, "--out", ""});
+  expectUsageError({"laplacian", "", "--out", out()});
+}
+
+TEST_F(Command, NumbersOutOfRangeAreNamedWithTheirRange) {
+  const std::string file = dir_.write("sphere.xyz", sphere(50));
+  const auto error = [&](const char* option, const char* value) {
+    return runTufted({"laplacian", file, "--out", out(), "--order", "random", option, value}).err;
+  };
+  EXPECT_EQ(error("--mollify", "-1"), "tufted: --mollify: -1 is not a number in [0, 1] (see tufted --help)\n");
+  EXPECT_EQ(error("--seed", "-1"),
+            "tufted: --seed: -1 is not an integer in [0, 18446744073709551615] (see tufted --help)\n");
+}
+
+TEST_F(Command, TheGreatestSeedIsTakenAsItIs) {
+  const std::string file = dir_.write("sphere.xyz", sphere(50));
+  const std::string seed = "18446744073709551615";
+  ASSERT_EQ(runTufted({"laplacian", file, "--out", out(), "--seed", seed, "--order", "random"}).code, 0);
+  EXPECT_NE(readAll(dir_ / "out/report.json").find("\"seed\": " + seed), std::string::npos);
+}
+
+TEST_F(Command, TheInputIsNeverOverwritten) {
+  std::filesystem::create_directory(dir_ / "d");
+  const std::string bytes = "not even a ply";
+  const std::string file = dir_.write("d/points.ply", bytes);
+  std::filesystem::create_symlink(file, dir_ / "link.ply");
+  for (const std::string& input : {file, (dir_ / "d/../d/points.ply").string(), (dir_ / "link.ply").string()}) {
+    const Result result = runTufted({"laplacian", input, "--out", dir_ / "d"});
+    EXPECT_EQ(result.code, 2);
+    EXPECT_EQ(result.err,
+              "tufted: " + input + ": is the input, and --out " + (dir_ / "d").string() + " would overwrite it\n");
+  }
+  EXPECT_EQ(readAll(file), bytes);
+  EXPECT_EQ(runTufted({"laplacian", dir_.write("d/report.json", "{}"), "--out", dir_ / "d"}).code, 2);
+}
+
+TEST_F(Command, PolygonsAndMergedCornersAreStated) {
+  const auto polygon = dir_.write("square.obj", "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3 4\n");
+  const Result square = runTufted({"laplacian", polygon, "--out", out()});
+  ASSERT_EQ(square.code, 0) << square.err;
+  EXPECT_NE(square.out.find("polygons        1 triangulated\n"), std::string::npos) << square.out;
+  EXPECT_EQ(square.out.find("merged"), std::string::npos);
+  EXPECT_NE(readAll(dir_ / "out/report.json").find("\"polygons\": 1"), std::string::npos);
+  const auto corners = dir_.write(
+      "two.stl",
+      "solid\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\nendloop\nendfacet\n"
+      "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 1 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n");
+  const Result two = runTufted({"laplacian", corners, "--out", out()});
+  ASSERT_EQ(two.code, 0) << two.err;
+  EXPECT_NE(two.out.find("merged          2 equal corners\n"), std::string::npos) << two.out;
+  EXPECT_EQ(two.out.find("polygons"), std::string::npos);
+  EXPECT_NE(readAll(dir_ / "out/report.json").find("\"merged_vertices\": 2"), std::string::npos);
 }
 
 TEST_F(Command, OptionsOfCloudsAreRefusedForAMesh) {
@@ -112,9 +168,13 @@ TEST_F(Command, FilesThatCannotBeReadOrWrittenAreOneLineAndOne) {
   const std::string missing = (dir_ / "missing.ply").string();
   const std::string blocked = dir_.write("blocked", "");
   const std::vector<std::vector<std::string>> cases = {
-      {"laplacian", bad, "--out", out()},         {"laplacian", missing, "--out", out()},
-      {"laplacian", dir_.path(), "--out", out()}, {"laplacian", good, "--out", out(), "--as", "mesh"},
-      {"laplacian", good, "--out", blocked},      {"laplacian", good, "--out", blocked + "/below"},
+      {"laplacian", bad, "--out", out()},
+      {"laplacian", missing, "--out", out()},
+      {"laplacian", dir_.path(), "--out", out()},
+      {"laplacian", good, "--out", out(), "--as", "mesh"},
+      {"laplacian", good, "--out", blocked},
+      {"laplacian", good, "--out", blocked + "/below"},
+      {"laplacian", good, "--out", (dir_ / std::string(300, 'x')).string()},
   };
   for (const auto& arguments : cases) {
     const Result result = runTufted(arguments);
@@ -131,7 +191,9 @@ TEST_F(Command, HelpStatesSignScaleAndFiles) {
   const Result result = runTufted({"laplacian", "--help"});
   EXPECT_EQ(result.code, 0);
   EXPECT_EQ(result.err, "");
-  for (const char* part : {"positive semidefinite", "opposite sign", "length^2", "L u = M f", "L x = lambda M x"})
+  for (const char* part : {"positive semidefinite", "opposite sign", "length^2", "L u = M f", "L x = lambda M x",
+                           "1/2 (front and back of the cover) times 1/3 (each triangle is found by its three corners)",
+                           "meshes: 1/2 (front and back of the cover)", "normals of a file are not used"})
     EXPECT_NE(result.out.find(part), std::string::npos) << part;
   for (const char* name : outputs) EXPECT_NE(result.out.find(name), std::string::npos) << name;
   const Result overview = runTufted({"--help"});

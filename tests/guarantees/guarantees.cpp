@@ -12,7 +12,7 @@ namespace tufted::guarantees {
 namespace {
 
 /// Large enough to exceed the rounding of a factorisation, small enough to leave every honest eigenvalue alone.
-constexpr double kShift = 1e-12;
+constexpr double diagonal_shift = 1e-12;
 
 /// How often one promise is broken, and where first.
 class Breach {
@@ -111,7 +111,8 @@ void checkSymmetry(const SparseMatrix& L, std::vector<std::string>& broken) {
   symmetry.addTo(broken);
 }
 
-/// L + kShift diag(L) of the active points has a Cholesky factorisation, so L is positive semidefinite up to rounding.
+/// L + diagonal_shift diag(L) of the active points has a Cholesky factorisation, so L is positive semidefinite up to
+/// rounding.
 void checkDefinite(const Laplacian& laplacian, std::vector<std::string>& broken) {
   const SparseMatrix& L = laplacian.L;
   std::vector<int> number(laplacian.status.size(), -1);
@@ -124,7 +125,7 @@ void checkDefinite(const Laplacian& laplacian, std::vector<std::string>& broken)
   for (Eigen::Index j = 0; j < L.cols(); ++j) {
     for (SparseMatrix::InnerIterator it(L, j); it; ++it) {
       if (it.row() < j || number[j] < 0 || number[it.row()] < 0) continue;
-      entries.emplace_back(number[it.row()], number[j], it.row() == j ? it.value() * (1 + kShift) : it.value());
+      entries.emplace_back(number[it.row()], number[j], it.row() == j ? it.value() * (1 + diagonal_shift) : it.value());
     }
   }
   if (active == 0) return;

@@ -11,14 +11,14 @@
 namespace tufted::guarantees {
 namespace {
 
-constexpr int kNotFinite = 500, kCoincident = 501;
+constexpr int not_finite_row = 500, coincident_row = 501;
 
 /// A sphere of 500 points, then a point that is not finite and a copy of point 7.
 Points samplePoints() {
   Points points(502, 3);
   points.topRows(500) = shapes::sphere(500).points.topRows(500);
-  points.row(kNotFinite).setConstant(NAN);
-  points.row(kCoincident) = points.row(7);
+  points.row(not_finite_row).setConstant(NAN);
+  points.row(coincident_row) = points.row(7);
   return points;
 }
 
@@ -60,10 +60,10 @@ std::vector<Planted> planted() {
       {"ZeroDiagonal", "positive diagonal", [](Laplacian& l) { l.L.coeffRef(0, 0) = 0; }},
       {"InactiveRow", "inactive is zero",
        [](Laplacian& l) {
-         l.L.coeffRef(kNotFinite, kNotFinite) = 1;
+         l.L.coeffRef(not_finite_row, not_finite_row) = 1;
          l.L.makeCompressed();
        }},
-      {"InactiveMass", "inactive is zero", [](Laplacian& l) { l.M[kCoincident] = 1e-300; }},
+      {"InactiveMass", "inactive is zero", [](Laplacian& l) { l.M[coincident_row] = 1e-300; }},
       {"NegativeMass", "mass", [](Laplacian& l) { l.M[0] = -1e-300; }},
       {"OneBitOfSymmetry", "symmetry",
        [](Laplacian& l) {
@@ -102,9 +102,10 @@ std::vector<Planted> planted() {
       {"CountOfActive", "counts", [](Laplacian& l) { --l.report.active; }},
       {"CountOfNonzeros", "counts", [](Laplacian& l) { ++l.report.nonzeros; }},
       {"NoComponents", "counts", [](Laplacian& l) { l.report.components = 0; }},
-      {"NotFiniteIsActive", "status", [](Laplacian& l) { l.status[kNotFinite] = PointStatus::active; }},
-      {"CoincidentIsIsolated", "status", [](Laplacian& l) { l.status[kCoincident] = PointStatus::isolated; }},
-      {"RepresentativeIsLater", "representative", [](Laplacian& l) { l.representative[kCoincident] = kCoincident; }},
+      {"NotFiniteIsActive", "status", [](Laplacian& l) { l.status[not_finite_row] = PointStatus::active; }},
+      {"CoincidentIsIsolated", "status", [](Laplacian& l) { l.status[coincident_row] = PointStatus::isolated; }},
+      {"RepresentativeIsLater", "representative",
+       [](Laplacian& l) { l.representative[coincident_row] = coincident_row; }},
       {"RepresentativeOfAnother", "representative", [](Laplacian& l) { l.representative[3] = 2; }},
       {"LongNormal", "frame", [](Laplacian& l) { l.frames.normals.row(3) *= 2; }},
       {"SkewTangent", "frame", [](Laplacian& l) { l.frames.tangents.row(3) = l.frames.normals.row(3); }},

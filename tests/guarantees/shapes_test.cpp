@@ -16,10 +16,10 @@ namespace {
 using testing::IsEmpty;
 using testing::ValuesIn;
 
-constexpr int kPoints = 1500;
+constexpr int point_count = 1500;
 
 const std::vector<shapes::Cloud>& clouds() {
-  static const std::vector<shapes::Cloud> all = shapes::allClouds(kPoints);
+  static const std::vector<shapes::Cloud> all = shapes::allClouds(point_count);
   return all;
 }
 
@@ -35,7 +35,7 @@ std::vector<const Shape*> pointersTo(const std::vector<Shape>& all) {
   return pointers;
 }
 
-constexpr std::array kOrders = {FaceOrder::angle, FaceOrder::area, FaceOrder::random};
+constexpr std::array face_orders = {FaceOrder::angle, FaceOrder::area, FaceOrder::random};
 
 class GuaranteesOfCloud : public testing::TestWithParam<const shapes::Cloud*> {
  protected:
@@ -44,7 +44,7 @@ class GuaranteesOfCloud : public testing::TestWithParam<const shapes::Cloud*> {
 
 TEST_P(GuaranteesOfCloud, InAnyGluingAndOrder) {
   for (const Gluing gluing : {Gluing::star, Gluing::vertex_pair}) {
-    for (const FaceOrder order : kOrders) {
+    for (const FaceOrder order : face_orders) {
       SCOPED_TRACE(std::to_string(static_cast<int>(gluing)) + " " + std::to_string(static_cast<int>(order)));
       const CloudOptions options{.gluing = gluing, .order = order, .seed = 3};
       EXPECT_THAT(brokenGuarantees(pointCloudLaplacian(points(), options), points()), IsEmpty());
@@ -67,7 +67,7 @@ class GuaranteesOfMesh : public testing::TestWithParam<const shapes::Mesh*> {};
 
 TEST_P(GuaranteesOfMesh, InAnyOrder) {
   const shapes::Mesh& mesh = *GetParam();
-  for (const FaceOrder order : kOrders) {
+  for (const FaceOrder order : face_orders) {
     SCOPED_TRACE(static_cast<int>(order));
     const Laplacian laplacian = meshLaplacian(mesh.points, mesh.triangles, {.order = order, .seed = 3});
     EXPECT_THAT(brokenGuarantees(laplacian, mesh.points), IsEmpty());

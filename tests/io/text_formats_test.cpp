@@ -49,6 +49,14 @@ TEST(Xyz, AFirstLineOfNamesNamesTheColumns) {
   ASSERT_NE(fieldNamed(geometry, "intensity"), nullptr);
 }
 
+TEST(Xyz, ACommaMayEndALineAndCommentsMayHoldEmptyFields) {
+  const TemporaryDir dir;
+  const auto geometry = tufted::read(dir.write("a.csv", "// a,,b\n1, 2 ,3,\r\n4;5;6; # ,,\n"));
+  ASSERT_EQ(geometry.points.rows(), 2);
+  EXPECT_EQ(geometry.points.row(0), Eigen::RowVector3d(1, 2, 3));
+  EXPECT_EQ(geometry.points.row(1), Eigen::RowVector3d(4, 5, 6));
+}
+
 TEST(Obj, TabsNegativeNumbersContinuedLinesAndForeignKeywordsAreRead) {
   const TemporaryDir dir;
   const auto geometry = tufted::read(dir.write("a.obj",

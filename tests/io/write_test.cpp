@@ -25,10 +25,9 @@ std::size_t entries(const std::filesystem::path& dir) {
 TEST(WriteLaplacian, WritesTheDocumentedFilesAndNothingElse) {
   const TemporaryDir dir;
   tufted::writeLaplacian(dir / "deep/er", sampleLaplacian(), sampleGeometry());
-  for (const char* name :
-       {"L.npz", "M.npy", "status.npy", "representative.npy", "boundary.npy", "report.json", "points.ply"})
+  for (const char* name : tufted::result_files)
     EXPECT_TRUE(std::filesystem::is_regular_file(dir.path() / "deep/er" / name)) << name;
-  EXPECT_EQ(entries(dir / "deep/er"), 7u);
+  EXPECT_EQ(entries(dir / "deep/er"), std::size(tufted::result_files));
 }
 
 TEST(WriteLaplacian, TheSameInputGivesTheSameBytes) {
@@ -162,6 +161,18 @@ TEST(WriteLaplacian, WhereNoDirectoryCanBeIsAnIoError) {
   EXPECT_THROW(tufted::writeLaplacian(file, sampleLaplacian(), sampleGeometry()), tufted::IoError);
   EXPECT_THROW(tufted::writeLaplacian(file / "below", sampleLaplacian(), sampleGeometry()), tufted::IoError);
   EXPECT_EQ(readAll(file), "x");
+  EXPECT_THROW(tufted::writeLaplacian("", sampleLaplacian(), sampleGeometry()), tufted::IoError);
+  std::filesystem::create_symlink(dir / "nowhere", dir / "link");
+  EXPECT_THROW(tufted::writeLaplacian(dir / "link", sampleLaplacian(), sampleGeometry()), tufted::IoError);
+  EXPECT_TRUE(std::filesystem::is_symlink(dir / "link"));
+}
+
+TEST(WriteLaplacian, ANameThatIsTooLongLeavesNoParentBehind) {
+  const TemporaryDir dir;
+  const std::string name(300, 'x');
+  EXPECT_THROW(tufted::writeLaplacian(dir / name, sampleLaplacian(), sampleGeometry()), tufted::IoError);
+  EXPECT_THROW(tufted::writeLaplacian(dir / "deep/er" / name, sampleLaplacian(), sampleGeometry()), tufted::IoError);
+  EXPECT_EQ(entries(dir.path()), 0u);
 }
 
 TEST(WriteLaplacian, ArraysOfDifferentLengthAreTheCallersMistake) {
@@ -182,10 +193,16 @@ TEST(ToJson, StatesEveryCountOfTheReport) {
 TEST(WriteLaplacian, TheReportStatesSignScaleAndOptions) {
   const TemporaryDir dir;
   const tufted::CloudOptions cloud = {.neighbors = 17, .gluing = tufted::Gluing::vertex_pair};
-  tufted::writeLaplacian(dir / "out", sampleLaplacian(), sampleGeometry(), {.source = "a\xff.ply", .cloud = &cloud});
+  tufted::Geometry geometry = sampleGeometry();
+  geometry.polygons = 5;
+  geometry.merged_vertices = 6;
+  tufted::writeLaplacian(dir / "out", sampleLaplacian(), geometry, {.source = "a\xff.ply", .cloud = &cloud});
   const std::string json = readAll(dir / "out/report.json");
-  for (const char* part : {"positive semidefinite", "opposite sign", "length^2", "L u = M f", "L x = lambda M x",
-                           "\"neighbors\": 17", "\"gluing\": \"vertex-pair\"", "\"tufted\": \""})
+  for (const char* part :
+       {"positive semidefinite", "opposite sign", "length^2", "L u = M f", "L x = lambda M x", "\"neighbors\": 17",
+        "\"gluing\": \"vertex-pair\"", "\"tufted\": \"",
+        "1/2 (front and back of the cover) times 1/3 (each triangle is found by its three corners)",
+        "\"mesh\": \"1/2 (front and back of the cover)\"", "\"polygons\": 5", "\"merged_vertices\": 6"})
     EXPECT_NE(json.find(part), std::string::npos) << part;
 }
 

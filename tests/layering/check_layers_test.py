@@ -20,6 +20,7 @@ SOUND = {
     "src/pcl/smooth.cpp": '#include "tufted/pcl/smooth.h"\n',
     "tools/command.h": "#include <CLI/App.hpp>\n",
     "tools/tufted.cpp": '#include "command.h"\n#include "tufted/io/read.h"\nint main() { std::puts("ok"); }\n',
+    "tools/bench/clouds.cpp": '#include "bench/costs.h"\n#include "cloud/stars.h"\n',
     "tools/make_datasets.cpp": '#include "shapes/shapes.h"\n',
 }
 

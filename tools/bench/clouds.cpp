@@ -8,7 +8,7 @@
 namespace tufted::bench {
 namespace {
 
-constexpr int kNeighbors = 30;
+constexpr int neighbor_count = 30;
 
 struct CloudCase {
   int points;
@@ -36,7 +36,7 @@ double flannSeconds(const RankedCloud& cloud) {
   const NeighborSearch search(cloud.points);
   std::vector<Neighbor> found;
   for (int p = 0; p < cloud.size(); ++p) {
-    search.nearest(p, kNeighbors, found);
+    search.nearest(p, neighbor_count, found);
     benchmark::DoNotOptimize(found.data());
   }
   return watch.seconds();
@@ -57,7 +57,7 @@ void runCloud(benchmark::State& state, const CloudCase& c) {
     {
       Stopwatch watch;
       const Laplacian laplacian = pointCloudLaplacian(
-          points, {.neighbors = kNeighbors, .gluing = c.gluing, .delaunay = c.delaunay, .threads = c.threads});
+          points, {.neighbors = neighbor_count, .gluing = c.gluing, .delaunay = c.delaunay, .threads = c.threads});
       const double seconds = watch.seconds();
       state.SetIterationTime(seconds);
       costs.addBuild(seconds, laplacian.report);

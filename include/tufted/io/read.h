@@ -36,7 +36,7 @@ struct Geometry {
 
 /// How to take a file that may be either.
 enum class ReadAs {
-  automatic,  ///< a mesh where the format is for meshes or the PLY has faces, else a cloud
+  automatic,  ///< a mesh where the file has faces, else a cloud: an OBJ or OFF without faces too
   cloud,      ///< points only; faces are ignored
   mesh,       ///< a file without faces is an error
 };
