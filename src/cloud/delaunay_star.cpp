@@ -4,6 +4,8 @@
 #include <cmath>
 #include <limits>
 
+#include "base/pseudo_angle.h"
+
 namespace tufted {
 namespace {
 
@@ -12,12 +14,6 @@ constexpr std::size_t few_points = 48;  // insertion sort up to here
 
 double squaredNorm(const PlanarPoint& q) {
   return q.u * q.u + q.v * q.v;
-}
-
-/// Grows with the angle from the u axis, in [0, 4].
-double pseudoAngle(const PlanarPoint& q) {
-  if (q.v >= 0) return q.u >= 0 ? q.v / (q.u + q.v) : 1 - q.u / (q.v - q.u);
-  return q.u < 0 ? 2 + q.v / (q.u + q.v) : 3 + q.u / (q.u - q.v);
 }
 
 /// Nearer to the origin, for points in exactly the same direction.
@@ -34,7 +30,7 @@ bool comesBefore(const Directed& a, const Directed& b) {
 /// Sorts by direction and keeps the nearest in each; of those at one place the first.
 void sortByDirection(std::vector<PlanarPoint>& points, std::vector<Directed>& directed) {
   directed.clear();
-  for (const PlanarPoint& q : points) directed.push_back({pseudoAngle(q), q});
+  for (const PlanarPoint& q : points) directed.push_back({pseudoAngle(q.u, q.v), q});
   if (directed.size() > few_points) {
     std::stable_sort(directed.begin(), directed.end(), comesBefore);
   } else {

@@ -71,7 +71,7 @@ class StarBuilder {
   }
 
   void findNeighbors(int p, Local& local) const {
-    if (source_.search != nullptr) {
+    if (!source_.isFixed()) {
       source_.search->nearest(p, source_.k, local.neighbors);
       return;
     }

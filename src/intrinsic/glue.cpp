@@ -6,6 +6,7 @@
 #include <numeric>
 #include <vector>
 
+#include "base/pseudo_angle.h"
 #include "intrinsic/cover.h"
 #include "intrinsic/geometry.h"
 
@@ -19,13 +20,6 @@ struct PooledSide {
   int other;  ///< the larger vertex
   int side;   ///< 3 t + s
 };
-
-/// Any monotone function of the angle of (x, y); 0 for the null vector.
-double pseudoAngle(double x, double y) {
-  const double sum = std::abs(x) + std::abs(y);
-  if (sum == 0) return 0;
-  return y >= 0 ? 1 - x / sum : 3 + x / sum;
-}
 
 /// A well-mixed function of (seed, value): the finaliser of SplitMix64.
 std::uint64_t mix(std::uint64_t seed, std::uint64_t value) {

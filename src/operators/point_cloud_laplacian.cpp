@@ -116,16 +116,15 @@ Laplacian pointCloudLaplacian(const Points& points, const CloudOptions& options)
   clock.finish("order", static_cast<std::size_t>(cloud.size()) * (3 * sizeof(double) + sizeof(int)));
 
   NeighborSource source;
-  source.k = std::min(options.neighbors, std::max(0, cloud.size() - 1));
   if (options.normals != nullptr) takeNormals(*options.normals, cloud, source, report);
   std::optional<NeighborSearch> search;
   if (options.neighborhoods != nullptr) {
-    source.k = 0;
     takeNeighborhoods(*options.neighborhoods, cloud, result.status, result.representative, source, report);
   } else {
     workers.report("tree", 0);
     search.emplace(cloud.points);
     source.search = &*search;
+    source.k = std::min(options.neighbors, std::max(0, cloud.size() - 1));
     report.neighbors_clamped = source.k < options.neighbors;
   }
   report.neighbors = source.k;
