@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
@@ -28,6 +29,8 @@ struct Geometry {
   std::vector<Field> fields;  ///< everything else per point, in the file's order
   int width = 0;              ///< columns of an organized cloud; N otherwise
   int height = 1;             ///< rows of an organized cloud; 1 otherwise
+  /// Pose of the sensor as PCD states it: translation x y z, then the unit quaternion w x y z.
+  std::array<double, 7> viewpoint = {0, 0, 0, 1, 0, 0, 0};
   bool is_mesh = false;
   Triangles triangles;               ///< F x 3; polygons are triangulated, in order
   std::int64_t polygons = 0;         ///< faces of more than three corners that were triangulated
