@@ -2,7 +2,6 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <charconv>
 #include <chrono>
 #include <cstdint>
 #include <cstdio>
@@ -11,14 +10,14 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <system_error>
-#include <type_traits>
 #include <vector>
 
 #include "command.h"
+#include "input.h"
 #include "interrupt.h"
+#include "options.h"
 #include "progress_bar.h"
 #include "tufted/errors.h"
 #include "tufted/io/read.h"
@@ -37,8 +36,9 @@ constexpr const char* footer = R"(Sign and scale:
   Poisson L u = M f, eigenproblem L x = lambda M x.
   Points that cannot take part keep their index, with zero row, column and mass; status.npy says why.
 
-Reads .pcd .ply .xyz .xyzn .pwn .txt .csv .asc .pts (clouds), .ply .obj .off .stl (meshes).
-The normals of a file are not used for L and M; points.ply passes them on.
+Reads PCD, PLY, LAS and text in columns (clouds), PLY, OBJ, OFF and STL (meshes; OBJ and OFF without faces are clouds).
+The format goes by the extension, .pcd .ply .las .xyz .xyzn .pwn .txt .csv .asc .pts .obj .off .stl, and where that is
+unknown by the content. Normals of a file are used for L and M with --normals alone; points.ply passes them on.
 
 Writes into DIR, renamed one after the other when all are complete:
   L.npz               sparse matrix, scipy.sparse.load_npz
@@ -50,9 +50,9 @@ Writes into DIR, renamed one after the other when all are complete:
   points.ply          the points with mass, boundary, status and representative as fields)";
 
 struct Settings {
-  std::filesystem::path file;
+  Input input;
   std::filesystem::path out;
-  tufted::ReadAs as = tufted::ReadAs::automatic;
+  bool normals = false;  ///< use those of the file
   tufted::CloudOptions cloud;
   std::optional<double> mollify;  ///< the default of clouds or of meshes
 };
@@ -63,53 +63,14 @@ const std::map<std::string, tufted::FaceOrder> orders = {
     {"angle", tufted::FaceOrder::angle}, {"area", tufted::FaceOrder::area}, {"random", tufted::FaceOrder::random}};
 const std::map<std::string, tufted::Delaunay> backends = {{"star", tufted::Delaunay::star},
                                                           {"cgal", tufted::Delaunay::cgal}};
-const std::map<std::string, tufted::ReadAs> kinds = {{"cloud", tufted::ReadAs::cloud}, {"mesh", tufted::ReadAs::mesh}};
-
-/// An option that takes one of the names in `values`.
-template <class T>
-CLI::Option* addChoice(CLI::App& app, const std::string& name, T& target, const std::map<std::string, T>& values,
-                       const std::string& help) {
-  std::string names;
-  for (const auto& [key, value] : values) names += (names.empty() ? "" : "|") + key;
-  const auto set = [&target, &values](const std::string& key) { target = values.at(key); };
-  const auto check = [&values, names](const std::string& key) {
-    return values.count(key) > 0 ? std::string() : key + " is none of " + names;
-  };
-  return app.add_option_function<std::string>(name, set, help)->check(check)->type_name(names);
-}
-
-std::string notEmpty(const std::string& path) {
-  return path.empty() ? "must not be empty" : "";
-}
-
-/// An option that takes a number in [least, most].
-template <class T, class Target>
-CLI::Option* addNumber(CLI::App& app, const std::string& name, Target& target, T least, T most,
-                       const std::string& help) {
-  const auto parse = [least, most](const std::string& text) -> std::optional<T> {
-    T value = {};
-    const char* const text_end = text.data() + text.size();
-    const auto [end, error] = std::from_chars(text.data(), text_end, value);
-    const bool valid = error == std::errc() && end == text_end && value >= least && value <= most;
-    return valid ? std::optional<T>(value) : std::nullopt;
-  };
-  const auto check = [parse, least, most](const std::string& text) {
-    if (parse(text)) return std::string();
-    std::ostringstream message;
-    message << text << " is not " << (std::is_integral_v<T> ? "an integer" : "a number") << " in [" << least << ", "
-            << most << ']';
-    return message.str();
-  };
-  const auto set = [&target, parse](const std::string& text) { target = parse(text).value(); };
-  return app.add_option_function<std::string>(name, set, help)->check(check);
-}
 
 /// Refuses what no build can be written to.
 void checkOutput(const Settings& settings) {
   std::error_code error;
   for (const char* name : tufted::result_files)
-    if (std::filesystem::equivalent(settings.file, settings.out / name, error))
-      throw tufted::InvalidInput(settings.file.string() + ": is the input, and --out " + settings.out.string() +
+    if (!settings.input.isStandardInput() &&
+        std::filesystem::equivalent(settings.input.file, settings.out / name, error))
+      throw tufted::InvalidInput(settings.input.name() + ": is the input, and --out " + settings.out.string() +
                                  " would overwrite it");
   const auto status = std::filesystem::status(settings.out, error);
   if (status.type() == std::filesystem::file_type::not_found) return;
@@ -121,7 +82,7 @@ void checkOutput(const Settings& settings) {
 void refuseCloudOptions(const Settings& settings, const std::vector<CLI::Option*>& options) {
   for (const CLI::Option* option : options)
     if (option->count() > 0)
-      throw tufted::InvalidInput(option->get_name() + " applies to point clouds, and " + settings.file.string() +
+      throw tufted::InvalidInput(option->get_name() + " applies to point clouds, and " + settings.input.name() +
                                  " holds a mesh (--as cloud takes its vertices alone)");
 }
 
@@ -140,7 +101,7 @@ void printSummary(const Settings& settings, const tufted::Geometry& geometry, co
                   double seconds) {
   const tufted::Report& report = laplacian.report;
   const auto count = [](std::int64_t n) { return static_cast<long long>(n); };
-  std::printf("%-15s %s (%s)\n", "file", settings.file.c_str(), geometry.is_mesh ? "mesh" : "cloud");
+  std::printf("%-15s %s (%s)\n", "file", settings.input.name().c_str(), geometry.is_mesh ? "mesh" : "cloud");
   if (geometry.polygons > 0) std::printf("%-15s %lld triangulated\n", "polygons", count(geometry.polygons));
   if (geometry.merged_vertices > 0)
     std::printf("%-15s %lld equal corners\n", "merged", count(geometry.merged_vertices));
@@ -171,10 +132,15 @@ int runLaplacian(Settings settings, const std::vector<CLI::Option*>& cloud_only)
     return !interrupted();
   };
   progress("read", 0);
-  const tufted::Geometry geometry = tufted::read(settings.file, settings.as);
+  const tufted::Geometry geometry = readInput(settings.input);
   if (interrupted()) throw tufted::Cancelled("cancelled");
   if (geometry.is_mesh) refuseCloudOptions(settings, cloud_only);
 
+  if (settings.normals) {
+    if (geometry.normals.rows() == 0)
+      throw tufted::IoError(settings.input.name() + ": has no normals, which --normals asks for");
+    settings.cloud.normals = &geometry.normals;
+  }
   settings.cloud.progress = progress;
   settings.cloud.keep_cover = false;
   tufted::MeshOptions mesh = meshOptions(settings.cloud);
@@ -182,7 +148,7 @@ int runLaplacian(Settings settings, const std::vector<CLI::Option*>& cloud_only)
   const tufted::Laplacian laplacian = geometry.is_mesh
                                           ? tufted::meshLaplacian(geometry.points, geometry.triangles, mesh)
                                           : tufted::pointCloudLaplacian(geometry.points, settings.cloud);
-  tufted::WriteOptions write = {.source = settings.file.string(), .progress = progress};
+  tufted::WriteOptions write = {.source = settings.input.name(), .progress = progress};
   if (geometry.is_mesh)
     write.mesh = &mesh;
   else
@@ -201,7 +167,7 @@ void addLaplacian(CLI::App& app, Run& run) {
   command.footer(footer);
   const auto settings = std::make_shared<Settings>();
   tufted::CloudOptions& options = settings->cloud;
-  command.add_option("FILE", settings->file, "Points or mesh")->required()->check(notEmpty);
+  addInput(command, settings->input);
   command.add_option("--out", settings->out, "Directory for the results, made if missing")
       ->required()
       ->check(notEmpty)
@@ -211,7 +177,9 @@ void addLaplacian(CLI::App& app, Run& run) {
                 "Neighbours per point, clouds only (30)")
           ->type_name("K"),
       addChoice(command, "--gluing", options.gluing, gluings, "How the stars are glued, clouds only (star)"),
-      addChoice(command, "--delaunay", options.delaunay, backends, "Who finds the stars, clouds only (star)")};
+      addChoice(command, "--delaunay", options.delaunay, backends, "Who finds the stars, clouds only (star)"),
+      command.add_flag("--normals", settings->normals,
+                       "Use the file's normals for the tangent planes, not those of the PCA; clouds only")};
   addChoice(command, "--order", options.order, orders, "Order of the faces around an edge (angle)");
   const CLI::Option* const seed =
       addNumber(command, "--seed", options.seed, std::uint64_t(0), std::numeric_limits<std::uint64_t>::max(),
@@ -221,7 +189,6 @@ void addLaplacian(CLI::App& app, Run& run) {
             "Mollification in mean edge lengths, at most 1 (1e-5 clouds, 1e-4 meshes)")
       ->type_name("D");
   addNumber(command, "--threads", options.threads, 1, 1 << 16, "At most this many threads (all)")->type_name("N");
-  addChoice(command, "--as", settings->as, kinds, "Take a file that may be either as one of them");
   command.callback([&run, settings, cloud_only, seed] {
     if (seed->count() > 0 && settings->cloud.order != tufted::FaceOrder::random)
       throw CLI::RequiresError("--seed", "--order random");

@@ -8,6 +8,7 @@
 #include "io/errors.h"
 
 namespace tufted::io {
+namespace {
 
 std::size_t fileSize(const std::filesystem::path& path) {
   std::error_code error;
@@ -21,6 +22,8 @@ std::size_t fileSize(const std::filesystem::path& path) {
   if (size == 0) refuse(path, "is empty");
   return size;
 }
+
+}  // namespace
 
 std::string readBytes(const std::filesystem::path& path) {
   std::string bytes(fileSize(path), '\0');

@@ -1,17 +1,27 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 
 #include "tufted/io/read.h"
 
 namespace tufted::io {
 
-/// One reader per format. All throw IoError naming the path and, where known, the line or byte.
-Geometry readPcd(const std::filesystem::path& path);
-Geometry readPly(const std::filesystem::path& path, bool with_faces);
-Geometry readXyz(const std::filesystem::path& path);
-Geometry readObj(const std::filesystem::path& path);
-Geometry readOff(const std::filesystem::path& path);
-Geometry readStl(const std::filesystem::path& path);
+/// One reader per format: the whole file is in `bytes`, `path` is for errors. All throw IoError naming the path and,
+/// where known, the line or byte.
+Geometry readPcd(const std::filesystem::path& path, std::string_view bytes);
+Geometry readPly(const std::filesystem::path& path, std::string_view bytes, bool with_faces);
+Geometry readXyz(const std::filesystem::path& path, std::string_view bytes);
+Geometry readLas(const std::filesystem::path& path, std::string_view bytes);
+Geometry readObj(const std::filesystem::path& path, std::string_view bytes);
+Geometry readOff(const std::filesystem::path& path, std::string_view bytes);
+Geometry readStl(const std::filesystem::path& path, std::string_view bytes);
+
+/// Whether the bytes begin as a file of that format does. Text of numbers is anything else that begins with numbers.
+bool looksLikePcd(std::string_view bytes);
+bool looksLikeOff(std::string_view bytes);
+bool looksLikeStl(std::string_view bytes);
+bool looksLikeObj(std::string_view bytes);
+bool looksLikeXyz(std::string_view bytes);
 
 }  // namespace tufted::io

@@ -72,4 +72,12 @@ void LineScanner::refuse(const std::string& reason) const {
   refuseLine(path_, line_, reason);
 }
 
+std::vector<std::string_view> firstTokens(std::string_view text, LineScanner::Syntax syntax) {
+  const std::filesystem::path nowhere;
+  syntax.delimiters = {};  // empty fields are no reason to stop here
+  LineScanner scanner(nowhere, text, syntax);
+  scanner.next();
+  return scanner.tokens();
+}
+
 }  // namespace tufted::io

@@ -58,4 +58,7 @@ class LineScanner {
   std::vector<std::string_view> tokens_;
 };
 
+/// The tokens of the first line that holds any, to tell a format by. Throws nothing.
+std::vector<std::string_view> firstTokens(std::string_view text, LineScanner::Syntax syntax);
+
 }  // namespace tufted::io

@@ -3,33 +3,27 @@
 
 #include "io/columns.h"
 #include "io/errors.h"
-#include "io/file_text.h"
 #include "io/formats.h"
 #include "io/line_scanner.h"
 #include "io/off_binary.h"
+#include "io/off_layout.h"
 #include "io/polygon_soup.h"
+#include "io/vertex_colors.h"
 
 namespace tufted::io {
 namespace {
 
-/// What the keyword [ST][C][N][4]OFF says about a vertex line: x y z [w] [nx ny nz] [colour] [texture].
-struct VertexLayout {
-  bool homogeneous = false;
-  bool normals = false;
+constexpr LineScanner::Syntax syntax = {.comment = '#'};
 
-  std::size_t normal() const { return homogeneous ? 4 : 3; }
-  std::size_t values() const { return normal() + (normals ? 3 : 0); }
-};
-
-std::optional<VertexLayout> parseKeyword(std::string_view word) {
-  VertexLayout layout;
+std::optional<OffLayout> parseKeyword(std::string_view word) {
+  OffLayout layout;
   const auto take = [&word](std::string_view prefix) {
     const bool found = word.starts_with(prefix);
     if (found) word.remove_prefix(prefix.size());
     return found;
   };
-  take("ST");
-  take("C");
+  layout.texture = take("ST");
+  layout.colors = take("C");
   layout.normals = take("N");
   layout.homogeneous = take("4");
   if (word != "OFF") return std::nullopt;
@@ -40,7 +34,7 @@ std::optional<VertexLayout> parseKeyword(std::string_view word) {
 /// colour.
 class AsciiOff {
  public:
-  AsciiOff(const std::filesystem::path& path, std::string_view text, LineScanner& scanner, VertexLayout layout)
+  AsciiOff(const std::filesystem::path& path, std::string_view text, LineScanner& scanner, OffLayout layout)
       : path_(path), text_(text), scanner_(scanner), layout_(layout) {}
 
   Geometry read() {
@@ -50,6 +44,7 @@ class AsciiOff {
     geometry.points.resize(vertices_, 3);
     if (layout_.normals) geometry.normals.resize(vertices_, 3);
     for (std::int64_t v = 0; v < vertices_; ++v) readVertex(v, geometry);
+    colors_.moveTo(geometry.fields);
     PolygonSoup soup;
     for (std::int64_t f = 0; f < faces_; ++f) readFace(soup);
     setPolygons(path_, soup, geometry);
@@ -79,10 +74,11 @@ class AsciiOff {
   void readVertex(std::int64_t v, Geometry& geometry) {
     if (!scanner_.next())
       scanner_.refuse("ends after " + std::to_string(v) + " of " + std::to_string(vertices_) + " vertices");
-    if (scanner_.tokens().size() < layout_.values())
-      scanner_.refuse(std::to_string(layout_.values()) + " values expected for a vertex");
+    if (scanner_.tokens().size() < layout_.behindNormal())
+      scanner_.refuse(std::to_string(layout_.behindNormal()) + " values expected for a vertex");
     const double w = layout_.homogeneous ? scanner_.number(3) : 1;
     for (int c = 0; c < 3; ++c) geometry.points(v, c) = scanner_.number(c) / w;
+    if (layout_.colors) colors_.add(scanner_, layout_.behindNormal());
     if (!layout_.normals) return;
     for (int c = 0; c < 3; ++c) geometry.normals(v, c) = scanner_.number(layout_.normal() + c);
   }
@@ -108,21 +104,28 @@ class AsciiOff {
   const std::filesystem::path& path_;
   std::string_view text_;
   LineScanner& scanner_;
-  VertexLayout layout_;
+  OffLayout layout_;
+  VertexColors colors_;
   std::int64_t vertices_ = 0;
   std::int64_t faces_ = 0;
 };
 
 }  // namespace
 
-Geometry readOff(const std::filesystem::path& path) {
-  std::string text = readBytes(path);
-  LineScanner scanner(path, text, {.comment = '#'});
+bool looksLikeOff(std::string_view bytes) {
+  const auto tokens = firstTokens(bytes, syntax);
+  return !tokens.empty() && parseKeyword(tokens[0]).has_value();
+}
+
+Geometry readOff(const std::filesystem::path& path, std::string_view text) {
+  LineScanner scanner(path, text, syntax);
   const auto layout = scanner.next() ? parseKeyword(scanner.tokens()[0]) : std::nullopt;
   if (!layout) refuse(path, "the header does not begin with OFF, COFF, NOFF, STOFF or 4OFF");
-  if (scanner.tokens().size() > 1 && scanner.tokens()[1] == "BINARY")
-    return readBinaryOff(path, std::move(text), scanner.offset());
-  return AsciiOff(path, text, scanner, *layout).read();
+  const bool binary = scanner.tokens().size() > 1 && scanner.tokens()[1] == "BINARY";
+  Geometry geometry =
+      binary ? readBinaryOff(path, text, scanner.offset(), *layout) : AsciiOff(path, text, scanner, *layout).read();
+  geometry.format = binary ? "OFF, binary" : "OFF, ascii";
+  return geometry;
 }
 
 }  // namespace tufted::io

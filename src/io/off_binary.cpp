@@ -1,85 +1,105 @@
 #include "io/off_binary.h"
 
-// CGAL prints before it throws for a failed assertion: w = 0 in a homogeneous vertex is data, and gives infinity.
-#define CGAL_NO_ASSERTIONS
-#include <CGAL/IO/OFF.h>
-#include <CGAL/Simple_cartesian.h>
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <cstring>
 
-#include <iterator>
-#include <sstream>
-#include <stdexcept>
-
-#include "io/columns.h"
 #include "io/errors.h"
 #include "io/polygon_soup.h"
 
+// Decoded here: CGAL 5.5, which reads this form too, turns counts into floats and those into integers beyond their
+// range. The form is that of Geomview's manual, OFF, "binary format".
 namespace tufted::io {
 namespace {
 
-using Kernel = CGAL::Simple_cartesian<double>;
+class BinaryOff {
+ public:
+  BinaryOff(const std::filesystem::path& path, std::string_view bytes, std::size_t body, const OffLayout& layout)
+      : path_(path), bytes_(bytes), offset_(body), layout_(layout) {}
 
-/// The corners of a polygon. CGAL sizes it by the count it reads, before it looks for the corners.
-struct Corners : std::vector<int> {
-  void resize(std::size_t count) {
-    constexpr std::size_t most = std::size_t{1} << 24;
-    if (count > most) throw std::length_error("a face of " + std::to_string(count) + " corners");
-    std::vector<int>::resize(count);
+  Geometry read() {
+    const std::int64_t vertices = integer(), faces = integer();
+    integer();  // edges, which nobody needs
+    const std::size_t vertex_values = layout_.behindNormal() + (layout_.colors ? 4 : 0) + (layout_.texture ? 2 : 0);
+    constexpr std::int64_t least_face = 8;  // no corner, no colour
+    // Both counts are below 2^31.
+    if (vertices < 0 || faces < 0 ||
+        static_cast<std::uint64_t>(vertices) * vertex_values * 4 + static_cast<std::uint64_t>(faces * least_face) >
+            bytes_.size() - offset_)
+      refuse(path_, "too short for the " + std::to_string(vertices) + " vertices and " + std::to_string(faces) +
+                        " faces of its header");
+    Geometry geometry;
+    geometry.width = static_cast<int>(vertices);
+    geometry.points.resize(vertices, 3);
+    if (layout_.normals) geometry.normals.resize(vertices, 3);
+    readVertices(geometry);
+    PolygonSoup soup;
+    soup.place_name = "byte";
+    for (std::int64_t f = 0; f < faces; ++f) readFace(soup);
+    setPolygons(path_, soup, geometry);
+    return geometry;
   }
+
+ private:
+  std::int32_t integer() {
+    if (bytes_.size() - offset_ < 4) refuseByte(path_, bytes_.size(), "ends inside a number");
+    std::uint32_t value = 0;
+    for (int b = 0; b < 4; ++b) value = value << 8 | static_cast<std::uint8_t>(bytes_[offset_ + b]);
+    offset_ += 4;
+    return static_cast<std::int32_t>(value);
+  }
+  float number() { return std::bit_cast<float>(integer()); }
+
+  void readVertices(Geometry& geometry) {
+    constexpr const char* names[] = {"red", "green", "blue", "alpha"};
+    if (layout_.colors)
+      for (const char* name : names) {
+        geometry.fields.push_back({name, FieldType::float32, 1, {}});
+        geometry.fields.back().bytes.resize(geometry.points.rows() * sizeof(float));
+      }
+    for (Eigen::Index v = 0; v < geometry.points.rows(); ++v) {
+      for (int c = 0; c < 3; ++c) geometry.points(v, c) = number();
+      if (layout_.homogeneous) geometry.points.row(v) /= number();
+      if (layout_.normals)
+        for (int c = 0; c < 3; ++c) geometry.normals(v, c) = number();
+      for (Field& field : geometry.fields) {
+        const float value = number();
+        std::memcpy(field.bytes.data() + v * sizeof(float), &value, sizeof(float));
+      }
+      if (layout_.texture) offset_ += 8;
+    }
+  }
+
+  /// The number of corners, the corners, the number of colour values, the colour.
+  void readFace(PolygonSoup& soup) {
+    const std::size_t begin = offset_;
+    std::vector<int> polygon(count(begin, "corners"));
+    for (int& corner : polygon) corner = integer();
+    offset_ += 4 * count(begin, "colour values");
+    soup.polygons.push_back(std::move(polygon));
+    soup.places.push_back(static_cast<std::int64_t>(begin));
+  }
+
+  /// A number of values that the rest of the file can hold.
+  std::size_t count(std::size_t face, const char* what) {
+    const std::int32_t value = integer();
+    if (value < 0 || static_cast<std::size_t>(value) > (bytes_.size() - offset_) / 4)
+      refuseByte(path_, face, "a face of " + std::to_string(value) + " " + what);
+    return static_cast<std::size_t>(value);
+  }
+
+  const std::filesystem::path& path_;
+  std::string_view bytes_;
+  std::size_t offset_;
+  OffLayout layout_;
 };
-
-/// CGAL makes room for as many vertices and faces as the header counts.
-void checkSize(const std::filesystem::path& path, std::istream& stream, std::size_t bytes) {
-  const CGAL::File_scanner_OFF header(stream);
-  if (!stream) refuse(path, "the header is not that of an OFF file");
-  const std::size_t vertices = header.size_of_vertices(), faces = header.size_of_facets();
-  // Three floats and one count.
-  const std::size_t vertex_bytes = 12, face_bytes = 4;
-  if (vertices > bytes / vertex_bytes + 1 || faces > bytes / face_bytes + 1 ||
-      vertices * vertex_bytes + faces * face_bytes > bytes)
-    refuse(path, "too short for the " + std::to_string(vertices) + " vertices and " + std::to_string(faces) +
-                     " faces of its header");
-  if (header.n_dimensional()) refuse(path, "nOFF (other dimensions than 3) is not supported");
-}
-
-template <class Triples>
-Points toPoints(const Triples& triples) {
-  Points points(static_cast<Eigen::Index>(triples.size()), 3);
-  for (Eigen::Index i = 0; i < points.rows(); ++i) points.row(i) << triples[i].x(), triples[i].y(), triples[i].z();
-  return points;
-}
 
 }  // namespace
 
-Geometry readBinaryOff(const std::filesystem::path& path, std::string bytes, std::size_t body) {
-  // Behind the counts of vertices and faces stands that of edges, which nobody needs and CGAL doubles into an overflow.
-  if (bytes.size() >= body + 12) bytes.replace(body + 8, 4, 4, '\0');
-  std::istringstream stream(std::move(bytes));
-  checkSize(path, stream, stream.view().size());
-  stream.clear();
-  stream.seekg(0);
-  std::vector<Kernel::Point_3> points;
-  std::vector<Kernel::Vector_3> normals;
-  std::vector<Corners> corners;
-  bool complete = false;
-  std::string reason = "no complete OFF";
-  try {
-    complete = CGAL::IO::read_OFF(stream, points, corners,
-                                  CGAL::parameters::vertex_normal_output_iterator(std::back_inserter(normals)));
-  } catch (const std::length_error& error) {
-    reason = error.what();
-  }
-  if (!complete) {
-    stream.clear();
-    refuseByte(path, static_cast<std::size_t>(stream.tellg()), reason + " up to there");
-  }
-  Geometry geometry;
-  geometry.width = static_cast<int>(checkedRows(path, static_cast<std::int64_t>(points.size())));
-  geometry.points = toPoints(points);
-  if (normals.size() == points.size()) geometry.normals = toPoints(normals);
-  PolygonSoup soup;
-  soup.polygons.assign(std::move_iterator(corners.begin()), std::move_iterator(corners.end()));
-  setPolygons(path, soup, geometry);
-  return geometry;
+Geometry readBinaryOff(const std::filesystem::path& path, std::string_view bytes, std::size_t body,
+                       const OffLayout& layout) {
+  return BinaryOff(path, bytes, std::min(body, bytes.size()), layout).read();
 }
 
 }  // namespace tufted::io

@@ -2,16 +2,18 @@
 
 #include <cstddef>
 #include <filesystem>
-#include <string>
+#include <string_view>
 
+#include "io/off_layout.h"
 #include "tufted/io/read.h"
 
 namespace tufted::io {
 
-/// Reads the binary form of OFF (big endian floats) through CGAL.
+/// Reads the binary form of OFF: big endian, 32-bit integers and floats.
 /// @param bytes the whole file
 /// @param body where the binary counts begin
 /// @throws IoError naming the path and byte
-Geometry readBinaryOff(const std::filesystem::path& path, std::string bytes, std::size_t body);
+Geometry readBinaryOff(const std::filesystem::path& path, std::string_view bytes, std::size_t body,
+                       const OffLayout& layout);
 
 }  // namespace tufted::io

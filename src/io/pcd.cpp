@@ -1,7 +1,6 @@
 #include <cstring>
 
 #include "io/errors.h"
-#include "io/file_text.h"
 #include "io/formats.h"
 #include "io/line_scanner.h"
 #include "io/pcd_binary.h"
@@ -39,16 +38,32 @@ void readAscii(const std::filesystem::path& path, std::string_view text, PcdHead
 
 }  // namespace
 
-Geometry readPcd(const std::filesystem::path& path) {
-  const std::string text = readBytes(path);
-  PcdHeader header = parsePcdHeader(path, text);
-  if (header.data == PcdHeader::Data::ascii)
-    readAscii(path, text, header);
-  else
-    readPcdBinary(path, text, header);
+bool looksLikePcd(std::string_view bytes) {
+  const auto tokens = firstTokens(bytes, {.comment = '#'});
+  return !tokens.empty() && (tokens[0] == "VERSION" || tokens[0] == "FIELDS" || tokens[0] == "COLUMNS");
+}
+
+Geometry readPcd(const std::filesystem::path& path, std::string_view bytes) {
+  PcdHeader header = parsePcdHeader(path, bytes);
+  const char* format = "PCD, ascii";
+  switch (header.data) {
+    case PcdHeader::Data::ascii:
+      readAscii(path, bytes, header);
+      break;
+    case PcdHeader::Data::binary:
+      format = "PCD, binary";
+      readPcdBinary(path, bytes, header);
+      break;
+    case PcdHeader::Data::binary_compressed:
+      format = "PCD, binary_compressed";
+      readPcdCompressed(path, bytes, header);
+      break;
+  }
   Geometry geometry = toGeometry(path, std::move(header.columns));
+  geometry.format = format;
   geometry.width = static_cast<int>(header.width);
   geometry.height = static_cast<int>(header.height);
+  geometry.viewpoint = header.viewpoint;
   return geometry;
 }
 

@@ -7,9 +7,10 @@
 
 namespace tufted::io {
 
-/// Fills the columns of `header` from a binary or binary_compressed PCD file through PCL's reader, after checking
-/// that the file is as long as the header says.
+/// Fill the columns of `header` from the body of a binary or binary_compressed file, after checking that the file is as
+/// long as the header says.
 /// @param bytes the whole file
 void readPcdBinary(const std::filesystem::path& path, std::string_view bytes, PcdHeader& header);
+void readPcdCompressed(const std::filesystem::path& path, std::string_view bytes, PcdHeader& header);
 
 }  // namespace tufted::io

@@ -38,6 +38,7 @@ class PcdHeaderParser {
     const std::string_view word = tokens[0];
     if (word == "FIELDS" || word == "COLUMNS") {
       if (tokens.size() < 2) scanner_.refuse("no fields");
+      if (!names_.empty()) scanner_.refuse("a second list of fields");
       for (std::size_t t = 1; t < tokens.size(); ++t) names_.emplace_back(tokens[t]);
     } else if (word == "SIZE") {
       sizes_ = perField();
@@ -55,7 +56,10 @@ class PcdHeaderParser {
     } else if (word == "DATA") {
       data();
       return true;
-    } else if (word != "VERSION" && word != "VIEWPOINT") {
+    } else if (word == "VIEWPOINT") {
+      if (tokens.size() != header_.viewpoint.size() + 1) scanner_.refuse("seven numbers expected");
+      for (std::size_t t = 1; t < tokens.size(); ++t) header_.viewpoint[t - 1] = scanner_.number(t);
+    } else if (word != "VERSION") {
       scanner_.refuse("unknown keyword " + quote(word));
     }
     return false;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <string_view>
@@ -16,6 +17,7 @@ struct PcdHeader {
   std::int64_t points = 0;
   std::int64_t width = 0;
   std::int64_t height = 1;
+  std::array<double, 7> viewpoint = Geometry().viewpoint;
   Data data = Data::ascii;
   std::size_t body = 0;       ///< byte at which the values begin
   std::int64_t line = 0;      ///< lines of the header

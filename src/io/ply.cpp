@@ -1,8 +1,9 @@
+#include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 
 #include "io/columns.h"
 #include "io/errors.h"
-#include "io/file_text.h"
 #include "io/formats.h"
 #include "io/ply_body.h"
 #include "io/ply_header.h"
@@ -86,6 +87,31 @@ void readFaces(const PlyElement& element, bool strips, PlyBody& body, PolygonSou
   }
 }
 
+/// The pose of the sensor from the element that PCL's writer puts behind the vertices: the origin and the rows of the
+/// rotation. What is no rotation is left out.
+void readCamera(const PlyElement& element, PlyBody& body, std::array<double, 7>& viewpoint) {
+  constexpr std::array names = {"view_px", "view_py", "view_pz", "x_axisx", "x_axisy", "x_axisz",
+                                "y_axisx", "y_axisy", "y_axisz", "z_axisx", "z_axisy", "z_axisz"};
+  std::array<double, names.size()> values = {};
+  body.beginItem(element);
+  for (const PlyProperty& property : element.properties) {
+    const auto name = std::find(names.begin(), names.end(), property.name);
+    if (property.is_list || name == names.end()) {
+      body.skip(property);
+      continue;
+    }
+    std::byte bytes[sizeof(double)];
+    body.value(property.type, bytes);
+    values[name - names.begin()] = valueOf(property.type, bytes);
+  }
+  body.endItem();
+  using Matrix = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;
+  const Matrix rotation = Eigen::Map<const Matrix>(values.data() + 3);
+  if (!((rotation * rotation.transpose()).isIdentity(1e-3) && rotation.determinant() > 0)) return;
+  const Eigen::Quaterniond orientation = Eigen::Quaterniond(rotation).normalized();
+  viewpoint = {values[0], values[1], values[2], orientation.w(), orientation.x(), orientation.y(), orientation.z()};
+}
+
 void skipElement(const PlyElement& element, PlyBody& body) {
   if (element.properties.empty()) return;
   for (std::int64_t i = 0; i < element.count; ++i) {
@@ -97,13 +123,13 @@ void skipElement(const PlyElement& element, PlyBody& body) {
 
 }  // namespace
 
-Geometry readPly(const std::filesystem::path& path, bool with_faces) {
-  const std::string bytes = readBytes(path);
+Geometry readPly(const std::filesystem::path& path, std::string_view bytes, bool with_faces) {
   const PlyHeader header = parsePlyHeader(path, bytes);
   const auto body = makePlyBody(path, bytes, header);
   Columns columns;
   PolygonSoup soup;
   bool has_vertices = false;
+  auto viewpoint = Geometry().viewpoint;
   for (const PlyElement& element : header.elements) {
     const bool strips = element.name == "tristrips";
     if (element.name == "vertex" && !has_vertices) {
@@ -111,12 +137,18 @@ Geometry readPly(const std::filesystem::path& path, bool with_faces) {
       has_vertices = true;
     } else if (with_faces && element.count > 0 && (element.name == "face" || strips)) {
       readFaces(element, strips, *body, soup);
+    } else if (element.name == "camera" && element.count == 1) {
+      readCamera(element, *body, viewpoint);
     } else {
       skipElement(element, *body);
     }
   }
   if (!has_vertices) refuse(path, "has no element 'vertex'");
   Geometry geometry = toGeometry(path, std::move(columns));
+  geometry.viewpoint = viewpoint;
+  geometry.format = std::string("PLY, ") + (header.format == PlyHeader::Format::ascii           ? "ascii"
+                                            : header.format == PlyHeader::Format::little_endian ? "binary little endian"
+                                                                                                : "binary big endian");
   if (header.columns > 0 && header.rows > 0 && header.rows < (std::int64_t{1} << 31) &&
       header.columns < (std::int64_t{1} << 31) && header.columns * header.rows == geometry.points.rows()) {
     geometry.width = static_cast<int>(header.columns);

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cctype>
+#include <istream>
+#include <iterator>
 #include <new>
 #include <stdexcept>
 
@@ -12,39 +14,117 @@
 namespace tufted {
 namespace {
 
-Geometry readFormat(const std::filesystem::path& path, ReadAs as) {
+struct Extension {
+  const char* name;
+  FileFormat format;
+};
+
+constexpr Extension extensions[] = {
+    {".pcd", FileFormat::pcd},  {".ply", FileFormat::ply},  {".xyz", FileFormat::xyz}, {".xyzn", FileFormat::xyz},
+    {".pwn", FileFormat::xyz},  {".txt", FileFormat::xyz},  {".csv", FileFormat::xyz}, {".asc", FileFormat::xyz},
+    {".pts", FileFormat::xyz},  {".las", FileFormat::las},  {".obj", FileFormat::obj}, {".off", FileFormat::off},
+    {".coff", FileFormat::off}, {".noff", FileFormat::off}, {".stl", FileFormat::stl},
+};
+
+std::string lowerExtension(const std::filesystem::path& path) {
   std::string extension = path.extension().string();
   std::transform(extension.begin(), extension.end(), extension.begin(),
                  [](unsigned char c) { return std::tolower(c); });
-  if (extension == ".pcd") return io::readPcd(path);
-  if (extension == ".ply") return io::readPly(path, as != ReadAs::cloud);
-  if (extension == ".obj") return io::readObj(path);
-  if (extension == ".off") return io::readOff(path);
-  if (extension == ".stl") return io::readStl(path);
-  for (const char* text : {".xyz", ".xyzn", ".pwn", ".txt", ".csv", ".asc", ".pts"})
-    if (extension == text) return io::readXyz(path);
+  return extension;
+}
+
+FileFormat formatByContent(std::string_view bytes) {
+  if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return FileFormat::ply;
+  if (bytes.starts_with("LASF")) return FileFormat::las;
+  if (io::looksLikePcd(bytes)) return FileFormat::pcd;
+  if (io::looksLikeOff(bytes)) return FileFormat::off;
+  if (io::looksLikeStl(bytes)) return FileFormat::stl;
+  if (io::looksLikeObj(bytes)) return FileFormat::obj;
+  if (io::looksLikeXyz(bytes)) return FileFormat::xyz;
+  return FileFormat::automatic;
+}
+
+FileFormat findFormat(const std::filesystem::path& path, std::string_view bytes) {
+  const std::string extension = lowerExtension(path);
+  for (const Extension& known : extensions)
+    if (extension == known.name) return known.format;
+  const FileFormat format = formatByContent(bytes);
+  if (format != FileFormat::automatic) return format;
+  std::string names;
+  for (const Extension& known : extensions) names += std::string(" ") + known.name;
   io::refuse(path, "unknown file type " + (extension.empty() ? "(no extension)" : io::quote(extension)) +
-                       "; known are .pcd .ply .xyz .xyzn .pwn .txt .csv .asc .pts .obj .off .stl");
+                       ", and the content begins like none; known are" + names);
+}
+
+Geometry readFormat(const std::filesystem::path& path, std::string_view bytes, bool with_faces, FileFormat format) {
+  switch (format) {
+    case FileFormat::pcd:
+      return io::readPcd(path, bytes);
+    case FileFormat::ply:
+      return io::readPly(path, bytes, with_faces);
+    case FileFormat::las:
+      return io::readLas(path, bytes);
+    case FileFormat::obj:
+      return io::readObj(path, bytes);
+    case FileFormat::off:
+      return io::readOff(path, bytes);
+    case FileFormat::stl:
+      return io::readStl(path, bytes);
+    case FileFormat::xyz:
+    case FileFormat::automatic:
+      break;
+  }
+  return io::readXyz(path, bytes);
+}
+
+/// Runs `work`; that the memory does not suffice is said of the file.
+template <class Work>
+Geometry withinMemory(const std::filesystem::path& path, const Work& work) {
+  try {
+    return work();
+  } catch (const std::bad_alloc&) {
+    io::refuse(path, "is too large for the memory");
+  } catch (const std::length_error&) {
+    io::refuse(path, "is too large for the memory");
+  }
 }
 
 }  // namespace
 
-Geometry read(const std::filesystem::path& path, ReadAs as) {
-  io::fileSize(path);  // a missing file is the first thing to say
-  try {
-    Geometry geometry = readFormat(path, as);
-    if (as == ReadAs::mesh && !geometry.is_mesh) io::refuse(path, "has no faces");
+Geometry parse(std::string_view bytes, const std::filesystem::path& name, ReadAs as, FileFormat format) {
+  return withinMemory(name, [&] {
+    if (bytes.empty()) io::refuse(name, "is empty");
+    if (format == FileFormat::automatic) format = findFormat(name, bytes);
+    Geometry geometry = readFormat(name, bytes, as != ReadAs::cloud, format);
+    if (as == ReadAs::mesh && !geometry.is_mesh) io::refuse(name, "has no faces");
     if (as == ReadAs::cloud && geometry.is_mesh) {
       geometry.is_mesh = false;
       geometry.triangles.resize(0, 3);
       geometry.polygons = 0;
     }
     return geometry;
-  } catch (const std::bad_alloc&) {
-    io::refuse(path, "is too large for the memory");
-  } catch (const std::length_error&) {
-    io::refuse(path, "is too large for the memory");
-  }
+  });
+}
+
+Geometry read(const std::filesystem::path& path, ReadAs as, FileFormat format) {
+  return withinMemory(path, [&] { return parse(io::readBytes(path), path, as, format); });
+}
+
+Geometry read(std::istream& stream, const std::string& name, ReadAs as, FileFormat format) {
+  return withinMemory(name, [&] {
+    const std::string bytes(std::istreambuf_iterator<char>(stream), {});
+    if (stream.bad()) io::refuse(name, "cannot be read");
+    return parse(bytes, name, as, format);
+  });
+}
+
+const std::vector<std::string>& knownExtensions() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const Extension& known : extensions) all.emplace_back(known.name);
+    return all;
+  }();
+  return names;
 }
 
 }  // namespace tufted

@@ -1,12 +1,9 @@
 #include <array>
-#include <bit>
-#include <cmath>
 #include <cstring>
 #include <limits>
-#include <unordered_map>
+#include <numeric>
 
 #include "io/errors.h"
-#include "io/file_text.h"
 #include "io/formats.h"
 #include "io/line_scanner.h"
 
@@ -16,68 +13,33 @@ namespace {
 constexpr std::size_t header_bytes = 84;  // 80 of any text, then the number of triangles
 constexpr std::size_t facet_bytes = 50;   // the normal, three corners, two bytes of attributes
 
-struct CornerHash {
-  std::size_t operator()(const std::array<double, 3>& corner) const {
-    std::uint64_t hash = 0;
-    for (const double c : corner) {
-      // Adding zero makes -0 the same as 0, which compare equal.
-      hash = (hash ^ std::bit_cast<std::uint64_t>(c + 0.0)) * 0x9e3779b97f4a7c15u;
-      hash ^= hash >> 32;
-    }
-    return hash;
-  }
-};
-
-/// Gives equal corners one vertex, numbered by first occurrence. Corners that are not finite stay apart (CGAL 5.5
-/// merges a NaN with any other corner).
-class CornerMerger {
- public:
-  int vertex(const std::array<double, 3>& corner) {
-    const int next = static_cast<int>(coordinates_.size() / 3);
-    if (std::isfinite(corner[0]) && std::isfinite(corner[1]) && std::isfinite(corner[2])) {
-      const auto [entry, inserted] = vertices_.try_emplace(corner, next);
-      if (!inserted) return entry->second;
-    }
-    coordinates_.insert(coordinates_.end(), corner.begin(), corner.end());
-    return next;
-  }
-
-  Points points() const {
-    return Eigen::Map<const Points>(coordinates_.data(), static_cast<Eigen::Index>(coordinates_.size() / 3), 3);
-  }
-
- private:
-  std::vector<double> coordinates_;
-  std::unordered_map<std::array<double, 3>, int, CornerHash> vertices_;
-};
-
-/// Corners of all triangles as vertex numbers.
+/// The corners of all triangles, three by three.
 class Soup {
  public:
   explicit Soup(const std::filesystem::path& path) : path_(path) {}
 
   void add(const std::array<double, 3>& corner) {
-    if (corners_.size() == static_cast<std::size_t>(std::numeric_limits<int>::max()))
+    if (corners_.size() / 3 == static_cast<std::size_t>(std::numeric_limits<int>::max()))
       refuse(path_, "more than 2^31 - 1 corners");
-    corners_.push_back(merger_.vertex(corner));
+    corners_.insert(corners_.end(), corner.begin(), corner.end());
   }
-  std::size_t size() const { return corners_.size(); }
 
+  /// Equal corners become one vertex.
   Geometry geometry() const {
+    const auto corners = static_cast<Eigen::Index>(corners_.size() / 3);
     Geometry geometry;
-    geometry.points = merger_.points();
-    geometry.width = static_cast<int>(geometry.points.rows());
-    geometry.is_mesh = !corners_.empty();
-    geometry.triangles =
-        Eigen::Map<const Triangles>(corners_.data(), static_cast<Eigen::Index>(corners_.size() / 3), 3);
-    geometry.merged_vertices = static_cast<std::int64_t>(corners_.size()) - geometry.points.rows();
+    geometry.points = Eigen::Map<const Points>(corners_.data(), corners, 3);
+    geometry.width = static_cast<int>(corners);
+    geometry.is_mesh = corners > 0;
+    geometry.triangles.resize(corners / 3, 3);
+    std::iota(geometry.triangles.data(), geometry.triangles.data() + corners, 0);
+    weld(geometry);
     return geometry;
   }
 
  private:
   const std::filesystem::path& path_;
-  CornerMerger merger_;
-  std::vector<int> corners_;
+  std::vector<double> corners_;
 };
 
 std::uint32_t binaryCount(std::string_view bytes) {
@@ -86,9 +48,14 @@ std::uint32_t binaryCount(std::string_view bytes) {
   return count;
 }
 
-/// Binary files may begin with `solid` as well, but only by chance do they have the length their count asks for.
+bool isBinary(std::string_view bytes) {
+  return bytes.size() >= header_bytes && bytes.size() == header_bytes + facet_bytes * binaryCount(bytes);
+}
+
+/// Binary files may begin with `solid` as well, but only by chance has an ascii file the length that its count asks
+/// for.
 bool isAscii(std::string_view bytes) {
-  if (bytes.size() >= header_bytes && bytes.size() == header_bytes + facet_bytes * binaryCount(bytes)) return false;
+  if (isBinary(bytes)) return false;
   const std::size_t begin = bytes.find_first_not_of(" \t\r\n");
   return begin != std::string_view::npos && bytes.substr(begin).starts_with("solid");
 }
@@ -135,14 +102,20 @@ void readAscii(const std::filesystem::path& path, std::string_view text, Soup& s
 
 }  // namespace
 
-Geometry readStl(const std::filesystem::path& path) {
-  const std::string bytes = readBytes(path);
+bool looksLikeStl(std::string_view bytes) {
+  return isBinary(bytes) || isAscii(bytes);
+}
+
+Geometry readStl(const std::filesystem::path& path, std::string_view bytes) {
   Soup soup(path);
-  if (isAscii(bytes))
+  const bool ascii = isAscii(bytes);
+  if (ascii)
     readAscii(path, bytes, soup);
   else
     readBinary(path, bytes, soup);
-  return soup.geometry();
+  Geometry geometry = soup.geometry();
+  geometry.format = ascii ? "STL, ascii" : "STL, binary";
+  return geometry;
 }
 
 }  // namespace tufted::io

@@ -5,13 +5,15 @@
 
 #include "io/columns.h"
 #include "io/errors.h"
-#include "io/file_text.h"
 #include "io/formats.h"
 #include "io/line_scanner.h"
 #include "io/number.h"
 
 namespace tufted::io {
 namespace {
+
+constexpr LineScanner::Syntax syntax = {
+    .separators = " \t\r\f\v,;", .delimiters = ",;", .comment = '#', .line_comment = "//"};
 
 /// Rows of equally many numbers.
 struct Numbers {
@@ -23,8 +25,7 @@ struct Numbers {
 };
 
 /// A first line of names, as in `x,y,z,intensity`.
-bool isHeading(const LineScanner& scanner) {
-  const auto& tokens = scanner.tokens();
+bool isHeading(const std::vector<std::string_view>& tokens) {
   return tokens.size() >= 3 && std::none_of(tokens.begin(), tokens.end(), [](std::string_view token) {
            double value;
            return parseNumber(token, value);
@@ -38,8 +39,7 @@ std::string lower(std::string_view text) {
 }
 
 Numbers readNumbers(const std::filesystem::path& path, std::string_view text) {
-  LineScanner scanner(path, text,
-                      {.separators = " \t\r\f\v,;", .delimiters = ",;", .comment = '#', .line_comment = "//"});
+  LineScanner scanner(path, text, syntax);
   Numbers numbers;
   std::int64_t announced = -1;
   while (scanner.next()) {
@@ -49,7 +49,7 @@ Numbers readNumbers(const std::filesystem::path& path, std::string_view text) {
         announced = scanner.integer(0);
         continue;
       }
-      if (numbers.names.empty() && isHeading(scanner)) {
+      if (numbers.names.empty() && isHeading(tokens)) {
         for (const std::string_view token : tokens) numbers.names.push_back(lower(token));
         continue;
       }
@@ -96,8 +96,20 @@ std::vector<std::string> columnNames(const std::filesystem::path& path, const Nu
 
 }  // namespace
 
-Geometry readXyz(const std::filesystem::path& path) {
-  const std::string text = readBytes(path);
+bool looksLikeXyz(std::string_view bytes) {
+  const auto tokens = firstTokens(bytes, syntax);
+  if (isHeading(tokens)) {
+    const auto named = [&tokens](const char* name) {
+      return std::any_of(tokens.begin(), tokens.end(), [name](std::string_view token) { return lower(token) == name; });
+    };
+    return named("x") && named("y") && named("z");
+  }
+  double value;
+  return (tokens.size() == 1 || tokens.size() >= 3) &&
+         std::all_of(tokens.begin(), tokens.end(), [&](std::string_view token) { return parseNumber(token, value); });
+}
+
+Geometry readXyz(const std::filesystem::path& path, std::string_view text) {
   const Numbers numbers = readNumbers(path, text);
   Columns columns;
   for (std::string& name : columnNames(path, numbers))
@@ -108,7 +120,9 @@ Geometry readXyz(const std::filesystem::path& path) {
       std::memcpy(columns.fields[c].bytes.data() + i * sizeof(double), &numbers.values[i * numbers.columns + c],
                   sizeof(double));
   }
-  return toGeometry(path, std::move(columns));
+  Geometry geometry = toGeometry(path, std::move(columns));
+  geometry.format = "text in columns";
+  return geometry;
 }
 
 }  // namespace tufted::io

@@ -193,7 +193,7 @@ TEST_F(Command, HelpStatesSignScaleAndFiles) {
   EXPECT_EQ(result.err, "");
   for (const char* part : {"positive semidefinite", "opposite sign", "length^2", "L u = M f", "L x = lambda M x",
                            "1/2 (front and back of the cover) times 1/3 (each triangle is found by its three corners)",
-                           "meshes: 1/2 (front and back of the cover)", "normals of a file are not used"})
+                           "meshes: 1/2 (front and back of the cover)", "--normals"})
     EXPECT_NE(result.out.find(part), std::string::npos) << part;
   for (const char* name : outputs) EXPECT_NE(result.out.find(name), std::string::npos) << name;
   const Result overview = runTufted({"--help"});

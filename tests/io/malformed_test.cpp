@@ -64,7 +64,7 @@ std::vector<Malformed> malformedFiles() {
       {"truncated.pcd", pcd("1 1 1", "2", "1", "2", "binary") + std::string(20, '\0'), "ends there"},
       {"compressed_short.pcd", compressed(1000, 900), "compressed data need"},
       {"compressed_bomb.pcd", compressed(8, 4000000000u), "not the 900"},
-      {"compressed_garbage.pcd", compressed(8, 900), "PCL"},
+      {"compressed_garbage.pcd", compressed(8, 900), "damaged"},
       {"no_xyz.pcd", "FIELDS a b\nSIZE 4 4\nTYPE F F\nWIDTH 1\nHEIGHT 1\nDATA ascii\n1 2\n", "x, y, z"},
       {"bad_type.pcd", "FIELDS x y z\nSIZE 2 2 2\nTYPE F F F\nWIDTH 1\nHEIGHT 1\nDATA ascii\n1 2 3\n", "SIZE"},
       {"bad_data.pcd", pcd("1 1 1", "1", "1", "1", "zipped"), "line 10"},
@@ -120,7 +120,7 @@ std::vector<Malformed> malformedFiles() {
        "line 7"},
       {"word.stl", "solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 zero\n", "line 4: 'zero'"},
       {"a.docx", "PK", "unknown file type '.docx'"},
-      {"none", "1 2 3", "no extension"},
+      {"none", "PK\3\4", "no extension"},
   };
 }
 

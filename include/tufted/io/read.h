@@ -4,7 +4,9 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
+#include <iosfwd>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "tufted/types.h"
@@ -24,6 +26,7 @@ struct Field {
 
 /// What a file holds: a cloud, or a mesh.
 struct Geometry {
+  std::string format;         ///< of the file, for people: "PCD, binary", "LAS 1.4, point format 6"
   Points points;              ///< N x 3, in the file's unit, float and double without loss
   Points normals;             ///< N x 3 where the file has them, else 0 x 3
   std::vector<Field> fields;  ///< everything else per point, in the file's order
@@ -34,7 +37,7 @@ struct Geometry {
   bool is_mesh = false;
   Triangles triangles;               ///< F x 3; polygons are triangulated, in order
   std::int64_t polygons = 0;         ///< faces of more than three corners that were triangulated
-  std::int64_t merged_vertices = 0;  ///< STL corners merged with an equal earlier one
+  std::int64_t merged_vertices = 0;  ///< vertices merged with an equal earlier one: the corners of an STL, or by weld()
 };
 
 /// How to take a file that may be either.
@@ -44,8 +47,31 @@ enum class ReadAs {
   mesh,       ///< a file without faces is an error
 };
 
-/// Reads PCD, PLY, XYZ (clouds) and PLY, OBJ, OFF, STL (meshes), by the file's extension.
+/// The formats that are read. Text of numbers in columns, whatever its name, is `xyz`.
+enum class FileFormat { automatic, pcd, ply, xyz, las, obj, off, stl };
+
+/// Reads clouds (PCD, PLY, XYZ, LAS, OFF and OBJ without faces) and meshes (PLY, OBJ, OFF, STL).
+/// @param format `automatic` goes by the extension, and where that is unknown by the content.
 /// @throws IoError naming the path, and the line or byte where known
-Geometry read(const std::filesystem::path& path, ReadAs as = ReadAs::automatic);
+Geometry read(const std::filesystem::path& path, ReadAs as = ReadAs::automatic,
+              FileFormat format = FileFormat::automatic);
+
+/// Reads a stream to its end, such as std::cin.
+/// @param name stands for the path in errors
+/// @param format `automatic` goes by the content.
+Geometry read(std::istream& stream, const std::string& name, ReadAs as = ReadAs::automatic,
+              FileFormat format = FileFormat::automatic);
+
+/// Reads a file that is in memory already.
+/// @param name stands for the path; its extension counts as that of a path does.
+Geometry parse(std::string_view bytes, const std::filesystem::path& name, ReadAs as = ReadAs::automatic,
+               FileFormat format = FileFormat::automatic);
+
+/// The extensions that name a format, in lower case with their dot.
+const std::vector<std::string>& knownExtensions();
+
+/// Gives vertices of equal position one number, that of the first; their other values are dropped, the triangles
+/// renumbered and `merged_vertices` counted. Vertices that are not finite stay apart. Organized clouds become one row.
+void weld(Geometry& geometry);
 
 }  // namespace tufted

@@ -1,0 +1,167 @@
+#include "io/las_header.h"
+
+#include <cmath>
+#include <cstring>
+
+#include "io/columns.h"
+#include "io/errors.h"
+
+// ASPRS, LAS Specification 1.4 R15: the offsets below are those of its Table 3 (public header), Table 7 (variable
+// length records) and Table 24 (Extra Bytes descriptor); LAS 1.2 and 1.3 are the same with a shorter header. All
+// numbers are little endian.
+namespace tufted::io {
+namespace {
+
+constexpr std::size_t smallest_header = 227;  // LAS 1.0 to 1.2
+constexpr std::size_t header_of_1_4 = 375;
+constexpr std::size_t record_header = 54;      // of a variable length record
+constexpr std::size_t extra_descriptor = 192;  // of one extra value
+
+class LasHeaderParser {
+ public:
+  LasHeaderParser(const std::filesystem::path& path, std::string_view bytes) : path_(path), bytes_(bytes) {}
+
+  LasHeader parse() {
+    if (!bytes_.starts_with("LASF")) refuseByte(path_, 0, "does not begin with 'LASF'");
+    if (bytes_.size() < smallest_header) refuseByte(path_, bytes_.size(), "ends inside the header");
+    readVersion();
+    readPointFormat();
+    readCount();
+    for (int c = 0; c < 3; ++c) {
+      header_.scale[c] = at<double>(131 + 8 * c);
+      header_.offset[c] = at<double>(155 + 8 * c);
+      if (!std::isfinite(header_.scale[c]) || header_.scale[c] == 0) refuseByte(path_, 131 + 8 * c, "a scale of zero");
+      if (!std::isfinite(header_.offset[c])) refuseByte(path_, 155 + 8 * c, "an offset that is not finite");
+    }
+    readRecords();
+    describeTheRest();
+    return std::move(header_);
+  }
+
+ private:
+  template <class T>
+  T at(std::size_t byte) const {
+    T value;
+    if (byte > bytes_.size() || sizeof(T) > bytes_.size() - byte)
+      refuseByte(path_, bytes_.size(), "ends inside the header");
+    std::memcpy(&value, bytes_.data() + byte, sizeof(T));
+    return value;
+  }
+
+  void readVersion() {
+    header_.minor = at<std::uint8_t>(25);
+    if (at<std::uint8_t>(24) != 1 || header_.minor > 4)
+      refuseByte(path_, 24,
+                 "LAS " + std::to_string(at<std::uint8_t>(24)) + "." + std::to_string(header_.minor) +
+                     " is not one of 1.0 to 1.4");
+    header_bytes_ = at<std::uint16_t>(94);
+    const std::size_t least = header_.minor == 4 ? header_of_1_4 : smallest_header;
+    if (header_bytes_ < least || header_bytes_ > bytes_.size())
+      refuseByte(path_, 94, "a header of " + std::to_string(header_bytes_) + " bytes");
+    header_.body = at<std::uint32_t>(96);
+    if (header_.body < header_bytes_ || header_.body > bytes_.size())
+      refuseByte(path_, 96,
+                 "the points begin at byte " + std::to_string(header_.body) + " of " + std::to_string(bytes_.size()));
+  }
+
+  void readPointFormat() {
+    const auto format = at<std::uint8_t>(104);
+    if ((format & 0xc0) != 0) refuseByte(path_, 104, "the points are compressed (LAZ); write them as LAS first");
+    if (format > 10) refuseByte(path_, 104, "unknown point format " + std::to_string(format));
+    header_.point_format = format;
+    header_.record_bytes = at<std::uint16_t>(105);
+    if (header_.record_bytes < lasPointBytes(format))
+      refuseByte(path_, 105,
+                 "points of " + std::to_string(header_.record_bytes) + " bytes, where format " +
+                     std::to_string(format) + " has " + std::to_string(lasPointBytes(format)));
+  }
+
+  /// LAS 1.4 counts in 64 bits; where that is zero, writers left only the old field.
+  void readCount() {
+    std::uint64_t count = at<std::uint32_t>(107);
+    std::size_t place = 107;
+    if (header_.minor == 4 && at<std::uint64_t>(247) != 0) count = at<std::uint64_t>(place = 247);
+    const std::uint64_t rest = bytes_.size() - header_.body;
+    if (count > rest / header_.record_bytes)
+      refuseByte(path_, place,
+                 std::to_string(count) + " points of " + std::to_string(header_.record_bytes) +
+                     " bytes are more than the " + std::to_string(rest) + " bytes behind the header");
+    header_.points = checkedRows(path_, static_cast<std::int64_t>(count));
+  }
+
+  /// The variable length records between header and points; of all kinds Extra Bytes alone matters here.
+  void readRecords() {
+    const auto records = at<std::uint32_t>(100);
+    std::size_t record = header_bytes_;
+    for (std::uint32_t r = 0; r < records; ++r) {
+      if (record + record_header > header_.body)
+        refuseByte(path_, record,
+                   "record " + std::to_string(r + 1) + " of " + std::to_string(records) +
+                       " lies behind the beginning of the points");
+      const std::size_t length = at<std::uint16_t>(record + 20);
+      if (length > header_.body - record - record_header)
+        refuseByte(path_, record + 20, "a record of " + std::to_string(length) + " bytes reaches into the points");
+      const std::string_view user = bytes_.substr(record + 2, 16);
+      if (user.starts_with(std::string_view("LASF_Spec\0", 10)) && at<std::uint16_t>(record + 18) == 4)
+        for (std::size_t d = 0; d + extra_descriptor <= length; d += extra_descriptor)
+          readExtra(record + record_header + d);
+      record += record_header + length;
+    }
+  }
+
+  void readExtra(std::size_t place) {
+    constexpr FieldType types[] = {FieldType::uint8,   FieldType::int8,   FieldType::uint16, FieldType::int16,
+                                   FieldType::uint32,  FieldType::int32,  FieldType::uint64, FieldType::int64,
+                                   FieldType::float32, FieldType::float64};
+    LasExtra extra;
+    const int kind = at<std::uint8_t>(place + 2), options = at<std::uint8_t>(place + 3);
+    const std::string_view name = bytes_.substr(place + 4, 32);
+    extra.name = name.substr(0, name.find('\0'));
+    if (kind == 0) {
+      extra.count = options;  // bytes without a meaning
+    } else if (kind <= 30) {  // 11 to 20 are pairs, 21 to 30 triples
+      extra.type = types[(kind - 1) % 10];
+      extra.count = 1 + (kind - 1) / 10;
+      extra.scaled = (options & 0x18) != 0;
+      for (int c = 0; c < extra.count; ++c) {
+        if ((options & 0x08) != 0) extra.scale[c] = at<double>(place + 112 + 8 * c);
+        if ((options & 0x10) != 0) extra.offset[c] = at<double>(place + 136 + 8 * c);
+      }
+    } else {
+      refuseByte(path_, place + 2, "unknown type " + std::to_string(kind) + " of an extra value");
+    }
+    if (extra.count > 0) header_.extras.push_back(extra);
+  }
+
+  /// Bytes that nobody described are a field as well.
+  void describeTheRest() {
+    std::size_t described = lasPointBytes(header_.point_format);
+    for (const LasExtra& extra : header_.extras) described += sizeOf(extra.type) * extra.count;
+    if (described > header_.record_bytes)
+      refuseByte(path_, 105,
+                 "the described values take " + std::to_string(described) + " bytes of points of " +
+                     std::to_string(header_.record_bytes));
+    LasExtra rest;
+    rest.name = "extra_bytes";
+    rest.count = static_cast<int>(header_.record_bytes - described);
+    if (rest.count > 0) header_.extras.push_back(rest);
+  }
+
+  const std::filesystem::path& path_;
+  std::string_view bytes_;
+  std::size_t header_bytes_ = 0;
+  LasHeader header_;
+};
+
+}  // namespace
+
+std::size_t lasPointBytes(int point_format) {
+  constexpr std::size_t bytes[] = {20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
+  return bytes[point_format];
+}
+
+LasHeader parseLasHeader(const std::filesystem::path& path, std::string_view bytes) {
+  return LasHeaderParser(path, bytes).parse();
+}
+
+}  // namespace tufted::io

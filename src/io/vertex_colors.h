@@ -1,0 +1,27 @@
+#pragma once
+
+#include <string_view>
+#include <vector>
+
+#include "io/line_scanner.h"
+#include "tufted/io/read.h"
+
+namespace tufted::io {
+
+/// The colours that OFF and OBJ put behind the values of a vertex: three or four numbers, the same count for all
+/// vertices. Integers up to 255 become uint8 fields red, green, blue (alpha), others float32.
+class VertexColors {
+ public:
+  /// Takes the tokens of the next vertex's line from number `first` on. @throws IoError naming the line
+  void add(const LineScanner& scanner, std::size_t first);
+  /// Appends the fields; none where a vertex has no colour.
+  void moveTo(std::vector<Field>& fields);
+
+ private:
+  std::size_t vertices_ = 0;
+  std::size_t count_ = 0;  ///< values per vertex, 0 once they differ
+  bool are_bytes_ = true;
+  std::vector<float> values_;
+};
+
+}  // namespace tufted::io

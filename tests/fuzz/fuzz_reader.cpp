@@ -1,0 +1,42 @@
+#include <cstddef>
+#include <cstdint>
+#include <cstdlib>
+#include <string_view>
+
+#include "tufted/errors.h"
+#include "tufted/io/read.h"
+
+// Any bytes at all are either read or refused with an IoError that is one line and begins with the path.
+// TUFTED_FUZZ_NAME is the name the reader goes by, "fuzz.pcd" say; without extension the format goes by the content.
+
+namespace {
+
+void require(bool condition) {
+  if (!condition) std::abort();
+}
+
+void checkGeometry(const tufted::Geometry& geometry) {
+  const auto points = geometry.points.rows();
+  require(static_cast<std::int64_t>(geometry.width) * geometry.height == points);
+  require(geometry.normals.rows() == 0 || geometry.normals.rows() == points);
+  for (const tufted::Field& field : geometry.fields)
+    require(points == 0 ? field.bytes.empty()
+                        : field.bytes.size() % (static_cast<std::size_t>(points) * field.count) == 0);
+  for (const int corner : geometry.triangles.reshaped()) require(corner >= 0 && corner < points);
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  try {
+    tufted::Geometry geometry = tufted::parse({reinterpret_cast<const char*>(data), size}, TUFTED_FUZZ_NAME);
+    checkGeometry(geometry);
+    tufted::weld(geometry);
+    checkGeometry(geometry);
+  } catch (const tufted::IoError& error) {
+    const std::string_view message = error.what();
+    require(message.starts_with(TUFTED_FUZZ_NAME ": "));
+    require(message.find('\n') == std::string_view::npos);
+  }
+  return 0;
+}

@@ -1,0 +1,33 @@
+#include "input.h"
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <map>
+
+#include "options.h"
+#include "tufted/errors.h"
+
+namespace {
+
+const std::map<std::string, tufted::ReadAs> kinds = {{"cloud", tufted::ReadAs::cloud}, {"mesh", tufted::ReadAs::mesh}};
+
+}  // namespace
+
+void addInput(CLI::App& command, Input& input) {
+  command.add_option("FILE", input.file, "Points or mesh; - reads standard input, its format told by its content")
+      ->required()
+      ->check(notEmpty);
+  addChoice(command, "--as", input.as, kinds, "Take a file that may be either as one of them");
+  command.add_flag("--weld", input.weld, "Give the vertices of a mesh that coincide one number, meshes only");
+}
+
+tufted::Geometry readInput(const Input& input) {
+  tufted::Geometry geometry =
+      input.isStandardInput() ? tufted::read(std::cin, input.name(), input.as) : tufted::read(input.file, input.as);
+  if (!input.weld) return geometry;
+  if (!geometry.is_mesh)
+    throw tufted::InvalidInput("--weld applies to meshes, and " + input.name() +
+                               " holds a point cloud, whose coincident points are merged in any case");
+  tufted::weld(geometry);
+  return geometry;
+}

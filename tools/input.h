@@ -1,0 +1,23 @@
+#pragma once
+
+#include <CLI/App.hpp>
+#include <filesystem>
+
+#include "tufted/io/read.h"
+
+/// What a command reads, as its options say.
+struct Input {
+  std::filesystem::path file;  ///< `-` is standard input
+  tufted::ReadAs as = tufted::ReadAs::automatic;
+  bool weld = false;
+
+  bool isStandardInput() const { return file == "-"; }
+  /// As messages call it.
+  std::string name() const { return isStandardInput() ? "standard input" : file.string(); }
+};
+
+/// Adds FILE, --as and --weld.
+void addInput(CLI::App& command, Input& input);
+
+/// @throws IoError as tufted::read does; InvalidInput for --weld on a cloud, whose equal points are merged anyway
+tufted::Geometry readInput(const Input& input);
