@@ -75,11 +75,11 @@ void allocate(Columns& columns, std::int64_t rows) {
   for (Field& field : columns.fields) field.bytes.resize(rows * field.count * sizeOf(field.type));
 }
 
-Geometry toGeometry(const std::filesystem::path& path, Columns&& columns) {
+Geometry toGeometry(const std::filesystem::path& path, std::int64_t line, Columns&& columns) {
   std::vector<bool> used(columns.fields.size());
   Geometry geometry;
   const auto position = find(columns.fields, {"x", "y", "z"});
-  if (!position) refuse(path, "has no fields x, y, z");
+  if (!position) refuseLine(path, line, "has no fields x, y, z");
   geometry.points = take(columns, *position, used);
   auto normal = find(columns.fields, {"normal_x", "normal_y", "normal_z"});
   if (!normal) normal = find(columns.fields, {"nx", "ny", "nz"});
@@ -92,7 +92,6 @@ Geometry toGeometry(const std::filesystem::path& path, Columns&& columns) {
 }
 
 std::int64_t checkedRows(const std::filesystem::path& path, std::int64_t rows) {
-  if (rows < 0) refuse(path, "the header counts " + std::to_string(rows) + " points");
   if (rows > std::numeric_limits<int>::max()) refuse(path, std::to_string(rows) + " points are more than 2^31 - 1");
   return rows;
 }

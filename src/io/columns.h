@@ -56,8 +56,9 @@ void allocate(Columns& columns, std::int64_t rows);
 
 /// Moves x, y, z to `points`, a full set of normal_x, normal_y, normal_z or nx, ny, nz to `normals`, and all other
 /// fields to `fields`, except padding (named "_"). Width and height are those of an unorganized cloud.
+/// @param line of the header, where the fields are named
 /// @throws IoError without x, y, z
-Geometry toGeometry(const std::filesystem::path& path, Columns&& columns);
+Geometry toGeometry(const std::filesystem::path& path, std::int64_t line, Columns&& columns);
 
 /// Rows that fit: points are numbered by int. @throws IoError beyond
 std::int64_t checkedRows(const std::filesystem::path& path, std::int64_t rows);

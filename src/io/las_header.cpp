@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <limits>
 
 #include "io/columns.h"
 #include "io/errors.h"
@@ -86,7 +87,9 @@ class LasHeaderParser {
       refuseByte(path_, place,
                  std::to_string(count) + " points of " + std::to_string(header_.record_bytes) +
                      " bytes are more than the " + std::to_string(rest) + " bytes behind the header");
-    header_.points = checkedRows(path_, static_cast<std::int64_t>(count));
+    if (count > static_cast<std::uint64_t>(std::numeric_limits<int>::max()))
+      refuseByte(path_, place, std::to_string(count) + " points are more than 2^31 - 1");
+    header_.points = static_cast<std::int64_t>(count);
   }
 
   /// The variable length records between header and points; of all kinds Extra Bytes alone matters here.

@@ -30,7 +30,7 @@ class ObjReader {
       else if (keyword == "f")
         readFace();
     }
-    if (coordinates_.empty()) refuse(path_, "holds no vertices");
+    if (coordinates_.empty()) scanner_.refuse("holds no vertices up to there");
     Geometry geometry;
     geometry.format = "OBJ";
     geometry.width = static_cast<int>(checkedRows(path_, vertices()));

@@ -56,7 +56,7 @@ class AsciiOff {
   void readCounts() {
     std::size_t first = 1;
     if (scanner_.tokens().size() == 1) {
-      if (!scanner_.next()) refuse(path_, "ends after the keyword");
+      if (!scanner_.next()) scanner_.refuse("ends after the keyword");
       first = 0;
     }
     if (scanner_.tokens().size() < first + 2) scanner_.refuse("the numbers of vertices and faces expected");
@@ -67,8 +67,8 @@ class AsciiOff {
       scanner_.refuse("the numbers of vertices and faces are not in [0, 2^31)");
     // The shortest vertex is "0 0 0\n", the shortest face "0\n".
     if (static_cast<std::uint64_t>(vertices_ * 6 + faces_ * 2) > text_.size())
-      refuse(path_, "too short for the " + std::to_string(vertices_) + " vertices and " + std::to_string(faces_) +
-                        " faces of its header");
+      scanner_.refuse("too short for the " + std::to_string(vertices_) + " vertices and " + std::to_string(faces_) +
+                      " faces of its header");
   }
 
   void readVertex(std::int64_t v, Geometry& geometry) {
@@ -120,7 +120,7 @@ bool looksLikeOff(std::string_view bytes) {
 Geometry readOff(const std::filesystem::path& path, std::string_view text) {
   LineScanner scanner(path, text, syntax);
   const auto layout = scanner.next() ? parseKeyword(scanner.tokens()[0]) : std::nullopt;
-  if (!layout) refuse(path, "the header does not begin with OFF, COFF, NOFF, STOFF or 4OFF");
+  if (!layout) scanner.refuse("the header does not begin with OFF, COFF, NOFF, STOFF or 4OFF");
   const bool binary = scanner.tokens().size() > 1 && scanner.tokens()[1] == "BINARY";
   Geometry geometry =
       binary ? readBinaryOff(path, text, scanner.offset(), *layout) : AsciiOff(path, text, scanner, *layout).read();

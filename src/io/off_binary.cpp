@@ -27,8 +27,9 @@ class BinaryOff {
     if (vertices < 0 || faces < 0 ||
         static_cast<std::uint64_t>(vertices) * vertex_values * 4 + static_cast<std::uint64_t>(faces * least_face) >
             bytes_.size() - offset_)
-      refuse(path_, "too short for the " + std::to_string(vertices) + " vertices and " + std::to_string(faces) +
-                        " faces of its header");
+      refuseByte(path_, bytes_.size(),
+                 "too short for the " + std::to_string(vertices) + " vertices and " + std::to_string(faces) +
+                     " faces of its header");
     Geometry geometry;
     geometry.width = static_cast<int>(vertices);
     geometry.points.resize(vertices, 3);

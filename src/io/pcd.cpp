@@ -14,7 +14,7 @@ void readAscii(const std::filesystem::path& path, std::string_view text, PcdHead
   // Two bytes, a digit and a separator, are the least a value takes.
   const std::size_t rest = text.size() - std::min(header.body, text.size());
   if (static_cast<double>(header.points) * static_cast<double>(header.row_values) * 2 > static_cast<double>(rest) + 1)
-    refuse(path, "too short for the " + std::to_string(header.points) + " points of its header");
+    refuseByte(path, text.size(), "too short for the " + std::to_string(header.points) + " points of its header");
   allocate(header.columns, header.points);
   LineScanner scanner(path, text, {.comment = '#'});
   scanner.seek(header.body, header.line);
@@ -59,7 +59,7 @@ Geometry readPcd(const std::filesystem::path& path, std::string_view bytes) {
       readPcdCompressed(path, bytes, header);
       break;
   }
-  Geometry geometry = toGeometry(path, std::move(header.columns));
+  Geometry geometry = toGeometry(path, header.line, std::move(header.columns));
   geometry.format = format;
   geometry.width = static_cast<int>(header.width);
   geometry.height = static_cast<int>(header.height);

@@ -1,5 +1,6 @@
 #include "io/pcd_header.h"
 
+#include <limits>
 #include <optional>
 
 #include "io/errors.h"
@@ -28,7 +29,7 @@ class PcdHeaderParser {
     while (scanner_.next()) {
       if (keyword()) return finish();
     }
-    refuse(path_, "the header has no DATA line");
+    scanner_.refuse("the header has no DATA line");
   }
 
  private:
@@ -81,7 +82,13 @@ class PcdHeaderParser {
     if (scanner_.tokens().size() != 2) scanner_.refuse("one number expected");
     const std::int64_t value = scanner_.integer(1);
     if (value < 0) scanner_.refuse("negative: " + quote(scanner_.tokens()[1]));
-    return checkedRows(path_, value);
+    checkRows(value);
+    return value;
+  }
+
+  void checkRows(std::int64_t rows) const {
+    if (rows > std::numeric_limits<int>::max())
+      scanner_.refuse(std::to_string(rows) + " points are more than 2^31 - 1");
   }
 
   void data() {
@@ -97,14 +104,14 @@ class PcdHeaderParser {
   }
 
   PcdHeader finish() {
-    if (names_.empty()) refuse(path_, "the header has no FIELDS line");
+    if (names_.empty()) scanner_.refuse("the header has no FIELDS line");
     // SIZE, TYPE and COUNT may be missing in old files: floats, one per field.
     if (sizes_.empty()) sizes_.assign(names_.size(), 4);
     if (kinds_.empty()) kinds_.assign(names_.size(), 'F');
     if (counts_.empty()) counts_.assign(names_.size(), 1);
     for (std::size_t f = 0; f < names_.size(); ++f) {
       const auto type = fieldType(kinds_[f], sizes_[f]);
-      if (!type) refuse(path_, "the field " + quote(names_[f]) + " has an unknown SIZE and TYPE");
+      if (!type) scanner_.refuse("the field " + quote(names_[f]) + " has an unknown SIZE and TYPE");
       header_.columns.fields.push_back({names_[f], *type, static_cast<int>(counts_[f]), {}});
       header_.row_bytes += sizes_[f] * counts_[f];
       header_.row_values += counts_[f];
@@ -113,9 +120,9 @@ class PcdHeaderParser {
     header_.width = width_.value_or(points_.value_or(0));
     header_.points = points_.value_or(header_.width * header_.height);
     if (header_.points != header_.width * header_.height)
-      refuse(path_, "POINTS " + std::to_string(header_.points) + " is not WIDTH " + std::to_string(header_.width) +
-                        " x HEIGHT " + std::to_string(header_.height));
-    checkedRows(path_, header_.points);
+      scanner_.refuse("POINTS " + std::to_string(header_.points) + " is not WIDTH " + std::to_string(header_.width) +
+                      " x HEIGHT " + std::to_string(header_.height));
+    checkRows(header_.points);
     header_.body = scanner_.offset();
     header_.line = scanner_.line();
     return std::move(header_);

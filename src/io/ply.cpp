@@ -16,12 +16,11 @@ namespace tufted::io {
 namespace {
 
 /// One value per point and property; lists have no place in a Field and are passed over.
-Columns readVertices(const std::filesystem::path& path, const PlyElement& element, PlyBody& body) {
+Columns readVertices(const PlyElement& element, PlyBody& body) {
   Columns columns;
   for (const PlyProperty& property : element.properties)
     if (!property.is_list) columns.fields.push_back({property.name, property.type, 1, {}});
-  if (columns.fields.empty()) refuse(path, "has no fields x, y, z");
-  allocate(columns, checkedRows(path, element.count));
+  allocate(columns, element.count);
   for (std::int64_t i = 0; i < element.count; ++i) {
     body.beginItem(element);
     std::size_t field = 0;
@@ -133,7 +132,7 @@ Geometry readPly(const std::filesystem::path& path, std::string_view bytes, bool
   for (const PlyElement& element : header.elements) {
     const bool strips = element.name == "tristrips";
     if (element.name == "vertex" && !has_vertices) {
-      columns = readVertices(path, element, *body);
+      columns = readVertices(element, *body);
       has_vertices = true;
     } else if (with_faces && element.count > 0 && (element.name == "face" || strips)) {
       readFaces(element, strips, *body, soup);
@@ -143,8 +142,8 @@ Geometry readPly(const std::filesystem::path& path, std::string_view bytes, bool
       skipElement(element, *body);
     }
   }
-  if (!has_vertices) refuse(path, "has no element 'vertex'");
-  Geometry geometry = toGeometry(path, std::move(columns));
+  if (!has_vertices) refuseLine(path, header.line, "has no element 'vertex'");
+  Geometry geometry = toGeometry(path, header.line, std::move(columns));
   geometry.viewpoint = viewpoint;
   geometry.format = std::string("PLY, ") + (header.format == PlyHeader::Format::ascii           ? "ascii"
                                             : header.format == PlyHeader::Format::little_endian ? "binary little endian"

@@ -33,7 +33,7 @@ class PlyHeaderParser {
     while (scanner_.next()) {
       if (keyword()) return finish();
     }
-    refuse(path_, "the header has no end_header line");
+    scanner_.refuse("the header has no end_header line");
   }
 
  private:
@@ -97,7 +97,7 @@ class PlyHeaderParser {
   }
 
   PlyHeader finish() {
-    if (!has_format_) refuse(path_, "the header has no format line");
+    if (!has_format_) scanner_.refuse("the header has no format line");
     header_.body = scanner_.offset();
     header_.line = scanner_.line();
     checkSize();

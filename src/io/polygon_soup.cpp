@@ -11,10 +11,8 @@ void setPolygons(const std::filesystem::path& path, const PolygonSoup& soup, Geo
   for (std::size_t p = 0; p < soup.polygons.size(); ++p) {
     for (const int corner : soup.polygons[p]) {
       if (corner >= 0 && corner < geometry.points.rows()) continue;
-      const std::string place =
-          p < soup.places.size() ? std::string(soup.place_name) + " " + std::to_string(soup.places[p]) + ": " : "";
-      refuse(path, place + "a face names vertex " + std::to_string(corner) + " (counted from 0) of " +
-                       std::to_string(geometry.points.rows()));
+      refuse(path, std::string(soup.place_name) + " " + std::to_string(soup.places[p]) + ": a face names vertex " +
+                       std::to_string(corner) + " (counted from 0) of " + std::to_string(geometry.points.rows()));
     }
   }
   geometry.is_mesh = !soup.polygons.empty();

@@ -11,7 +11,7 @@ namespace tufted::io {
 /// The corners of polygons as a file gives them, and where each was read for error messages.
 struct PolygonSoup {
   Polygons polygons;
-  std::vector<std::int64_t> places;  ///< line or byte per polygon; empty if not known
+  std::vector<std::int64_t> places;  ///< line or byte per polygon
   const char* place_name = "line";
 };
 

@@ -52,8 +52,9 @@ FileFormat findFormat(const std::filesystem::path& path, std::string_view bytes)
   if (format != FileFormat::automatic) return format;
   std::string names;
   for (const Extension& known : extensions) names += std::string(" ") + known.name;
-  io::refuse(path, "unknown file type " + (extension.empty() ? "(no extension)" : io::quote(extension)) +
-                       ", and the content begins like none; known are" + names);
+  io::refuseByte(path, 0,
+                 "unknown file type " + (extension.empty() ? "(no extension)" : io::quote(extension)) +
+                     ", and the content begins like none; known are" + names);
 }
 
 Geometry readFormat(const std::filesystem::path& path, std::string_view bytes, bool with_faces, FileFormat format) {

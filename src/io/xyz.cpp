@@ -64,7 +64,7 @@ Numbers readNumbers(const std::filesystem::path& path, std::string_view text) {
                      " are expected");
     for (std::size_t t = 0; t < tokens.size(); ++t) numbers.values.push_back(scanner.number(t));
   }
-  if (numbers.columns == 0) refuse(path, "holds no points");
+  if (numbers.columns == 0) scanner.refuse("holds no points up to there");
   if (announced >= 0 && static_cast<std::uint64_t>(announced) > numbers.rows())
     refuseLine(path, scanner.line(),
                "ends after " + std::to_string(numbers.rows()) + " of " + std::to_string(announced) + " points");
@@ -120,7 +120,7 @@ Geometry readXyz(const std::filesystem::path& path, std::string_view text) {
       std::memcpy(columns.fields[c].bytes.data() + i * sizeof(double), &numbers.values[i * numbers.columns + c],
                   sizeof(double));
   }
-  Geometry geometry = toGeometry(path, std::move(columns));
+  Geometry geometry = toGeometry(path, 1, std::move(columns));
   geometry.format = "text in columns";
   return geometry;
 }

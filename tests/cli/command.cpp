@@ -15,21 +15,26 @@ extern char** environ;
 namespace {
 
 // posix_spawn and not fork: libgomp does not survive a fork.
-pid_t spawn(const std::vector<std::string>& arguments, int out, int err) {
-  std::vector<std::string> words = {TUFTED_COMMAND};
-  words.insert(words.end(), arguments.begin(), arguments.end());
+pid_t spawn(std::vector<std::string> words, int in, int out, int err) {
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
   posix_spawn_file_actions_t actions;
   posix_spawn_file_actions_init(&actions);
+  posix_spawn_file_actions_adddup2(&actions, in, STDIN_FILENO);
   posix_spawn_file_actions_adddup2(&actions, out, STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&actions, err, STDERR_FILENO);
   pid_t pid = 0;
-  const int error = posix_spawn(&pid, TUFTED_COMMAND, &actions, nullptr, argv.data(), environ);
+  const int error = posix_spawnp(&pid, words[0].c_str(), &actions, nullptr, argv.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
-  if (error != 0) throw std::runtime_error("cannot start " TUFTED_COMMAND);
+  if (error != 0) throw std::runtime_error("cannot start " + words[0]);
   return pid;
+}
+
+std::vector<std::string> withCommand(const std::vector<std::string>& arguments) {
+  std::vector<std::string> words = {TUFTED_COMMAND};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  return words;
 }
 
 int wait(pid_t pid) {
@@ -49,10 +54,17 @@ bool readSome(int file, std::string& text) {
 
 }  // namespace
 
-Result runTufted(const std::vector<std::string>& arguments) {
+Result runTufted(const std::vector<std::string>& arguments, const std::string& input) {
+  return runProgram(withCommand(arguments), input);
+}
+
+Result runProgram(const std::vector<std::string>& words, const std::string& input) {
+  const int in = open(input.c_str(), O_RDONLY | O_CLOEXEC);
+  if (in < 0) throw std::runtime_error("cannot open " + input);
   int out[2], err[2];
   if (pipe2(out, O_CLOEXEC) != 0 || pipe2(err, O_CLOEXEC) != 0) throw std::runtime_error("pipe");
-  const pid_t pid = spawn(arguments, out[1], err[1]);
+  const pid_t pid = spawn(words, in, out[1], err[1]);
+  close(in);
   close(out[1]);
   close(err[1]);
   Result result;
@@ -73,7 +85,9 @@ Result interruptTufted(const std::vector<std::string>& arguments) {
   if (terminal < 0 || grantpt(terminal) != 0 || unlockpt(terminal) != 0) throw std::runtime_error("no terminal");
   const int err = open(ptsname(terminal), O_RDWR | O_NOCTTY | O_CLOEXEC);
   const int out = open("/dev/null", O_WRONLY | O_CLOEXEC);
-  const pid_t pid = spawn(arguments, out, err);
+  const int in = open("/dev/null", O_RDONLY | O_CLOEXEC);
+  const pid_t pid = spawn(withCommand(arguments), in, out, err);
+  close(in);
   close(out);
   close(err);
   Result result;

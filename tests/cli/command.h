@@ -10,7 +10,11 @@ struct Result {
 };
 
 /// Runs the command `tufted` with these arguments and waits for it. Neither stream is a terminal.
-Result runTufted(const std::vector<std::string>& arguments);
+/// @param input a file to be its standard input
+Result runTufted(const std::vector<std::string>& arguments, const std::string& input = "/dev/null");
+
+/// Runs any program, found on the path; its arguments may name TUFTED_COMMAND.
+Result runProgram(const std::vector<std::string>& words, const std::string& input = "/dev/null");
 
 /// Runs it with a terminal as stderr, and sends SIGINT as soon as something appears there.
 Result interruptTufted(const std::vector<std::string>& arguments);

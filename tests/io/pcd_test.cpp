@@ -149,13 +149,12 @@ TEST(Pcd, FieldsOfSeveralValuesAndWideIntegersSurviveBinary) {
   EXPECT_EQ(valuesOf<std::uint16_t>(*fieldNamed(geometry, "h")), (std::vector<std::uint16_t>{1, 2, 3, 1, 2, 4}));
 }
 
-TEST(Pcd, PclsConsoleIsAsLoudAfterwardsAsBefore) {
-  const TemporaryDir dir;
-  const auto path = dir / "cloud.pcd";
-  pcl::PCDWriter().writeBinary(path.string(), toPcl(survey()));
-  const auto before = pcl::console::getVerbosityLevel();
-  tufted::read(path);
-  EXPECT_EQ(pcl::console::getVerbosityLevel(), before);
+TEST(Pcd, TheViewpointIsKept) {
+  const auto geometry =
+      tufted::parse("FIELDS x y z\nVIEWPOINT 1 2 3 0.5 0.5 -0.5 0.5\nPOINTS 1\nDATA ascii\n1 2 3\n", "a.pcd");
+  EXPECT_EQ(geometry.viewpoint, (std::array<double, 7>{1, 2, 3, 0.5, 0.5, -0.5, 0.5}));
+  const auto silent = tufted::parse("FIELDS x y z\nPOINTS 1\nDATA ascii\n1 2 3\n", "a.pcd");
+  EXPECT_EQ(silent.viewpoint, (std::array<double, 7>{0, 0, 0, 1, 0, 0, 0}));
 }
 
 }  // namespace

@@ -168,6 +168,10 @@ TEST(Ply, WhatPclWritesIsRead) {
     point.curvature = 0.25f;
     cloud.push_back(point);
   }
+  // A quarter turn around z, at (1, 2, 3).
+  const float half = std::sqrt(0.5f);
+  cloud.sensor_origin_ = {1, 2, 3, 1};
+  cloud.sensor_orientation_ = Eigen::Quaternionf(half, 0, 0, half);
   const TemporaryDir dir;
   for (const bool binary : {false, true}) {
     const auto path = dir / "cloud.ply";
@@ -179,6 +183,8 @@ TEST(Ply, WhatPclWritesIsRead) {
     EXPECT_EQ(geometry.normals(3, 2), 1);
     ASSERT_NE(fieldNamed(geometry, "green"), nullptr);
     EXPECT_EQ(valuesOf<std::uint8_t>(*fieldNamed(geometry, "green"))[3], 23);
+    const double pose[] = {1, 2, 3, half, 0, 0, half};
+    for (int i = 0; i < 7; ++i) EXPECT_NEAR(geometry.viewpoint[i], pose[i], 1e-6) << i;
   }
 }
 

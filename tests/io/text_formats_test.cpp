@@ -112,12 +112,43 @@ TEST(Off, TheBinaryFormIsRead) {
   EXPECT_EQ(geometry.triangles.row(0), Eigen::RowVector3i(0, 1, 2));
 }
 
+TEST(Off, ColoursOfAllVerticesAreFieldsInBothForms) {
+  const auto bytes = tufted::parse("CNOFF 2 0 0\n0 0 0 0 0 1 255 128 0\n1 0 0 0 1 0 1 2 3\n", "a.off");
+  ASSERT_NE(fieldNamed(bytes, "green"), nullptr);
+  EXPECT_EQ(valuesOf<std::uint8_t>(*fieldNamed(bytes, "green")), (std::vector<std::uint8_t>{128, 2}));
+  EXPECT_EQ(bytes.normals.row(1), Eigen::RowVector3d(0, 1, 0));
+  const auto floats = tufted::parse("COFF 1 0 0\n0 0 0 0.5 1.0 0 1\n", "a.off");
+  ASSERT_NE(fieldNamed(floats, "alpha"), nullptr);
+  EXPECT_EQ(valuesOf<float>(*fieldNamed(floats, "red")), (std::vector<float>{0.5f}));
+}
+
 TEST(Off, ColoursMayBeMissingAndHomogeneousVerticesAreDivided) {
   const TemporaryDir dir;
   const auto coloured = tufted::read(dir.write("c.off", "COFF 3 1 0\n0 0 0 255 0 0\n1 0 0\n0 1 0 3\n3 0 1 2\n"));
   EXPECT_EQ(coloured.triangles.rows(), 1);
   const auto homogeneous = tufted::read(dir.write("h.off", "4OFF\n1 0 0\n2 4 6 2\n"));
   EXPECT_EQ(homogeneous.points.row(0), Eigen::RowVector3d(1, 2, 3));
+}
+
+TEST(Obj, ColoursAndNormalsOfVerticesAreKept) {
+  const auto cloud = tufted::parse("v 0 0 0 1.0 0.5 0\nvn 0 0 1\nv 1 0 0 0 0 1.0\nvn 0 1 0\n", "a.obj");
+  EXPECT_FALSE(cloud.is_mesh);
+  ASSERT_NE(fieldNamed(cloud, "green"), nullptr);
+  EXPECT_EQ(valuesOf<float>(*fieldNamed(cloud, "green")), (std::vector<float>{0.5f, 0}));
+  ASSERT_EQ(cloud.normals.rows(), 2);
+  EXPECT_EQ(cloud.normals.row(1), Eigen::RowVector3d(0, 1, 0));
+}
+
+TEST(Obj, NormalsOfCornersAreNotThoseOfVertices) {
+  const std::string vertices = "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 1\nvn 0 1 0\nvn 1 0 0\n";
+  EXPECT_EQ(tufted::parse(vertices + "f 1//1 2//2 3//3\n", "a.obj").normals.rows(), 3);
+  EXPECT_EQ(tufted::parse(vertices + "f 1//2 2//2 3//3\n", "a.obj").normals.rows(), 0);
+}
+
+TEST(Obj, AWeightIsNoColour) {
+  const auto cloud = tufted::parse("v 1 2 3 1\nv 4 5 6 1\n", "a.obj");
+  EXPECT_TRUE(cloud.fields.empty());
+  EXPECT_EQ(cloud.points(1, 2), 6);
 }
 
 const char* const square =
