@@ -16,3 +16,4 @@ enum ExitCode : int {
 using Run = std::function<int()>;
 
 void addLaplacian(CLI::App& app, Run& run);
+void addInfo(CLI::App& app, Run& run);

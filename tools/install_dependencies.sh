@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs what tufted, its tests and its benchmark need, on Debian 12 and Ubuntu 22.04 and 24.04. Does nothing, and
 # asks for no rights, where all of it is there already.
+#   --fuzz   also clang with its sanitizers, for the preset `fuzz`
 #
 # The names are the same on all three. What differs: Ubuntu keeps most of them in `universe` (on by default); 22.04 has
 # GCC 11, CMake 3.22, PCL 1.12 and CGAL 5.4, which suffice.
@@ -13,26 +14,50 @@ packages=(
   libgtest-dev libspectra-dev libbenchmark-dev python3 python3-scipy  # tests and benchmark
 )
 
+fuzz=false
+case "${1-}" in
+  '') ;;
+  --fuzz)
+    fuzz=true
+    packages+=(clang libomp-dev)
+    ;;
+  *)
+    echo "usage: tools/install_dependencies.sh [--fuzz]" >&2
+    exit 2
+    ;;
+esac
+
 fail() {
   echo "install_dependencies: $*" >&2
   exit 1
 }
 
+# install PACKAGE...: installs those that are missing.
+install() {
+  local missing=() as_root=() package status
+  for package in "$@"; do
+    status=$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)
+    [[ $status == installed ]] || missing+=("$package")
+  done
+  ((${#missing[@]} > 0)) || return 0
+  if ((EUID != 0)); then
+    command -v sudo >/dev/null || fail "needs root or sudo to install: ${missing[*]}"
+    as_root=(sudo)
+  fi
+  echo "Installing ${missing[*]}"
+  "${as_root[@]}" apt-get update -qq || fail "apt-get update failed"
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" ||
+    fail "apt-get could not install: ${missing[*]}"
+}
+
+# can_fuzz: whether clang has the runtime of its sanitizers, which some releases keep in a package of its own.
+can_fuzz() {
+  echo 'extern "C" int LLVMFuzzerTestOneInput(const char*, unsigned long) { return 0; }' |
+    clang++ -fsanitize=fuzzer,address,undefined -x c++ -o /dev/null - 2>/dev/null
+}
+
 command -v dpkg-query >/dev/null || fail "knows Debian and Ubuntu only; please install: ${packages[*]}"
-
-missing=()
-for package in "${packages[@]}"; do
-  status=$(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null || true)
-  [[ $status == installed ]] || missing+=("$package")
-done
-((${#missing[@]} > 0)) || exit 0
-
-as_root=()
-if ((EUID != 0)); then
-  command -v sudo >/dev/null || fail "needs root or sudo to install: ${missing[*]}"
-  as_root=(sudo)
+install "${packages[@]}"
+if $fuzz && ! can_fuzz; then
+  install libclang-rt-dev
 fi
-echo "Installing ${missing[*]}"
-"${as_root[@]}" apt-get update -qq || fail "apt-get update failed"
-"${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" ||
-  fail "apt-get could not install: ${missing[*]}"

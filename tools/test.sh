@@ -14,7 +14,11 @@ case "${1-}" in
     ;;
 esac
 
-tools/install_dependencies.sh
+if $quick; then
+  tools/install_dependencies.sh
+else
+  tools/install_dependencies.sh --fuzz
+fi
 # shellcheck source=tools/build_settings.sh
 source tools/build_settings.sh
 # Real meshes and scans of others; their tests skip where the package cannot be had.
@@ -84,6 +88,7 @@ if ! $quick; then
   consumer installed build/release -DCONSUMER_IO=ON || true
   preset dev || true
   preset no-gpl || true
+  preset fuzz || true
   # Without tufted::io the package may not ask for PCL or libzip.
   consumer installed-core build/no-gpl -DCMAKE_DISABLE_FIND_PACKAGE_PclIo=ON || true
 fi

@@ -1,6 +1,7 @@
 #pragma once
 
 // Everything in the core library. Files and the PCL filters have headers of their own (tufted/io, tufted/pcl).
+#include "tufted/describe.h"
 #include "tufted/errors.h"
 #include "tufted/intrinsic_triangulation.h"
 #include "tufted/laplacian.h"

@@ -1,0 +1,91 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "../io/temporary_dir.h"
+#include "command.h"
+
+namespace {
+
+using Json = nlohmann::json;
+
+class Info : public testing::Test {
+ protected:
+  Json info(const std::string& file) {
+    const Result result = runTufted({"info", file, "--json"});
+    EXPECT_EQ(result.code, 0) << result.err;
+    return Json::parse(result.out);
+  }
+
+  /// Whether one of the sentences about what is odd begins like that.
+  static bool isOdd(const Json& info, const std::string& beginning) {
+    for (const Json& sentence : info["odd"])
+      if (sentence.get<std::string>().starts_with(beginning)) return true;
+    return false;
+  }
+
+  TemporaryDir dir_;
+};
+
+TEST_F(Info, SaysWhatAnOrganizedCloudHolds) {
+  std::string text =
+      "VERSION .7\nFIELDS x y z label normal_x normal_y normal_z\nSIZE 4 4 4 2 4 4 4\nTYPE F F F U F F F\n"
+      "COUNT 1 1 1 2 1 1 1\nWIDTH 3\nHEIGHT 2\nVIEWPOINT 1 2 3 1 0 0 0\nPOINTS 6\nDATA ascii\n";
+  for (int i = 0; i < 5; ++i) text += std::to_string(i % 3) + " " + std::to_string(i / 3) + " 0 7 8 0 0 1\n";
+  const Json cloud = info(dir_.write("a.pcd", text + "nan nan nan 7 8 0 0 1\n"));
+  EXPECT_EQ(cloud["format"], "PCD, ascii");
+  EXPECT_EQ(cloud["kind"], "cloud");
+  EXPECT_EQ(cloud["points"], 6);
+  EXPECT_EQ(cloud["organized"], true);
+  EXPECT_EQ(cloud["width"], 3);
+  EXPECT_EQ(cloud["viewpoint"][2], 3);
+  EXPECT_EQ(cloud["normals"], true);
+  EXPECT_EQ(cloud["fields"], Json::parse(R"([{"name": "label", "type": "uint16", "count": 2}])"));
+  EXPECT_EQ(cloud["highest"], Json::parse("[2, 1, 0]"));
+  EXPECT_EQ(cloud["spacing"], 1);
+  EXPECT_EQ(cloud["not_finite"], 1);
+  EXPECT_TRUE(isOdd(cloud, "points that are not finite")) << cloud["odd"];
+}
+
+TEST_F(Info, SaysWhatIsOddAboutAMesh) {
+  const Json mesh = info(dir_.write("a.obj",
+                                    "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nv 0 -1 0\nv 0 -1 0\n"
+                                    "f 1 2 3\nf 1 2 4\nf 1 2 5\nf 1 1 2\n"));
+  EXPECT_EQ(mesh["kind"], "mesh");
+  EXPECT_EQ(mesh["triangles"], 4);
+  EXPECT_EQ(mesh["nonmanifold_edges"], 1);
+  EXPECT_EQ(mesh["boundary_edges"], 6);
+  EXPECT_EQ(mesh["isolated"], 1);
+  for (const char* beginning : {"edges of more than two", "vertices without a triangle", "triangles that name a vertex",
+                                "vertices that equal another"})
+    EXPECT_TRUE(isOdd(mesh, beginning)) << beginning;
+}
+
+TEST_F(Info, WarnsOfFloatsThatAreTooCoarse) {
+  std::string text;
+  for (int i = 0; i < 100; ++i)
+    text += std::to_string(5400000 + 0.25 * (i % 10)) + " " + std::to_string(0.25 * (i / 10)) + " 0\n";
+  const Json cloud = info(dir_.write("utm.xyz", text));
+  EXPECT_EQ(cloud["float_step"], 0.5);
+  EXPECT_EQ(cloud["spacing"], 0.25);
+  EXPECT_TRUE(isOdd(cloud, "so far from the origin")) << cloud["odd"];
+}
+
+TEST_F(Info, TheTextHoldsTheSame) {
+  const Result result = runTufted({"info", dir_.write("a.xyz", "0 0 0\n1 0 0\n0 1 0\n0 1 0\n")});
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  for (const char* part : {"text in columns", "points          4", "spacing         1 (1 to 1)",
+                           "points that equal an earlier one and take no part: 1", "to expect"})
+    EXPECT_NE(result.out.find(part), std::string::npos) << part << "\n" << result.out;
+}
+
+TEST_F(Info, AnUnreadableFileIsOneLineAndOne) {
+  const Result result = runTufted({"info", dir_.write("a.xyz", "0 zero 0\n")});
+  EXPECT_EQ(result.code, 1);
+  EXPECT_EQ(result.out, "");
+  EXPECT_NE(result.err.find("line 1: 'zero'"), std::string::npos) << result.err;
+}
+
+}  // namespace

@@ -1,0 +1,220 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "command.h"
+#include "input.h"
+#include "interrupt.h"
+#include "options.h"
+#include "progress_bar.h"
+#include "tufted/describe.h"
+#include "tufted/errors.h"
+#include "tufted/laplacian.h"
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* description = "Say what a file holds, what is odd about it, and what building L and M will cost.";
+
+constexpr const char* footer =
+    R"(On clouds the nearest neighbours are found, nothing is built; meshes are built, which takes no longer.
+  spacing       median distance to the nearest neighbour (and its 5 % and 95 % quantiles)
+  float step    distance of neighbouring floats at the farthest coordinate; above a tenth of the spacing it is odd
+  on lines      points whose nearest neighbours lie on one line, as on the rings of a scanner
+  outliers      points whose nearest neighbour is more than five times as far as is usual around them
+  components    of the graph that joins each point with its nearest neighbours
+  to expect     time from that of the search in this run, memory from 1 kB per point)";
+
+// Whole build over the search for neighbours, and bytes per point at its peak, as tufted_bench measures them.
+constexpr double build_over_search = 3.5;
+constexpr double bytes_per_point = 1000;
+constexpr double coarse_step = 0.1;  ///< of the spacing; then rounding to floats moves points visibly
+
+struct Settings {
+  Input input;
+  tufted::CloudOptions cloud;
+  bool json = false;
+};
+
+const char* typeName(tufted::FieldType type) {
+  constexpr const char* names[] = {"int8",   "uint8", "int16",  "uint16",  "int32",
+                                   "uint32", "int64", "uint64", "float32", "float64"};
+  return names[static_cast<int>(type)];
+}
+
+template <class Vector>
+Json array(const Vector& values) {
+  return Json(std::vector<double>(values.begin(), values.end()));
+}
+
+Json describeFile(const Settings& settings, const tufted::Geometry& geometry) {
+  Json fields = Json::array();
+  for (const tufted::Field& field : geometry.fields)
+    fields.push_back({{"name", field.name}, {"type", typeName(field.type)}, {"count", field.count}});
+  Json file = {{"file", settings.input.name()},
+               {"format", geometry.format},
+               {"kind", geometry.is_mesh ? "mesh" : "cloud"},
+               {"points", geometry.points.rows()},
+               {"triangles", geometry.triangles.rows()},
+               {"polygons", geometry.polygons},
+               {"merged_vertices", geometry.merged_vertices},
+               {"organized", geometry.height > 1},
+               {"width", geometry.width},
+               {"height", geometry.height},
+               {"viewpoint", geometry.viewpoint},
+               {"normals", geometry.normals.rows() > 0},
+               {"fields", std::move(fields)}};
+  return file;
+}
+
+/// What is the same for the points of a cloud and the vertices of a mesh.
+void addExtent(const tufted::CloudDescription& points, Json& info) {
+  info["lowest"] = array(points.lowest);
+  info["highest"] = array(points.highest);
+  info["spacing"] = points.spacing;
+  info["spacing_low"] = points.spacing_low;
+  info["spacing_high"] = points.spacing_high;
+  info["float_step"] = points.float_step;
+  info["not_finite"] = points.not_finite;
+  info["coincident"] = points.coincident;
+}
+
+void addCloud(const tufted::CloudDescription& cloud, Json& info) {
+  info["neighbors"] = cloud.neighbors;
+  info["on_lines"] = cloud.on_lines;
+  info["outliers"] = cloud.outliers;
+  info["components"] = cloud.components;
+  info["expected_seconds"] = cloud.seconds * build_over_search;
+  info["expected_bytes"] = static_cast<double>(cloud.points) * bytes_per_point;
+}
+
+void addMesh(const tufted::Report& report, Json& info) {
+  double seconds = 0;
+  for (const tufted::StageCost& stage : report.stages) seconds += stage.seconds;
+  info["mean_edge"] = report.mean_edge;
+  info["isolated"] = report.isolated;
+  info["repeated_vertex_triangles"] = report.repeated_vertex_triangles;
+  info["not_finite_triangles"] = report.not_finite_triangles;
+  info["degenerate_faces"] = report.degenerate_faces;
+  info["boundary_edges"] = report.boundary_edges;
+  info["nonmanifold_edges"] = report.nonmanifold_edges;
+  info["components"] = report.components;
+  info["expected_seconds"] = seconds;
+  info["expected_bytes"] = static_cast<double>(report.triangles) * bytes_per_point / 2;
+}
+
+/// One sentence per thing that a user should know before trusting the result.
+std::vector<std::string> findOddities(const Json& info) {
+  std::vector<std::string> odd;
+  const auto add = [&](const char* member, const char* text) {
+    if (info.contains(member) && info[member].get<std::int64_t>() > 0)
+      odd.push_back(std::string(text) + ": " + std::to_string(info[member].get<std::int64_t>()));
+  };
+  add("not_finite", "points that are not finite and take no part");
+  add("coincident", info["kind"] == "mesh" ? "vertices that equal another one and stay separate (--weld joins them)"
+                                           : "points that equal an earlier one and take no part");
+  add("outliers", "points far from all others");
+  add("isolated", "vertices without a triangle");
+  add("repeated_vertex_triangles", "triangles that name a vertex twice and are dropped");
+  add("not_finite_triangles", "triangles with a vertex that is not finite, which are dropped");
+  add("degenerate_faces", "faces without area");
+  add("nonmanifold_edges", "edges of more than two triangles");
+  const double points = info["points"].get<double>();
+  if (info.contains("on_lines") && info["on_lines"].get<double>() > 0.05 * points)
+    odd.push_back("points whose neighbours lie on one line, as on the rings of a spinning scanner: " +
+                  std::to_string(info["on_lines"].get<std::int64_t>()));
+  const double spacing = info["spacing"].get<double>(), step = info["float_step"].get<double>();
+  if (spacing > 0 && step > coarse_step * spacing)
+    odd.push_back("so far from the origin that floats would move points by up to " +
+                  std::to_string(step / 2 / spacing) + " of the spacing");
+  return odd;
+}
+
+void printTriple(const char* name, const Json& values) {
+  std::printf("%-15s %.10g %.10g %.10g\n", name, values[0].get<double>(), values[1].get<double>(),
+              values[2].get<double>());
+}
+
+void printFields(const Json& info) {
+  std::string names = info["normals"] ? "normals" : "";
+  for (const Json& field : info["fields"]) {
+    const int count = field["count"].get<int>();
+    names += (names.empty() ? "" : ", ") + field["name"].get<std::string>() + " " + field["type"].get<std::string>() +
+             (count > 1 ? " x " + std::to_string(count) : "");
+  }
+  if (!names.empty()) std::printf("%-15s %s\n", "fields", names.c_str());
+}
+
+void print(const Json& info) {
+  const auto integer = [&info](const char* member) { return static_cast<long long>(info[member].get<std::int64_t>()); };
+  const auto real = [&info](const char* member) { return info[member].get<double>(); };
+  const bool is_mesh = info["kind"] == "mesh";
+  std::printf("%-15s %s (%s)\n", "file", info["file"].get<std::string>().c_str(), is_mesh ? "mesh" : "cloud");
+  std::printf("%-15s %s\n", "format", info["format"].get<std::string>().c_str());
+  std::printf("%-15s %lld", "points", integer("points"));
+  if (info["organized"]) std::printf(", organized %lld x %lld", integer("width"), integer("height"));
+  if (is_mesh) std::printf("; %lld triangles, %lld polygons triangulated", integer("triangles"), integer("polygons"));
+  std::printf("\n");
+  printFields(info);
+  printTriple("lowest", info["lowest"]);
+  printTriple("highest", info["highest"]);
+  std::printf("%-15s %.4g (%.4g to %.4g)\n", "spacing", real("spacing"), real("spacing_low"), real("spacing_high"));
+  std::printf("%-15s %.4g\n", "float step", real("float_step"));
+  if (is_mesh) {
+    std::printf("%-15s %.4g\n", "mean edge", real("mean_edge"));
+    std::printf("%-15s %lld boundary, %lld nonmanifold\n", "edges", integer("boundary_edges"),
+                integer("nonmanifold_edges"));
+  }
+  std::printf("%-15s %lld\n", "components", integer("components"));
+  for (const Json& sentence : info["odd"]) std::printf("%-15s %s\n", "odd", sentence.get<std::string>().c_str());
+  std::printf("%-15s %.2g s, %.0f MB\n", "to expect", real("expected_seconds"), real("expected_bytes") / 1e6);
+}
+
+int runInfo(Settings settings) {
+  ProgressBar bar;
+  settings.cloud.progress = [&bar](std::string_view stage, double fraction) {
+    bar.show(stage, fraction);
+    return !interrupted();
+  };
+  settings.cloud.progress("read", 0);
+  const tufted::Geometry geometry = readInput(settings.input);
+  if (interrupted()) throw tufted::Cancelled("cancelled");
+  Json info = describeFile(settings, geometry);
+  const tufted::CloudDescription points = tufted::describeCloud(geometry.points, settings.cloud);
+  addExtent(points, info);
+  if (geometry.is_mesh) {
+    const tufted::MeshOptions options = {
+        .threads = settings.cloud.threads, .keep_cover = false, .progress = settings.cloud.progress};
+    addMesh(tufted::meshLaplacian(geometry.points, geometry.triangles, options).report, info);
+  } else {
+    addCloud(points, info);
+  }
+  info["odd"] = findOddities(info);
+  bar.clear();
+  if (settings.json)
+    std::printf("%s\n", info.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
+  else
+    print(info);
+  if (std::fflush(stdout) != 0) throw tufted::IoError("standard output: cannot be written");
+  return exit_done;
+}
+
+}  // namespace
+
+void addInfo(CLI::App& app, Run& run) {
+  CLI::App& command = *app.add_subcommand("info", description);
+  command.footer(footer);
+  const auto settings = std::make_shared<Settings>();
+  addInput(command, settings->input);
+  addNumber(command, "--neighbors", settings->cloud.neighbors, 3, std::numeric_limits<int>::max(),
+            "Neighbours per point (30)")
+      ->type_name("K");
+  addNumber(command, "--threads", settings->cloud.threads, 1, 1 << 16, "At most this many threads (all)")
+      ->type_name("N");
+  command.add_flag("--json", settings->json, "Print one JSON object");
+  command.callback([&run, settings] { run = [=] { return runInfo(*settings); }; });
+}
