@@ -10,6 +10,11 @@ struct InvalidInput : std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
+/// A matrix that could not be factorised, though nothing is wrong with the arguments by themselves.
+struct SolverFailure : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
 /// The progress callback asked to stop.
 struct Cancelled : std::runtime_error {
   using std::runtime_error::runtime_error;

@@ -8,4 +8,5 @@
 #include "tufted/options.h"
 #include "tufted/polygons.h"
 #include "tufted/report.h"
+#include "tufted/smoothing.h"
 #include "tufted/types.h"

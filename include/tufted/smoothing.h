@@ -1,0 +1,36 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "tufted/laplacian.h"
+#include "tufted/options.h"
+#include "tufted/types.h"
+
+namespace tufted {
+
+struct SmoothingOptions {
+  /// t >= 0 in squares of report.mean_edge (the square of the mean, not the mean of squares). A wave of length
+  /// 2 pi sqrt(t) mean edges loses half its height in a step, shorter ones more.
+  double time_step = 1;
+  int iterations = 1;                                ///< steps >= 1, all with the Laplacian given
+  const std::vector<std::uint8_t>* fixed = nullptr;  ///< N; points other than 0 stay where they are; borrowed
+  int threads = 0;                                   ///< at most this many; 0: what OpenMP offers
+  Progress progress = {};
+};
+
+/// Smooths positions by implicit steps of the heat equation, (M + t L) x' = M x for each coordinate; the matrix is
+/// factorised once.
+///
+/// Each coordinate of x' lies in the range of x over the point's connected component and, where no point of it is
+/// fixed, sum(M x) of the component stays the same, both up to rounding. (Where a point's mass is below 1e-13 of
+/// t L's diagonal, and thus lost in rounding, that much is added to it.) Coincident points move with their
+/// representative, and stay if any one of them is fixed; points that are not finite or isolated stay as they are.
+/// @param points N x 3, those that the Laplacian was built from
+/// @return N x 3
+/// @throws InvalidInput for options out of range, arrays of the wrong size, or active points that are not finite
+/// @throws SolverFailure when the matrix is not positive definite
+/// @throws Cancelled when `options.progress` returns false
+Points smooth(const Laplacian& laplacian, const Points& points, const SmoothingOptions& options = {});
+
+}  // namespace tufted
