@@ -90,7 +90,7 @@ if ! $quick; then
   preset no-gpl || true
   preset fuzz || true
   # Without tufted::io the package may not ask for PCL or libzip.
-  consumer installed-core build/no-gpl -DCMAKE_DISABLE_FIND_PACKAGE_PclIo=ON || true
+  consumer installed-core build/no-gpl -DCMAKE_DISABLE_FIND_PACKAGE_PclParts=ON || true
 fi
 
 total="$passed passed, $failed failed"
