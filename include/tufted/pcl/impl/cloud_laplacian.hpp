@@ -1,0 +1,85 @@
+#pragma once
+
+#include <pcl/point_cloud.h>
+#include <pcl/search/search.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "tufted/errors.h"
+#include "tufted/laplacian.h"
+
+/// Between PCL's types and the core's; what the classes have in common.
+namespace tufted::detail {
+
+/// @throws InvalidInput for an index that names no point of the cloud
+template <typename PointT>
+void checkIndices(const char* name, const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices) {
+  for (const pcl::index_t i : indices) {
+    if (i < 0 || static_cast<std::size_t>(i) >= cloud.size()) {
+      throw InvalidInput(std::string(name) + ": index " + std::to_string(i) + ", must lie in [0, " +
+                         std::to_string(cloud.size()) + ")");
+    }
+  }
+}
+
+/// Row r is point indices[r], in double before anything is computed.
+template <typename PointT>
+Points toPoints(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices) {
+  Points points(static_cast<Eigen::Index>(indices.size()), 3);
+  for (std::size_t r = 0; r < indices.size(); ++r) {
+    const PointT& point = cloud[indices[r]];
+    points.row(static_cast<Eigen::Index>(r)) << point.x, point.y, point.z;
+  }
+  return points;
+}
+
+/// The k points nearest to each of `points`, itself left out, as rows of `points`; fewer are padded with -1.
+/// The search gets the finite points, each once.
+template <typename PointT>
+Neighborhoods nearestNeighbors(pcl::search::Search<PointT>& search,
+                               const typename pcl::PointCloud<PointT>::ConstPtr& cloud, const pcl::Indices& indices,
+                               const Points& points, int k) {
+  std::vector<int> row(cloud->size(), -1);
+  const pcl::IndicesPtr finite(new pcl::Indices);
+  for (std::size_t r = 0; r < indices.size(); ++r) {
+    const pcl::index_t i = indices[r];
+    if (row[i] >= 0 || !points.row(static_cast<Eigen::Index>(r)).allFinite()) continue;
+    row[i] = static_cast<int>(r);
+    finite->push_back(i);
+  }
+  const int others = std::max(0, static_cast<int>(finite->size()) - 1);
+  Neighborhoods neighborhoods = Neighborhoods::Constant(points.rows(), std::clamp(k, 0, others), -1);
+  if (neighborhoods.cols() == 0) return neighborhoods;  // PCL's trees complain about no points
+
+  search.setInputCloud(cloud, finite);
+  pcl::Indices found;
+  std::vector<float> squared_distances;
+  for (const pcl::index_t i : *finite) {
+    const int count =
+        search.nearestKSearch((*cloud)[i], static_cast<int>(neighborhoods.cols()) + 1, found, squared_distances);
+    int column = 0;
+    for (int j = 0; j < count && column < neighborhoods.cols(); ++j) {
+      if (found[j] != i) neighborhoods(row[i], column++) = row.at(found[j]);
+    }
+  }
+  return neighborhoods;
+}
+
+/// The Laplacian of the points that `indices` name.
+/// @param search finds the neighbours; null: the core does
+/// @throws what pointCloudLaplacian throws
+template <typename PointT>
+Laplacian cloudLaplacian(const typename pcl::PointCloud<PointT>::ConstPtr& cloud, const pcl::Indices& indices,
+                         const Points& points, const typename pcl::search::Search<PointT>::Ptr& search,
+                         CloudOptions options) {
+  Neighborhoods neighborhoods;
+  if (search) {
+    neighborhoods = nearestNeighbors<PointT>(*search, cloud, indices, points, options.neighbors);
+    options.neighborhoods = &neighborhoods;
+  }
+  return pointCloudLaplacian(points, options);
+}
+
+}  // namespace tufted::detail

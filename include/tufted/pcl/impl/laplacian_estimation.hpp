@@ -1,0 +1,24 @@
+#pragma once
+
+#include <pcl/console/print.h>
+
+#include <exception>
+
+#include "tufted/pcl/impl/cloud_laplacian.hpp"
+#include "tufted/pcl/laplacian_estimation.h"
+
+template <typename PointT>
+void tufted::LaplacianEstimation<PointT>::compute(Laplacian& result) {
+  result = {};
+  if (!this->initCompute()) return;
+  try {
+    detail::checkIndices("setIndices", *input_, *indices_);
+    const Points points = detail::toPoints(*input_, *indices_);
+    result = detail::cloudLaplacian<PointT>(input_, *indices_, points, search_, options_);
+  } catch (const std::exception& error) {
+    PCL_ERROR("[tufted::%s::compute] %s\n", getClassName().c_str(), error.what());
+  }
+  this->deinitCompute();
+}
+
+#define PCL_INSTANTIATE_LaplacianEstimation(T) template class PCL_EXPORTS tufted::LaplacianEstimation<T>;

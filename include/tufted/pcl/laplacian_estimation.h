@@ -1,0 +1,63 @@
+#pragma once
+
+#include <pcl/pcl_base.h>
+#include <pcl/search/search.h>
+
+#include <string>
+
+#include "tufted/laplacian.h"
+
+namespace tufted {
+
+/// L, M and what is known about each point, for a cloud of PCL.
+///
+/// Built from the points that setIndices names, and from them alone: row r of the result belongs to (*indices)[r].
+/// Without indices row r is point r. Points that are NaN, whatever is_dense says, keep a row of zeros. A caller's
+/// mistake is told on PCL's console and leaves an empty result.
+///
+/// Instantiated for PCL_XYZ_POINT_TYPES; for other types include impl/laplacian_estimation.hpp.
+template <typename PointT>
+class LaplacianEstimation : public pcl::PCLBase<PointT> {
+ public:
+  using Ptr = pcl::shared_ptr<LaplacianEstimation<PointT>>;
+  using ConstPtr = pcl::shared_ptr<const LaplacianEstimation<PointT>>;
+  using SearchPtr = typename pcl::search::Search<PointT>::Ptr;
+
+  /// Builds the Laplacian of the input cloud; `result` is overwritten, 0 rows where that failed.
+  void compute(Laplacian& result);
+
+  /// Neighbours per point, at least 3; 30 unless set.
+  void setKSearch(int k) { options_.neighbors = k; }
+  int getKSearch() const { return options_.neighbors; }
+
+  /// At most this many threads; 0, as at first: what OpenMP offers.
+  void setNumberOfThreads(unsigned int threads = 0) { options_.threads = static_cast<int>(threads); }
+  unsigned int getNumberOfThreads() const { return static_cast<unsigned int>(options_.threads); }
+
+  /// Who finds the neighbours; null, as at first: the core, which also looks further where k neighbours are too few.
+  /// compute() gives it the cloud and the finite ones of its indices.
+  void setSearchMethod(const SearchPtr& search) { search_ = search; }
+  SearchPtr getSearchMethod() const { return search_; }
+
+  /// Everything that the core can be told, k and threads included. What it borrows (normals, neighborhoods: one row per
+  /// index) must live until compute() is done; a search method wins over neighborhoods.
+  void setOptions(const CloudOptions& options) { options_ = options; }
+  const CloudOptions& getOptions() const { return options_; }
+
+  const std::string& getClassName() const { return class_name_; }
+
+ protected:
+  using pcl::PCLBase<PointT>::input_;
+  using pcl::PCLBase<PointT>::indices_;
+
+ private:
+  std::string class_name_ = "LaplacianEstimation";
+  CloudOptions options_;
+  SearchPtr search_;
+};
+
+}  // namespace tufted
+
+#ifdef PCL_NO_PRECOMPILE
+#include "tufted/pcl/impl/laplacian_estimation.hpp"
+#endif

@@ -1,0 +1,119 @@
+// Depth images and laser scans, read by PCL: the same results as the core's, and every promise to users of PCL.
+#include <gtest/gtest.h>
+#include <pcl/io/pcd_io.h>
+
+#include <algorithm>
+#include <cctype>
+#include <cstring>
+#include <filesystem>
+#include <vector>
+
+#include "pcl/clouds.h"
+#include "support/compare.h"
+#include "tufted/pcl/laplacian_estimation.h"
+#include "tufted/pcl/laplacian_smoothing.h"
+
+namespace tufted {
+namespace {
+
+namespace fs = std::filesystem;
+using namespace pcl_tests;
+using Point = pcl::PointXYZRGB;
+using Cloud = pcl::PointCloud<Point>;
+
+class RealClouds : public testing::TestWithParam<const char*> {
+ protected:
+  void SetUp() override {
+    const fs::path path = fs::path(TUFTED_DATA_DIR) / "clouds" / (std::string(GetParam()) + ".pcd");
+    if (!fs::is_regular_file(path)) GTEST_SKIP() << path << " is absent";
+    int code = 0;
+    consoleOf([&] { code = pcl::io::loadPCDFile(path.string(), *cloud_); });  // names the fields a file lacks
+    ASSERT_EQ(code, 0);
+    points_ = pointsOf(*cloud_);
+  }
+
+  /// An eighth of the cloud in its midst: a window of an image, else a run of a scan.
+  pcl::IndicesPtr window() const {
+    pcl::IndicesPtr indices(new pcl::Indices);
+    const std::uint32_t columns = cloud_->width, rows = cloud_->height;
+    for (std::uint32_t row = rows / 4; row < std::max(rows / 2, 1U); ++row) {
+      for (std::uint32_t column = columns / 4; column < columns / 2; ++column) {
+        indices->push_back(static_cast<pcl::index_t>(row * columns + column));
+      }
+    }
+    return indices;
+  }
+
+  Cloud::Ptr cloud_{new Cloud};
+  Points points_;
+};
+
+TEST_P(RealClouds, HaveTheCoresLaplacian) {
+  LaplacianEstimation<Point> estimation;
+  estimation.setInputCloud(cloud_);
+  Laplacian result;
+  estimation.compute(result);
+  const Laplacian core = pointCloudLaplacian(points_);
+  EXPECT_TRUE(support::sameBits(result.L, core.L));
+  EXPECT_TRUE(support::sameBits(result.M, core.M));
+  EXPECT_EQ(result.status, core.status);
+  EXPECT_GT(result.report.active, 0);
+}
+
+TEST_P(RealClouds, HaveTheCoresLaplacianInAWindow) {
+  const pcl::IndicesPtr indices = window();
+  LaplacianEstimation<Point> estimation;
+  estimation.setInputCloud(cloud_);
+  estimation.setIndices(indices);
+  Laplacian result;
+  estimation.compute(result);
+  const Laplacian core = pointCloudLaplacian(points_(*indices, Eigen::all));
+  EXPECT_TRUE(support::sameBits(result.L, core.L));
+  EXPECT_TRUE(support::sameBits(result.M, core.M));
+  EXPECT_GT(result.report.active, 0);
+}
+
+TEST_P(RealClouds, AreSmoothedInPlaceAsByTheCore) {
+  const Cloud before = *cloud_;
+  const Laplacian laplacian = pointCloudLaplacian(points_, {.keep_cover = false});
+  const Points smoothed = smooth(laplacian, points_, {.time_step = 4});
+  LaplacianSmoothing<Point> smoothing;
+  smoothing.setInputCloud(cloud_);
+  smoothing.setTimeStep(4);
+  smoothing.filter(*cloud_);
+  EXPECT_TRUE(samePositions(pointsOf(*cloud_), rounded(smoothed)));
+  EXPECT_EQ(cloud_->width, before.width);
+  EXPECT_EQ(cloud_->height, before.height);
+  EXPECT_EQ(cloud_->is_dense, points_.allFinite());
+  for (std::size_t i = 0; i < before.size(); ++i) ASSERT_EQ((*cloud_)[i].rgba, before[i].rgba) << i;
+}
+
+TEST_P(RealClouds, MoveInAWindowAndNowhereElse) {
+  const pcl::IndicesPtr indices = window();
+  LaplacianSmoothing<Point> smoothing;
+  smoothing.setInputCloud(cloud_);
+  smoothing.setIndices(indices);
+  Cloud output;
+  smoothing.filter(output);
+  std::vector<bool> inside(cloud_->size(), false);
+  for (const pcl::index_t i : *indices) inside[i] = true;
+  int moved = 0;
+  for (std::size_t i = 0; i < cloud_->size(); ++i) {
+    const bool same = std::memcmp(output[i].data, (*cloud_)[i].data, sizeof(output[i].data)) == 0;
+    ASSERT_TRUE(same || inside[i]) << i;
+    moved += same ? 0 : 1;
+  }
+  EXPECT_GT(moved, 0);
+}
+
+std::string testName(const testing::TestParamInfo<const char*>& info) {
+  return info.param;
+}
+
+INSTANTIATE_TEST_SUITE_P(Scans, RealClouds,
+                         testing::Values("milk_cartoon_all_small_clorox", "office1", "five_people", "mosd_learn0",
+                                         "mosd_learn1", "cturtle"),
+                         testName);
+
+}  // namespace
+}  // namespace tufted
