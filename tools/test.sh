@@ -85,11 +85,11 @@ consumer() {
 # A failed step is counted already and must not keep the rest from running.
 preset release || true
 if ! $quick; then
-  consumer installed build/release -DCONSUMER_IO=ON || true
+  consumer installed build/release -DCONSUMER_IO=ON -DCONSUMER_PCL=ON || true
   preset dev || true
   preset no-gpl || true
   preset fuzz || true
-  # Without tufted::io the package may not ask for PCL or libzip.
+  # Without tufted::io and tufted::pcl the package may not ask for PCL or libzip.
   consumer installed-core build/no-gpl -DCMAKE_DISABLE_FIND_PACKAGE_PclParts=ON || true
 fi
 
