@@ -2,16 +2,9 @@
 
 #include <CLI/CLI.hpp>
 #include <iostream>
-#include <map>
 
 #include "options.h"
 #include "tufted/errors.h"
-
-namespace {
-
-const std::map<std::string, tufted::ReadAs> kinds = {{"cloud", tufted::ReadAs::cloud}, {"mesh", tufted::ReadAs::mesh}};
-
-}  // namespace
 
 void addInput(CLI::App& command, Input& input) {
   command.add_option("FILE", input.file, "Points or mesh; - reads standard input, its format told by its content")

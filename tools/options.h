@@ -1,6 +1,7 @@
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include <CLI/App.hpp>
+#include <CLI/Option.hpp>
 #include <charconv>
 #include <map>
 #include <optional>
@@ -9,11 +10,13 @@
 #include <system_error>
 #include <type_traits>
 
-/// Options that several commands share in kind.
+#include "tufted/io/read.h"
 
-inline std::string notEmpty(const std::string& path) {
-  return path.empty() ? "must not be empty" : "";
-}
+// What the options of several subcommands have in common.
+
+/// The values of --as.
+inline const std::map<std::string, tufted::ReadAs> kinds = {{"cloud", tufted::ReadAs::cloud},
+                                                            {"mesh", tufted::ReadAs::mesh}};
 
 /// An option that takes one of the names in `values`.
 template <class T>
@@ -26,6 +29,11 @@ CLI::Option* addChoice(CLI::App& app, const std::string& name, T& target, const 
     return values.count(key) > 0 ? std::string() : key + " is none of " + names;
   };
   return app.add_option_function<std::string>(name, set, help)->check(check)->type_name(names);
+}
+
+/// A check: a path must not be empty.
+inline std::string notEmpty(const std::string& path) {
+  return path.empty() ? "must not be empty" : "";
 }
 
 /// An option that takes a number in [least, most].
