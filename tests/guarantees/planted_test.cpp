@@ -1,4 +1,4 @@
-// The checks can fail: each finds a violation that was planted into a good result.
+// The checks, that of the tests and validate, can fail: each finds a violation that was planted into a good result.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -7,6 +7,7 @@
 
 #include "guarantees/guarantees.h"
 #include "shapes/shapes.h"
+#include "tufted/check.h"
 
 namespace tufted::guarantees {
 namespace {
@@ -26,6 +27,7 @@ struct Planted {
   std::string name;      ///< of the test
   std::string expected;  ///< how the message begins
   std::function<void(Laplacian&)> plant;
+  std::string of_validate = expected;  ///< the same for validate, which does not see the points
 };
 void PrintTo(const Planted& planted, std::ostream* out) {
   *out << planted.name;
@@ -82,6 +84,8 @@ std::vector<Planted> planted() {
          l.L.coeffRef(row, 0) += much, l.L.coeffRef(0, row) += much;
          l.L.coeffRef(0, 0) -= much, l.L.coeffRef(row, row) -= much;
        }},
+      {"JustIndefinite", "definite",
+       [](Laplacian& l) { l.L.coeffRef(0, 0) *= 1 - 1e-8; }},  // a constant has less than no energy
       onCover("CoverNotClosed", [](IntrinsicTriangulation& t) { t.glue[5] = -1; }),
       onCover("CoverNotManifold", [](IntrinsicTriangulation& t) { t.glue[5] = t.glue[8]; }),
       onCover("CoverLengths", [](IntrinsicTriangulation& t) { t.length[5] *= 1 + 1e-15; }),
@@ -102,8 +106,10 @@ std::vector<Planted> planted() {
       {"CountOfActive", "counts", [](Laplacian& l) { --l.report.active; }},
       {"CountOfNonzeros", "counts", [](Laplacian& l) { ++l.report.nonzeros; }},
       {"NoComponents", "counts", [](Laplacian& l) { l.report.components = 0; }},
-      {"NotFiniteIsActive", "status", [](Laplacian& l) { l.status[not_finite_row] = PointStatus::active; }},
-      {"CoincidentIsIsolated", "status", [](Laplacian& l) { l.status[coincident_row] = PointStatus::isolated; }},
+      {"NotFiniteIsActive", "status", [](Laplacian& l) { l.status[not_finite_row] = PointStatus::active; },
+       "positive diagonal"},
+      {"CoincidentIsIsolated", "status", [](Laplacian& l) { l.status[coincident_row] = PointStatus::isolated; },
+       "representative"},
       {"RepresentativeIsLater", "representative",
        [](Laplacian& l) { l.representative[coincident_row] = coincident_row; }},
       {"RepresentativeOfAnother", "representative", [](Laplacian& l) { l.representative[3] = 2; }},
@@ -115,6 +121,7 @@ std::vector<Planted> planted() {
 TEST(Guarantees, HoldForTheSample) {
   const Points points = samplePoints();
   EXPECT_THAT(brokenGuarantees(pointCloudLaplacian(points), points), testing::IsEmpty());
+  EXPECT_THAT(validate(pointCloudLaplacian(points)).faults, testing::IsEmpty());
 }
 
 class PlantedViolation : public testing::TestWithParam<Planted> {};
@@ -125,6 +132,13 @@ TEST_P(PlantedViolation, IsFound) {
   Laplacian laplacian = good;
   GetParam().plant(laplacian);
   EXPECT_THAT(brokenGuarantees(laplacian, points), testing::Contains(testing::StartsWith(GetParam().expected)));
+}
+
+TEST_P(PlantedViolation, IsFoundByValidate) {
+  static const Laplacian good = pointCloudLaplacian(samplePoints());
+  Laplacian laplacian = good;
+  GetParam().plant(laplacian);
+  EXPECT_THAT(validate(laplacian).faults, testing::Contains(testing::StartsWith(GetParam().of_validate)));
 }
 
 INSTANTIATE_TEST_SUITE_P(Guarantees, PlantedViolation, testing::ValuesIn(planted()),

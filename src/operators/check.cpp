@@ -1,0 +1,276 @@
+#include "tufted/check.h"
+
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <sstream>
+#include <utility>
+
+#include "operators/assemble.h"
+
+namespace tufted {
+namespace {
+
+using Eigen::Index;
+
+constexpr double epsilon = std::numeric_limits<double>::epsilon();
+constexpr double shift = 1e-12;  // of each diagonal; see the header
+
+/// How often a promise is broken, and where first.
+class Promise {
+ public:
+  explicit Promise(const char* name) : name_(name) {}
+
+  template <class... Words>
+  void brokenBy(const Words&... words) {
+    if (count_++ > 0) return;
+    std::ostringstream text;
+    (text << ... << words);
+    first_ = text.str();
+  }
+  std::int64_t count() const { return count_; }
+  void addTo(std::vector<std::string>& faults) const {
+    if (count_ == 1) faults.push_back(std::string(name_) + ": " + first_);
+    if (count_ > 1) faults.push_back(std::string(name_) + ": " + std::to_string(count_) + " times, first " + first_);
+  }
+
+ private:
+  const char* name_;
+  std::int64_t count_ = 0;
+  std::string first_;
+};
+
+/// Keeps the greatest error; one that is not a number is infinite.
+void raise(double& greatest, double error) {
+  if (!(error <= greatest)) greatest = std::isnan(error) ? INFINITY : error;
+}
+
+bool isActive(const Laplacian& laplacian, Index i) {
+  return laplacian.status[i] == PointStatus::active;
+}
+
+/// Sizes, indices and codes. False where the rest cannot be looked at.
+bool checkShape(const Laplacian& laplacian, std::vector<std::string>& faults) {
+  Promise size("size"), storage("storage"), status("status");
+  const SparseMatrix& L = laplacian.L;
+  const Index n = std::ssize(laplacian.status);
+  const auto expect = [&](const char* what, Index found) {
+    if (found != n) size.brokenBy(found, " ", what, " for ", n, " points");
+  };
+  expect("rows of L", L.rows());
+  expect("columns of L", L.cols());
+  expect("entries of M", laplacian.M.size());
+  expect("representatives", std::ssize(laplacian.representative));
+  expect("marks of the boundary", std::ssize(laplacian.boundary));
+  if (laplacian.frames.normals.rows() + laplacian.frames.tangents.rows() > 0) {  // a cloud
+    expect("normals", laplacian.frames.normals.rows());
+    expect("tangents", laplacian.frames.tangents.rows());
+  }
+  if (!L.isCompressed()) storage.brokenBy("L is not compressed");
+  for (Index j = 0; j < L.cols(); ++j) {
+    for (SparseMatrix::InnerIterator it(L, j); it; ++it)
+      if (it.row() < 0 || it.row() >= L.rows()) storage.brokenBy("column ", j, " has the row ", it.row());
+  }
+  for (Index i = 0; i < n; ++i) {
+    const int code = static_cast<int>(laplacian.status[i]);
+    if (code > static_cast<int>(PointStatus::isolated)) status.brokenBy("that of point ", i, " is ", code);
+  }
+  for (const Promise* promise : {&size, &storage, &status}) promise->addTo(faults);
+  return faults.empty();
+}
+
+/// Entry by entry: order, sign, and zeros where a point takes no part. An area of zero may have underflown.
+void checkEntries(const Laplacian& laplacian, const VectorXd& diagonal, LaplacianCheck& check) {
+  const SparseMatrix& L = laplacian.L;
+  Promise storage("storage"), finite("finite"), sign("off-diagonal sign"), positive("positive diagonal");
+  Promise mass("mass"), inactive("inactive is zero");
+  for (Index j = 0; j < L.cols(); ++j) {
+    Index previous = -1;
+    for (SparseMatrix::InnerIterator it(L, j); it; ++it) {
+      const Index i = it.row();
+      const double value = it.value();
+      if (i <= previous) storage.brokenBy("rows do not ascend in column ", j);
+      previous = i;
+      if (!std::isfinite(value)) finite.brokenBy("L(", i, ", ", j, ") = ", value);
+      if (i != j && value > 0) sign.brokenBy("L(", i, ", ", j, ") = ", value);
+      if (value != 0 && !(isActive(laplacian, i) && isActive(laplacian, j)))
+        inactive.brokenBy("L(", i, ", ", j, ") = ", value);
+    }
+    if (isActive(laplacian, j) && !(diagonal[j] > 0)) positive.brokenBy("L(", j, ", ", j, ") = ", diagonal[j]);
+  }
+  for (Index i = 0; i < laplacian.M.size(); ++i) {
+    const double m = laplacian.M[i];
+    if (!std::isfinite(m)) finite.brokenBy("M(", i, ") = ", m);
+    if (m < 0) mass.brokenBy("M(", i, ") = ", m);
+    if (m != 0 && !isActive(laplacian, i)) inactive.brokenBy("M(", i, ") = ", m);
+  }
+  check.positive_off_diagonals = sign.count();
+  check.not_finite = finite.count();
+  check.not_positive_diagonals = positive.count();
+  check.negative_masses = mass.count();
+  check.inactive_not_zero = inactive.count();
+  for (const Promise* promise : {&storage, &finite, &sign, &positive, &mass, &inactive}) promise->addTo(check.faults);
+}
+
+/// Rows against columns. Entries that are stored on one side only count as zero on the other.
+void checkRows(const Laplacian& laplacian, const VectorXd& diagonal, LaplacianCheck& check) {
+  const SparseMatrix& L = laplacian.L;
+  const SparseMatrix transposed = L.transpose();
+  Promise symmetry("symmetry"), row_sum("row sum");
+  for (Index j = 0; j < L.cols(); ++j) {
+    SparseMatrix::InnerIterator down(L, j), across(transposed, j);
+    double off_diagonal = 0;
+    Index entries = 0;
+    while (down || across) {
+      const Index i = std::min(down ? down.row() : L.rows(), across ? across.row() : L.rows());
+      double below = 0, beside = 0;  // L(i, j) and L(j, i)
+      for (; down && down.row() == i; ++down) below += down.value();
+      for (; across && across.row() == i; ++across, ++entries) beside += across.value();
+      if (i != j) off_diagonal += beside;
+      if (below == beside) continue;
+      symmetry.brokenBy("L(", i, ", ", j, ") = ", below, ", L(", j, ", ", i, ") = ", beside);
+      raise(check.symmetry_error, std::abs(below - beside) / std::max(diagonal[i], diagonal[j]));
+    }
+    if (!isActive(laplacian, j)) continue;
+    // The diagonal and this sum add up the same terms, all of one sign, in different orders.
+    const double error = std::abs(off_diagonal + diagonal[j]) / diagonal[j];
+    if (!(error <= static_cast<double>(entries) * epsilon))
+      row_sum.brokenBy("row ", j, " sums to ", off_diagonal + diagonal[j], " beside a diagonal of ", diagonal[j]);
+    raise(check.row_sum_error, error);
+  }
+  symmetry.addTo(check.faults);
+  row_sum.addTo(check.faults);
+}
+
+/// The lower triangle of D^-1/2 L D^-1/2 + shift of the active points, D = diag(L). The scaling alone changes no sign
+/// of a pivot; it keeps tiny and huge weights clear of underflow and overflow.
+template <class Matrix>
+Matrix scaledLower(const Laplacian& laplacian, const VectorXd& diagonal) {
+  const SparseMatrix& L = laplacian.L;
+  std::vector<Index> number(laplacian.status.size(), -1);
+  Index active = 0;
+  for (Index i = 0; i < L.cols(); ++i) {
+    if (isActive(laplacian, i)) number[i] = active++;
+  }
+  const auto visit = [&](auto entry) {  // entry(column, row, value), column after column
+    for (Index j = 0; j < L.cols(); ++j) {
+      if (number[j] < 0) continue;
+      for (SparseMatrix::InnerIterator it(L, j); it; ++it) {
+        const Index i = it.row();
+        if (i < j || number[i] < 0) continue;
+        const double scaled = it.value() / std::sqrt(diagonal[i]) / std::sqrt(diagonal[j]);
+        entry(number[j], number[i], i == j ? 1 + shift : scaled);
+      }
+    }
+  };
+  Matrix lower(active, active);
+  Eigen::Matrix<typename Matrix::StorageIndex, Eigen::Dynamic, 1> counts(active);
+  counts.setZero();
+  visit([&](Index column, Index, double) { ++counts[column]; });
+  lower.reserve(counts);
+  visit([&](Index column, Index row, double value) { lower.insert(row, column) = value; });
+  lower.makeCompressed();
+  return lower;
+}
+
+void checkDefinite(const Laplacian& laplacian, const VectorXd& diagonal, LaplacianCheck& check) {
+  if (check.not_finite + check.not_positive_diagonals > 0) {
+    check.faults.emplace_back("definite: not with entries that are not finite or diagonals that are not positive");
+    return;
+  }
+  // The factor of a large cloud may have more than 2^31 entries.
+  using LongMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, std::int64_t>;
+  Eigen::SimplicialLLT<LongMatrix, Eigen::Lower> factor;
+  const auto lower = scaledLower<LongMatrix>(laplacian, diagonal);
+  if (lower.rows() > 0) factor.compute(lower);
+  check.definite = lower.rows() == 0 || factor.info() == Eigen::Success;
+  if (!check.definite) check.faults.emplace_back("definite: L + 1e-12 diag(L) has no Cholesky factor");
+}
+
+void checkCover(const Laplacian& laplacian, LaplacianCheck& check) {
+  if (!laplacian.stored_cover) return;
+  const IntrinsicTriangulation& cover = laplacian.cover();
+  Promise numbering("cover");
+  if (cover.vertices != laplacian.L.cols())
+    numbering.brokenBy("it has ", cover.vertices, " vertices for ", laplacian.L.cols(), " points");
+  if (cover.size() != 2 * laplacian.report.triangles)
+    numbering.brokenBy("it has ", cover.size(), " faces over ", laplacian.report.triangles, " triangles");
+  for (std::int64_t f = 0; f < cover.size(); ++f) {
+    for (const int corner : cover.faces[f])
+      if (corner < 0 || corner >= cover.vertices) numbering.brokenBy("face ", f, " has the corner ", corner);
+  }
+  numbering.addTo(check.faults);
+  check.cover = validate(cover);
+  const auto expectNone = [&](std::int64_t count, const char* what) {
+    if (count > 0) check.faults.push_back("cover: " + std::to_string(count) + " " + what);
+  };
+  expectNone(check.cover->not_closed, "sides are glued to nothing");
+  expectNone(check.cover->not_edge_manifold, "sides are not the mates of their mates");
+  expectNone(check.cover->not_oriented, "sides do not run against their mates");
+  expectNone(check.cover->unequal_lengths, "sides have another length than their mates");
+  expectNone(check.cover->triangle_inequality, "faces have lengths that no triangle has");
+  expectNone(check.cover->not_delaunay, "edges are not Delaunay");
+}
+
+/// Equal points name the lowest of them, all others themselves; frames of active points are orthonormal.
+void checkPoints(const Laplacian& laplacian, LaplacianCheck& check) {
+  Promise representative("representative"), frame("frame");
+  const Frames& frames = laplacian.frames;
+  for (Index i = 0; i < std::ssize(laplacian.status); ++i) {
+    const int same = laplacian.representative[i];
+    const bool coincident = laplacian.status[i] == PointStatus::coincident;
+    if (coincident ? !(same >= 0 && same < i && laplacian.representative[same] == same) : same != i)
+      representative.brokenBy("point ", i, coincident ? " coincides with " : " is no copy but names ", same);
+    if (frames.normals.rows() == 0 || !isActive(laplacian, i)) continue;
+    const auto normal = frames.normals.row(i), tangent = frames.tangents.row(i);
+    const double error =
+        std::max({std::abs(normal.norm() - 1), std::abs(tangent.norm() - 1), std::abs(normal.dot(tangent))});
+    if (!(error <= 1e-9)) frame.brokenBy("that of point ", i, " is off by ", error);
+  }
+  representative.addTo(check.faults);
+  frame.addTo(check.faults);
+}
+
+/// What only the report knows, and whether it counted right.
+void checkReport(const Laplacian& laplacian, LaplacianCheck& check) {
+  const Report& report = laplacian.report;
+  Promise failures("failures"), counts("counts");
+  if (report.clamped_large > 0)
+    failures.brokenBy(report.clamped_large, " negative weights up to ", report.largest_clamped,
+                      " of the diagonal were set to 0");
+  if (report.flip_failures > 0) failures.brokenBy(report.flip_failures, " edges were given up");
+  const auto expect = [&](const char* what, std::int64_t told, std::int64_t found) {
+    if (told != found) counts.brokenBy("the report has ", told, " ", what, ", there are ", found);
+  };
+  expect("points", report.points, std::ssize(laplacian.status));
+  expect("active points", report.active, check.status[0]);
+  expect("points that are not finite", report.not_finite, check.status[1]);
+  expect("coincident points", report.coincident, check.status[2]);
+  expect("isolated points", report.isolated, check.status[3]);
+  expect("entries of L", report.nonzeros, laplacian.L.nonZeros());
+  expect("components", report.components, check.components);
+  failures.addTo(check.faults);
+  counts.addTo(check.faults);
+}
+
+}  // namespace
+
+LaplacianCheck validate(const Laplacian& laplacian) {
+  LaplacianCheck check;
+  if (!checkShape(laplacian, check.faults)) return check;
+  for (const PointStatus status : laplacian.status) ++check.status[static_cast<std::size_t>(status)];
+  check.components = countComponents(laplacian.L);
+  check.nonzeros_per_row =
+      static_cast<double>(laplacian.L.nonZeros()) / static_cast<double>(std::max<std::int64_t>(check.status[0], 1));
+  const VectorXd diagonal = laplacian.L.diagonal();
+  checkEntries(laplacian, diagonal, check);
+  checkRows(laplacian, diagonal, check);
+  checkDefinite(laplacian, diagonal, check);
+  checkCover(laplacian, check);
+  checkPoints(laplacian, check);
+  checkReport(laplacian, check);
+  return check;
+}
+
+}  // namespace tufted

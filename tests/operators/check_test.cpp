@@ -1,0 +1,103 @@
+// The figures of validate. That it finds what is broken is in guarantees/planted_test.cpp.
+#include "tufted/check.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "shapes/shapes.h"
+
+namespace tufted {
+namespace {
+
+/// A sphere of 500 points, then a point that is not finite and a copy of point 7.
+Laplacian sphereWithOddPoints(bool keep_cover = true) {
+  Points points(502, 3);
+  points.topRows(500) = shapes::sphere(500).points.topRows(500);
+  points.row(500).setConstant(NAN);
+  points.row(501) = points.row(7);
+  return pointCloudLaplacian(points, {.keep_cover = keep_cover});
+}
+
+struct Edge {
+  int a, b;
+  double weight;
+};
+
+/// The Laplacian of a graph on n vertices, with a report that agrees.
+Laplacian graphLaplacian(int n, const std::vector<Edge>& edges, int components) {
+  Laplacian laplacian;
+  Eigen::MatrixXd L = Eigen::MatrixXd::Zero(n, n);
+  for (const auto& [a, b, weight] : edges) {
+    L(a, b) -= weight, L(b, a) -= weight;
+    L(a, a) += weight, L(b, b) += weight;
+  }
+  laplacian.L = L.sparseView(0, 0);
+  laplacian.L.makeCompressed();
+  laplacian.M = VectorXd::Ones(n);
+  laplacian.status.assign(n, PointStatus::active);
+  for (int i = 0; i < n; ++i) laplacian.representative.push_back(i);
+  laplacian.boundary.assign(n, 0);
+  laplacian.report.points = laplacian.report.active = n;
+  laplacian.report.nonzeros = laplacian.L.nonZeros();
+  laplacian.report.components = components;
+  return laplacian;
+}
+
+TEST(LaplacianCheck, CountsPointsEntriesAndComponents) {
+  const Laplacian laplacian = sphereWithOddPoints();
+  const LaplacianCheck check = validate(laplacian);
+  EXPECT_EQ(check.status, (std::array<std::int64_t, 4>{500, 1, 1, 0}));
+  EXPECT_EQ(check.components, 1);
+  EXPECT_DOUBLE_EQ(check.nonzeros_per_row, static_cast<double>(laplacian.L.nonZeros()) / 500);
+  EXPECT_EQ(check.symmetry_error, 0);
+  EXPECT_LT(check.row_sum_error, 1e-14);
+  EXPECT_TRUE(check.definite);
+  ASSERT_TRUE(check.cover.has_value());
+  EXPECT_TRUE(check.cover->ok());
+  EXPECT_TRUE(check.ok());
+}
+
+TEST(LaplacianCheck, LooksAtTheCoverOnlyWhereItIsKept) {
+  const LaplacianCheck check = validate(sphereWithOddPoints(false));
+  EXPECT_FALSE(check.cover.has_value());
+  EXPECT_TRUE(check.ok());
+}
+
+TEST(LaplacianCheck, MeasuresErrorsAgainstTheDiagonal) {
+  Laplacian laplacian = graphLaplacian(3, {{0, 1, 3e5}, {1, 2, 1e5}}, 1);
+  laplacian.L.coeffRef(2, 1) = -1.5e5;
+  const LaplacianCheck check = validate(laplacian);
+  EXPECT_DOUBLE_EQ(check.symmetry_error, 0.5e5 / 4e5);
+  EXPECT_DOUBLE_EQ(check.row_sum_error, 0.5e5 / 1e5);
+}
+
+TEST(LaplacianCheck, SaysHowOftenAndWhereFirst) {
+  const Laplacian laplacian = graphLaplacian(4, {{0, 1, 1}, {1, 2, -1e-3}, {2, 3, 1}}, 1);
+  const LaplacianCheck check = validate(laplacian);
+  EXPECT_EQ(check.positive_off_diagonals, 2);
+  ASSERT_FALSE(check.ok());
+  EXPECT_EQ(check.faults.front(), "off-diagonal sign: 2 times, first L(2, 1) = 0.001");
+}
+
+TEST(LaplacianCheck, AcceptsWeightsOfVeryDifferentMagnitude) {
+  const LaplacianCheck check = validate(graphLaplacian(4, {{0, 1, 1e-300}, {1, 2, 1}, {2, 3, 1e300}}, 1));
+  EXPECT_EQ(check.faults, std::vector<std::string>());
+  EXPECT_TRUE(check.definite);
+}
+
+TEST(LaplacianCheck, JudgesAFaintComponentByItsOwnWeights) {
+  Laplacian laplacian = graphLaplacian(5, {{0, 1, 1e200}, {2, 3, 1e-200}, {3, 4, 1e-200}}, 2);
+  ASSERT_TRUE(validate(laplacian).ok());
+  laplacian.L.coeffRef(2, 2) *= 1 - 1e-9;
+  EXPECT_FALSE(validate(laplacian).definite);
+}
+
+TEST(LaplacianCheck, NothingIsActiveInAnEmptyCloudAndThatIsFine) {
+  const LaplacianCheck check = validate(pointCloudLaplacian(Points(0, 3)));
+  EXPECT_EQ(check.faults, std::vector<std::string>());
+  EXPECT_EQ(check.components, 0);
+}
+
+}  // namespace
+}  // namespace tufted
