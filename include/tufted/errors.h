@@ -25,4 +25,9 @@ struct IoError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+/// A file that may be good, but its content does not fit into the memory.
+struct FileTooLarge : IoError {
+  using IoError::IoError;
+};
+
 }  // namespace tufted

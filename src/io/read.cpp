@@ -10,6 +10,7 @@
 #include "io/errors.h"
 #include "io/file_text.h"
 #include "io/formats.h"
+#include "tufted/errors.h"
 
 namespace tufted {
 namespace {
@@ -33,6 +34,13 @@ std::string lowerExtension(const std::filesystem::path& path) {
   return extension;
 }
 
+FileFormat formatByExtension(const std::filesystem::path& path) {
+  const std::string extension = lowerExtension(path);
+  for (const Extension& known : extensions)
+    if (extension == known.name) return known.format;
+  return FileFormat::automatic;
+}
+
 FileFormat formatByContent(std::string_view bytes) {
   if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return FileFormat::ply;
   if (bytes.starts_with("LASF")) return FileFormat::las;
@@ -45,11 +53,10 @@ FileFormat formatByContent(std::string_view bytes) {
 }
 
 FileFormat findFormat(const std::filesystem::path& path, std::string_view bytes) {
-  const std::string extension = lowerExtension(path);
-  for (const Extension& known : extensions)
-    if (extension == known.name) return known.format;
-  const FileFormat format = formatByContent(bytes);
+  FileFormat format = formatByExtension(path);
+  if (format == FileFormat::automatic) format = formatByContent(bytes);
   if (format != FileFormat::automatic) return format;
+  const std::string extension = lowerExtension(path);
   std::string names;
   for (const Extension& known : extensions) names += std::string(" ") + known.name;
   io::refuseByte(path, 0,
@@ -84,9 +91,9 @@ Geometry withinMemory(const std::filesystem::path& path, const Work& work) {
   try {
     return work();
   } catch (const std::bad_alloc&) {
-    io::refuse(path, "is too large for the memory");
+    throw FileTooLarge(path.string() + ": is too large for the memory");
   } catch (const std::length_error&) {
-    io::refuse(path, "is too large for the memory");
+    throw FileTooLarge(path.string() + ": is too large for the memory");
   }
 }
 
@@ -119,13 +126,8 @@ Geometry read(std::istream& stream, const std::string& name, ReadAs as, FileForm
   });
 }
 
-const std::vector<std::string>& knownExtensions() {
-  static const std::vector<std::string> names = [] {
-    std::vector<std::string> all;
-    for (const Extension& known : extensions) all.emplace_back(known.name);
-    return all;
-  }();
-  return names;
+bool isReadable(const std::filesystem::path& path) {
+  return formatByExtension(path) != FileFormat::automatic;
 }
 
 }  // namespace tufted

@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <sstream>
 
 #include "field_values.h"
 #include "temporary_dir.h"
+#include "tufted/errors.h"
 #include "tufted/io/read.h"
 
 namespace {
@@ -195,6 +197,31 @@ TEST(Stl, CornersThatAreNotFiniteStayApart) {
 TEST(Read, AnExtensionInCapitalsIsTheSameFormat) {
   const TemporaryDir dir;
   EXPECT_EQ(tufted::read(dir.write("A.XYZ", "1 2 3\n")).points.rows(), 1);
+  EXPECT_TRUE(tufted::isReadable("A.XYZ"));
+}
+
+TEST(Read, EveryExtensionThatItNamesIsReadableAndNoOther) {
+  const TemporaryDir dir;
+  std::string refusal;
+  try {
+    tufted::read(dir.write("a.docx", "PK"));
+  } catch (const tufted::IoError& error) {
+    refusal = error.what();
+  }
+  std::istringstream known(refusal.substr(refusal.find("known are") + 9));
+  int count = 0;
+  for (std::string extension; known >> extension; ++count) {
+    EXPECT_TRUE(tufted::isReadable("a" + extension)) << extension;
+    try {
+      tufted::read(dir.write("a" + extension, "x"));
+    } catch (const tufted::IoError& error) {
+      EXPECT_EQ(std::string(error.what()).find("unknown file type"), std::string::npos) << error.what();
+    }
+  }
+  EXPECT_GT(count, 0);
+  EXPECT_FALSE(tufted::isReadable("a.docx"));
+  EXPECT_FALSE(tufted::isReadable("none"));
+  EXPECT_FALSE(tufted::isReadable(".xyz"));  // a hidden file without an extension
 }
 
 }  // namespace

@@ -52,6 +52,7 @@ enum class FileFormat { automatic, pcd, ply, xyz, las, obj, off, stl };
 
 /// Reads clouds (PCD, PLY, XYZ, LAS, OFF and OBJ without faces) and meshes (PLY, OBJ, OFF, STL).
 /// @param format `automatic` goes by the extension, and where that is unknown by the content.
+/// @throws FileTooLarge when the memory does not suffice
 /// @throws IoError naming the path, and the line or byte where known
 Geometry read(const std::filesystem::path& path, ReadAs as = ReadAs::automatic,
               FileFormat format = FileFormat::automatic);
@@ -67,11 +68,11 @@ Geometry read(std::istream& stream, const std::string& name, ReadAs as = ReadAs:
 Geometry parse(std::string_view bytes, const std::filesystem::path& name, ReadAs as = ReadAs::automatic,
                FileFormat format = FileFormat::automatic);
 
-/// The extensions that name a format, in lower case with their dot.
-const std::vector<std::string>& knownExtensions();
-
 /// Gives vertices of equal position one number, that of the first; their other values are dropped, the triangles
 /// renumbered and `merged_vertices` counted. Vertices that are not finite stay apart. Organized clouds become one row.
 void weld(Geometry& geometry);
+
+/// Whether `read` knows this type of file. Looks at the extension alone.
+bool isReadable(const std::filesystem::path& path);
 
 }  // namespace tufted
