@@ -17,3 +17,4 @@ using Run = std::function<int()>;
 
 void addLaplacian(CLI::App& app, Run& run);
 void addInfo(CLI::App& app, Run& run);
+void addValidate(CLI::App& app, Run& run);

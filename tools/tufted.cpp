@@ -45,6 +45,7 @@ int main(int argc, char** argv) {
   Run run;
   addLaplacian(app, run);
   addInfo(app, run);
+  addValidate(app, run);
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help) {

@@ -1,35 +1,13 @@
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cmath>
-#include <random>
-
 #include "../io/temporary_dir.h"
 #include "command.h"
+#include "samples.h"
 
 namespace {
 
 const char* const outputs[] = {"L.npz",        "M.npy",       "status.npy", "representative.npy",
                                "boundary.npy", "report.json", "points.ply"};
-
-const char* const tetrahedron = "OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n";
-
-/// N points of the unit sphere.
-std::string sphere(int points) {
-  std::mt19937_64 generator(1);
-  const auto uniform = [&] { return static_cast<double>(generator() >> 11) * 0x1p-53; };
-  std::string text;
-  for (int i = 0; i < points; ++i) {
-    const double z = 2 * uniform() - 1, angle = 2 * M_PI * uniform(), r = std::sqrt(1 - z * z);
-    text += std::to_string(r * std::cos(angle)) + ' ' + std::to_string(r * std::sin(angle)) + ' ' + std::to_string(z) +
-            '\n';
-  }
-  return text;
-}
-
-bool isOneLine(const std::string& text) {
-  return std::count(text.begin(), text.end(), '\n') == 1;
-}
 
 class Command : public testing::Test {
  protected:

@@ -54,30 +54,43 @@ bool readSome(int file, std::string& text) {
 
 }  // namespace
 
-Result runTufted(const std::vector<std::string>& arguments, const std::string& input) {
-  return runProgram(withCommand(arguments), input);
-}
-
-Result runProgram(const std::vector<std::string>& words, const std::string& input) {
+Process::Process(const std::vector<std::string>& words, const std::string& input) {
   const int in = open(input.c_str(), O_RDONLY | O_CLOEXEC);
   if (in < 0) throw std::runtime_error("cannot open " + input);
   int out[2], err[2];
   if (pipe2(out, O_CLOEXEC) != 0 || pipe2(err, O_CLOEXEC) != 0) throw std::runtime_error("pipe");
-  const pid_t pid = spawn(words, in, out[1], err[1]);
+  pid_ = spawn(words, in, out[1], err[1]);
   close(in);
   close(out[1]);
   close(err[1]);
+  out_ = out[0];
+  err_ = err[0];
+}
+
+Result Process::finish() {
   Result result;
-  pollfd files[2] = {{out[0], POLLIN, 0}, {err[0], POLLIN, 0}};
+  pollfd files[2] = {{out_, POLLIN, 0}, {err_, POLLIN, 0}};
   while (files[0].fd >= 0 || files[1].fd >= 0) {
     poll(files, 2, -1);
     for (pollfd& file : files)
-      if (file.revents != 0 && !readSome(file.fd, file.fd == out[0] ? result.out : result.err)) file.fd = -1;
+      if (file.revents != 0 && !readSome(file.fd, file.fd == out_ ? result.out : result.err)) file.fd = -1;
   }
-  close(out[0]);
-  close(err[0]);
-  result.code = wait(pid);
+  close(out_);
+  close(err_);
+  result.code = wait(pid_);
   return result;
+}
+
+Process startTufted(const std::vector<std::string>& arguments, const std::string& input) {
+  return Process(withCommand(arguments), input);
+}
+
+Result runTufted(const std::vector<std::string>& arguments, const std::string& input) {
+  return startTufted(arguments, input).finish();
+}
+
+Result runProgram(const std::vector<std::string>& words) {
+  return Process(words, "/dev/null").finish();
 }
 
 Result interruptTufted(const std::vector<std::string>& arguments) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <sys/types.h>
+
 #include <string>
 #include <vector>
 
@@ -9,12 +11,30 @@ struct Result {
   std::string err;
 };
 
-/// Runs the command `tufted` with these arguments and waits for it. Neither stream is a terminal.
-/// @param input a file to be its standard input
+/// A program while it runs. None of its streams is a terminal.
+class Process {
+ public:
+  /// @param words the program, found on the path, and its arguments
+  /// @param input a file to be its standard input
+  Process(const std::vector<std::string>& words, const std::string& input);
+
+  pid_t pid() const { return pid_; }
+  /// Waits for the end. To be called once.
+  Result finish();
+
+ private:
+  pid_t pid_ = 0;
+  int out_ = -1, err_ = -1;
+};
+
+/// Starts the command `tufted` with these arguments.
+Process startTufted(const std::vector<std::string>& arguments, const std::string& input = "/dev/null");
+
+/// Runs the command `tufted` with these arguments and waits for it.
 Result runTufted(const std::vector<std::string>& arguments, const std::string& input = "/dev/null");
 
-/// Runs any program, found on the path; its arguments may name TUFTED_COMMAND.
-Result runProgram(const std::vector<std::string>& words, const std::string& input = "/dev/null");
+/// Runs any program; its arguments may name TUFTED_COMMAND.
+Result runProgram(const std::vector<std::string>& words);
 
-/// Runs it with a terminal as stderr, and sends SIGINT as soon as something appears there.
+/// Runs the command with a terminal as stderr, and sends SIGINT as soon as something appears there.
 Result interruptTufted(const std::vector<std::string>& arguments);

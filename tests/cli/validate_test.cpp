@@ -1,0 +1,233 @@
+// `tufted validate`: no file can stop the run, and every file gets its line.
+#include <gtest/gtest.h>
+
+#include <chrono>
+#include <csignal>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <thread>
+
+#include "../io/temporary_dir.h"
+#include "command.h"
+#include "samples.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+std::vector<std::string> linesOf(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// The processes that validate `file`.
+std::vector<pid_t> workersOn(const std::string& file) {
+  std::vector<pid_t> workers;
+  for (const auto& process : fs::directory_iterator("/proc")) {
+    const std::string name = process.path().filename().string();
+    if (name.find_first_not_of("0123456789") != std::string::npos) continue;
+    const std::string command_line = readAll(process.path() / "cmdline");
+    if (contains(command_line, "validate-file") && contains(command_line, file)) workers.push_back(std::stoi(name));
+  }
+  return workers;
+}
+
+/// Waits up to ten seconds until there are workers on `file`, or none any more.
+std::vector<pid_t> awaitWorkers(const std::string& file, bool some) {
+  for (int i = 0; i < 1000; ++i) {
+    std::vector<pid_t> workers = workersOn(file);
+    if (workers.empty() != some) return workers;
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
+  ADD_FAILURE() << (some ? "no worker on " : "a worker is left on ") << file;
+  return {};
+}
+
+/// Processor time that a process has used, in clock ticks.
+int ticksOf(pid_t process) {
+  const std::string text = readAll("/proc/" + std::to_string(process) + "/stat");
+  std::istringstream fields(text.substr(text.rfind(')') + 1));
+  std::string field;
+  for (int i = 3; i < 14; ++i) fields >> field;  // as proc(5) numbers them
+  int ticks = 0;
+  fields >> ticks;
+  return ticks;
+}
+
+class Validate : public testing::Test {
+ protected:
+  std::string writeTetrahedron(const std::string& name = "good.off") const { return dir_.write(name, tetrahedron); }
+  /// One that takes long enough to be interrupted.
+  std::string writeLarge() const { return dir_.write("large.xyz", sphere(200000)); }
+
+  TemporaryDir dir_;
+};
+
+TEST_F(Validate, GivesEveryFileALineInOrderAndSumsUp) {
+  const std::string large = dir_.write("sphere.xyz", sphere(5000)), good = writeTetrahedron();
+  const std::string bad = dir_.write("bad.xyz", "1 2 3\n1 two 3\n");
+  const Result result = runTufted({"validate", large, good, bad, "--jobs", "3"});
+  EXPECT_EQ(result.code, 0) << result.err;
+  EXPECT_EQ(result.err, "");
+  const std::vector<std::string> lines = linesOf(result.out);
+  ASSERT_EQ(lines.size(), 5u) << result.out;
+  for (const char* title : {"result", "points", "faces", "seconds", "MB", "nnz/row", "flips", ">0", "clamped", "asym",
+                            "rowsum", "psd", "parts", "active", "not fin", "coinc", "isol", "file"})
+    EXPECT_TRUE(contains(lines[0], title)) << title;
+  EXPECT_TRUE(lines[1].starts_with("OK ") && lines[1].ends_with("  " + large)) << lines[1];
+  EXPECT_TRUE(lines[2].starts_with("OK ") && lines[2].ends_with("  " + good)) << lines[2];
+  EXPECT_TRUE(lines[3].starts_with("REFUSED ")) << lines[3];
+  EXPECT_TRUE(lines[3].ends_with("  " + bad + ": line 2: 'two' is not a number")) << lines[3];
+  EXPECT_TRUE(lines[4].starts_with("3 files: 2 OK, 1 REFUSED, 0 FAILED, ")) << lines[4];
+}
+
+TEST_F(Validate, TakesWhatIsReadableBelowAFolderSortedAndAnyFileThatIsNamed) {
+  fs::create_directory(dir_ / "b");
+  const std::string last = writeTetrahedron("c.OFF"), inner = writeTetrahedron("b/x.off");
+  const std::string first = dir_.write("a.xyz", sphere(50)), notes = dir_.write("notes.md", "none");
+  const json document = json::parse(runTufted({"validate", "--json", notes, dir_.path()}).out);
+  std::vector<std::string> files;
+  for (const json& row : document["files"]) files.push_back(row["file"]);
+  EXPECT_EQ(files, (std::vector<std::string>{notes, first, inner, last}));
+  EXPECT_EQ(document["files"][0]["result"], "REFUSED");
+  EXPECT_TRUE(contains(document["files"][0]["reasons"][0], "unknown file type '.md'"));
+}
+
+TEST_F(Validate, WritesOneJsonDocumentWithTheFigures) {
+  const Result result = runTufted({"validate", "--json", writeTetrahedron()});
+  EXPECT_EQ(result.code, 0) << result.err;
+  const json document = json::parse(result.out);
+  const json expected = {{"files", 1}, {"ok", 1}, {"refused", 0}, {"failed", 0}};
+  for (const auto& [key, value] : expected.items()) EXPECT_EQ(document["summary"][key], value) << key;
+  const json row = document["files"].at(0);
+  const json figures = {{"result", "OK"},
+                        {"kind", "mesh"},
+                        {"points", 4},
+                        {"faces", 4},
+                        {"active", 4},
+                        {"not_finite_points", 0},
+                        {"coincident", 0},
+                        {"isolated", 0},
+                        {"nonzeros_per_row", 4.0},
+                        {"components", 1},
+                        {"definite", true},
+                        {"positive_off_diagonals", 0},
+                        {"symmetry_error", 0},
+                        {"not_positive_diagonals", 0}};
+  for (const auto& [key, value] : figures.items()) EXPECT_EQ(row[key], value) << key;
+  for (const char* key : {"row_sum_error", "largest_clamped", "seconds", "memory_mb"})
+    EXPECT_TRUE(row[key].is_number());
+  EXPECT_LT(row["row_sum_error"], 1e-14);
+  EXPECT_GT(row["memory_mb"], 1);
+  EXPECT_EQ(row["cover"]["not_delaunay"], 0);
+}
+
+TEST_F(Validate, TakesAMeshAsACloudAndRefusesACloudAsAMesh) {
+  const std::string cloud = dir_.write("sphere.xyz", sphere(50)), mesh = writeTetrahedron();
+  const json as_cloud = json::parse(runTufted({"validate", "--json", "--as", "cloud", mesh}).out);
+  EXPECT_EQ(as_cloud["files"][0]["kind"], "cloud");
+  const json as_mesh = json::parse(runTufted({"validate", "--json", "--as", "mesh", cloud}).out);
+  EXPECT_EQ(as_mesh["files"][0]["reasons"], json({"has no faces"}));
+}
+
+TEST_F(Validate, AFileThatTakesTooLongFails) {
+  const Result result = runTufted({"validate", writeLarge(), "--time", "0.05"});
+  EXPECT_EQ(result.code, 1);
+  EXPECT_EQ(result.err, "tufted: 1 of 1 FAILED\n");
+  EXPECT_TRUE(contains(result.out, "large.xyz: took longer than --time 0.05\n")) << result.out;
+}
+
+TEST_F(Validate, AFileThatNeedsTooMuchMemoryFailsAndTheOthersDoNot) {
+  const std::string large = writeLarge(), good = writeTetrahedron();
+  const Result result = runTufted({"validate", "--json", large, good, "--memory", "30"});
+  EXPECT_EQ(result.code, 1);
+  const json files = json::parse(result.out)["files"];
+  EXPECT_EQ(files[0]["result"], "FAILED");
+  EXPECT_TRUE(contains(files[0]["reasons"][0], "memory (--memory 30)")) << files[0];
+  EXPECT_EQ(files[1]["result"], "OK") << files[1];
+}
+
+TEST_F(Validate, ACrashIsNamedAndTheOthersGoOn) {
+  const std::string large = writeLarge(), good = writeTetrahedron();
+  Process tufted = startTufted({"validate", "--jobs", "1", large, good});
+  for (const pid_t worker : awaitWorkers(large, true)) kill(worker, SIGSEGV);
+  const Result result = tufted.finish();
+  EXPECT_EQ(result.code, 1);
+  EXPECT_TRUE(contains(result.out, large + ": its process was ended by signal 11 (Segmentation fault)")) << result.out;
+  EXPECT_TRUE(contains(result.out, "\n2 files: 1 OK, 0 REFUSED, 1 FAILED, ")) << result.out;
+}
+
+TEST_F(Validate, NoWorkerOutlivesTheCommand) {
+  const std::string large = writeLarge();
+  Process tufted = startTufted({"validate", large});
+  const std::vector<pid_t> workers = awaitWorkers(large, true);
+  ASSERT_EQ(workers.size(), 1u);
+  for (int i = 0; i < 10000 && ticksOf(workers[0]) < 10; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  kill(workers[0], SIGSTOP);  // it would not end by itself any more
+  kill(tufted.pid(), SIGKILL);
+  tufted.finish();
+  awaitWorkers(large, false);
+  for (const pid_t left : workersOn(large)) kill(left, SIGKILL);
+}
+
+TEST_F(Validate, CtrlCEndsTheWorkersAndShowsProgressBefore) {
+  const std::string large = writeLarge();
+  const Result result = interruptTufted({"validate", large});
+  EXPECT_EQ(result.code, 130) << result.err;
+  EXPECT_TRUE(contains(result.err, "validate, 0 of 1")) << result.err;
+  EXPECT_TRUE(contains(result.err, "tufted: cancelled")) << result.err;
+  EXPECT_TRUE(workersOn(large).empty());
+}
+
+TEST_F(Validate, PathsThatHoldNothingAreOneLineAndOne) {
+  fs::create_directory(dir_ / "empty");
+  const std::string empty = (dir_ / "empty").string(), missing = (dir_ / "missing").string();
+  const Result none = runTufted({"validate", empty});
+  EXPECT_EQ(none.code, 1);
+  EXPECT_EQ(none.err, "tufted: " + empty + ": holds no file of a known type\n");
+  const Result nowhere = runTufted({"validate", writeTetrahedron(), missing});
+  EXPECT_EQ(nowhere.code, 1);
+  EXPECT_EQ(nowhere.err, "tufted: " + missing + ": no such file or folder\n");
+  EXPECT_EQ(none.out + nowhere.out, "");
+}
+
+TEST_F(Validate, MistakesOnTheCommandLineAreOneLineAndTwo) {
+  const std::string file = writeTetrahedron();
+  const std::vector<std::vector<std::string>> mistakes = {
+      {}, {""}, {file, "--jobs", "0"}, {file, "--time", "-1"}, {file, "--memory", "0"}, {file, "--as", "surface"}};
+  for (std::vector<std::string> arguments : mistakes) {
+    arguments.insert(arguments.begin(), "validate");
+    const Result result = runTufted(arguments);
+    EXPECT_EQ(result.code, 2) << result.err;
+    EXPECT_TRUE(isOneLine(result.err)) << result.err;
+  }
+}
+
+class ValidateFolder : public testing::TestWithParam<const char*> {};
+
+TEST_P(ValidateFolder, NothingFails) {
+  if (!fs::is_directory(GetParam())) GTEST_SKIP() << "no folder " << GetParam();
+  const Result result = runTufted({"validate", "--json", GetParam()});
+  EXPECT_EQ(result.code, 0) << result.err;
+  const json document = json::parse(result.out);
+  EXPECT_EQ(document["summary"]["failed"], 0);
+  EXPECT_EQ(document["summary"]["refused"], 0);  // today's readers accept them all
+  EXPECT_EQ(document["summary"]["ok"], document["files"].size());
+}
+
+std::string folderName(const testing::TestParamInfo<const char*>& info) {
+  const char* const names[] = {"Samples", "RealData", "CgalSamples"};
+  return names[info.index];
+}
+
+INSTANTIATE_TEST_SUITE_P(All, ValidateFolder,
+                         testing::Values(TUFTED_SAMPLES_DIR, TUFTED_DATA_DIR, TUFTED_CGAL_DATA_DIR), folderName);
+
+}  // namespace

@@ -1,0 +1,189 @@
+#include "../command.h"
+
+#include <sys/wait.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstddef>
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <limits>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "../options.h"
+#include "../progress_bar.h"
+#include "children.h"
+#include "files.h"
+#include "table.h"
+#include "tufted/errors.h"
+#include "worker.h"
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* description = "Build L and M for files or whole folders and check everything that they promise.";
+
+constexpr const char* footer =
+    R"(Takes files, and folders with all that is below them and has a known extension. Each file has a process of its own,
+so that none can stop the run. Prints a line per file, in the order given:
+
+  result   OK, REFUSED (the reader gives its reason) or FAILED (what broke, or how the process ended)
+  seconds  from the start of its process to its end: reading, building, checking
+  MB       peak memory of its process
+  nnz/row  stored entries of L per active point
+  flips    intrinsic edge flips
+  >0       off-diagonals of L that are positive
+  clamped  largest negative weight set to 0, over the diagonal
+  asym     greatest |L_ij - L_ji| over the larger diagonal
+  rowsum   greatest |sum of a row| over its diagonal
+  psd      whether L + 1e-12 diag(L) of the active points has a Cholesky factor
+  parts    connected components
+  active, not fin(ite), coinc(ident), isol(ated): points by status
+
+The intrinsic triangulation is checked as well. The exit code is 1 if a file FAILED, and 0 otherwise.)";
+
+struct Settings {
+  std::vector<std::filesystem::path> paths;
+  FileSettings file;
+  double seconds = 600;
+  int jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  bool json = false;
+};
+
+/// How a process ended that gave no result.
+std::string describeEnd(const ChildEnd& end, const Settings& settings) {
+  std::ostringstream reason;
+  if (WIFSIGNALED(end.status) && end.timed_out) {
+    reason << "took longer than --time " << settings.seconds;
+  } else if (WIFSIGNALED(end.status)) {
+    const int signal = WTERMSIG(end.status);
+    reason << "its process was ended by signal " << signal << " (" << strsignal(signal) << ")";
+    if (signal == SIGKILL) reason << ", as the system does when memory runs out";
+  } else {
+    reason << "its process ended with code " << WEXITSTATUS(end.status) << " and no result";
+  }
+  if (settings.file.memory && !end.timed_out) reason << " under --memory " << *settings.file.memory;
+  const std::size_t first = end.err.find_first_not_of('\n'), last = end.err.find_last_not_of('\n');
+  if (first != std::string::npos) reason << ": " << end.err.substr(first, last + 1 - first);
+  return reason.str();
+}
+
+/// What is known about a file whose process has ended.
+Json describeFile(const std::filesystem::path& file, const ChildEnd& end, const Settings& settings) {
+  Json row = {{"file", file.string()}, {"result", "FAILED"}, {"reasons", Json::array()}};
+  row["seconds"] = end.seconds;
+  row["memory_mb"] = end.peak_memory;
+  const Json found = Json::parse(end.out, nullptr, false);
+  if (found.is_object() && WIFEXITED(end.status) && WEXITSTATUS(end.status) == exit_done)
+    row.update(found);
+  else
+    row["reasons"].push_back(describeEnd(end, settings));
+  return row;
+}
+
+/// The rows in the order of the files, each as soon as all before it are known.
+class Results {
+ public:
+  Results(std::size_t files, bool as_lines) : rows_(files), as_lines_(as_lines) {}
+
+  void add(std::size_t number, Json row, ProgressBar& bar) {
+    ++known_;
+    const std::string result = row.at("result");
+    ++(result == "OK" ? ok_ : result == "REFUSED" ? refused_ : failed_);
+    rows_[number] = std::move(row);
+    if (!as_lines_) return;
+    for (; printed_ < rows_.size() && !rows_[printed_].is_null(); ++printed_) {
+      bar.clear();
+      print(tableLine(rows_[printed_]));
+    }
+  }
+
+  std::size_t known() const { return known_; }
+  int failed() const { return failed_; }
+
+  void printHeader() const {
+    if (as_lines_) print(tableHeader());
+  }
+  void printSummary(double seconds) const {
+    if (as_lines_) {
+      std::string text = std::to_string(rows_.size()) + (rows_.size() == 1 ? " file: " : " files: ");
+      text += std::to_string(ok_) + " OK, " + std::to_string(refused_) + " REFUSED, " + std::to_string(failed_);
+      char end[32];
+      std::snprintf(end, sizeof(end), " FAILED, %.1f s", seconds);
+      return print(text + end);
+    }
+    const Json summary = {
+        {"files", rows_.size()}, {"ok", ok_}, {"refused", refused_}, {"failed", failed_}, {"seconds", seconds}};
+    const Json document = {{"tufted", TUFTED_VERSION}, {"files", rows_}, {"summary", summary}};
+    print(document.dump(2, ' ', false, Json::error_handler_t::replace));
+  }
+
+ private:
+  static void print(const std::string& line) {
+    std::fwrite(line.data(), 1, line.size(), stdout);
+    std::fputc('\n', stdout);
+    if (std::fflush(stdout) != 0) throw tufted::IoError("standard output: cannot write the results");
+  }
+
+  std::vector<Json> rows_;
+  bool as_lines_;
+  std::size_t known_ = 0, printed_ = 0;
+  int ok_ = 0, refused_ = 0, failed_ = 0;
+};
+
+int runValidate(Settings settings) {
+  const auto start = std::chrono::steady_clock::now();
+  const std::vector<std::filesystem::path> files = findFiles(settings.paths);
+  const int jobs = std::min<int>(settings.jobs, static_cast<int>(files.size()));
+  const int processors = static_cast<int>(std::thread::hardware_concurrency());
+  // Every further thread would allocate a stack, and so make a limit of memory depend on the machine.
+  settings.file.threads = settings.file.memory ? 1 : std::max(1, processors / jobs);
+  std::vector<std::vector<std::string>> arguments;
+  for (const auto& file : files) arguments.push_back(fileArguments(file, settings.file));
+
+  Results results(files.size(), !settings.json);
+  results.printHeader();
+  ProgressBar bar;
+  const auto ended = [&](std::size_t number, const ChildEnd& end) {
+    results.add(number, describeFile(files[number], end, settings), bar);
+  };
+  const auto wait = [&] {
+    bar.show("validate, " + std::to_string(results.known()) + " of " + std::to_string(files.size()),
+             static_cast<double>(results.known()) / static_cast<double>(files.size()));
+  };
+  runChildren(arguments, jobs, settings.seconds, ended, wait);
+  bar.clear();
+  results.printSummary(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  if (results.failed() > 0)
+    throw std::runtime_error(std::to_string(results.failed()) + " of " + std::to_string(files.size()) + " FAILED");
+  return exit_done;
+}
+
+}  // namespace
+
+void addValidate(CLI::App& app, Run& run) {
+  CLI::App& command = *app.add_subcommand("validate", description);
+  command.footer(footer);
+  const auto settings = std::make_shared<Settings>();
+  command.add_option("PATH", settings->paths, "Files and folders")->required()->check(notEmpty);
+  addNumber(command, "--jobs", settings->jobs, 1, 1024, "At most this many files at once (processors)")->type_name("N");
+  addNumber(command, "--time", settings->seconds, 0.0, 1e9, "Limit per file in seconds, 0 for none (600)")
+      ->type_name("S");
+  addNumber(command, "--memory", settings->file.memory, 1, std::numeric_limits<int>::max(),
+            "Limit per file in MB: what one thread allocates for it (none)")
+      ->type_name("MB");
+  addChoice(command, "--as", settings->file.as, kinds, "Take files that may be either as one of them");
+  command.add_flag("--json", settings->json, "One JSON document instead of lines, with all figures");
+  command.callback([&run, settings] { run = [=] { return runValidate(*settings); }; });
+  addValidateFile(app, run);
+}

@@ -1,0 +1,23 @@
+#pragma once
+
+#include <CLI/App.hpp>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "../command.h"
+#include "tufted/io/read.h"
+
+/// What the process of one file is told.
+struct FileSettings {
+  tufted::ReadAs as = tufted::ReadAs::automatic;
+  int threads = 1;
+  std::optional<int> memory;  ///< limit in MB
+};
+
+/// The command line on which this program validates `file` and writes what it found on stdout, as a line of JSON.
+std::vector<std::string> fileArguments(const std::filesystem::path& file, const FileSettings& settings);
+
+/// The hidden subcommand that does so.
+void addValidateFile(CLI::App& app, Run& run);
