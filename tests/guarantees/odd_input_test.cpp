@@ -9,6 +9,7 @@
 #include <string>
 
 #include "guarantees/guarantees.h"
+#include "tufted/check.h"
 
 namespace tufted::guarantees {
 namespace {
@@ -92,7 +93,9 @@ TEST_P(OddInput, Cloud) {
                                .gluing = below(2) == 0 ? Gluing::star : Gluing::vertex_pair,
                                .order = static_cast<FaceOrder>(below(3))};
     SCOPED_TRACE("round " + std::to_string(round) + ", " + std::to_string(n) + " points");
-    ASSERT_THAT(brokenGuarantees(pointCloudLaplacian(points, options), points), IsEmpty());
+    const Laplacian l = pointCloudLaplacian(points, options);
+    ASSERT_THAT(brokenGuarantees(l, points), IsEmpty());
+    EXPECT_THAT(validate(l).faults, IsEmpty());
   }
 }
 
@@ -103,7 +106,9 @@ TEST_P(OddInput, Mesh) {
     const Triangles triangles = oddTriangles(n, below(3 * n + 5));
     const MeshOptions options{.order = static_cast<FaceOrder>(below(3))};
     SCOPED_TRACE("round " + std::to_string(round) + ", " + std::to_string(n) + " points");
-    ASSERT_THAT(brokenGuarantees(meshLaplacian(points, triangles, options), points), IsEmpty());
+    const Laplacian l = meshLaplacian(points, triangles, options);
+    ASSERT_THAT(brokenGuarantees(l, points), IsEmpty());
+    EXPECT_THAT(validate(l).faults, IsEmpty());
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include <functional>
 #include <memory>
+#include <utility>
 
 #include "guarantees/guarantees.h"
 #include "shapes/shapes.h"
@@ -55,6 +56,11 @@ std::vector<Planted> planted() {
       {"OtherSizeOfL", "size", [](Laplacian& l) { l.L.conservativeResize(503, 502); }},
       {"OtherSizeOfStatus", "size", [](Laplacian& l) { l.status.pop_back(); }},
       {"NotCompressed", "storage", [](Laplacian& l) { l.L.uncompress(); }},
+      {"RowsDoNotAscend", "storage",
+       [](Laplacian& l) {
+         std::swap(l.L.innerIndexPtr()[0], l.L.innerIndexPtr()[1]);
+         std::swap(l.L.valuePtr()[0], l.L.valuePtr()[1]);
+       }},
       {"NotFiniteInL", "finite", [](Laplacian& l) { l.L.coeffRef(0, 0) = INFINITY; }},
       {"NotFiniteInM", "finite", [](Laplacian& l) { l.M[3] = NAN; }},
       {"PositiveOffDiagonal", "off-diagonal sign", [](Laplacian& l) { l.L.coeffRef(neighborOfFirst(l), 0) = 1e-300; }},

@@ -70,6 +70,9 @@ TEST(LaplacianCheck, MeasuresErrorsAgainstTheDiagonal) {
   const LaplacianCheck check = validate(laplacian);
   EXPECT_DOUBLE_EQ(check.symmetry_error, 0.5e5 / 4e5);
   EXPECT_DOUBLE_EQ(check.row_sum_error, 0.5e5 / 1e5);
+  EXPECT_EQ(check.faults, (std::vector<std::string>{"symmetry: L(2, 1) = -150000, L(1, 2) = -100000",
+                                                    "row sum: row 2 sums to -50000 beside a diagonal of 100000",
+                                                    "definite: L + 1e-12 diag(L) has no Cholesky factor"}));
 }
 
 TEST(LaplacianCheck, SaysHowOftenAndWhereFirst) {

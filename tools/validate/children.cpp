@@ -69,6 +69,7 @@ class Child {
   Child(std::size_t number, std::vector<std::string> arguments) : number_(number), start_(Clock::now()) {
     arguments.insert(arguments.begin(), "tufted");
     std::vector<char*> argv;
+    argv.reserve(arguments.size() + 1);
     for (std::string& argument : arguments) argv.push_back(argument.data());
     argv.push_back(nullptr);
     posix_spawn_file_actions_t actions;
@@ -131,6 +132,7 @@ class Child {
 /// Sleeps until a child writes or ends, or until it is time to look at the clock.
 void waitForAny(const std::list<Child>& running, double seconds) {
   std::vector<pollfd> files;
+  files.reserve(2 * running.size());
   double nearest = tick;
   for (const Child& child : running) {
     files.push_back(child.output());

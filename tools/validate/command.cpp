@@ -149,6 +149,7 @@ int runValidate(Settings settings) {
   // Every further thread would allocate a stack, and so make a limit of memory depend on the machine.
   settings.file.threads = settings.file.memory ? 1 : std::max(1, processors / jobs);
   std::vector<std::vector<std::string>> arguments;
+  arguments.reserve(files.size());
   for (const auto& file : files) arguments.push_back(fileArguments(file, settings.file));
 
   Results results(files.size(), !settings.json);
