@@ -22,6 +22,7 @@ struct LaplacianCheck {
   std::int64_t not_finite = 0;              ///< entries of L and of M
   std::int64_t not_positive_diagonals = 0;  ///< of active points
   std::int64_t negative_masses = 0;
+  std::int64_t zero_masses = 0;        ///< of active points; no fault, areas of lengths below 1e-154 underflow
   std::int64_t inactive_not_zero = 0;  ///< entries of L and of M that belong to a point that is not active
   double symmetry_error = 0;           ///< greatest |L_ij - L_ji| over the larger diagonal of i and j
   double row_sum_error = 0;            ///< greatest |sum of row i| over L_ii, active points

@@ -84,7 +84,7 @@ bool checkShape(const Laplacian& laplacian, std::vector<std::string>& faults) {
   return faults.empty();
 }
 
-/// Entry by entry: sign, and zeros where a point takes no part. An area of zero may have underflown.
+/// Entry by entry: sign, and zeros where a point takes no part.
 void checkEntries(const Laplacian& laplacian, const VectorXd& diagonal, LaplacianCheck& check) {
   const SparseMatrix& L = laplacian.L;
   Promise finite("finite"), sign("off-diagonal sign"), positive("positive diagonal");
@@ -104,6 +104,7 @@ void checkEntries(const Laplacian& laplacian, const VectorXd& diagonal, Laplacia
     const double m = laplacian.M[i];
     if (!std::isfinite(m)) finite.brokenBy("M(", i, ") = ", m);
     if (m < 0) mass.brokenBy("M(", i, ") = ", m);
+    check.zero_masses += m == 0 && isActive(laplacian, i) ? 1 : 0;
     if (m != 0 && !isActive(laplacian, i)) inactive.brokenBy("M(", i, ") = ", m);
   }
   check.positive_off_diagonals = sign.count();

@@ -96,6 +96,14 @@ TEST(LaplacianCheck, JudgesAFaintComponentByItsOwnWeights) {
   EXPECT_FALSE(validate(laplacian).definite);
 }
 
+TEST(LaplacianCheck, AreasMayUnderflowButAreCounted) {
+  Points points(3, 3);
+  points << 0, 0, 0, 1e-170, 0, 0, 0, 1e-170, 0;
+  const LaplacianCheck check = validate(meshLaplacian(points, Triangles{{0, 1, 2}}));
+  EXPECT_EQ(check.zero_masses, 3);
+  EXPECT_TRUE(check.ok());
+}
+
 TEST(LaplacianCheck, NothingIsActiveInAnEmptyCloudAndThatIsFine) {
   const LaplacianCheck check = validate(pointCloudLaplacian(Points(0, 3)));
   EXPECT_EQ(check.faults, std::vector<std::string>());

@@ -88,6 +88,7 @@ void addFigures(Json& row, const tufted::LaplacianCheck& check, const tufted::Re
               {"not_finite_entries", check.not_finite},
               {"not_positive_diagonals", check.not_positive_diagonals},
               {"negative_masses", check.negative_masses},
+              {"zero_masses", check.zero_masses},
               {"inactive_not_zero", check.inactive_not_zero},
               {"symmetry_error", check.symmetry_error},
               {"row_sum_error", check.row_sum_error},
