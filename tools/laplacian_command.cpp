@@ -67,7 +67,7 @@ const std::map<std::string, tufted::Delaunay> backends = {{"star", tufted::Delau
 /// Refuses what no build can be written to.
 void checkOutput(const Settings& settings) {
   std::error_code error;
-  for (const char* name : tufted::result_files)
+  for (const std::string& name : tufted::resultFiles(tufted::WriteOptions().formats))
     if (!settings.input.isStandardInput() &&
         std::filesystem::equivalent(settings.input.file, settings.out / name, error))
       throw tufted::InvalidInput(settings.input.name() + ": is the input, and --out " + settings.out.string() +

@@ -21,9 +21,9 @@ struct Member {
 
 class NpzArchive {
  public:
-  NpzArchive(const std::filesystem::path& path, const std::filesystem::path& shown) : shown_(shown) {
+  explicit NpzArchive(const OutputPath& to) : shown_(to.shown) {
     int error = 0;
-    archive_.reset(zip_open(path.c_str(), ZIP_CREATE | ZIP_TRUNCATE, &error));
+    archive_.reset(zip_open(to.path.c_str(), ZIP_CREATE | ZIP_TRUNCATE, &error));
     if (archive_) return;
     zip_error_t details;
     zip_error_init_with_code(&details, error);
@@ -73,15 +73,10 @@ class NpzArchive {
 
 }  // namespace
 
-void writeNpz(const std::filesystem::path& path, const std::filesystem::path& shown, const SparseMatrix& matrix) {
+void writeNpz(const OutputPath& to, const SparseMatrix& matrix) {
   static_assert(sizeof(SparseMatrix::StorageIndex) == 4 && !SparseMatrix::IsRowMajor);
-  if (!matrix.isCompressed()) {
-    SparseMatrix compressed = matrix;
-    compressed.makeCompressed();
-    return writeNpz(path, shown, compressed);
-  }
   const std::int64_t shape[2] = {matrix.rows(), matrix.cols()};
-  NpzArchive archive(path, shown);
+  NpzArchive archive(to);
   archive.add("indices.npy", "<i4", matrix.nonZeros(), matrix.innerIndexPtr(), matrix.nonZeros() * sizeof(int));
   archive.add("indptr.npy", "<i4", matrix.cols() + 1, matrix.outerIndexPtr(), (matrix.cols() + 1) * sizeof(int));
   archive.add("format.npy", "|S3", -1, "csc", 3);

@@ -85,4 +85,9 @@ template bool parseNumber(std::string_view, std::uint64_t&);
 template bool parseNumber(std::string_view, float&);
 template bool parseNumber(std::string_view, double&);
 
+std::string shortestText(double value) {
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof(text), value).ptr};
+}
+
 }  // namespace tufted::io

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <string_view>
 
 namespace tufted::io {
@@ -10,5 +11,8 @@ namespace tufted::io {
 /// Instantiated for the types of FieldType. False if the token is no such number.
 template <class T>
 bool parseNumber(std::string_view token, T& value);
+
+/// The shortest text that reads as the same value.
+std::string shortestText(double value);
 
 }  // namespace tufted::io

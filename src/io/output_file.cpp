@@ -6,8 +6,8 @@
 
 namespace tufted::io {
 
-OutputFile::OutputFile(const std::filesystem::path& path, const std::filesystem::path& shown)
-    : shown_(shown), file_(std::fopen(path.c_str(), "wb"), &std::fclose) {
+OutputFile::OutputFile(const OutputPath& to)
+    : shown_(to.shown), file_(std::fopen(to.path.c_str(), "wb"), &std::fclose) {
   if (!file_) refuseErrno(shown_, "write", errno);
 }
 

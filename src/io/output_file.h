@@ -7,12 +7,16 @@
 
 namespace tufted::io {
 
+/// Where a file goes.
+struct OutputPath {
+  std::filesystem::path path;   ///< where the bytes go
+  std::filesystem::path shown;  ///< the path to name in errors, that of the finished file
+};
+
 /// A file being written. Every error of the system (no space, no permission) throws IoError naming the path.
 class OutputFile {
  public:
-  /// @param path where the bytes go
-  /// @param shown the path to name in errors, that of the finished file
-  OutputFile(const std::filesystem::path& path, const std::filesystem::path& shown);
+  explicit OutputFile(const OutputPath& to);
 
   void write(const void* bytes, std::size_t size);
   void write(std::string_view text) { write(text.data(), text.size()); }

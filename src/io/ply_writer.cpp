@@ -1,24 +1,14 @@
 #include "io/ply_writer.h"
 
-#include <algorithm>
 #include <cstring>
-#include <deque>
 #include <string>
-#include <vector>
 
 #include "io/columns.h"
-#include "io/output_file.h"
+#include "io/output_buffer.h"
+#include "io/point_table.h"
 
 namespace tufted::io {
 namespace {
-
-/// A property of the vertices: where its values lie in memory, in the machine's little endian order (see npy.cpp).
-struct Property {
-  std::string name;
-  const char* type;
-  const std::byte* first;
-  std::size_t bytes, stride;
-};
 
 const char* plyType(FieldType type) {
   switch (type) {
@@ -41,85 +31,49 @@ const char* plyType(FieldType type) {
   }
 }
 
-/// Collects the properties, each name once: the first to come has it.
-class Properties {
- public:
-  template <class T>
-  void add(const std::string& name, const char* type, const T* first, std::size_t stride = sizeof(T)) {
-    insert({name, type, reinterpret_cast<const std::byte*>(first), sizeof(T), stride});
+/// PCL packs a colour as 0xAARRGGBB.
+void addColor(PointTable& table, const Field& field) {
+  const std::byte* const bytes = field.bytes.data();
+  table.add({"red", FieldType::uint8, 1, bytes + 2, 4});
+  table.add({"green", FieldType::uint8, 1, bytes + 1, 4});
+  table.add({"blue", FieldType::uint8, 1, bytes, 4});
+  if (field.name == "rgba") table.add({"alpha", FieldType::uint8, 1, bytes + 3, 4});
+}
+
+const std::byte* toDouble(PointTable& table, const Field& field) {
+  const std::size_t values = table.rows() * field.count;
+  std::byte* const made = table.allocate(values * sizeof(double));
+  for (std::size_t i = 0; i < values; ++i) {
+    const double value = valueOf(field.type, field.bytes.data() + i * sizeOf(field.type));
+    std::memcpy(made + i * sizeof(double), &value, sizeof(double));
   }
+  return made;
+}
 
-  void addTriple(const char* const (&names)[3], const Points& values) {
-    for (int c = 0; c < 3; ++c) add(names[c], "double", values.data() + c, 3 * sizeof(double));
-  }
+void addField(PointTable& table, const Field& field) {
+  if ((field.name == "rgb" || field.name == "rgba") && field.count == 1 && sizeOf(field.type) == 4)
+    return addColor(table, field);
+  const bool wide = field.type == FieldType::int64 || field.type == FieldType::uint64;
+  const FieldType type = wide ? FieldType::float64 : field.type;
+  const std::byte* const first = wide ? toDouble(table, field) : field.bytes.data();
+  for (int c = 0; c < field.count; ++c)
+    table.add({field.count == 1 ? field.name : field.name + "_" + std::to_string(c), type, 1, first + c * sizeOf(type),
+               field.count * sizeOf(type)});
+}
 
-  void addField(const Field& field, std::int64_t rows) {
-    const std::size_t size = sizeOf(field.type);
-    if ((field.name == "rgb" || field.name == "rgba") && field.count == 1 && size == 4) return addColor(field);
-    const bool wide = field.type == FieldType::int64 || field.type == FieldType::uint64;
-    const std::byte* first = wide ? toDouble(field, rows) : field.bytes.data();
-    for (int c = 0; c < field.count; ++c)
-      insert({field.count == 1 ? field.name : field.name + "_" + std::to_string(c), plyType(field.type),
-              first + c * size, size, field.count * size});
-  }
-
-  const std::vector<Property>& all() const { return properties_; }
-
- private:
-  void insert(const Property& property) {
-    const auto same = [&](const Property& other) { return other.name == property.name; };
-    if (std::none_of(properties_.begin(), properties_.end(), same)) properties_.push_back(property);
-  }
-
-  /// PCL packs a colour as 0xAARRGGBB.
-  void addColor(const Field& field) {
-    const auto* bytes = reinterpret_cast<const std::uint8_t*>(field.bytes.data());
-    add("red", "uchar", bytes + 2, 4);
-    add("green", "uchar", bytes + 1, 4);
-    add("blue", "uchar", bytes, 4);
-    if (field.name == "rgba") add("alpha", "uchar", bytes + 3, 4);
-  }
-
-  const std::byte* toDouble(const Field& field, std::int64_t rows) {
-    std::vector<double>& values = converted_.emplace_back(rows * field.count);
-    for (std::size_t i = 0; i < values.size(); ++i)
-      values[i] = valueOf(field.type, field.bytes.data() + i * sizeOf(field.type));
-    return reinterpret_cast<const std::byte*>(values.data());
-  }
-
-  std::vector<Property> properties_;
-  std::deque<std::vector<double>> converted_;
-};
-
-/// Gathers small pieces before they go to the file.
-class Buffer {
- public:
-  explicit Buffer(OutputFile& file) : file_(file) { bytes_.reserve(capacity + 64); }
-  void append(const void* bytes, std::size_t size) {
-    const auto* begin = static_cast<const std::byte*>(bytes);
-    bytes_.insert(bytes_.end(), begin, begin + size);
-    if (bytes_.size() >= capacity) flush();
-  }
-  void flush() {
-    file_.write(bytes_.data(), bytes_.size());
-    bytes_.clear();
-  }
-
- private:
-  static constexpr std::size_t capacity = 1 << 20;
-  OutputFile& file_;
-  std::vector<std::byte> bytes_;
-};
-
-std::string header(const std::vector<Property>& properties, const Geometry& geometry) {
-  std::string text = "ply\nformat binary_little_endian 1.0\ncomment tufted: mass is an area, status 0 takes part\n";
+std::string header(const PointTable& table, const Geometry& geometry, const std::vector<Convention>& conventions) {
+  std::string text = "ply\nformat binary_little_endian 1.0\n";
+  text += conventionLines(conventions, "comment tufted ", true);
+  // A comment: PCL's own way, an element `camera` of floats, would round the pose of a georeferenced scan.
+  if (geometry.viewpoint != Geometry().viewpoint)
+    text += "comment viewpoint (x y z, quaternion w x y z) " + viewpointText(geometry) + "\n";
   if (geometry.height > 1) {
     text += "obj_info num_cols " + std::to_string(geometry.width) + "\n";
     text += "obj_info num_rows " + std::to_string(geometry.height) + "\n";
   }
-  text += "element vertex " + std::to_string(geometry.points.rows()) + "\n";
-  for (const Property& property : properties)
-    text += "property " + std::string(property.type) + " " + property.name + "\n";
+  text += "element vertex " + std::to_string(table.rows()) + "\n";
+  for (const PointColumn& column : table.columns())
+    text += "property " + std::string(plyType(column.type)) + " " + column.name + "\n";
   if (geometry.is_mesh)
     text += "element face " + std::to_string(geometry.triangles.rows()) + "\nproperty list uchar int vertex_indices\n";
   return text + "end_header\n";
@@ -127,28 +81,13 @@ std::string header(const std::vector<Property>& properties, const Geometry& geom
 
 }  // namespace
 
-void writePly(const std::filesystem::path& path, const std::filesystem::path& shown, const Laplacian& laplacian,
-              const Geometry& geometry) {
-  Properties properties;
-  properties.addTriple({"x", "y", "z"}, geometry.points);
-  const Points& normals = geometry.normals.rows() > 0 ? geometry.normals : laplacian.frames.normals;
-  if (normals.rows() == geometry.points.rows()) properties.addTriple({"nx", "ny", "nz"}, normals);
-  for (const Field& field : geometry.fields) {
-    const auto ours = {"mass", "boundary", "status", "representative"};
-    if (std::find(ours.begin(), ours.end(), field.name) == ours.end())
-      properties.addField(field, geometry.points.rows());
-  }
-  properties.add("mass", "double", laplacian.M.data());
-  properties.add("boundary", "uchar", laplacian.boundary.data());
-  properties.add("status", "uchar", reinterpret_cast<const std::uint8_t*>(laplacian.status.data()));
-  properties.add("representative", "int", laplacian.representative.data());
-
-  OutputFile file(path, shown);
-  file.write(header(properties.all(), geometry));
-  Buffer buffer(file);
-  for (Eigen::Index i = 0; i < geometry.points.rows(); ++i)
-    for (const Property& property : properties.all())
-      buffer.append(property.first + i * property.stride, property.bytes);
+void writePly(const OutputPath& to, const Laplacian& laplacian, const Geometry& geometry, const VectorXd& M,
+              const std::vector<Convention>& conventions) {
+  const PointTable table = pointTable(laplacian, geometry, M, {"nx", "ny", "nz"}, addField);
+  OutputFile file(to);
+  file.write(header(table, geometry, conventions));
+  OutputBuffer buffer(file);
+  table.write(buffer);
   if (geometry.is_mesh) {
     const std::uint8_t corners = 3;
     for (Eigen::Index f = 0; f < geometry.triangles.rows(); ++f) {

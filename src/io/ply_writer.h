@@ -1,17 +1,18 @@
 #pragma once
 
-#include <filesystem>
+#include <vector>
 
+#include "io/conventions.h"
+#include "io/output_file.h"
 #include "tufted/io/read.h"
 #include "tufted/laplacian.h"
 
 namespace tufted::io {
 
 /// Writes points.ply as documented at writeLaplacian.
-/// @param path where the bytes go
-/// @param shown the path to name in errors
+/// @param M the masses to write
 /// @throws IoError
-void writePly(const std::filesystem::path& path, const std::filesystem::path& shown, const Laplacian& laplacian,
-              const Geometry& geometry);
+void writePly(const OutputPath& to, const Laplacian& laplacian, const Geometry& geometry, const VectorXd& M,
+              const std::vector<Convention>& conventions);
 
 }  // namespace tufted::io

@@ -48,19 +48,12 @@ Json reportObject(const Report& report) {
   };
 }
 
-Json conventions() {
-  return {
-      {"L", "weak (integrated) Laplacian, symmetric positive semidefinite, off-diagonals <= 0, rows sum to 0"},
-      {"sign", "L is minus the Laplacian, integrated; libigl and PMP use the opposite sign"},
-      {"M", "lumped areas in length^2, N values; their sum approximates the surface area"},
-      {"scale",
-       {{"cloud", "1/2 (front and back of the cover) times 1/3 (each triangle is found by its three corners)"},
-        {"mesh", "1/2 (front and back of the cover)"}}},
-      {"poisson", "L u = M f"},
-      {"eigenproblem", "L x = lambda M x"},
-      {"status", {"active", "not_finite", "coincident", "isolated"}},
-      {"inactive", "points of status other than 0 keep their index; their row and column of L and their mass are zero"},
-  };
+Json conventionsObject(const std::vector<io::Convention>& conventions) {
+  Json json;
+  for (const io::Convention& convention : conventions)
+    json[Json::json_pointer("/" + convention.name)] = convention.text;
+  json["status"] = {"active", "not_finite", "coincident", "isolated"};  // by number
+  return json;
 }
 
 const char* name(Gluing gluing) {
@@ -71,6 +64,10 @@ const char* name(Delaunay delaunay) {
 }
 const char* name(FaceOrder order) {
   return order == FaceOrder::angle ? "angle" : order == FaceOrder::area ? "area" : "random";
+}
+
+const char* name(Sign sign) {
+  return sign == Sign::psd ? "psd" : "igl";
 }
 
 /// What clouds and meshes have in common.
@@ -98,13 +95,16 @@ std::string toJson(const Report& report) {
   return reportObject(report).dump(indent) + "\n";
 }
 
-std::string io::reportJson(const Report& report, const Geometry& geometry, const WriteOptions& options) {
+std::string io::reportJson(const Report& report, const Geometry& geometry, const WriteOptions& options,
+                           const std::vector<Convention>& conventions) {
   Json json = {{"tufted", TUFTED_VERSION}};
   if (!options.source.empty()) json["source"] = options.source;
   json["input"] = {{"polygons", geometry.polygons}, {"merged_vertices", geometry.merged_vertices}};
   if (options.cloud) json["cloud_options"] = optionsObject(*options.cloud);
   if (options.mesh) json["mesh_options"] = commonOptions(*options.mesh);
-  json["conventions"] = conventions();
+  json["write_options"] = {
+      {"files", resultFiles(options.formats)}, {"sign", name(options.sign)}, {"dummy", options.dummy}};
+  json["conventions"] = conventionsObject(conventions);
   json["report"] = reportObject(report);
   // A path need not be UTF-8.
   return json.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -27,7 +27,7 @@ StagedFiles::StagedFiles(const std::filesystem::path& dir) : dir_(dir) {
 
 StagedFiles::~StagedFiles() {
   std::error_code ignored;
-  for (const File& file : files_) std::filesystem::remove(file.temporary, ignored);
+  for (const OutputPath& file : files_) std::filesystem::remove(file.path, ignored);
   removeMade();
 }
 
@@ -36,20 +36,20 @@ void StagedFiles::removeMade() {
   for (auto made = made_.rbegin(); made != made_.rend(); ++made) std::filesystem::remove(*made, ignored);
 }
 
-std::filesystem::path StagedFiles::stage(const std::string& name) {
+OutputPath StagedFiles::stage(const std::string& name) {
   static std::atomic<unsigned> counter = 0;
   const std::string suffix = ".tmp-" + std::to_string(::getpid()) + "-" + std::to_string(counter++);
-  files_.push_back({dir_ / ("." + name + suffix), finished(name)});
-  return files_.back().temporary;
+  files_.push_back({dir_ / ("." + name + suffix), dir_ / name});
+  return files_.back();
 }
 
 void StagedFiles::commit() {
   std::error_code error;
-  for (const File& file : files_)
-    if (std::filesystem::is_directory(file.finished, error)) refuse(file.finished, "cannot write: is a directory");
-  for (const File& file : files_) {
-    std::filesystem::rename(file.temporary, file.finished, error);
-    if (error) refuse(file.finished, "cannot write: " + error.message());
+  for (const OutputPath& file : files_)
+    if (std::filesystem::is_directory(file.shown, error)) refuse(file.shown, "cannot write: is a directory");
+  for (const OutputPath& file : files_) {
+    std::filesystem::rename(file.path, file.shown, error);
+    if (error) refuse(file.shown, "cannot write: " + error.message());
   }
   files_.clear();
   made_.clear();

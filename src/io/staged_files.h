@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "io/output_file.h"
+
 namespace tufted::io {
 
 /// The files of one result. Each is written under a temporary name in the directory it will stay in; commit() gives
@@ -16,10 +18,8 @@ class StagedFiles {
   StagedFiles(const StagedFiles&) = delete;
   StagedFiles& operator=(const StagedFiles&) = delete;
 
-  /// The temporary path under which to write the file `name`.
-  std::filesystem::path stage(const std::string& name);
-  /// The path that the file `name` will have.
-  std::filesystem::path finished(const std::string& name) const { return dir_ / name; }
+  /// The temporary path under which to write the file `name`, and the path that it will have.
+  OutputPath stage(const std::string& name);
   /// @throws IoError if a file cannot be renamed
   void commit();
 
@@ -27,13 +27,9 @@ class StagedFiles {
   /// Removes the directories that were made and are empty.
   void removeMade();
 
-  struct File {
-    std::filesystem::path temporary, finished;
-  };
-
   std::filesystem::path dir_;
   std::vector<std::filesystem::path> made_;  ///< directories, the outermost first
-  std::vector<File> files_;
+  std::vector<OutputPath> files_;
 };
 
 }  // namespace tufted::io

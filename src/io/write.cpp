@@ -1,13 +1,18 @@
 #include "tufted/io/write.h"
 
-#include <functional>
-#include <utility>
+#include <algorithm>
+#include <optional>
 #include <vector>
 
 #include "io/columns.h"
+#include "io/conventions.h"
+#include "io/mat.h"
+#include "io/matrix_text.h"
 #include "io/npy.h"
 #include "io/npz.h"
 #include "io/output_file.h"
+#include "io/output_matrices.h"
+#include "io/pcd_writer.h"
 #include "io/ply_writer.h"
 #include "io/report_json.h"
 #include "io/staged_files.h"
@@ -16,19 +21,81 @@
 namespace tufted {
 namespace {
 
+using io::OutputPath;
+
+/// What is written, in all its forms.
+struct Results {
+  const Laplacian& laplacian;
+  const Geometry& geometry;
+  const WriteOptions& options;
+  io::OutputMatrices matrices = {laplacian, options};
+  std::vector<io::Convention> conventions = io::conventions(laplacian, options);
+};
+
 template <class T>
-void writeNpy(const std::filesystem::path& path, const std::filesystem::path& shown, const char* descr, const T* values,
-              std::int64_t length) {
-  io::OutputFile file(path, shown);
-  file.write(io::npyHeader(descr, length));
+void writeNpy(const OutputPath& to, const char* descr, const T* values, std::size_t length) {
+  io::OutputFile file(to);
+  file.write(io::npyHeader(descr, static_cast<std::int64_t>(length)));
   file.write(values, length * sizeof(T));
   file.close();
 }
 
-void writeText(const std::filesystem::path& path, const std::filesystem::path& shown, const std::string& text) {
-  io::OutputFile file(path, shown);
-  file.write(text);
+void writeReport(const OutputPath& to, const Results& results) {
+  io::OutputFile file(to);
+  file.write(io::reportJson(results.laplacian.report, results.geometry, results.options, results.conventions));
   file.close();
+}
+
+struct ResultFile {
+  std::optional<Format> format;  ///< none: always written
+  const char* name;
+  void (*write)(const OutputPath& to, const Results& results);
+};
+
+const ResultFile result_files[] = {
+    {Format::npz, "L.npz", [](const OutputPath& to, const Results& r) { io::writeNpz(to, r.matrices.L()); }},
+    {Format::npz, "M.npy",
+     [](const OutputPath& to, const Results& r) {
+       writeNpy(to, "<f8", r.matrices.M().data(), r.laplacian.status.size());
+     }},
+    {Format::npz, "status.npy",
+     [](const OutputPath& to, const Results& r) {
+       writeNpy(to, "|u1", r.laplacian.status.data(), r.laplacian.status.size());
+     }},
+    {Format::npz, "representative.npy",
+     [](const OutputPath& to, const Results& r) {
+       writeNpy(to, "<i4", r.laplacian.representative.data(), r.laplacian.representative.size());
+     }},
+    {Format::npz, "boundary.npy",
+     [](const OutputPath& to, const Results& r) {
+       writeNpy(to, "|u1", r.laplacian.boundary.data(), r.laplacian.boundary.size());
+     }},
+    {Format::mtx, "L.mtx",
+     [](const OutputPath& to, const Results& r) { io::writeMtx(to, r.matrices.L(), r.conventions); }},
+    {Format::mtx, "M.mtx",
+     [](const OutputPath& to, const Results& r) { io::writeMtx(to, r.matrices.M(), r.conventions); }},
+    {Format::mat, "laplacian.mat",
+     [](const OutputPath& to, const Results& r) {
+       io::writeMat(to, r.matrices.L(), r.matrices.M(), r.laplacian, r.conventions);
+     }},
+    {Format::spmat, "L.spmat", [](const OutputPath& to, const Results& r) { io::writeSpmat(to, r.matrices.L()); }},
+    {Format::spmat, "M.spmat", [](const OutputPath& to, const Results& r) { io::writeSpmat(to, r.matrices.M()); }},
+    {Format::ply, "points.ply",
+     [](const OutputPath& to, const Results& r) {
+       io::writePly(to, r.laplacian, r.geometry, r.matrices.M(), r.conventions);
+     }},
+    {Format::pcd, "points.pcd",
+     [](const OutputPath& to, const Results& r) {
+       io::writePcd(to, r.laplacian, r.geometry, r.matrices.M(), r.conventions);
+     }},
+    {std::nullopt, "report.json", writeReport},
+};
+
+std::vector<ResultFile> filesOf(const std::vector<Format>& formats) {
+  std::vector<ResultFile> files;
+  for (const ResultFile& file : result_files)
+    if (!file.format || std::find(formats.begin(), formats.end(), *file.format) != formats.end()) files.push_back(file);
+  return files;
 }
 
 void check(const Laplacian& laplacian, const Geometry& geometry) {
@@ -44,39 +111,34 @@ void check(const Laplacian& laplacian, const Geometry& geometry) {
   require("status", laplacian.status.size(), points);
   require("representative", laplacian.representative.size(), points);
   require("boundary", laplacian.boundary.size(), points);
-  for (const Field& field : geometry.fields)
+  if (geometry.normals.rows() > 0) require("normals", geometry.normals.rows(), points);
+  if (geometry.height > 1)
+    require("the grid of width times height", static_cast<std::size_t>(geometry.width) * geometry.height, points);
+  for (const Field& field : geometry.fields) {
     require("the field " + field.name, field.bytes.size(), points * field.count * io::sizeOf(field.type));
+    if (field.name.empty() || field.name.find_first_of(" \t\r\n") != std::string::npos)
+      throw InvalidInput("writeLaplacian: the field name '" + field.name + "' is not one word");
+  }
 }
 
 }  // namespace
 
+std::vector<std::string> resultFiles(const std::vector<Format>& formats) {
+  std::vector<std::string> names;
+  for (const ResultFile& file : filesOf(formats)) names.emplace_back(file.name);
+  return names;
+}
+
 void writeLaplacian(const std::filesystem::path& dir, const Laplacian& laplacian, const Geometry& geometry,
                     const WriteOptions& options) {
   check(laplacian, geometry);
-  const std::int64_t points = geometry.points.rows();
-  using Path = std::filesystem::path;
-  const std::vector<std::pair<const char*, std::function<void(const Path&, const Path&)>>> writers = {
-      {"L.npz", [&](const Path& path, const Path& shown) { io::writeNpz(path, shown, laplacian.L); }},
-      {"M.npy", [&](const Path& path, const Path& shown) { writeNpy(path, shown, "<f8", laplacian.M.data(), points); }},
-      {"status.npy",
-       [&](const Path& path, const Path& shown) { writeNpy(path, shown, "|u1", laplacian.status.data(), points); }},
-      {"representative.npy",
-       [&](const Path& path, const Path& shown) {
-         writeNpy(path, shown, "<i4", laplacian.representative.data(), points);
-       }},
-      {"boundary.npy",
-       [&](const Path& path, const Path& shown) { writeNpy(path, shown, "|u1", laplacian.boundary.data(), points); }},
-      {"report.json",
-       [&](const Path& path, const Path& shown) {
-         writeText(path, shown, io::reportJson(laplacian.report, geometry, options));
-       }},
-      {"points.ply", [&](const Path& path, const Path& shown) { io::writePly(path, shown, laplacian, geometry); }},
-  };
+  const Results results = {laplacian, geometry, options};
+  const std::vector<ResultFile> wanted = filesOf(options.formats);
   io::StagedFiles files(dir);
-  for (std::size_t w = 0; w <= writers.size(); ++w) {
-    if (options.progress && !options.progress("write", static_cast<double>(w) / static_cast<double>(writers.size())))
+  for (std::size_t w = 0; w <= wanted.size(); ++w) {
+    if (options.progress && !options.progress("write", static_cast<double>(w) / static_cast<double>(wanted.size())))
       throw Cancelled("writeLaplacian: cancelled");
-    if (w < writers.size()) writers[w].second(files.stage(writers[w].first), files.finished(writers[w].first));
+    if (w < wanted.size()) wanted[w].write(files.stage(wanted[w].name), results);
   }
   files.commit();
 }

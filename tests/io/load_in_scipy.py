@@ -5,38 +5,106 @@ import sys
 
 try:
     import numpy as np
+    import scipy.io
     import scipy.sparse
 except ImportError as error:
     print("skipped:", error)
     sys.exit(77)
 
-folder = sys.argv[1]
+root = sys.argv[1]
+NAMES = ["M", "status", "representative", "boundary"]
 
 
-def path(name):
-    return os.path.join(folder, name)
+def path(*names):
+    return os.path.join(root, *names)
 
 
-L = scipy.sparse.load_npz(path("L.npz"))
-assert L.format == "csc" and L.dtype == np.float64 and L.indices.dtype == np.int32, repr(L)
-assert L.has_canonical_format
+def same_bits(a, b):
+    return a.dtype == b.dtype and a.shape == b.shape and a.tobytes() == b.tobytes()
+
+
+def same_matrix(a, b):
+    """Bit for bit, with the same entries stored."""
+    a, b = scipy.sparse.csc_matrix(a), scipy.sparse.csc_matrix(b)
+    for matrix in (a, b):
+        matrix.sum_duplicates()
+    return (a.shape == b.shape and np.array_equal(a.indptr, b.indptr) and np.array_equal(a.indices, b.indices)
+            and same_bits(a.data, b.data))
+
+
+def spmat(file):
+    """As MATLAB's spconvert(load(file)): the largest indices are the size."""
+    rows, columns, values = np.loadtxt(file, unpack=True, ndmin=2)
+    return scipy.sparse.coo_matrix((values, (rows.astype(int) - 1, columns.astype(int) - 1)))
+
+
+def load(folder):
+    """L and the values per point, from npz and npy; all other files must hold the same."""
+    L = scipy.sparse.load_npz(path(folder, "L.npz"))
+    assert L.format == "csc" and L.dtype == np.float64 and L.indices.dtype == np.int32, repr(L)
+    assert L.has_canonical_format
+    values = {name: np.load(path(folder, name + ".npy")) for name in NAMES}
+    column = values["M"].reshape(-1, 1)
+
+    assert same_matrix(scipy.io.mmread(path(folder, "L.mtx")), L)
+    assert scipy.io.mminfo(path(folder, "L.mtx"))[3:] == ("coordinate", "real", "symmetric")
+    assert same_bits(scipy.io.mmread(path(folder, "M.mtx")), column)
+
+    mat = scipy.io.loadmat(path(folder, "laplacian.mat"))
+    assert same_matrix(mat["L"], L)
+    for name in NAMES:
+        assert same_bits(mat[name], values[name].reshape(-1, 1)), (name, mat[name].dtype)
+
+    triplets = spmat(path(folder, "L.spmat"))
+    last = L.shape[0] - 1
+    assert triplets.row[-1] == triplets.col[-1] == last
+    if L[last, last] == 0:  # there for the size alone
+        triplets.row, triplets.col, triplets.data = triplets.row[:-1], triplets.col[:-1], triplets.data[:-1]
+    assert same_matrix(triplets, L)
+    masses = spmat(path(folder, "M.spmat")).tocsc()
+    assert masses.shape == L.shape and same_bits(masses.diagonal(), values["M"])
+
+    with open(path(folder, "report.json")) as file:
+        report = json.load(file)
+    with open(path(folder, "L.mtx")) as file:
+        comments = file.read().split("\n")[1:]
+    lines = str(mat["conventions"][0]).split("\n")
+    for name in ("L", "sign", "M", "poisson", "eigenproblem", "inactive"):
+        line = name + ": " + report["conventions"][name]
+        assert "% " + line in comments and line in lines, line
+    return L, values, report
+
+
+L, values, report = load("triangle")
 expected = np.array([[1, -0.5, -0.5, 0], [-0.5, 0.5, 0, 0], [-0.5, 0, 0.5, 0], [0, 0, 0, 0]])
 assert np.array_equal(L.toarray(), expected)
-
 arrays = {
     "M": np.array([2 / 3, 2 / 3, 2 / 3, 0]),
     "status": np.array([0, 0, 0, 1], np.uint8),
     "representative": np.array([0, 1, 2, 3], np.int32),
     "boundary": np.array([1, 1, 1, 0], np.uint8),
 }
-for name, values in arrays.items():
-    loaded = np.load(path(name + ".npy"))
-    assert loaded.dtype == values.dtype and loaded.flags.c_contiguous, (name, loaded.dtype)
-    assert np.array_equal(loaded, values), (name, loaded)
+for name, expected in arrays.items():
+    assert same_bits(values[name], expected) and values[name].flags.c_contiguous, (name, values[name])
     # The values begin at a multiple of 64 bytes, so that a memory map is aligned.
-    assert np.load(path(name + ".npy"), mmap_mode="r").offset % 64 == 0, name
-
-with open(path("report.json")) as file:
-    report = json.load(file)
+    assert np.load(path("triangle", name + ".npy"), mmap_mode="r").offset % 64 == 0, name
 assert report["report"]["not_finite"] == 1 and report["report"]["votes"] == [1, 2, 3]
 assert "L x = lambda M x" in report["conventions"]["eigenproblem"]
+
+# A real cloud with a point twice and a last one missing: the arrays of the library, bit for bit.
+L, values, report = load("cloud")
+assert list(values["status"][-2:]) == [2, 1] and values["representative"][-2] == 0
+assert same_bits(L.indptr, np.fromfile(path("indptr"), np.int32))
+assert same_bits(L.indices, np.fromfile(path("indices"), np.int32))
+assert same_bits(L.data, np.fromfile(path("data"), np.float64))
+assert same_bits(values["M"], np.fromfile(path("M"), np.float64))
+assert np.all(L.diagonal()[:-2] > 0) and L[-2:].nnz == 0
+
+# The same with --sign igl --dummy: negated, and of full rank.
+changed, changed_values, report = load("changed")
+assert same_matrix(changed[:-2, :-2], -L[:-2, :-2])
+assert np.array_equal(changed[-2:].toarray(), -np.eye(L.shape[0])[-2:])
+assert same_bits(changed_values["M"][:-2], values["M"][:-2])
+assert np.all(changed_values["M"][-2:] > 0) and changed_values["M"][-1] < 0.01 * values["M"][:-2].min()
+assert report["write_options"]["sign"] == "igl" and report["write_options"]["dummy"] is True
+assert "negative semidefinite" in report["conventions"]["L"] and "dummy" in report["conventions"]["inactive"]

@@ -1,39 +1,72 @@
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "tufted/io/read.h"
 #include "tufted/laplacian.h"
 
 namespace tufted {
 
+/// What writeLaplacian can write, beside report.json, which it always writes.
+enum class Format : std::uint8_t {
+  npz,    ///< L.npz, M.npy, status.npy, representative.npy, boundary.npy: NumPy and SciPy
+  mtx,    ///< L.mtx, M.mtx: Matrix Market
+  mat,    ///< laplacian.mat: MATLAB 5, at most 2^31 - 1 bytes per variable
+  spmat,  ///< L.spmat, M.spmat: triplets counted from 1, as the paper's program writes them
+  ply,    ///< points.ply
+  pcd,    ///< points.pcd
+};
+
+/// Sign of L in the files. M is positive in both.
+enum class Sign : std::uint8_t {
+  psd,  ///< positive semidefinite, as in Laplacian::L
+  igl,  ///< negated, as libigl and PMP have it: negative semidefinite, off-diagonals >= 0
+};
+
 struct WriteOptions {
-  std::string source;                   ///< the file the points are from, recorded in report.json
+  std::vector<Format> formats = {Format::npz, Format::ply};
+  Sign sign = Sign::psd;
+  /// For programs that expect full rank: every point that is not active gets 1 (-1 with Sign::igl) on the diagonal of L
+  /// and a thousandth of the smallest positive mass in M (1 if there is none). These are the paper's program's values.
+  bool dummy = false;
+  std::string source = {};              ///< the file the points are from, recorded in report.json
   const CloudOptions* cloud = nullptr;  ///< the options of the build, recorded in report.json; borrowed
   const MeshOptions* mesh = nullptr;    ///< the same for a mesh; borrowed
   Progress progress = {};               ///< called between files; returning false leaves no file
 };
 
-/// The files that writeLaplacian writes.
-inline constexpr const char* result_files[] = {"L.npz",        "M.npy",       "status.npy", "representative.npy",
-                                               "boundary.npy", "report.json", "points.ply"};
+/// The names of the files that writeLaplacian writes for these formats.
+std::vector<std::string> resultFiles(const std::vector<Format>& formats);
 
-/// Writes a Laplacian into the directory `dir`, which is made if missing:
+/// Writes a Laplacian into the directory `dir`, which is made if missing. All numbers are read back bit for bit.
 ///   L.npz               scipy.sparse.load_npz, csc, float64 with int32 indices
 ///   M.npy               float64, N
 ///   status.npy          uint8, N, see PointStatus
-///   representative.npy  int32, N
+///   representative.npy  int32, N, counted from 0
 ///   boundary.npy        uint8, N, 0 or 1
+///   L.mtx               coordinate real symmetric: the lower triangle; an L that is not symmetric loses the upper one
+///   M.mtx               array real general, N x 1
+///   laplacian.mat       L (sparse), M, status, representative, boundary (N x 1) and the text `conventions`
+///   L.spmat             a line `row column value` per entry, and the last diagonal entry even if 0, so that MATLAB's
+///                       spconvert(load(...)) has the right size
+///   M.spmat             the diagonal matrix of the N masses, in the same way
+///   points.ply          the points, little endian; the triangles of a mesh
+///   points.pcd          the points, binary
 ///   report.json         the Report, with sign and scale stated, and what was changed in reading the input
-///   points.ply          binary little endian: x y z and normals (where known) as double, the fields of the input,
-///                       mass (double), boundary, status (uchar), representative (int), and the triangles of a mesh
-/// In points.ply a field of several values becomes `name_0`, `name_1`, ...; packed colours (rgb, rgba) become red,
-/// green, blue (and alpha); 64-bit integers become double, the largest type of PLY; an organized cloud states its
-/// size as obj_info num_cols and num_rows.
-/// All files are written under temporary names and, when all are complete, renamed one after the other: no file is
-/// ever half there, but for a moment new files stand beside old ones. Files of these names are replaced.
-/// @throws InvalidInput if the arrays of `laplacian` and `geometry` differ in length
+/// The points have x y z and normals (where known), the fields of the input, mass (float64), boundary, status (uint8)
+/// and representative (int32). x y z are float32 where that loses nothing, else float64: PCL turns wider coordinates
+/// into zeros when it converts them to its point types. So are normals of the input; normals of the build are float32.
+/// PLY: a field of several values becomes `name_0`, `name_1`, ...; packed colours (rgb, rgba) become red, green, blue
+/// (and alpha); 64-bit integers become double, the largest type of PLY; an organized cloud states its size as obj_info
+/// num_cols and num_rows, and the sensor's pose is a comment. PCD: normals are normal_x, normal_y, normal_z; red,
+/// green, blue (and alpha) of 8 bits become a packed rgb (rgba). All files are written under temporary names and, when
+/// all are complete, renamed one after the other: no file is ever half there, but for a moment new files stand beside
+/// old ones. Files of these names are replaced; those of formats that were not asked for stay.
+/// @throws InvalidInput if the arrays of `laplacian` and `geometry` differ in length, or the name of a field is not one
+///         word
 /// @throws IoError naming the path
 /// @throws Cancelled when `options.progress` returns false
 void writeLaplacian(const std::filesystem::path& dir, const Laplacian& laplacian, const Geometry& geometry,

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <optional>
+
+#include "tufted/io/write.h"
+#include "tufted/laplacian.h"
+
+namespace tufted::io {
+
+/// L and M as the files have them: of the sign that is asked for, with dummy values where they are asked for, and
+/// compressed. Copies only what is changed; the rest is borrowed.
+class OutputMatrices {
+ public:
+  OutputMatrices(const Laplacian& laplacian, const WriteOptions& options);
+
+  const SparseMatrix& L() const { return L_ ? *L_ : laplacian_.L; }
+  const VectorXd& M() const { return M_ ? *M_ : laplacian_.M; }
+
+ private:
+  const Laplacian& laplacian_;
+  std::optional<SparseMatrix> L_;
+  std::optional<VectorXd> M_;
+};
+
+/// The mass of points that are not active when WriteOptions::dummy is set: a thousandth of the smallest positive mass,
+/// 1 if there is none.
+double dummyMass(const Laplacian& laplacian);
+
+}  // namespace tufted::io
