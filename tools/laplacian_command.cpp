@@ -34,20 +34,33 @@ constexpr const char* footer = R"(Sign and scale:
   Scale on clouds: 1/2 (front and back of the cover) times 1/3 (each triangle is found by its three corners).
   Scale on meshes: 1/2 (front and back of the cover).
   Poisson L u = M f, eigenproblem L x = lambda M x.
-  Points that cannot take part keep their index, with zero row, column and mass; status.npy says why.
+  Points that cannot take part keep their index, with zero row, column and mass; their status says why.
+  --sign igl negates L: negative semidefinite, as in libigl and PMP; then -L u = M f and -L x = lambda M x.
+  --dummy gives those points 1 (-1 with --sign igl) on the diagonal of L and, in M, a thousandth of the smallest
+  positive mass.
 
 Reads PCD, PLY, LAS and text in columns (clouds), PLY, OBJ, OFF and STL (meshes; OBJ and OFF without faces are clouds).
 The format goes by the extension, .pcd .ply .las .xyz .xyzn .pwn .txt .csv .asc .pts .obj .off .stl, and where that is
-unknown by the content. Normals of a file are used for L and M with --normals alone; points.ply passes them on.
+unknown by the content. Normals of a file are used for L and M with --normals alone; points.ply and points.pcd pass them on.
 
-Writes into DIR, renamed one after the other when all are complete:
+Writes into DIR, renamed one after the other when all are complete; files of other formats there stay:
+  report.json         what happened, with options, sign and scale
+  --format npz
   L.npz               sparse matrix, scipy.sparse.load_npz
   M.npy               areas
   status.npy          0 active, 1 not finite, 2 coincident, 3 isolated
-  representative.npy  the point that stands for a coincident one
+  representative.npy  the point that stands for a coincident one, counted from 0
   boundary.npy        1 where the surface ends
-  report.json         what happened, with options, sign and scale
-  points.ply          the points with mass, boundary, status and representative as fields)";
+  --format mtx
+  L.mtx, M.mtx        Matrix Market: lower triangle of a symmetric matrix, N x 1 array
+  --format mat
+  laplacian.mat       MATLAB: L, M, status, representative, boundary, conventions
+  --format spmat
+  L.spmat, M.spmat    a line `row column value` per entry, counted from 1; M as a diagonal matrix
+  --format ply
+  points.ply          the points with mass, boundary, status and representative as fields
+  --format pcd
+  points.pcd          the same, for PCL)";
 
 struct Settings {
   Input input;
@@ -55,6 +68,7 @@ struct Settings {
   bool normals = false;  ///< use those of the file
   tufted::CloudOptions cloud;
   std::optional<double> mollify;  ///< the default of clouds or of meshes
+  tufted::WriteOptions write;
 };
 
 const std::map<std::string, tufted::Gluing> gluings = {{"star", tufted::Gluing::star},
@@ -63,11 +77,35 @@ const std::map<std::string, tufted::FaceOrder> orders = {
     {"angle", tufted::FaceOrder::angle}, {"area", tufted::FaceOrder::area}, {"random", tufted::FaceOrder::random}};
 const std::map<std::string, tufted::Delaunay> backends = {{"star", tufted::Delaunay::star},
                                                           {"cgal", tufted::Delaunay::cgal}};
+const std::map<std::string, tufted::Format> formats = {{"npz", tufted::Format::npz}, {"mtx", tufted::Format::mtx},
+                                                       {"mat", tufted::Format::mat}, {"spmat", tufted::Format::spmat},
+                                                       {"ply", tufted::Format::ply}, {"pcd", tufted::Format::pcd}};
+const std::map<std::string, tufted::Sign> signs = {{"psd", tufted::Sign::psd}, {"igl", tufted::Sign::igl}};
+
+/// What is written, and how.
+void addWriteOptions(CLI::App& command, tufted::WriteOptions& options) {
+  const auto check = [](const std::string& key) {
+    return formats.count(key) > 0 ? std::string() : key + " is none of npz, mtx, mat, spmat, ply, pcd";
+  };
+  const auto set = [&options](const std::vector<std::string>& keys) {
+    options.formats.clear();
+    for (const std::string& key : keys) options.formats.push_back(formats.at(key));
+  };
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--format", set, "What to write, separated by commas: npz, mtx, mat, spmat, ply, pcd (npz,ply)")
+      ->delimiter(',')
+      ->allow_extra_args(false)  // what follows may be FILE
+      ->check(check)
+      ->type_name("LIST");
+  addChoice(command, "--sign", options.sign, signs, "Sign of L in the files, see below (psd)");
+  command.add_flag("--dummy", options.dummy, "Dummy values for points that cannot take part, see below");
+}
 
 /// Refuses what no build can be written to.
 void checkOutput(const Settings& settings) {
   std::error_code error;
-  for (const std::string& name : tufted::resultFiles(tufted::WriteOptions().formats))
+  for (const std::string& name : tufted::resultFiles(settings.write.formats))
     if (!settings.input.isStandardInput() &&
         std::filesystem::equivalent(settings.input.file, settings.out / name, error))
       throw tufted::InvalidInput(settings.input.name() + ": is the input, and --out " + settings.out.string() +
@@ -148,7 +186,9 @@ int runLaplacian(Settings settings, const std::vector<CLI::Option*>& cloud_only)
   const tufted::Laplacian laplacian = geometry.is_mesh
                                           ? tufted::meshLaplacian(geometry.points, geometry.triangles, mesh)
                                           : tufted::pointCloudLaplacian(geometry.points, settings.cloud);
-  tufted::WriteOptions write = {.source = settings.input.name(), .progress = progress};
+  tufted::WriteOptions& write = settings.write;
+  write.source = settings.input.name();
+  write.progress = progress;
   if (geometry.is_mesh)
     write.mesh = &mesh;
   else
@@ -189,6 +229,7 @@ void addLaplacian(CLI::App& app, Run& run) {
             "Mollification in mean edge lengths, at most 1 (1e-5 clouds, 1e-4 meshes)")
       ->type_name("D");
   addNumber(command, "--threads", options.threads, 1, 1 << 16, "At most this many threads (all)")->type_name("N");
+  addWriteOptions(command, settings->write);
   command.callback([&run, settings, cloud_only, seed] {
     if (seed->count() > 0 && settings->cloud.order != tufted::FaceOrder::random)
       throw CLI::RequiresError("--seed", "--order random");

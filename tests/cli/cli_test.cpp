@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
+#include "../io/file_size_limit.h"
 #include "../io/temporary_dir.h"
 #include "command.h"
 #include "samples.h"
@@ -79,6 +82,9 @@ TEST_F(Command, MistakesOnTheCommandLineAreOneLineAndTwo) {
   expectUsageError({"laplacian", file, "--out", out(), "--seed", "1"});
   expectUsageError({"laplacian", file, "--out", out(), "--seed", "1", "--order", "area"});
   expectUsageError({"laplacian", file, "--out", out(), "--as", "surface"});
+  for (const char* formats : {"", "npy", "npz mtx", "NPZ"})
+    expectUsageError({"laplacian", file, "--out", out(), "--format", formats});
+  expectUsageError({"laplacian", file, "--out", out(), "--sign", "+"});
   expectUsageError({"laplacian", file, "--out", ""});
   expectUsageError({"laplacian", "", "--out", out()});
 }
@@ -140,6 +146,65 @@ TEST_F(Command, OptionsOfCloudsAreRefusedForAMesh) {
   expectUsageError({"laplacian", file, "--out", out(), "--delaunay", "star"});
 }
 
+TEST_F(Command, WritesTheFormatsItIsAskedForAndNoOthers) {
+  const std::string file = dir_.write("sphere.xyz", sphere(200));
+  ASSERT_EQ(runTufted({"laplacian", "--out", out(), "--format", "mtx,spmat", file}).code, 0);  // FILE is no format
+  for (const char* name : {"L.mtx", "M.mtx", "L.spmat", "M.spmat", "report.json"})
+    EXPECT_TRUE(std::filesystem::exists(dir_ / "out" / name)) << name;
+  for (const char* name : {"L.npz", "points.ply", "points.pcd", "laplacian.mat"})
+    EXPECT_FALSE(std::filesystem::exists(dir_ / "out" / name)) << name;
+  ASSERT_EQ(runTufted({"laplacian", file, "--out", out(), "--format", "mat", "--format", "pcd"}).code, 0);
+  for (const char* name : {"laplacian.mat", "points.pcd", "L.mtx"})
+    EXPECT_TRUE(std::filesystem::exists(dir_ / "out" / name)) << name;
+}
+
+TEST_F(Command, AnInputIsRefusedOnlyWhereItsFormatIsWritten) {
+  const std::string file = dir_.write("points.pcd",
+                                      "FIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 4\nHEIGHT 1\n"
+                                      "POINTS 4\nDATA ascii\n0 0 0\n1 0 0\n0 1 0\n1 1.5 0\n");
+  const std::string bytes = readAll(file);
+  const std::string here = dir_.path().string();
+  EXPECT_EQ(runTufted({"laplacian", file, "--out", here, "--format", "npz,pcd"}).code, 2);
+  EXPECT_EQ(readAll(file), bytes);
+  EXPECT_EQ(runTufted({"laplacian", file, "--out", here, "--format", "npz"}).code, 0);
+  EXPECT_EQ(readAll(file), bytes);
+}
+
+TEST_F(Command, SignAndDummyReachTheFilesAndTheReport) {
+  const std::string file = dir_.write("tetrahedron.off",
+                                      "OFF\n5 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n9 9 9\n"
+                                      "3 0 2 1\n3 0 1 3\n3 1 2 3\n3 2 0 3\n");
+  const auto lastEntry = [&](const std::vector<std::string>& further) {
+    std::vector<std::string> arguments = {"laplacian", file, "--out", out(), "--format", "spmat"};
+    arguments.insert(arguments.end(), further.begin(), further.end());
+    EXPECT_EQ(runTufted(arguments).code, 0);
+    const std::string text = readAll(dir_ / "out/L.spmat");
+    return text.substr(text.rfind('\n', text.size() - 2) + 1);
+  };
+  EXPECT_EQ(lastEntry({}), "5 5 0\n");
+  EXPECT_EQ(lastEntry({"--dummy"}), "5 5 1\n");
+  EXPECT_EQ(lastEntry({"--dummy", "--sign", "igl"}), "5 5 -1\n");
+  EXPECT_NE(readAll(dir_ / "out/report.json").find("\"sign\": \"igl\""), std::string::npos);
+  EXPECT_EQ(readAll(dir_ / "out/L.spmat").substr(0, 5), "1 1 -");
+}
+
+TEST_F(Command, AFullDiskIsOneLineAndOneAndLeavesNothing) {
+  const std::string file = dir_.write("sphere.xyz", sphere(500));
+  const std::pair<const char*, const char*> largest[] = {{"npz", "L.npz"},         {"mtx", "L.mtx"},
+                                                         {"mat", "laplacian.mat"}, {"spmat", "L.spmat"},
+                                                         {"ply", "points.ply"},    {"pcd", "points.pcd"}};
+  for (const auto& [format, name] : largest) {
+    const FileSizeLimit full(16'000);  // the other files are smaller
+    const Result result = runTufted({"laplacian", file, "--out", out(), "--format", format});
+    EXPECT_EQ(result.code, 1) << format;
+    EXPECT_TRUE(isOneLine(result.err)) << result.err;
+    EXPECT_TRUE(result.err.starts_with("tufted: " + out() + "/" + name + ": cannot write")) << result.err;
+    EXPECT_TRUE(result.err.ends_with("File too large\n")) << result.err;
+    EXPECT_EQ(result.out, "");
+    EXPECT_TRUE(noOutputs());
+  }
+}
+
 TEST_F(Command, FilesThatCannotBeReadOrWrittenAreOneLineAndOne) {
   const std::string good = dir_.write("sphere.xyz", sphere(50));
   const std::string bad = dir_.write("bad.xyz", "1 2 3\n1 two 3\n");
@@ -174,6 +239,8 @@ TEST_F(Command, HelpStatesSignScaleAndFiles) {
                            "meshes: 1/2 (front and back of the cover)", "--normals"})
     EXPECT_NE(result.out.find(part), std::string::npos) << part;
   for (const char* name : outputs) EXPECT_NE(result.out.find(name), std::string::npos) << name;
+  for (const char* name : {"L.mtx", "M.mtx", "laplacian.mat", "L.spmat", "M.spmat", "points.pcd", "--sign igl"})
+    EXPECT_NE(result.out.find(name), std::string::npos) << name;
   const Result overview = runTufted({"--help"});
   EXPECT_EQ(overview.code, 0);
   EXPECT_NE(overview.out.find("laplacian"), std::string::npos);
