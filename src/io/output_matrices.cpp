@@ -29,7 +29,7 @@ OutputMatrices::OutputMatrices(const Laplacian& laplacian, const WriteOptions& o
     for (std::size_t i = 0; i < laplacian.status.size(); ++i)
       if (laplacian.status[i] != PointStatus::active) (*M_)(static_cast<Eigen::Index>(i)) = mass;
   }
-  if (options.sign == Sign::igl || !L().isCompressed()) {
+  if (options.sign == Sign::igl || !matrix().isCompressed()) {
     if (!L_) L_ = laplacian.L;
     L_->makeCompressed();
     if (options.sign == Sign::igl) L_->coeffs() = -L_->coeffs();

@@ -13,8 +13,8 @@ class OutputMatrices {
  public:
   OutputMatrices(const Laplacian& laplacian, const WriteOptions& options);
 
-  const SparseMatrix& L() const { return L_ ? *L_ : laplacian_.L; }
-  const VectorXd& M() const { return M_ ? *M_ : laplacian_.M; }
+  const SparseMatrix& matrix() const { return L_ ? *L_ : laplacian_.L; }
+  const VectorXd& masses() const { return M_ ? *M_ : laplacian_.M; }
 
  private:
   const Laplacian& laplacian_;

@@ -53,10 +53,10 @@ struct ResultFile {
 };
 
 const ResultFile result_files[] = {
-    {Format::npz, "L.npz", [](const OutputPath& to, const Results& r) { io::writeNpz(to, r.matrices.L()); }},
+    {Format::npz, "L.npz", [](const OutputPath& to, const Results& r) { io::writeNpz(to, r.matrices.matrix()); }},
     {Format::npz, "M.npy",
      [](const OutputPath& to, const Results& r) {
-       writeNpy(to, "<f8", r.matrices.M().data(), r.laplacian.status.size());
+       writeNpy(to, "<f8", r.matrices.masses().data(), r.laplacian.status.size());
      }},
     {Format::npz, "status.npy",
      [](const OutputPath& to, const Results& r) {
@@ -71,22 +71,22 @@ const ResultFile result_files[] = {
        writeNpy(to, "|u1", r.laplacian.boundary.data(), r.laplacian.boundary.size());
      }},
     {Format::mtx, "L.mtx",
-     [](const OutputPath& to, const Results& r) { io::writeMtx(to, r.matrices.L(), r.conventions); }},
+     [](const OutputPath& to, const Results& r) { io::writeMtx(to, r.matrices.matrix(), r.conventions); }},
     {Format::mtx, "M.mtx",
-     [](const OutputPath& to, const Results& r) { io::writeMtx(to, r.matrices.M(), r.conventions); }},
+     [](const OutputPath& to, const Results& r) { io::writeMtx(to, r.matrices.masses(), r.conventions); }},
     {Format::mat, "laplacian.mat",
      [](const OutputPath& to, const Results& r) {
-       io::writeMat(to, r.matrices.L(), r.matrices.M(), r.laplacian, r.conventions);
+       io::writeMat(to, r.matrices.matrix(), r.matrices.masses(), r.laplacian, r.conventions);
      }},
-    {Format::spmat, "L.spmat", [](const OutputPath& to, const Results& r) { io::writeSpmat(to, r.matrices.L()); }},
-    {Format::spmat, "M.spmat", [](const OutputPath& to, const Results& r) { io::writeSpmat(to, r.matrices.M()); }},
+    {Format::spmat, "L.spmat", [](const OutputPath& to, const Results& r) { io::writeSpmat(to, r.matrices.matrix()); }},
+    {Format::spmat, "M.spmat", [](const OutputPath& to, const Results& r) { io::writeSpmat(to, r.matrices.masses()); }},
     {Format::ply, "points.ply",
      [](const OutputPath& to, const Results& r) {
-       io::writePly(to, r.laplacian, r.geometry, r.matrices.M(), r.conventions);
+       io::writePly(to, r.laplacian, r.geometry, r.matrices.masses(), r.conventions);
      }},
     {Format::pcd, "points.pcd",
      [](const OutputPath& to, const Results& r) {
-       io::writePcd(to, r.laplacian, r.geometry, r.matrices.M(), r.conventions);
+       io::writePcd(to, r.laplacian, r.geometry, r.matrices.masses(), r.conventions);
      }},
     {std::nullopt, "report.json", writeReport},
 };
