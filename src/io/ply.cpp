@@ -87,7 +87,7 @@ void readFaces(const PlyElement& element, bool strips, PlyBody& body, PolygonSou
 }
 
 /// The pose of the sensor from the element that PCL's writer puts behind the vertices: the origin and the rows of the
-/// rotation. What is no rotation is left out.
+/// rotation, of floats. What is no rotation is left out.
 void readCamera(const PlyElement& element, PlyBody& body, std::array<double, 7>& viewpoint) {
   constexpr std::array names = {"view_px", "view_py", "view_pz", "x_axisx", "x_axisy", "x_axisz",
                                 "y_axisx", "y_axisy", "y_axisz", "z_axisx", "z_axisy", "z_axisz"};
@@ -128,7 +128,7 @@ Geometry readPly(const std::filesystem::path& path, std::string_view bytes, bool
   Columns columns;
   PolygonSoup soup;
   bool has_vertices = false;
-  auto viewpoint = Geometry().viewpoint;
+  auto viewpoint = header.viewpoint;
   for (const PlyElement& element : header.elements) {
     const bool strips = element.name == "tristrips";
     if (element.name == "vertex" && !has_vertices) {

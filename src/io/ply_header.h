@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <string>
@@ -29,9 +30,10 @@ struct PlyHeader {
 
   Format format = Format::ascii;
   std::vector<PlyElement> elements;
-  std::int64_t columns = 0, rows = 0;  ///< obj_info num_cols, num_rows of an organized cloud
-  std::size_t body = 0;                ///< byte at which the values begin
-  std::int64_t line = 0;               ///< lines of the header
+  std::int64_t columns = 0, rows = 0;                      ///< obj_info num_cols, num_rows of an organized cloud
+  std::array<double, 7> viewpoint = Geometry().viewpoint;  ///< obj_info viewpoint, as our writer puts it
+  std::size_t body = 0;                                    ///< byte at which the values begin
+  std::int64_t line = 0;                                   ///< lines of the header
 };
 
 /// Parses a header and checks that the file is long enough for the elements it counts.

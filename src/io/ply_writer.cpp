@@ -65,8 +65,7 @@ std::string header(const PointTable& table, const Geometry& geometry, const std:
   std::string text = "ply\nformat binary_little_endian 1.0\n";
   text += conventionLines(conventions, "comment tufted ", true);
   // A comment: PCL's own way, an element `camera` of floats, would round the pose of a georeferenced scan.
-  if (geometry.viewpoint != Geometry().viewpoint)
-    text += "comment viewpoint (x y z, quaternion w x y z) " + viewpointText(geometry) + "\n";
+  if (geometry.viewpoint != Geometry().viewpoint) text += "obj_info viewpoint " + viewpointText(geometry) + "\n";
   if (geometry.height > 1) {
     text += "obj_info num_cols " + std::to_string(geometry.width) + "\n";
     text += "obj_info num_rows " + std::to_string(geometry.height) + "\n";

@@ -61,7 +61,7 @@ std::vector<std::string> resultFiles(const std::vector<Format>& formats);
 /// into zeros when it converts them to its point types. So are normals of the input; normals of the build are float32.
 /// PLY: a field of several values becomes `name_0`, `name_1`, ...; packed colours (rgb, rgba) become red, green, blue
 /// (and alpha); 64-bit integers become double, the largest type of PLY; an organized cloud states its size as obj_info
-/// num_cols and num_rows, and the sensor's pose is a comment. PCD: normals are normal_x, normal_y, normal_z; red,
+/// num_cols and num_rows, and the sensor's pose as viewpoint. PCD: normals are normal_x, normal_y, normal_z; red,
 /// green, blue (and alpha) of 8 bits become a packed rgb (rgba). All files are written under temporary names and, when
 /// all are complete, renamed one after the other: no file is ever half there, but for a moment new files stand beside
 /// old ones. Files of these names are replaced; those of formats that were not asked for stay.
