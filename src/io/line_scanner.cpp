@@ -27,9 +27,10 @@ bool LineScanner::next() {
 void LineScanner::appendTokens() {
   if (offset_ >= text_.size()) return;
   const std::size_t end = std::min(text_.find('\n', offset_), text_.size());
-  const std::string_view line = text_.substr(offset_, end - offset_);
+  std::string_view line = text_.substr(offset_, end - offset_);
   offset_ = end + 1;
   ++line_;
+  if (syntax_.comment_anywhere) line = line.substr(0, line.find(syntax_.comment));
   std::size_t stop = 0;
   while (stop < line.size()) {
     const std::size_t begin = std::min(line.find_first_not_of(syntax_.separators, stop), line.size());

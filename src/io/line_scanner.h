@@ -15,6 +15,7 @@ class LineScanner {
     std::string_view separators = " \t\r\f\v";
     std::string_view delimiters = {};    ///< separators with a token before each and between any two
     char comment = '\0';                 ///< a token that begins with it ends the line
+    bool comment_anywhere = false;       ///< it does so within a token, too; `1.#INF` then is no number
     std::string_view line_comment = {};  ///< a line that begins with it holds no token
     bool continued = false;              ///< a line whose last token is a backslash goes on in the next
   };

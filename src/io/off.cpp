@@ -13,7 +13,7 @@
 namespace tufted::io {
 namespace {
 
-constexpr LineScanner::Syntax syntax = {.comment = '#'};
+constexpr LineScanner::Syntax syntax = {.comment = '#', .comment_anywhere = true};
 
 std::optional<OffLayout> parseKeyword(std::string_view word) {
   OffLayout layout;

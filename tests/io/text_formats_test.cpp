@@ -119,7 +119,7 @@ TEST(Off, ColoursOfAllVerticesAreFieldsInBothForms) {
   ASSERT_NE(fieldNamed(bytes, "green"), nullptr);
   EXPECT_EQ(valuesOf<std::uint8_t>(*fieldNamed(bytes, "green")), (std::vector<std::uint8_t>{128, 2}));
   EXPECT_EQ(bytes.normals.row(1), Eigen::RowVector3d(0, 1, 0));
-  const auto floats = tufted::parse("COFF 1 0 0\n0 0 0 0.5 1.0 0 1\n", "a.off");
+  const auto floats = tufted::parse("COFF 1 0 0\n0 0 0 0.5 1.0 0 1#red\n", "a.off");
   ASSERT_NE(fieldNamed(floats, "alpha"), nullptr);
   EXPECT_EQ(valuesOf<float>(*fieldNamed(floats, "red")), (std::vector<float>{0.5f}));
 }
