@@ -23,7 +23,7 @@ std::optional<FieldType> fieldType(char kind, std::int64_t size) {
 class PcdHeaderParser {
  public:
   PcdHeaderParser(const std::filesystem::path& path, std::string_view text)
-      : path_(path), scanner_(path, text, {.comment = '#'}) {}
+      : scanner_(path, text, {.comment = '#'}) {}
 
   PcdHeader parse() {
     while (scanner_.next()) {
@@ -128,7 +128,6 @@ class PcdHeaderParser {
     return std::move(header_);
   }
 
-  const std::filesystem::path& path_;
   LineScanner scanner_;
   std::vector<std::string> names_;
   std::vector<std::int64_t> sizes_, counts_;

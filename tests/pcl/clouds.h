@@ -8,6 +8,7 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <string_view>
 
 #include "tufted/types.h"
 
@@ -40,6 +41,12 @@ Points pointsOf(const pcl::PointCloud<PointT>& cloud) {
 /// Equal values, NaN where the other is NaN.
 inline bool samePositions(const Points& a, const Points& b) {
   return a.rows() == b.rows() && ((a.array() == b.array()) || (a.array().isNaN() && b.array().isNaN())).all();
+}
+
+/// The bytes of a value, to tell apart what == does not.
+template <typename T>
+std::string_view bytesOf(const T& value) {
+  return {reinterpret_cast<const char*>(&value), sizeof(value)};
 }
 
 /// The positions of a PCL cloud that hold these numbers.

@@ -159,7 +159,7 @@ TEST(LaplacianEstimation, SaysOnPclsConsoleWhatACallerGotWrong) {
     estimation.setInputCloud(cloudOf(shapes::sphere(100).points));
     mistake(estimation);
     Laplacian result = pointCloudLaplacian(shapes::sphere(100).points);
-    const std::string console = consoleOf([&] { estimation.compute(result); });
+    std::string console = consoleOf([&] { estimation.compute(result); });
     EXPECT_TRUE(isEmpty(result));
     return console;
   };

@@ -48,7 +48,7 @@ void expectSameFields(const Cloud& a, const Cloud& b) {
   for (std::size_t i = 0; i < a.size(); ++i) {
     Point point = a[i];
     std::memcpy(point.data, b[i].data, sizeof(point.data));
-    ASSERT_EQ(std::memcmp(&point, &b[i], sizeof(Point)), 0) << i;
+    ASSERT_EQ(bytesOf(point), bytesOf(b[i])) << i;
     ASSERT_EQ(a[i].data[3], b[i].data[3]) << i;
   }
 }
