@@ -15,6 +15,7 @@ void addInput(CLI::App& command, Input& input) {
 }
 
 tufted::Geometry readInput(const Input& input) {
+  std::ios::sync_with_stdio(false);  // std::cin then tells an error from the end
   tufted::Geometry geometry =
       input.isStandardInput() ? tufted::read(std::cin, input.name(), input.as) : tufted::read(input.file, input.as);
   if (!input.weld) return geometry;

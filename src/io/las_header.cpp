@@ -1,5 +1,6 @@
 #include "io/las_header.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
@@ -18,6 +19,15 @@ constexpr std::size_t header_of_1_4 = 375;
 constexpr std::size_t record_header = 54;      // of a variable length record
 constexpr std::size_t extra_descriptor = 192;  // of one extra value
 
+/// The name of an extra value as one printable word, which is what headers of PLY and PCD can hold.
+std::string fieldName(std::string_view text, std::size_t number) {
+  std::string name(text.substr(0, text.find('\0')));
+  while (!name.empty() && name.back() == ' ') name.pop_back();
+  std::replace_if(
+      name.begin(), name.end(), [](char c) { return c <= ' ' || c > '~'; }, '_');
+  return name.empty() ? "extra_" + std::to_string(number) : name;
+}
+
 class LasHeaderParser {
  public:
   LasHeaderParser(const std::filesystem::path& path, std::string_view bytes) : path_(path), bytes_(bytes) {}
@@ -31,7 +41,8 @@ class LasHeaderParser {
     for (int c = 0; c < 3; ++c) {
       header_.scale[c] = at<double>(131 + 8 * c);
       header_.offset[c] = at<double>(155 + 8 * c);
-      if (!std::isfinite(header_.scale[c]) || header_.scale[c] == 0) refuseByte(path_, 131 + 8 * c, "a scale of zero");
+      if (!std::isfinite(header_.scale[c]) || header_.scale[c] == 0)
+        refuseByte(path_, 131 + 8 * c, "a scale that is zero or not finite");
       if (!std::isfinite(header_.offset[c])) refuseByte(path_, 155 + 8 * c, "an offset that is not finite");
     }
     readRecords();
@@ -118,8 +129,7 @@ class LasHeaderParser {
                                    FieldType::float32, FieldType::float64};
     LasExtra extra;
     const int kind = at<std::uint8_t>(place + 2), options = at<std::uint8_t>(place + 3);
-    const std::string_view name = bytes_.substr(place + 4, 32);
-    extra.name = name.substr(0, name.find('\0'));
+    extra.name = fieldName(bytes_.substr(place + 4, 32), header_.extras.size() + 1);
     if (kind == 0) {
       extra.count = options;  // bytes without a meaning
     } else if (kind <= 30) {  // 11 to 20 are pairs, 21 to 30 triples

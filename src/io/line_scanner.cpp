@@ -26,7 +26,9 @@ bool LineScanner::next() {
 
 void LineScanner::appendTokens() {
   if (offset_ >= text_.size()) return;
-  const std::size_t end = std::min(text_.find('\n', offset_), text_.size());
+  std::size_t end = std::min(text_.find('\n', offset_), text_.size());
+  const std::size_t carriage = text_.substr(offset_, end - offset_).find('\r');
+  if (carriage != std::string_view::npos && offset_ + carriage + 1 != end) end = offset_ + carriage;
   std::string_view line = text_.substr(offset_, end - offset_);
   offset_ = end + 1;
   ++line_;
@@ -34,8 +36,9 @@ void LineScanner::appendTokens() {
   std::size_t stop = 0;
   while (stop < line.size()) {
     const std::size_t begin = std::min(line.find_first_not_of(syntax_.separators, stop), line.size());
-    checkGap(line.substr(stop, begin - stop));
-    if (begin == line.size() || (syntax_.comment != '\0' && line[begin] == syntax_.comment)) return;
+    const bool at_end = begin == line.size() || (syntax_.comment != '\0' && line[begin] == syntax_.comment);
+    checkGap(line.substr(stop, begin - stop), at_end);
+    if (at_end) return;
     stop = std::min(line.find_first_of(syntax_.separators, begin), line.size());
     tokens_.push_back(line.substr(begin, stop - begin));
     if (tokens_.size() == 1 && !syntax_.line_comment.empty() && tokens_[0].starts_with(syntax_.line_comment)) {
@@ -45,11 +48,17 @@ void LineScanner::appendTokens() {
   }
 }
 
-void LineScanner::checkGap(std::string_view gap) const {
+void LineScanner::checkGap(std::string_view gap, bool at_end) {
   if (syntax_.delimiters.empty()) return;
-  const auto count = std::count_if(gap.begin(), gap.end(),
-                                   [this](char c) { return syntax_.delimiters.find(c) != std::string_view::npos; });
-  if (count > (tokens_.empty() ? 0 : 1)) refuse("value " + std::to_string(tokens_.size() + 1) + " is empty");
+  char delimiter = '\0';  // blanks alone
+  for (const char c : gap) {
+    if (syntax_.delimiters.find(c) == std::string_view::npos) continue;
+    if (delimiter != '\0' || tokens_.empty()) refuse("value " + std::to_string(tokens_.size() + 1) + " is empty");
+    delimiter = c;
+  }
+  if (tokens_.empty() || at_end) return;
+  if (tokens_.size() == 1) delimiter_ = delimiter;
+  if (delimiter != delimiter_) refuse("values are separated in two ways; decimals need a point");
 }
 
 double LineScanner::number(std::size_t token) const {

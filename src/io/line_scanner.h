@@ -8,7 +8,8 @@
 
 namespace tufted::io {
 
-/// The lines of a text as tokens. Blank lines are passed over, `\r\n` ends a line as `\n` does.
+/// The lines of a text as tokens. Blank lines are passed over; `\n`, `\r\n` and a lone `\r` end
+/// a line.
 class LineScanner {
  public:
   struct Syntax {
@@ -48,14 +49,16 @@ class LineScanner {
 
  private:
   void appendTokens();
-  /// Refuses what lies between two tokens if it holds an empty field.
-  void checkGap(std::string_view gap) const;
+  /// Refuses what lies before the next token or the end of the line if it holds an empty field, or another delimiter
+  /// than lies between the first two tokens.
+  void checkGap(std::string_view gap, bool at_end);
 
   const std::filesystem::path& path_;
   std::string_view text_;
   Syntax syntax_;
   std::size_t offset_ = 0;
   std::int64_t line_ = 0;
+  char delimiter_ = '\0';
   std::vector<std::string_view> tokens_;
 };
 

@@ -37,7 +37,7 @@ class ObjReader {
     geometry.points = Eigen::Map<const Points>(coordinates_.data(), geometry.width, 3);
     if (normals_are_of_vertices_ && normals_.size() == coordinates_.size())
       geometry.normals = Eigen::Map<const Points>(normals_.data(), geometry.width, 3);
-    colors_.moveTo(geometry.fields);
+    colors_.moveTo(geometry.fields, false);
     setPolygons(path_, soup_, geometry);
     return geometry;
   }

@@ -44,9 +44,10 @@ class AsciiOff {
     geometry.points.resize(vertices_, 3);
     if (layout_.normals) geometry.normals.resize(vertices_, 3);
     for (std::int64_t v = 0; v < vertices_; ++v) readVertex(v, geometry);
-    colors_.moveTo(geometry.fields);
+    colors_.moveTo(geometry.fields, true);
     PolygonSoup soup;
     for (std::int64_t f = 0; f < faces_; ++f) readFace(soup);
+    // What follows is passed over, as other readers do: CGAL's prim.off has a face more than its header counts.
     setPolygons(path_, soup, geometry);
     return geometry;
   }
@@ -78,7 +79,8 @@ class AsciiOff {
       scanner_.refuse(std::to_string(layout_.behindNormal()) + " values expected for a vertex");
     const double w = layout_.homogeneous ? scanner_.number(3) : 1;
     for (int c = 0; c < 3; ++c) geometry.points(v, c) = scanner_.number(c) / w;
-    if (layout_.colors) colors_.add(scanner_, layout_.behindNormal());
+    // Colours also stand behind the coordinates of a plain OFF.
+    if (!layout_.texture) colors_.add(scanner_, layout_.behindNormal());
     if (!layout_.normals) return;
     for (int c = 0; c < 3; ++c) geometry.normals(v, c) = scanner_.number(layout_.normal() + c);
   }

@@ -29,11 +29,14 @@ void readAscii(const std::filesystem::path& path, std::string_view text, PcdHead
     for (Field& field : header.columns.fields) {
       const std::size_t size = sizeOf(field.type);
       for (int c = 0; c < field.count; ++c, ++token) {
-        if (!parseInto(scanner.tokens()[token], field.type, field.bytes.data() + (i * field.count + c) * size))
+        std::byte padding[sizeof(double)];
+        std::byte* const value = isPadding(field) ? padding : field.bytes.data() + (i * field.count + c) * size;
+        if (!parseInto(scanner.tokens()[token], field.type, value))
           scanner.refuse(quote(scanner.tokens()[token]) + " is not a number for the field " + quote(field.name));
       }
     }
   }
+  if (scanner.next()) scanner.refuse("more lines than the " + std::to_string(header.points) + " points of the header");
 }
 
 }  // namespace

@@ -12,18 +12,16 @@ namespace tufted::io {
 
 void readPcdBinary(const std::filesystem::path& path, std::string_view bytes, PcdHeader& header) {
   const std::size_t rest = bytes.size() - std::min(header.body, bytes.size());
-  // Both factors are checked: points < 2^31, row_bytes < 8e6 per field.
-  const std::uint64_t expected = static_cast<std::uint64_t>(header.points) * header.row_bytes;
-  if (expected > rest)
+  if (static_cast<std::uint64_t>(header.points) > rest / header.row_bytes)
     refuseByte(path, bytes.size(),
-               "ends there; " + std::to_string(header.points) + " points of " + std::to_string(header.row_bytes) +
-                   " bytes need " + std::to_string(header.body + expected));
+               "ends there, too short for " + std::to_string(header.points) + " points of " +
+                   std::to_string(header.row_bytes) + " bytes");
   allocate(header.columns, header.points);
   const char* value = bytes.data() + header.body;
   for (std::int64_t i = 0; i < header.points; ++i) {
     for (Field& field : header.columns.fields) {
       const std::size_t size = sizeOf(field.type) * field.count;
-      std::memcpy(field.bytes.data() + i * size, value, size);
+      if (!isPadding(field)) std::memcpy(field.bytes.data() + i * size, value, size);
       value += size;
     }
   }
@@ -41,25 +39,26 @@ void readPcdCompressed(const std::filesystem::path& path, std::string_view bytes
   if (sizes[0] > rest - sizeof(sizes))
     refuseByte(path, bytes.size(),
                "ends there; the compressed data need " + std::to_string(header.body + sizeof(sizes) + sizes[0]));
-  std::uint64_t expected = 0;
+  std::uint64_t row = 0;  // bytes of a point without padding
   for (const Field& field : header.columns.fields)
-    if (field.name != "_") expected += static_cast<std::uint64_t>(header.points) * sizeOf(field.type) * field.count;
-  if (sizes[1] != expected)
+    if (!isPadding(field)) row += sizeOf(field.type) * field.count;
+  const auto points = static_cast<std::uint64_t>(header.points);
+  if (points == 0 ? sizes[1] != 0 : sizes[1] % points != 0 || sizes[1] / points != row)
     refuseByte(path, header.body + 4,
-               "the compressed data hold " + std::to_string(sizes[1]) + " bytes, not the " + std::to_string(expected) +
-                   " of the header");
+               "the compressed data hold " + std::to_string(sizes[1]) + " bytes, not those of " +
+                   std::to_string(points) + " points of " + std::to_string(row) + " bytes");
   // LZF turns three bytes into 264 at best.
   if (static_cast<double>(sizes[1]) > 88.0 * sizes[0] + 264)
     refuseByte(path, header.body, "the compressed data are too short for what they are said to hold");
 
-  std::vector<char> columns(expected);
-  if (expected > 0 &&
+  std::vector<char> columns(sizes[1]);
+  if (sizes[1] > 0 &&
       pcl::lzfDecompress(bytes.data() + header.body + sizeof(sizes), sizes[0], columns.data(), sizes[1]) != sizes[1])
     refuseByte(path, header.body + sizeof(sizes), "the compressed data are damaged");
   allocate(header.columns, header.points);
   const char* column = columns.data();
   for (Field& field : header.columns.fields) {
-    if (field.name == "_" || field.bytes.empty()) continue;
+    if (field.bytes.empty()) continue;
     std::memcpy(field.bytes.data(), column, field.bytes.size());
     column += field.bytes.size();
   }

@@ -22,8 +22,7 @@ std::optional<FieldType> fieldType(char kind, std::int64_t size) {
 
 class PcdHeaderParser {
  public:
-  PcdHeaderParser(const std::filesystem::path& path, std::string_view text)
-      : scanner_(path, text, {.comment = '#'}) {}
+  PcdHeaderParser(const std::filesystem::path& path, std::string_view text) : scanner_(path, text, {.comment = '#'}) {}
 
   PcdHeader parse() {
     while (scanner_.next()) {

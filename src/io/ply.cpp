@@ -142,6 +142,7 @@ Geometry readPly(const std::filesystem::path& path, std::string_view bytes, bool
       skipElement(element, *body);
     }
   }
+  body->end();
   if (!has_vertices) refuseLine(path, header.line, "has no element 'vertex'");
   Geometry geometry = toGeometry(path, header.line, std::move(columns));
   geometry.viewpoint = viewpoint;

@@ -30,6 +30,10 @@ class AsciiPlyBody : public PlyBody {
       refuse(std::to_string(scanner_.tokens().size()) + " values where " + std::to_string(token_) + " are expected");
   }
 
+  void end() override {
+    if (scanner_.next()) refuse("more lines than the elements of the header");
+  }
+
   void value(FieldType type, std::byte* bytes) override {
     if (token_ == scanner_.tokens().size()) refuse("more values expected than " + std::to_string(token_));
     if (!parseInto(scanner_.tokens()[token_], type, bytes))
@@ -61,6 +65,7 @@ class BinaryPlyBody : public PlyBody {
 
   void beginItem(const PlyElement&) override { item_ = offset_; }
   void endItem() override {}
+  void end() override {}  // some programs pad
 
   void value(FieldType type, std::byte* bytes) override {
     const std::size_t size = sizeOf(type);

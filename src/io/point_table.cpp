@@ -20,11 +20,23 @@ bool fitsFloat(double value) {
   return static_cast<double>(static_cast<float>(value)) == value || std::isnan(value);
 }
 
+/// Whether a field of the input bears a name that normals have.
+bool namesNormals(const Geometry& geometry) {
+  constexpr const char* names[] = {"nx", "ny", "nz", "normal_x", "normal_y", "normal_z"};
+  return std::any_of(geometry.fields.begin(), geometry.fields.end(), [&](const Field& field) {
+    return std::find(std::begin(names), std::end(names), field.name) != std::end(names);
+  });
+}
+
 }  // namespace
 
 void PointTable::add(PointColumn column) {
-  const auto same = [&](const PointColumn& other) { return other.name == column.name; };
-  if (std::none_of(columns_.begin(), columns_.end(), same)) columns_.push_back(std::move(column));
+  const auto isTaken = [this](const std::string& name) {
+    return std::any_of(columns_.begin(), columns_.end(), [&](const PointColumn& other) { return other.name == name; });
+  };
+  const std::string name = column.name;
+  for (int copy = 2; isTaken(column.name); ++copy) column.name = name + "_" + std::to_string(copy);
+  columns_.push_back(std::move(column));
 }
 
 void PointTable::addTriple(const std::array<const char*, 3>& names, const Points& values, bool narrow) {
@@ -70,7 +82,7 @@ PointTable pointTable(const Laplacian& laplacian, const Geometry& geometry, cons
   table.addTriple({"x", "y", "z"}, geometry.points);
   if (geometry.normals.rows() > 0)
     table.addTriple(normal_names, geometry.normals);
-  else if (laplacian.frames.normals.rows() == geometry.points.rows())
+  else if (laplacian.frames.normals.rows() == geometry.points.rows() && !namesNormals(geometry))
     table.addTriple(normal_names, laplacian.frames.normals, true);
   for (const Field& field : geometry.fields) {
     const auto replaced = [&](const PointColumn& result) { return result.name == field.name; };

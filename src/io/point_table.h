@@ -23,7 +23,8 @@ struct PointColumn {
   std::size_t stride;  ///< bytes from one point to the next
 };
 
-/// What a file of points holds per point, each name once: the first to come has it. Values are borrowed.
+/// What a file of points holds per point, each name once: the second to come is
+/// called name_2. Values are borrowed.
 class PointTable {
  public:
   explicit PointTable(std::int64_t rows) : rows_(rows) {}

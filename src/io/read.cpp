@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cctype>
 #include <istream>
-#include <iterator>
 #include <new>
 #include <stdexcept>
 
@@ -120,7 +119,9 @@ Geometry read(const std::filesystem::path& path, ReadAs as, FileFormat format) {
 
 Geometry read(std::istream& stream, const std::string& name, ReadAs as, FileFormat format) {
   return withinMemory(name, [&] {
-    const std::string bytes(std::istreambuf_iterator<char>(stream), {});
+    std::string bytes;
+    for (char block[1 << 16]; stream.read(block, sizeof(block)) || stream.gcount() > 0;)
+      bytes.append(block, static_cast<std::size_t>(stream.gcount()));
     if (stream.bad()) io::refuse(name, "cannot be read");
     return parse(bytes, name, as, format);
   });

@@ -49,11 +49,11 @@ std::uint32_t binaryCount(std::string_view bytes) {
 }
 
 bool isBinary(std::string_view bytes) {
-  return bytes.size() >= header_bytes && bytes.size() == header_bytes + facet_bytes * binaryCount(bytes);
+  const std::size_t facets = facet_bytes * binaryCount(bytes);
+  return bytes.size() >= header_bytes + facets && bytes.size() < header_bytes + facets + facet_bytes;
 }
 
-/// Binary files may begin with `solid` as well, but only by chance has an ascii file the length that its count asks
-/// for.
+/// Binary files may begin with `solid` as well, but four letters as a count ask for more than 26 GB.
 bool isAscii(std::string_view bytes) {
   if (isBinary(bytes)) return false;
   const std::size_t begin = bytes.find_first_not_of(" \t\r\n");
@@ -67,6 +67,9 @@ void readBinary(const std::filesystem::path& path, std::string_view bytes, Soup&
     refuseByte(path, bytes.size(),
                "ends there; " + std::to_string(count) + " triangles need " +
                    std::to_string(header_bytes + facet_bytes * count));
+  if (bytes.size() >= header_bytes + facet_bytes * (count + 1))
+    refuseByte(path, header_bytes + facet_bytes * count,
+               "more than the " + std::to_string(count) + " triangles of the header");
   for (std::uint64_t f = 0; f < count; ++f) {
     float values[12];  // the normal, then the corners
     std::memcpy(values, bytes.data() + header_bytes + facet_bytes * f, sizeof(values));

@@ -1,5 +1,6 @@
 #include "io/vertex_colors.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstring>
 
@@ -21,7 +22,9 @@ void VertexColors::add(const LineScanner& scanner, std::size_t first) {
   }
 }
 
-void VertexColors::moveTo(std::vector<Field>& fields) {
+void VertexColors::moveTo(std::vector<Field>& fields, bool ones_are_bytes) {
+  if (!ones_are_bytes && std::none_of(values_.begin(), values_.end(), [](float value) { return value > 1; }))
+    are_bytes_ = false;
   constexpr const char* names[] = {"red", "green", "blue", "alpha"};
   for (std::size_t c = 0; c < count_; ++c) {
     Field field = {names[c], are_bytes_ ? FieldType::uint8 : FieldType::float32, 1, {}};

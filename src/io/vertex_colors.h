@@ -9,13 +9,14 @@
 namespace tufted::io {
 
 /// The colours that OFF and OBJ put behind the values of a vertex: three or four numbers, the same count for all
-/// vertices. Integers up to 255 become uint8 fields red, green, blue (alpha), others float32.
+/// vertices. They become fields red, green, blue (alpha).
 class VertexColors {
  public:
   /// Takes the tokens of the next vertex's line from number `first` on. @throws IoError naming the line
   void add(const LineScanner& scanner, std::size_t first);
-  /// Appends the fields; none where a vertex has no colour.
-  void moveTo(std::vector<Field>& fields);
+  /// Appends the fields; none where a vertex has no colour. Integers up to 255 become uint8, others float32.
+  /// @param ones_are_bytes whether integers of which none exceeds 1 are bytes (OFF) or parts of 1 (OBJ)
+  void moveTo(std::vector<Field>& fields, bool ones_are_bytes);
 
  private:
   std::size_t vertices_ = 0;

@@ -2,6 +2,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstring>
+#include <optional>
 
 #include "io/columns.h"
 #include "io/errors.h"
@@ -41,12 +42,13 @@ std::string lower(std::string_view text) {
 Numbers readNumbers(const std::filesystem::path& path, std::string_view text) {
   LineScanner scanner(path, text, syntax);
   Numbers numbers;
-  std::int64_t announced = -1;
+  std::optional<std::int64_t> announced;
   while (scanner.next()) {
     const auto& tokens = scanner.tokens();
     if (numbers.columns == 0) {
-      if (tokens.size() == 1 && announced < 0) {  // some writers put the number of points first
+      if (tokens.size() == 1 && !announced) {  // some writers put the number of points first
         announced = scanner.integer(0);
+        if (*announced < 0) scanner.refuse("a number of points below zero");
         continue;
       }
       if (numbers.names.empty() && isHeading(tokens)) {
@@ -65,9 +67,9 @@ Numbers readNumbers(const std::filesystem::path& path, std::string_view text) {
     for (std::size_t t = 0; t < tokens.size(); ++t) numbers.values.push_back(scanner.number(t));
   }
   if (numbers.columns == 0) scanner.refuse("holds no points up to there");
-  if (announced >= 0 && static_cast<std::uint64_t>(announced) > numbers.rows())
+  if (announced && static_cast<std::uint64_t>(*announced) > numbers.rows())
     refuseLine(path, scanner.line(),
-               "ends after " + std::to_string(numbers.rows()) + " of " + std::to_string(announced) + " points");
+               "ends after " + std::to_string(numbers.rows()) + " of " + std::to_string(*announced) + " points");
   return numbers;
 }
 

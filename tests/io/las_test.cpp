@@ -170,6 +170,16 @@ TEST(Las, WhatCannotBeIsRefusedWithItsByte) {
   expect([](LasFile& file) { file.set<std::uint32_t>(100, 4'000'000'000u); }, "record 1 of 4000000000");
 }
 
+TEST(Las, NamesOfExtraBytesBecomeOneWord) {
+  LasFile file(4, 6, 3);
+  file.describe("Pulse width", 1);
+  file.describe("", 1);
+  file.describe("a\x01z ", 1);
+  file.addPoint(1, 2, 3);
+  const auto geometry = parse(file);
+  for (const char* name : {"Pulse_width", "extra_2", "a_z"}) EXPECT_NE(fieldNamed(geometry, name), nullptr) << name;
+}
+
 TEST(Las, AnExtraValueBeyondThePointIsRefused) {
   LasFile file(4, 6, 1);
   file.describe("height", 10);

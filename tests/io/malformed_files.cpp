@@ -40,13 +40,6 @@ LasFile las() {
   return file;
 }
 
-/// A LAS file whose header counts `points`.
-std::string lasCounting(std::uint64_t points) {
-  LasFile file = las();
-  file.set(247, points);
-  return file.bytes();
-}
-
 template <class T>
 std::string packed(std::initializer_list<T> values, bool big_endian = false) {
   std::string bytes;
@@ -57,6 +50,35 @@ std::string packed(std::initializer_list<T> values, bool big_endian = false) {
     bytes.append(raw, sizeof(T));
   }
   return bytes;
+}
+
+/// Padding that the header makes large and the compressed data leave out.
+std::string paddingBomb() {
+  std::string bytes =
+      "FIELDS x y z _\nSIZE 1 1 1 8\nTYPE I I I F\nCOUNT 1 1 1 1000000\nWIDTH 200\nHEIGHT 1\nPOINTS 200\n"
+      "DATA binary_compressed\n";
+  bytes += packed<std::uint32_t>({12, 601}) + std::string(12, '\0');
+  return bytes;
+}
+
+/// Points of 2^34 bytes, and so many that all bytes are a multiple of 2^64.
+std::string overflowing() {
+  std::string names = "FIELDS x y z", sizes = "SIZE 4 4 4", types = "TYPE F F F", counts = "COUNT 1 1 1";
+  std::int64_t rest = (std::int64_t{1} << 34);
+  for (; rest > 0; rest -= std::min<std::int64_t>(rest, 8'000'000)) {
+    names += " _";
+    sizes += " 8";
+    types += " F";
+    counts += " " + std::to_string(std::min<std::int64_t>(rest, 8'000'000) / 8);
+  }
+  return names + "\n" + sizes + "\n" + types + "\n" + counts + "\nWIDTH 1073741824\nHEIGHT 1\nDATA binary\n";
+}
+
+/// A LAS file whose header counts `points`.
+std::string lasCounting(std::uint64_t points) {
+  LasFile file = las();
+  file.set(247, points);
+  return file.bytes();
 }
 
 const char* const square_text = "0.5 0 0\n1.5 0 0\n1.5 1 0\n0.5 1 0\n";
@@ -106,14 +128,14 @@ std::vector<Malformed> malformedFiles() {
       {"huge_width.pcd", pcd("1 1 1", "99999999999", "1", "99999999999", "ascii") + "1 2 3\n", "2^31"},
       {"beyond_64_bits.pcd", pcd("1 1 1", "99999999999999999999", "1", "1", "ascii"), "is not an integer"},
       {"huge.pcd", pcd("1 1 1", "2000000000", "1", "2000000000", "ascii") + "1 2 3\n", "too short"},
-      {"huge_binary.pcd", pcd("1 1 1", "2000000000", "1", "2000000000", "binary") + "abc", "need"},
+      {"huge_binary.pcd", pcd("1 1 1", "2000000000", "1", "2000000000", "binary") + "abc", "too short"},
       {"mismatch.pcd", pcd("1 1 1", "2", "2", "3", "ascii") + "1 2 3\n1 2 3\n1 2 3\n", "WIDTH"},
       {"words.pcd", pcd("1 1 1", "1", "1", "1", "ascii") + "a b c\n", "line 11: 'a' is not a number"},
       {"short_line.pcd", pcd("1 1 1", "2", "1", "2", "ascii") + "1.0 2.0 3.0\n1.0 2.0\n", "line 12: 2 values"},
       {"few_lines.pcd", pcd("1 1 1", "2", "1", "2", "ascii") + "1.00000 2.00000 3.00000\n", "1 of 2 points"},
       {"truncated.pcd", pcd("1 1 1", "2", "1", "2", "binary") + std::string(20, '\0'), "ends there"},
       {"compressed_short.pcd", compressed(1000, 900), "compressed data need"},
-      {"compressed_bomb.pcd", compressed(8, 4000000000u), "not the 900"},
+      {"compressed_bomb.pcd", compressed(8, 4000000000u), "not those of 75 points"},
       {"compressed_garbage.pcd", compressed(8, 900), "damaged"},
       {"no_xyz.pcd", "FIELDS a b\nSIZE 4 4\nTYPE F F\nWIDTH 1\nHEIGHT 1\nDATA ascii\n1 2\n", "x, y, z"},
       {"bad_type.pcd", "FIELDS x y z\nSIZE 2 2 2\nTYPE F F F\nWIDTH 1\nHEIGHT 1\nDATA ascii\n1 2 3\n", "SIZE"},
@@ -146,7 +168,9 @@ std::vector<Malformed> malformedFiles() {
       {"short.xyz", "1 2 3\n1 2\n", "line 2: 2 values"},
       {"two_columns.xyz", "1 2\n", "line 1"},
       {"announced.pwn", "3\n1 2 3\n", "1 of 3 points"},
-      {"comma.xyz", "1,5 2,5 3,5\nx\n", "line 2"},
+      {"comma.xyz", "1,5 2,5 3,5\n", "line 1: values are separated in two ways"},
+      {"commas.xyz", "1,5;2,5;3,5\n", "line 1: values are separated in two ways"},
+      {"below_zero.xyz", "-5\n1 2 3\n", "line 1: a number of points below zero"},
       {"index.obj", "v 0 0 0\nv 1 0 0\nf 1 2 3\n", "line 3: a face names vertex 2"},
       {"zero.obj", "v 0 0 0\nf 0 1 1\n", "line 2"},
       {"negative.obj", "v 0 0 0\nf -1 -2 1\n", "line 2"},
@@ -201,6 +225,13 @@ std::vector<Malformed> malformedFiles() {
       {"junk.obj", std::string(300, '\x7f'), "line 1"},
       {"junk.xyz", std::string(300, '\x7f'), "line 1"},
       {"junk.stl", std::string(300, '\x7f'), "byte 300"},
+      {"padding_bomb.pcd", paddingBomb(), "byte 118: the compressed data hold 601 bytes"},
+      {"overflow.pcd", overflowing(), "too short for 1073741824 points of 17179869196 bytes"},
+      {"more_lines.pcd", pcd("1 1 1", "1", "1", "1", "ascii") + "1 2 3\n4 5 6\n", "line 12: more lines"},
+      {"more_lines.ply", ply("1", "0", "1 2 3\n4 5 6\n"), "line 11: more lines"},
+      {"zeros.stl", std::string(1000, '\0'), "byte 84: more than the 0 triangles"},
+      {"more.stl", std::string(80, 'x') + packed<std::uint32_t>({1}) + std::string(250, '\0'),
+       "byte 134: more than the 1"},
       {"a.docx", "PK", "unknown file type '.docx'"},
       {"none", "PK\3\4", "no extension"},
   };

@@ -44,6 +44,16 @@ TEST(Xyz, UnitVectorsInColumnsFourToSixAreNormalsAndColoursAreFields) {
   EXPECT_EQ(announced.normals(0, 2), 5);
 }
 
+TEST(Xyz, EveryEndOfLineEndsALine) {
+  for (const char* text : {"1 2 3\n4 5 6\n", "1 2 3\r\n4 5 6\r\n", "1 2 3\r4 5 6\r", "1 2 3\r4 5 6"}) {
+    const auto geometry = tufted::parse(text, "a.xyz");
+    ASSERT_EQ(geometry.points.rows(), 2) << text;
+    EXPECT_EQ(geometry.points(1, 2), 6);
+    EXPECT_TRUE(geometry.fields.empty());
+  }
+  EXPECT_EQ(tufted::parse("v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3\r", "a.obj").triangles.rows(), 1);
+}
+
 TEST(Xyz, AFirstLineOfNamesNamesTheColumns) {
   const TemporaryDir dir;
   const auto geometry = tufted::read(dir.write("a.csv", "Intensity,X,Y,Z\n9,1,2,3\n8,4,5,6\n"));
@@ -124,6 +134,12 @@ TEST(Off, ColoursOfAllVerticesAreFieldsInBothForms) {
   EXPECT_EQ(valuesOf<float>(*fieldNamed(floats, "red")), (std::vector<float>{0.5f}));
 }
 
+TEST(Off, ColoursOfAPlainOffAreKept) {
+  const auto geometry = tufted::parse("OFF 2 0 0\n0 0 0 1 0 1\n1 0 0 0 1 1\n", "a.off");
+  ASSERT_NE(fieldNamed(geometry, "blue"), nullptr);
+  EXPECT_EQ(valuesOf<std::uint8_t>(*fieldNamed(geometry, "blue")), (std::vector<std::uint8_t>{1, 1}));
+}
+
 TEST(Off, ColoursMayBeMissingAndHomogeneousVerticesAreDivided) {
   const TemporaryDir dir;
   const auto coloured = tufted::read(dir.write("c.off", "COFF 3 1 0\n0 0 0 255 0 0\n1 0 0\n0 1 0 3\n3 0 1 2\n"));
@@ -139,6 +155,14 @@ TEST(Obj, ColoursAndNormalsOfVerticesAreKept) {
   EXPECT_EQ(valuesOf<float>(*fieldNamed(cloud, "green")), (std::vector<float>{0.5f, 0}));
   ASSERT_EQ(cloud.normals.rows(), 2);
   EXPECT_EQ(cloud.normals.row(1), Eigen::RowVector3d(0, 1, 0));
+}
+
+TEST(Obj, ColoursArePartsOfOne) {
+  const auto ones = tufted::parse("v 0 0 0 1 0 0\nv 1 0 0 0 1 0\n", "a.obj");
+  ASSERT_NE(fieldNamed(ones, "red"), nullptr);
+  EXPECT_EQ(valuesOf<float>(*fieldNamed(ones, "red")), (std::vector<float>{1, 0}));
+  const auto bytes = tufted::parse("v 0 0 0 255 0 0\n", "a.obj");
+  EXPECT_EQ(valuesOf<std::uint8_t>(*fieldNamed(bytes, "red")), (std::vector<std::uint8_t>{255}));
 }
 
 TEST(Obj, NormalsOfCornersAreNotThoseOfVertices) {

@@ -188,6 +188,22 @@ TEST(WritePcd, TheSensorsPoseKeepsItsDoublesAndPclReadsIt) {
   EXPECT_EQ(orientation.coeffs(), Eigen::Vector4f(0, 0.8f, 0, 0.6f));
 }
 
+TEST(WritePoints, FieldsOfOneNameAreAllKept) {
+  const TemporaryDir dir;
+  auto geometry = tufted::parse("x,y,z,a,a,nx\n0,0,0,1,2,3\n1,0,0,4,5,6\n0,1,0,7,8,9\n1,1,0,10,11,12\n", "a.csv");
+  tufted::Laplacian laplacian = sampleLaplacian();
+  laplacian.frames.normals = laplacian.frames.tangents = geometry.points;
+  tufted::writeLaplacian(dir / "out", laplacian, geometry, both);
+  for (const char* name : {"points.ply", "points.pcd"}) {
+    const auto again = tufted::read(dir / "out" / name);
+    EXPECT_EQ(again.normals.rows(), 0) << name;  // the computed ones give way to what the input calls nx
+    for (const auto& [field, value] : {std::pair("a", 10.0), std::pair("a_2", 11.0), std::pair("nx", 12.0)}) {
+      ASSERT_NE(fieldNamed(again, field), nullptr) << name << ' ' << field;
+      EXPECT_EQ(valuesOf<double>(*fieldNamed(again, field))[3], value);
+    }
+  }
+}
+
 TEST(WritePly, CgalReadsFloatsAndNormals) {
   const TemporaryDir dir;
   tufted::Geometry geometry = nearby();
