@@ -27,7 +27,8 @@ constexpr const char* footer =
   on lines      points whose nearest neighbours lie on one line, as on the rings of a scanner
   outliers      points whose nearest neighbour is more than five times as far as is usual around them
   components    of the graph that joins each point with its nearest neighbours
-  to expect     time from that of the search in this run, memory from 1 kB per point)";
+  to expect     time from that of the search (clouds) or the build (meshes) in this run, memory from 1 kB per point
+  odd           what to know before trusting a result, one line each: not finite, coincident, outliers, ...)";
 
 // Whole build over the search for neighbours, and bytes per point at its peak, as tufted_bench measures them.
 constexpr double build_over_search = 3.5;
@@ -114,6 +115,7 @@ std::vector<std::string> findOddities(const Json& info) {
     if (info.contains(member) && info[member].get<std::int64_t>() > 0)
       odd.push_back(std::string(text) + ": " + std::to_string(info[member].get<std::int64_t>()));
   };
+  if (info["points"] == 0) odd.emplace_back("the file holds no points");
   add("not_finite", "points that are not finite and take no part");
   add("coincident", info["kind"] == "mesh" ? "vertices that equal another one and stay separate (--weld joins them)"
                                            : "points that equal an earlier one and take no part");
@@ -160,6 +162,10 @@ void print(const Json& info) {
   if (is_mesh) std::printf("; %lld triangles, %lld polygons triangulated", integer("triangles"), integer("polygons"));
   std::printf("\n");
   printFields(info);
+  if (info["merged_vertices"].get<std::int64_t>() > 0)
+    std::printf("%-15s %lld equal vertices\n", "merged", integer("merged_vertices"));
+  if (info["viewpoint"] != Json(tufted::Geometry().viewpoint))
+    std::printf("%-15s %s\n", "viewpoint", info["viewpoint"].dump().c_str());
   printTriple("lowest", info["lowest"]);
   printTriple("highest", info["highest"]);
   std::printf("%-15s %.4g (%.4g to %.4g)\n", "spacing", real("spacing"), real("spacing_low"), real("spacing_high"));

@@ -40,8 +40,9 @@ constexpr const char* footer = R"(Sign and scale:
   positive mass.
 
 Reads PCD, PLY, LAS and text in columns (clouds), PLY, OBJ, OFF and STL (meshes; OBJ and OFF without faces are clouds).
-The format goes by the extension, .pcd .ply .las .xyz .xyzn .pwn .txt .csv .asc .pts .obj .off .coff .noff .stl, and where that is
-unknown by the content. Normals of a file are used for L and M with --normals alone; points.ply and points.pcd pass them on.
+The format goes by the extension, .pcd .ply .las .xyz .xyzn .pwn .txt .csv .asc .pts .obj .off .coff .noff .stl, and
+where that is unknown by the content. Normals of a file are used for L and M with --normals alone; points.ply and
+points.pcd pass them on.
 
 Writes into DIR, renamed one after the other when all are complete; files of other formats there stay:
   report.json         what happened, with options, sign and scale
