@@ -50,6 +50,18 @@ bool isActive(const Laplacian& laplacian, Index i) {
   return laplacian.status[i] == PointStatus::active;
 }
 
+/// Whether the columns lie one after the other in what is stored; else they cannot be walked along.
+void checkColumns(const SparseMatrix& L, Promise& storage) {
+  if (!L.isCompressed()) return storage.brokenBy("L is not compressed");
+  const int* start = L.outerIndexPtr();
+  if (start[0] != 0) storage.brokenBy("column 0 starts at ", start[0]);
+  for (Index j = 0; j < L.cols(); ++j) {
+    if (start[j + 1] < start[j]) storage.brokenBy("column ", j, " starts at ", start[j], " and ends at ", start[j + 1]);
+  }
+  const Index stored = L.data().size();
+  if (start[L.cols()] != stored) storage.brokenBy("the columns end at ", start[L.cols()], " of ", stored, " entries");
+}
+
 /// Sizes, indices and codes. False where the rest cannot be looked at.
 bool checkShape(const Laplacian& laplacian, std::vector<std::string>& faults) {
   Promise size("size"), storage("storage"), status("status");
@@ -67,8 +79,8 @@ bool checkShape(const Laplacian& laplacian, std::vector<std::string>& faults) {
     expect("normals", laplacian.frames.normals.rows());
     expect("tangents", laplacian.frames.tangents.rows());
   }
-  if (!L.isCompressed()) storage.brokenBy("L is not compressed");
-  for (Index j = 0; j < L.cols(); ++j) {
+  checkColumns(L, storage);
+  for (Index j = 0; j < L.cols() && storage.count() == 0; ++j) {
     Index previous = -1;
     for (SparseMatrix::InnerIterator it(L, j); it; ++it) {
       if (it.row() >= L.rows()) storage.brokenBy("column ", j, " has the row ", it.row());

@@ -57,11 +57,20 @@ bool checkSizes(const Laplacian& laplacian, Eigen::Index n, std::vector<std::str
   return broken.empty();
 }
 
+/// False when L cannot be walked along.
+bool checkColumns(const SparseMatrix& L, std::vector<std::string>& broken) {
+  Breach storage("storage");
+  if (!L.isCompressed()) storage.at("not compressed");
+  const int *begin = L.outerIndexPtr(), *end = begin + L.cols();
+  if (*begin != 0 || *end != L.data().size() || !std::is_sorted(begin, end + 1)) storage.at("columns");
+  storage.addTo(broken);
+  return broken.empty();
+}
+
 void checkEntries(const Laplacian& laplacian, std::vector<std::string>& broken) {
   const SparseMatrix& L = laplacian.L;
   Breach storage("storage"), finite("finite"), sign("off-diagonal sign"), row_sum("row sum");
   Breach diagonal_sign("positive diagonal"), inactive("inactive is zero");
-  if (!L.isCompressed()) storage.at("not compressed");
   for (Eigen::Index j = 0; j < L.cols(); ++j) {
     double diagonal = 0, off_diagonal = 0;
     Eigen::Index entries = 0, previous = -1;
@@ -249,7 +258,7 @@ void checkFrames(const Laplacian& laplacian, std::vector<std::string>& broken) {
 
 std::vector<std::string> brokenGuarantees(const Laplacian& laplacian, const Points& points) {
   std::vector<std::string> broken;
-  if (!checkSizes(laplacian, points.rows(), broken)) return broken;
+  if (!checkSizes(laplacian, points.rows(), broken) || !checkColumns(laplacian.L, broken)) return broken;
   checkEntries(laplacian, broken);
   checkSymmetry(laplacian.L, broken);
   checkDefinite(laplacian, broken);

@@ -61,6 +61,11 @@ std::vector<Planted> planted() {
          std::swap(l.L.innerIndexPtr()[0], l.L.innerIndexPtr()[1]);
          std::swap(l.L.valuePtr()[0], l.L.valuePtr()[1]);
        }},
+      {"ColumnsStartLate", "storage", [](Laplacian& l) { l.L.outerIndexPtr()[0] = 1; }},
+      {"AColumnEndsBeforeItStarts", "storage", [](Laplacian& l) { l.L.outerIndexPtr()[7] = INT32_MAX; }},
+      {"AColumnStartsBeforeAll", "storage", [](Laplacian& l) { l.L.outerIndexPtr()[7] = -1'000'000; }},
+      {"ColumnsEndBeyondTheEntries", "storage", [](Laplacian& l) { l.L.outerIndexPtr()[l.L.cols()] = INT32_MAX; }},
+      {"ColumnsEndEarly", "storage", [](Laplacian& l) { --l.L.outerIndexPtr()[l.L.cols()]; }},
       {"NotFiniteInL", "finite", [](Laplacian& l) { l.L.coeffRef(0, 0) = INFINITY; }},
       {"NotFiniteInM", "finite", [](Laplacian& l) { l.M[3] = NAN; }},
       {"PositiveOffDiagonal", "off-diagonal sign", [](Laplacian& l) { l.L.coeffRef(neighborOfFirst(l), 0) = 1e-300; }},
