@@ -6,6 +6,7 @@
 #include <string>
 
 #include "base/parallel.h"
+#include "operators/lower_triangle.h"
 #include "tufted/errors.h"
 
 namespace tufted {
@@ -14,8 +15,6 @@ namespace {
 /// A mass below this part of its row of t L is lost when the two are added: raised to it, the matrix stays positive
 /// definite and an M-matrix, so the maximum principle survives any step and any two components of unlike size.
 constexpr double least_mass = 1e-13;
-
-constexpr int not_free = -1;
 
 void checkArguments(const Laplacian& laplacian, const Points& points, const SmoothingOptions& options) {
   const std::string name = "smooth: ";
@@ -44,51 +43,30 @@ void checkArguments(const Laplacian& laplacian, const Points& points, const Smoo
   }
 }
 
-/// The points that move, numbered in the caller's order; all others are `not_free`.
-struct FreePoints {
-  std::vector<int> number;  ///< N
-  std::vector<int> point;   ///< by number
-};
-
-FreePoints freePoints(const Laplacian& laplacian, const std::vector<std::uint8_t>* fixed) {
-  FreePoints free;
+/// The points that move.
+Selection freePoints(const Laplacian& laplacian, const std::vector<std::uint8_t>* fixed) {
   const int n = static_cast<int>(laplacian.status.size());
-  free.number.assign(laplacian.status.size(), not_free);
+  Selection free(laplacian.status.size());
   std::vector<std::uint8_t> stays(laplacian.status.size(), 0);
   for (int i = 0; fixed != nullptr && i < n; ++i) stays[laplacian.representative[i]] |= (*fixed)[i];
   for (int i = 0; i < n; ++i) {
-    if (laplacian.status[i] != PointStatus::active || stays[i] != 0) continue;
-    free.number[i] = static_cast<int>(free.point.size());
-    free.point.push_back(i);
+    if (laplacian.status[i] == PointStatus::active && stays[i] == 0) free.add(i);
   }
   return free;
 }
 
 /// Lower triangle of M / (t h^2) + L over the free points, h the mean edge.
-SparseMatrix systemMatrix(const Laplacian& laplacian, const FreePoints& free, double time_step) {
+LongMatrix systemMatrix(const Laplacian& laplacian, const Selection& free, double time_step) {
   const double h = laplacian.report.mean_edge;
-  const int n = static_cast<int>(free.point.size());
-  SparseMatrix system(n, n);
-  system.reserve(laplacian.L.nonZeros() / 2 + n);
-  for (int j = 0; j < n; ++j) {
-    const int point = free.point[j];
-    system.startVec(j);
-    for (SparseMatrix::InnerIterator entry(laplacian.L, point); entry; ++entry) {
-      const int i = free.number[entry.row()];
-      if (i < j) continue;
-      double value = entry.value();
-      // Divided one by one: h^2 may not fit a double.
-      if (i == j) value += std::max(laplacian.M[point] / h / h / time_step, least_mass * value);
-      system.insertBack(i, j) = value;
-    }
-  }
-  system.finalize();
-  return system;
+  return lowerTriangle(laplacian.L, free, [&](int i, int j, double value) {
+    // Divided one by one: h^2 may not fit a double.
+    return i == j ? value + std::max(laplacian.M[i] / h / h / time_step, least_mass * value) : value;
+  });
 }
 
 /// -L (x + moved) of one coordinate at the free points. From differences of neighbours alone, as the rows of L sum to
 /// 0, so distance from the origin costs no digits.
-VectorXd pull(const Laplacian& laplacian, const FreePoints& free, const Points& points, const Points& moved, int axis) {
+VectorXd pull(const Laplacian& laplacian, const Selection& free, const Points& points, const Points& moved, int axis) {
   VectorXd result(static_cast<Eigen::Index>(free.point.size()));
   for (Eigen::Index k = 0; k < result.size(); ++k) {
     const int i = free.point[k];
@@ -108,12 +86,12 @@ VectorXd pull(const Laplacian& laplacian, const FreePoints& free, const Points& 
 Points smooth(const Laplacian& laplacian, const Points& points, const SmoothingOptions& options) {
   checkArguments(laplacian, points, options);
   const Workers workers(options.threads, options.progress);
-  const FreePoints free = freePoints(laplacian, options.fixed);
+  const Selection free = freePoints(laplacian, options.fixed);
   Points result = points;
   if (free.point.empty() || options.time_step == 0) return result;
 
   workers.report("factor", 0);
-  const Eigen::SimplicialLDLT<SparseMatrix> solver(systemMatrix(laplacian, free, options.time_step));
+  const Eigen::SimplicialLDLT<LongMatrix> solver(systemMatrix(laplacian, free, options.time_step));
   if (solver.info() != Eigen::Success || !(solver.vectorD().minCoeff() > 0)) {
     throw SolverFailure("smooth: M + t L of " + std::to_string(free.point.size()) +
                         " free points is not positive definite");

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "operators/assemble.h"
+#include "operators/lower_triangle.h"
 
 namespace tufted {
 namespace {
@@ -159,28 +160,14 @@ void checkRows(const Laplacian& laplacian, const VectorXd& diagonal, LaplacianCh
 
 /// The lower triangle of D^-1/2 L D^-1/2 + shift of the active points, D = diag(L). The scaling alone changes no sign
 /// of a pivot; it keeps tiny and huge weights clear of underflow and overflow.
-template <class Matrix>
-Matrix scaledLower(const Laplacian& laplacian, const VectorXd& diagonal) {
-  const SparseMatrix& L = laplacian.L;
-  std::vector<Index> number(laplacian.status.size(), -1);
-  Index active = 0;
-  for (Index i = 0; i < L.cols(); ++i) {
-    if (isActive(laplacian, i)) number[i] = active++;
+LongMatrix scaledLower(const Laplacian& laplacian, const VectorXd& diagonal) {
+  Selection active(laplacian.status.size());
+  for (int i = 0; i < static_cast<int>(laplacian.status.size()); ++i) {
+    if (isActive(laplacian, i)) active.add(i);
   }
-  Matrix lower(active, active);
-  lower.reserve((L.nonZeros() + active) / 2);
-  for (Index j = 0; j < L.cols(); ++j) {
-    if (number[j] < 0) continue;
-    lower.startVec(number[j]);
-    for (SparseMatrix::InnerIterator it(L, j); it; ++it) {
-      const Index i = it.row();
-      if (i < j || number[i] < 0) continue;
-      const double scaled = it.value() / std::sqrt(diagonal[i]) / std::sqrt(diagonal[j]);
-      lower.insertBack(number[i], number[j]) = i == j ? 1 + shift : scaled;
-    }
-  }
-  lower.finalize();
-  return lower;
+  return lowerTriangle(laplacian.L, active, [&](int i, int j, double value) {
+    return i == j ? 1 + shift : value / std::sqrt(diagonal[i]) / std::sqrt(diagonal[j]);
+  });
 }
 
 void checkDefinite(const Laplacian& laplacian, const VectorXd& diagonal, LaplacianCheck& check) {
@@ -188,10 +175,8 @@ void checkDefinite(const Laplacian& laplacian, const VectorXd& diagonal, Laplaci
     check.faults.emplace_back("definite: not with entries that are not finite or diagonals that are not positive");
     return;
   }
-  // The factor of a large cloud may have more than 2^31 entries.
-  using LongMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, std::int64_t>;
   Eigen::SimplicialLLT<LongMatrix, Eigen::Lower> factor;
-  const auto lower = scaledLower<LongMatrix>(laplacian, diagonal);
+  const LongMatrix lower = scaledLower(laplacian, diagonal);
   if (lower.rows() > 0) factor.compute(lower);
   check.definite = lower.rows() == 0 || factor.info() == Eigen::Success;
   if (!check.definite) check.faults.emplace_back("definite: L + 1e-12 diag(L) has no Cholesky factor");
