@@ -44,6 +44,7 @@ struct Report {
   // Cover
   std::int64_t triangles = 0;         ///< triangles under the cover, all copies counted; the cover has twice as many
   double mean_edge = 0;               ///< mean length over the triangles' sides, before mollification
+  double mean_squared_edge = 0;       ///< mean of their squares, the unit of the smoothing's time
   double mollify_length = 0;          ///< length added to every edge (Section 4.5)
   std::int64_t degenerate_faces = 0;  ///< cover faces of no area even after mollification; they contribute nothing
   std::int64_t flips = 0;             ///< intrinsic edge flips

@@ -10,8 +10,8 @@
 namespace tufted {
 
 struct SmoothingOptions {
-  /// t >= 0 in squares of report.mean_edge (the square of the mean, not the mean of squares). A wave of length
-  /// 2 pi sqrt(t) mean edges loses half its height in a step, shorter ones more.
+  /// t >= 0 in units of the mean squared edge length, report.mean_squared_edge. A wave of length 2 pi sqrt(t) times the
+  /// root of that unit loses half its height in a step, shorter ones more.
   double time_step = 1;
   int iterations = 1;                                ///< steps >= 1, all with the Laplacian given
   const std::vector<std::uint8_t>* fixed = nullptr;  ///< N; points other than 0 stay where they are; borrowed

@@ -55,12 +55,14 @@ Selection freePoints(const Laplacian& laplacian, const std::vector<std::uint8_t>
   return free;
 }
 
-/// Lower triangle of M / (t h^2) + L over the free points, h the mean edge.
+/// Lower triangle of M / t + L over the free points, t with its unit.
 LongMatrix systemMatrix(const Laplacian& laplacian, const Selection& free, double time_step) {
-  const double h = laplacian.report.mean_edge;
+  const double unit = laplacian.report.mean_squared_edge;
   return lowerTriangle(laplacian.L, free, [&](int i, int j, double value) {
-    // Divided one by one: h^2 may not fit a double.
-    return i == j ? value + std::max(laplacian.M[i] / h / h / time_step, least_mass * value) : value;
+    if (i != j) return value;
+    // Divided one by one, as the product may not fit a double. Where unit and mass both underflow, the least mass wins
+    // over the NaN because it stands first.
+    return value + std::max(least_mass * value, laplacian.M[i] / unit / time_step);
   });
 }
 

@@ -1,6 +1,5 @@
 #include "intrinsic/cover.h"
 
-#include <numeric>
 #include <vector>
 
 namespace tufted {
@@ -22,21 +21,29 @@ void addTriangle(IntrinsicTriangulation& cover, int t, int i, int j, int k) {
   cover.faces[2 * t + 1] = {i, k, j};
 }
 
-double measureLengths(IntrinsicTriangulation& cover, const Points& points, const Workers& workers) {
+MeanLengths measureLengths(IntrinsicTriangulation& cover, const Points& points, const Workers& workers) {
   const std::int64_t triangles = cover.size() / 2;
-  std::vector<double> sums((triangles + block_size - 1) /
-                           block_size);  // per block, so that the mean has the same bits always
+  // Per block, so that the means have the same bits always.
+  std::vector<MeanLengths> sums((triangles + block_size - 1) / block_size);
   workers.forBlocks("lengths", triangles, block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    MeanLengths& sum = sums[begin / block_size];
     for (int t = static_cast<int>(begin); t < end; ++t) {
       const auto& corner = cover.faces[2 * t];
       for (int s = 0; s < 3; ++s) {
         const double length = (points.row(corner[s]) - points.row(corner[(s + 1) % 3])).norm();
         cover.length[frontSide(t, s)] = cover.length[backSide(t, s)] = length;
-        sums[begin / block_size] += length;
+        sum.length += length;
+        sum.square += length * length;
       }
     }
   });
-  return triangles > 0 ? std::accumulate(sums.begin(), sums.end(), 0.0) / static_cast<double>(3 * triangles) : 0;
+  MeanLengths mean;
+  const auto sides = static_cast<double>(3 * triangles);
+  for (const MeanLengths& sum : sums) {
+    mean.length += sum.length;
+    mean.square += sum.square;
+  }
+  return triangles > 0 ? MeanLengths{mean.length / sides, mean.square / sides} : mean;
 }
 
 }  // namespace tufted

@@ -52,8 +52,14 @@ struct EdgeCounts {
 EdgeCounts glueEdges(IntrinsicTriangulation& cover, const Points& points, const EdgeOrder& order,
                      const Workers& workers, std::vector<std::uint8_t>* boundary = nullptr);
 
-/// Euclidean lengths of all sides (MEASUREEDGELENGTHS). Returns their mean over the triangles' sides.
-double measureLengths(IntrinsicTriangulation& cover, const Points& points, const Workers& workers);
+/// Means over the triangles' sides; 0 without a triangle.
+struct MeanLengths {
+  double length = 0;
+  double square = 0;
+};
+
+/// Euclidean lengths of all sides (MEASUREEDGELENGTHS).
+MeanLengths measureLengths(IntrinsicTriangulation& cover, const Points& points, const Workers& workers);
 
 /// Section 4.5: adds to all lengths the least amount that leaves every triangle inequality a slack of `delta`.
 /// Returns that amount.

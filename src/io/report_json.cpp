@@ -34,6 +34,7 @@ Json reportObject(const Report& report) {
       {"nonmanifold_edges", report.nonmanifold_edges},
       {"triangles", report.triangles},
       {"mean_edge", report.mean_edge},
+      {"mean_squared_edge", report.mean_squared_edge},
       {"mollify_length", report.mollify_length},
       {"degenerate_faces", report.degenerate_faces},
       {"flips", report.flips},

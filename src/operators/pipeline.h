@@ -43,8 +43,8 @@ void finishLaplacian(std::shared_ptr<IntrinsicTriangulation> cover, const Points
                      const std::vector<int>& caller, int exponent, double scale, const Options& options,
                      const Workers& workers, StageClock& clock, Laplacian& result) {
   Report& report = result.report;
-  const double mean_edge = measureLengths(*cover, points, workers);
-  const double added = mollify(*cover, options.mollify * mean_edge, workers);
+  const MeanLengths mean = measureLengths(*cover, points, workers);
+  const double added = mollify(*cover, options.mollify * mean.length, workers);
   clock.finish("lengths", 0);
 
   const FlipCounts flips = flipToDelaunay(*cover, workers);
@@ -65,7 +65,8 @@ void finishLaplacian(std::shared_ptr<IntrinsicTriangulation> cover, const Points
     report.isolated += result.status[i] == PointStatus::isolated ? 1 : 0;
   }
   report.triangles = cover->size() / 2;
-  report.mean_edge = std::ldexp(mean_edge, exponent);
+  report.mean_edge = std::ldexp(mean.length, exponent);
+  report.mean_squared_edge = std::ldexp(mean.square, 2 * exponent);
   report.mollify_length = std::ldexp(added, exponent);
   report.flips = flips.flips;
   report.flip_failures = flips.failures;

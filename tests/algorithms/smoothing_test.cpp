@@ -54,11 +54,11 @@ std::vector<std::pair<std::string, Points>> differentClouds() {
 TEST(Smoothing, SolvesTheImplicitStep) {
   const Points points = shapes::torus(4000).points;
   const Laplacian laplacian = pointCloudLaplacian(points);
-  const double t = 5, h = laplacian.report.mean_edge;
+  const double t = 5, unit = laplacian.report.mean_squared_edge;
   const Points smoothed = smooth(laplacian, points, {.time_step = t});
-  const Points residual = laplacian.M.asDiagonal() * (smoothed - points) + t * h * h * (laplacian.L * smoothed);
+  const Points residual = laplacian.M.asDiagonal() * (smoothed - points) + t * unit * (laplacian.L * smoothed);
   EXPECT_LE(residual.cwiseAbs().maxCoeff(), 1e-13 * laplacian.M.maxCoeff());
-  EXPECT_GT((smoothed - points).rowwise().norm().maxCoeff(), 0.1 * h);
+  EXPECT_GT((smoothed - points).rowwise().norm().maxCoeff(), 0.1 * std::sqrt(unit));
 }
 
 TEST(Smoothing, ShrinksASphereAsItsEigenvalueSays) {
@@ -68,8 +68,8 @@ TEST(Smoothing, ShrinksASphereAsItsEigenvalueSays) {
   const Laplacian laplacian = pointCloudLaplacian(points);
   for (const double t : {10.0, 1000.0}) {
     for (const int steps : {1, 3}) {
-      const double h = laplacian.report.mean_edge;
-      const double factor = std::pow(1 + 2 * t * h * h / (radius * radius), -steps);
+      const double unit = laplacian.report.mean_squared_edge;
+      const double factor = std::pow(1 + 2 * t * unit / (radius * radius), -steps);
       const Points smoothed = smooth(laplacian, points, {.time_step = t, .iterations = steps});
       const double scale = smoothed.cwiseProduct(points).sum() / points.squaredNorm();
       EXPECT_NEAR((1 - scale) / (1 - factor), 1, 2e-3) << t << ", " << steps;
@@ -118,6 +118,26 @@ TEST(Smoothing, HoldsForComponentsOfAnyTwoSizes) {
       EXPECT_LE(after.col(axis).maxCoeff(), small.col(axis).maxCoeff() + 4e-15);
     }
   }
+}
+
+TEST(Smoothing, MeasuresTimeInMeanSquaredEdges) {
+  // Sides of 3, 4 and 5 make the unit 50 / 3, not 4^2. Of the two corners held, the second alone pulls along x.
+  const Points points{{0, 0, 0}, {3, 0, 0}, {0, 4, 0}};
+  const Laplacian laplacian = meshLaplacian(points, Triangles{{0, 1, 2}});
+  EXPECT_DOUBLE_EQ(laplacian.report.mean_squared_edge, 50.0 / 3);
+  const Mask fixed = {0, 1, 1};
+  const double t = 0.25 * 50 / 3;
+  const Points smoothed = smooth(laplacian, points, {.time_step = 0.25, .fixed = &fixed});
+  const double mass = laplacian.M[0], diagonal = laplacian.L.coeff(0, 0);
+  EXPECT_NEAR(smoothed(0, 0), -t * laplacian.L.coeff(0, 1) * 3 / (mass + t * diagonal), 1e-14);
+}
+
+TEST(Smoothing, GoesOnWhereAreasUnderflow) {
+  const Points points = std::ldexp(1.0, -560) * shapes::torus(500).points;
+  const Laplacian laplacian = pointCloudLaplacian(points);
+  ASSERT_EQ(laplacian.M.maxCoeff(), 0);
+  const Points smoothed = smooth(laplacian, points);
+  EXPECT_LE(smoothed.cwiseAbs().maxCoeff(), points.cwiseAbs().maxCoeff());
 }
 
 TEST(Smoothing, FollowsTheCloudWhereverItLies) {
@@ -199,8 +219,8 @@ TEST(Smoothing, TakesMeshes) {
   const shapes::Mesh ball = shapes::icosphere(4);
   const Laplacian laplacian = meshLaplacian(ball.points, ball.triangles);
   const Points smoothed = smooth(laplacian, ball.points, {.time_step = 10});
-  const double h = laplacian.report.mean_edge;
-  EXPECT_NEAR(smoothed.rowwise().norm().mean(), 1 / (1 + 2 * 10 * h * h), 2e-3);
+  const double unit = laplacian.report.mean_squared_edge;
+  EXPECT_NEAR(smoothed.rowwise().norm().mean(), 1 / (1 + 2 * 10 * unit), 2e-3);
 }
 
 TEST(Smoothing, NamesWhatACallerGotWrong) {

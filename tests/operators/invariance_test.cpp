@@ -63,6 +63,7 @@ TEST_F(Invariance, AnyNumberOfThreadsGivesTheSameBits) {
       EXPECT_EQ(many.cover().glue, one.cover().glue) << threads;
       EXPECT_EQ(many.cover().faces, one.cover().faces) << threads;
       EXPECT_EQ(many.cover().length, one.cover().length) << threads;
+      EXPECT_EQ(many.report.mean_squared_edge, one.report.mean_squared_edge) << threads;
     }
   }
 }

@@ -28,7 +28,7 @@ class LaplacianSmoothing : public pcl::Filter<PointT> {
 
   LaplacianSmoothing() { this->filter_name_ = "LaplacianSmoothing"; }
 
-  /// t >= 0 in squares of the mean edge length, 1 unless set; see SmoothingOptions::time_step.
+  /// t >= 0 in units of the mean squared edge length, 1 unless set; see SmoothingOptions::time_step.
   void setTimeStep(double time_step) { time_step_ = time_step; }
   double getTimeStep() const { return time_step_; }
 
