@@ -1,5 +1,3 @@
-#include <sys/resource.h>
-
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
@@ -18,6 +16,7 @@
 #include "input.h"
 #include "interrupt.h"
 #include "options.h"
+#include "peak_memory.h"
 #include "progress_bar.h"
 #include "tufted/errors.h"
 #include "tufted/io/read.h"
@@ -127,13 +126,6 @@ void refuseCloudOptions(const Settings& settings, const std::vector<CLI::Option*
 
 tufted::MeshOptions meshOptions(const tufted::CloudOptions& cloud) {
   return {.order = cloud.order, .seed = cloud.seed, .threads = cloud.threads, .progress = cloud.progress};
-}
-
-/// Peak memory of this process in MB.
-double peakMemory() {
-  rusage usage = {};
-  getrusage(RUSAGE_SELF, &usage);
-  return static_cast<double>(usage.ru_maxrss) / 1024;  // Linux counts in KB
 }
 
 void printSummary(const Settings& settings, const tufted::Geometry& geometry, const tufted::Laplacian& laplacian,

@@ -62,6 +62,17 @@ TEST_F(Command, IsSilentOnStderrWhenThatIsNoTerminal) {
   EXPECT_EQ(runTufted({"laplacian", file, "--out", out()}).err, "");
 }
 
+TEST_F(Command, PeakMemoryIsThatOfTheCommandAndNotOfWhoeverStartsIt) {
+  const std::string file = dir_.write("sphere.xyz", sphere(50));
+  const auto peak = [&] {
+    const std::string text = runTufted({"laplacian", file, "--out", out()}).out, label = "peak memory ";
+    return std::stod(text.substr(text.find(label) + label.size()));
+  };
+  const double alone = peak();
+  const std::vector<char> large(256 << 20, 1);
+  EXPECT_LT(peak(), alone + 100);
+}
+
 TEST_F(Command, MistakesOnTheCommandLineAreOneLineAndTwo) {
   const std::string file = dir_.write("sphere.xyz", sphere(50));
   expectUsageError({});

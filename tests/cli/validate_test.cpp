@@ -129,6 +129,24 @@ TEST_F(Validate, WritesOneJsonDocumentWithTheFigures) {
   EXPECT_EQ(row["cover"]["not_delaunay"], 0);
 }
 
+TEST_F(Validate, TheMemoryOfAFileIsNotThatOfTheCommand) {
+  const std::string first = writeTetrahedron();
+  fs::create_directory(dir_ / "many");
+  for (int i = 0; i < 300; ++i) dir_.write("many/" + std::to_string(i) + ".off", "");
+  const auto memoryOfFirst = [&](int times) {  // in the table, with so many files to come
+    std::vector<std::string> words = {"sh", "-c", R"("$0" validate "$@" | head -n 2 | tail -n 1)", TUFTED_COMMAND,
+                                      first};
+    words.insert(words.end(), times, (dir_ / "many").string());
+    std::istringstream line(runProgram(words).out);
+    std::string result;
+    double points = 0, faces = 0, seconds = 0, memory = 0;
+    line >> result >> points >> faces >> seconds >> memory;
+    EXPECT_EQ(result, "OK");
+    return memory;
+  };
+  EXPECT_LT(memoryOfFirst(1000), memoryOfFirst(1) + 100);
+}
+
 TEST_F(Validate, TakesAMeshAsACloudAndRefusesACloudAsAMesh) {
   const std::string cloud = dir_.write("sphere.xyz", sphere(50)), mesh = writeTetrahedron();
   const json as_cloud = json::parse(runTufted({"validate", "--json", "--as", "cloud", mesh}).out);

@@ -110,7 +110,7 @@ class Child {
     return !more_output && !more_errors;
   }
 
-  /// Waits for the end, which must be near.
+  /// Waits for the end, which must be near. The memory that wait4 tells survives exec, and so includes ours.
   ChildEnd end() {
     rusage usage = {};
     while (wait4(pid_, &end_.status, 0, &usage) < 0 && errno == EINTR) {

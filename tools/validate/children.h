@@ -10,7 +10,7 @@ struct ChildEnd {
   int status = 0;          ///< as of waitpid
   bool timed_out = false;  ///< and was killed for it
   double seconds = 0;      ///< wall-clock
-  double peak_memory = 0;  ///< MB
+  double peak_memory = 0;  ///< MB, but no less than this process had when it started the child
   std::string out;         ///< what it wrote to stdout
   std::string err;         ///< the last it wrote to stderr
 };

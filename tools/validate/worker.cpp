@@ -17,6 +17,7 @@
 #include <utility>
 
 #include "../options.h"
+#include "../peak_memory.h"
 #include "tufted/check.h"
 #include "tufted/errors.h"
 
@@ -141,6 +142,7 @@ int runValidateFile(const std::filesystem::path& file, const FileSettings& setti
   } catch (const std::exception& error) {
     end("FAILED", error.what());
   }
+  row["memory_mb"] = peakMemory();
   // A path need not be UTF-8.
   const std::string line = row.dump(-1, ' ', false, Json::error_handler_t::replace) + "\n";
   std::fputs(line.c_str(), stdout);

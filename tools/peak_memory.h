@@ -1,0 +1,4 @@
+#pragma once
+
+/// Peak memory of this process in MB.
+double peakMemory();
