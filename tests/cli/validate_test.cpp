@@ -1,5 +1,6 @@
 // `tufted validate`: no file can stop the run, and every file gets its line.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <chrono>
 #include <csignal>
@@ -25,6 +26,13 @@ std::vector<std::string> linesOf(const std::string& text) {
 
 bool contains(const std::string& text, const std::string& part) {
   return text.find(part) != std::string::npos;
+}
+
+/// The files of a run, as its JSON names them.
+std::vector<std::string> filesOf(const json& document) {
+  std::vector<std::string> files;
+  for (const json& row : document["files"]) files.push_back(row["file"]);
+  return files;
 }
 
 /// The processes that validate `file`.
@@ -93,11 +101,39 @@ TEST_F(Validate, TakesWhatIsReadableBelowAFolderSortedAndAnyFileThatIsNamed) {
   const std::string last = writeTetrahedron("c.OFF"), inner = writeTetrahedron("b/x.off");
   const std::string first = dir_.write("a.xyz", sphere(50)), notes = dir_.write("notes.md", "none");
   const json document = json::parse(runTufted({"validate", "--json", notes, dir_.path()}).out);
-  std::vector<std::string> files;
-  for (const json& row : document["files"]) files.push_back(row["file"]);
-  EXPECT_EQ(files, (std::vector<std::string>{notes, first, inner, last}));
+  EXPECT_EQ(filesOf(document), (std::vector<std::string>{notes, first, inner, last}));
   EXPECT_EQ(document["files"][0]["result"], "REFUSED");
   EXPECT_TRUE(contains(document["files"][0]["reasons"][0], "unknown file type '.md'"));
+}
+
+TEST_F(Validate, AFolderThatCannotBeListedIsRefusedAndTheOthersGoOn) {
+  fs::create_directory(dir_ / "b");
+  const std::string first = writeTetrahedron("a.off"), last = writeTetrahedron("c.off");
+  fs::permissions(dir_ / "b", fs::perms::none);
+  std::vector<std::string> words = {TUFTED_COMMAND, "validate", "--json", dir_.path()};
+  if (geteuid() == 0)  // whom no permissions stop
+    words.insert(words.begin(), {"setpriv", "--inh-caps", "-all", "--bounding-set", "-all", "--"});
+  const Result result = runProgram(words);
+  fs::permissions(dir_ / "b", fs::perms::owner_all);
+  EXPECT_EQ(result.code, 0) << result.err;
+  const json document = json::parse(result.out);
+  ASSERT_EQ(filesOf(document), (std::vector<std::string>{first, (dir_ / "b").string(), last}));
+  EXPECT_EQ(document["files"][1]["result"], "REFUSED");
+  EXPECT_EQ(document["files"][1]["reasons"], json({"cannot list: Permission denied"}));
+  EXPECT_EQ(document["summary"]["ok"], 2);
+}
+
+TEST_F(Validate, FollowsLinksToFoldersAndGoesThroughEachOnce) {
+  const TemporaryDir elsewhere;
+  elsewhere.write("x.off", tetrahedron);
+  fs::create_directory(dir_ / "own");
+  const std::string own = writeTetrahedron("own/y.off");
+  fs::create_directory_symlink(dir_ / "own", dir_ / "another_name");
+  fs::create_directory_symlink(elsewhere.path(), dir_ / "there");
+  fs::create_directory_symlink(dir_.path(), dir_ / "own/loop");
+  fs::create_directory_symlink(elsewhere.path(), elsewhere / "loop");
+  const json document = json::parse(runTufted({"validate", "--json", dir_.path()}).out);
+  EXPECT_EQ(filesOf(document), (std::vector<std::string>{own, (dir_ / "there/x.off").string()}));
 }
 
 TEST_F(Validate, WritesOneJsonDocumentWithTheFigures) {
@@ -223,6 +259,10 @@ TEST_F(Validate, MistakesOnTheCommandLineAreOneLineAndTwo) {
   for (std::vector<std::string> arguments : mistakes) {
     arguments.insert(arguments.begin(), "validate");
     const Result result = runTufted(arguments);
+  fs::create_directory(dir_ / "bare");
+  const std::string bare = (dir_ / "bare").string();
+  EXPECT_EQ(runTufted({"validate", empty, bare}).err,
+            "tufted: " + empty + ", " + bare + ": hold no file of a known type\n");
     EXPECT_EQ(result.code, 2) << result.err;
     EXPECT_TRUE(isOneLine(result.err)) << result.err;
   }

@@ -34,10 +34,10 @@ using Json = nlohmann::ordered_json;
 constexpr const char* description = "Build L and M for files or whole folders and check everything that they promise.";
 
 constexpr const char* footer =
-    R"(Takes files, and folders with all that is below them and has a known extension. Each file has a process of its own,
-so that none can stop the run. Prints a line per file, in the order given:
+    R"(Takes files, and folders with all that is below them and has a known extension; links to folders are followed. Each
+file has a process of its own, so that none can stop the run. Prints a line per file, in the order given:
 
-  result   OK, REFUSED (the reader gives its reason) or FAILED (what broke, or how the process ended)
+  result   OK, REFUSED (the reader gives its reason; also a folder that cannot be listed) or FAILED (what broke, or how the process ended)
   seconds  from the start of its process to its end: reading, building, checking
   MB       peak memory of its process
   nnz/row  stored entries of L per active point
@@ -89,6 +89,10 @@ Json describeFile(const std::filesystem::path& file, const ChildEnd& end, const 
   else
     row["reasons"].push_back(describeEnd(end, settings));
   return row;
+}
+
+Json describeRefusal(const Found& folder) {
+  return {{"file", folder.path.string()}, {"result", "REFUSED"}, {"reasons", {folder.refusal}}};
 }
 
 /// The rows in the order of the files, each as soon as all before it are known.
@@ -143,20 +147,28 @@ class Results {
 
 int runValidate(Settings settings) {
   const auto start = std::chrono::steady_clock::now();
-  const std::vector<std::filesystem::path> files = findFiles(settings.paths);
+  const std::vector<Found> files = findFiles(settings.paths);
   const int jobs = std::min<int>(settings.jobs, static_cast<int>(files.size()));
   const int processors = static_cast<int>(std::thread::hardware_concurrency());
   // Every further thread would allocate a stack, and so make a limit of memory depend on the machine.
   settings.file.threads = settings.file.memory ? 1 : std::max(1, processors / jobs);
-  std::vector<std::vector<std::string>> arguments;
-  arguments.reserve(files.size());
-  for (const auto& file : files) arguments.push_back(fileArguments(file, settings.file));
 
   Results results(files.size(), !settings.json);
   results.printHeader();
   ProgressBar bar;
-  const auto ended = [&](std::size_t number, const ChildEnd& end) {
-    results.add(number, describeFile(files[number], end, settings), bar);
+  std::vector<std::vector<std::string>> arguments;  // of each process
+  std::vector<std::size_t> numbers;                 // and of its file
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    if (files[i].refusal.empty()) {
+      arguments.push_back(fileArguments(files[i].path, settings.file));
+      numbers.push_back(i);
+    } else {
+      results.add(i, describeRefusal(files[i]), bar);
+    }
+  }
+  const auto ended = [&](std::size_t process, const ChildEnd& end) {
+    const std::size_t number = numbers[process];
+    results.add(number, describeFile(files[number].path, end, settings), bar);
   };
   const auto wait = [&] {
     bar.show("validate, " + std::to_string(results.known()) + " of " + std::to_string(files.size()),

@@ -1,9 +1,17 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 #include <vector>
 
-/// The files that `paths` stand for, in their order: a file stands for itself, whatever its name, and a folder for the
-/// files below it, sorted, that the readers know by their extension.
-/// @throws tufted::IoError where a path is missing, a folder cannot be listed, or there is no file at all
-std::vector<std::filesystem::path> findFiles(const std::vector<std::filesystem::path>& paths);
+/// A file to validate, or a folder that is none.
+struct Found {
+  std::filesystem::path path;
+  std::string refusal;  ///< of a folder: why it cannot be listed; else empty
+};
+
+/// What `paths` stand for, in their order: a file stands for itself, whatever its name, and a folder for the files
+/// below it, sorted, that the readers know by their extension. Links to folders are followed; a folder that is reached
+/// in several ways goes by one path, its own where it can.
+/// @throws tufted::IoError where a path is missing, or there is nothing at all
+std::vector<Found> findFiles(const std::vector<std::filesystem::path>& paths);
