@@ -8,7 +8,7 @@ enum ExitCode : int {
   exit_done = 0,
   exit_failed = 1,       ///< data or numerics
   exit_usage = 2,        ///< the command line
-  exit_cancelled = 130,  ///< Ctrl-C, as shells report it
+  exit_cancelled = 130,  ///< Ctrl-C, as shells report it; SIGTERM and SIGHUP too
 };
 
 /// A subcommand adds itself to the application. When the command line names it, it puts into `run` what then is to

@@ -265,13 +265,15 @@ TEST_F(Command, VersionIsOneLine) {
   EXPECT_TRUE(result.out.starts_with("tufted ")) << result.out;
 }
 
-TEST_F(Command, ShowsProgressOnATerminalAndCtrlCLeavesNothingBehind) {
+TEST_F(Command, ShowsProgressOnATerminalAndLeavesNothingBehindWhenInterrupted) {
   const auto file = dir_.write("sphere.xyz", sphere(200000));
-  const Result result = interruptTufted({"laplacian", file, "--out", out()});
-  EXPECT_EQ(result.code, 130) << result.err;
-  EXPECT_NE(result.err.find('\r'), std::string::npos);
-  EXPECT_NE(result.err.find("tufted: cancelled"), std::string::npos) << result.err;
-  EXPECT_TRUE(noOutputs());
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    const Result result = interruptTufted({"laplacian", file, "--out", out()}, signal);
+    EXPECT_EQ(result.code, 130) << signal << ": " << result.err;
+    EXPECT_NE(result.err.find('\r'), std::string::npos);
+    EXPECT_NE(result.err.find("tufted: cancelled"), std::string::npos) << result.err;
+    EXPECT_TRUE(noOutputs());
+  }
 }
 
 }  // namespace

@@ -24,9 +24,18 @@ pid_t spawn(std::vector<std::string> words, int in, int out, int err) {
   posix_spawn_file_actions_adddup2(&actions, in, STDIN_FILENO);
   posix_spawn_file_actions_adddup2(&actions, out, STDOUT_FILENO);
   posix_spawn_file_actions_adddup2(&actions, err, STDERR_FILENO);
+  // Whatever the tests run under, such as nohup, the command starts with the signals as they are by default.
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  sigset_t signals;
+  sigemptyset(&signals);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals, signal);
+  posix_spawnattr_setsigdefault(&attributes, &signals);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF);
   pid_t pid = 0;
-  const int error = posix_spawnp(&pid, words[0].c_str(), &actions, nullptr, argv.data(), environ);
+  const int error = posix_spawnp(&pid, words[0].c_str(), &actions, &attributes, argv.data(), environ);
   posix_spawn_file_actions_destroy(&actions);
+  posix_spawnattr_destroy(&attributes);
   if (error != 0) throw std::runtime_error("cannot start " + words[0]);
   return pid;
 }
@@ -93,7 +102,7 @@ Result runProgram(const std::vector<std::string>& words) {
   return Process(words, "/dev/null").finish();
 }
 
-Result interruptTufted(const std::vector<std::string>& arguments) {
+Result interruptTufted(const std::vector<std::string>& arguments, int signal) {
   const int terminal = posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
   if (terminal < 0 || grantpt(terminal) != 0 || unlockpt(terminal) != 0) throw std::runtime_error("no terminal");
   const int err = open(ptsname(terminal), O_RDWR | O_NOCTTY | O_CLOEXEC);
@@ -104,7 +113,7 @@ Result interruptTufted(const std::vector<std::string>& arguments) {
   close(out);
   close(err);
   Result result;
-  if (readSome(terminal, result.err)) kill(pid, SIGINT);
+  if (readSome(terminal, result.err)) kill(pid, signal);
   while (readSome(terminal, result.err)) {
   }
   close(terminal);

@@ -2,6 +2,7 @@
 
 #include <sys/types.h>
 
+#include <csignal>
 #include <string>
 #include <vector>
 
@@ -36,5 +37,5 @@ Result runTufted(const std::vector<std::string>& arguments, const std::string& i
 /// Runs any program; its arguments may name TUFTED_COMMAND.
 Result runProgram(const std::vector<std::string>& words);
 
-/// Runs the command with a terminal as stderr, and sends SIGINT as soon as something appears there.
-Result interruptTufted(const std::vector<std::string>& arguments);
+/// Runs the command with a terminal as stderr, and sends a signal as soon as something appears there.
+Result interruptTufted(const std::vector<std::string>& arguments, int signal = SIGINT);

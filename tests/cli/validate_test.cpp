@@ -218,6 +218,17 @@ TEST_F(Validate, ACrashIsNamedAndTheOthersGoOn) {
   EXPECT_TRUE(contains(result.out, "\n2 files: 1 OK, 0 REFUSED, 1 FAILED, ")) << result.out;
 }
 
+TEST_F(Validate, AWorkerThatIsAskedToEndDoesSo) {  // as daemons do that watch over the memory
+  const std::string large = writeLarge();
+  Process tufted = startTufted({"validate", large});
+  for (const pid_t worker : awaitWorkers(large, true)) {
+    for (int i = 0; i < 10000 && ticksOf(worker) < 10; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    kill(worker, SIGTERM);
+  }
+  const Result result = tufted.finish();
+  EXPECT_TRUE(contains(result.out, large + ": its process was ended by signal 15 (Terminated)")) << result.out;
+}
+
 TEST_F(Validate, NoWorkerOutlivesTheCommand) {
   const std::string large = writeLarge();
   Process tufted = startTufted({"validate", large});
@@ -231,13 +242,15 @@ TEST_F(Validate, NoWorkerOutlivesTheCommand) {
   for (const pid_t left : workersOn(large)) kill(left, SIGKILL);
 }
 
-TEST_F(Validate, CtrlCEndsTheWorkersAndShowsProgressBefore) {
+TEST_F(Validate, AnInterruptEndsTheWorkersAndShowsProgressBefore) {
   const std::string large = writeLarge();
-  const Result result = interruptTufted({"validate", large});
-  EXPECT_EQ(result.code, 130) << result.err;
-  EXPECT_TRUE(contains(result.err, "validate, 0 of 1")) << result.err;
-  EXPECT_TRUE(contains(result.err, "tufted: cancelled")) << result.err;
-  EXPECT_TRUE(workersOn(large).empty());
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    const Result result = interruptTufted({"validate", large}, signal);
+    EXPECT_EQ(result.code, 130) << signal << ": " << result.err;
+    EXPECT_TRUE(contains(result.err, "validate, 0 of 1")) << result.err;
+    EXPECT_TRUE(contains(result.err, "tufted: cancelled")) << result.err;
+    EXPECT_TRUE(workersOn(large).empty());
+  }
 }
 
 TEST_F(Validate, PathsThatHoldNothingAreOneLineAndOne) {
@@ -246,6 +259,10 @@ TEST_F(Validate, PathsThatHoldNothingAreOneLineAndOne) {
   const Result none = runTufted({"validate", empty});
   EXPECT_EQ(none.code, 1);
   EXPECT_EQ(none.err, "tufted: " + empty + ": holds no file of a known type\n");
+  fs::create_directory(dir_ / "bare");
+  const std::string bare = (dir_ / "bare").string();
+  EXPECT_EQ(runTufted({"validate", empty, bare}).err,
+            "tufted: " + empty + ", " + bare + ": hold no file of a known type\n");
   const Result nowhere = runTufted({"validate", writeTetrahedron(), missing});
   EXPECT_EQ(nowhere.code, 1);
   EXPECT_EQ(nowhere.err, "tufted: " + missing + ": no such file or folder\n");
@@ -259,10 +276,6 @@ TEST_F(Validate, MistakesOnTheCommandLineAreOneLineAndTwo) {
   for (std::vector<std::string> arguments : mistakes) {
     arguments.insert(arguments.begin(), "validate");
     const Result result = runTufted(arguments);
-  fs::create_directory(dir_ / "bare");
-  const std::string bare = (dir_ / "bare").string();
-  EXPECT_EQ(runTufted({"validate", empty, bare}).err,
-            "tufted: " + empty + ", " + bare + ": hold no file of a known type\n");
     EXPECT_EQ(result.code, 2) << result.err;
     EXPECT_TRUE(isOneLine(result.err)) << result.err;
   }

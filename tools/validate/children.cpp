@@ -24,7 +24,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr int tick = 100;                    // ms between two looks at Ctrl-C
+constexpr int tick = 100;                    // ms between two looks at Ctrl-C and its like
 constexpr std::size_t longest_error = 4096;  // bytes of stderr that are kept
 
 /// The two ends of a pipe. Neither is inherited by other children.

@@ -18,6 +18,6 @@ struct ChildEnd {
 /// Runs this program once per list of arguments, at most `jobs` at a time and none longer than `seconds` (0: as long as
 /// it takes). Calls `ended` with the number of the list, in the order in which the children end, and `wait` ten times a
 /// second or more often.
-/// @throws tufted::Cancelled on Ctrl-C. However it leaves, no child is left behind.
+/// @throws tufted::Cancelled on Ctrl-C, SIGTERM and SIGHUP. However it leaves, no child is left behind.
 void runChildren(const std::vector<std::vector<std::string>>& arguments, int jobs, double seconds,
                  const std::function<void(std::size_t, ChildEnd)>& ended, const std::function<void()>& wait);

@@ -16,6 +16,7 @@
 #include <string_view>
 #include <utility>
 
+#include "../interrupt.h"
 #include "../options.h"
 #include "../peak_memory.h"
 #include "tufted/check.h"
@@ -121,6 +122,7 @@ void validateFile(const std::filesystem::path& file, const FileSettings& setting
 
 int runValidateFile(const std::filesystem::path& file, const FileSettings& settings) {
   dieWithTheCommand();
+  releaseInterrupt();  // nothing is left behind, and the command tells how this process ended
   if (settings.memory) limitMemory(*settings.memory);
   Json row;
   std::string stage;
