@@ -2,6 +2,8 @@
 
 #include <CLI/App.hpp>
 #include <functional>
+#include <string>
+#include <vector>
 
 /// Exit codes of the command.
 enum ExitCode : int {
@@ -18,3 +20,7 @@ using Run = std::function<int()>;
 void addLaplacian(CLI::App& app, Run& run);
 void addInfo(CLI::App& app, Run& run);
 void addValidate(CLI::App& app, Run& run);
+
+/// CLI11 takes an argument "[a,b]" of an option that may have several for a list of two. Before it parses, such paths
+/// of validate become "./[a,b]", which names the same; validate shows them without the "./" again.
+void protectBrackets(std::vector<std::string>& arguments);

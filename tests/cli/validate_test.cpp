@@ -136,6 +136,20 @@ TEST_F(Validate, FollowsLinksToFoldersAndGoesThroughEachOnce) {
   EXPECT_EQ(filesOf(document), (std::vector<std::string>{own, (dir_ / "there/x.off").string()}));
 }
 
+TEST_F(Validate, TakesPathsInBracketsAsTheyAreTyped) {
+  for (const char* folder : {"a", "[a]", "[a,b]"}) {
+    fs::create_directory(dir_ / folder);
+    writeTetrahedron(std::string(folder) + "/x.off");
+  }
+  writeTetrahedron("[c]");
+  const Result result = runProgram(
+      {"sh", "-c", R"(cd "$1" && exec "$0" validate --json '[a]' '[a,b]' '[c]' 'a')", TUFTED_COMMAND, dir_.path()});
+  EXPECT_EQ(result.code, 0) << result.err;
+  const json document = json::parse(result.out);
+  EXPECT_EQ(filesOf(document), (std::vector<std::string>{"[a]/x.off", "[a,b]/x.off", "[c]", "a/x.off"}));
+  EXPECT_EQ(document["summary"]["ok"], 4) << result.out;
+}
+
 TEST_F(Validate, WritesOneJsonDocumentWithTheFigures) {
   const Result result = runTufted({"validate", "--json", writeTetrahedron()});
   EXPECT_EQ(result.code, 0) << result.err;

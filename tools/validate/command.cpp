@@ -31,6 +31,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr const char* name = "validate";
+
 constexpr const char* description = "Build L and M for files or whole folders and check everything that they promise.";
 
 constexpr const char* footer =
@@ -145,6 +147,19 @@ class Results {
   int ok_ = 0, refused_ = 0, failed_ = 0;
 };
 
+constexpr const char* protection = "./";
+
+bool isInBrackets(const std::string& argument) {
+  return argument.starts_with('[') && argument.ends_with(']');
+}
+
+/// A transformation, as CLI11 has them.
+std::string withoutProtection(std::string& path) {
+  if (path.starts_with(protection) && isInBrackets(path.substr(std::strlen(protection))))
+    path.erase(0, std::strlen(protection));
+  return "";  // no error
+}
+
 int runValidate(Settings settings) {
   const auto start = std::chrono::steady_clock::now();
   const std::vector<Found> files = findFiles(settings.paths);
@@ -184,11 +199,20 @@ int runValidate(Settings settings) {
 
 }  // namespace
 
+void protectBrackets(std::vector<std::string>& arguments) {
+  if (arguments.empty() || arguments.front() != name) return;
+  for (std::string& argument : arguments)
+    if (isInBrackets(argument)) argument.insert(0, protection);
+}
+
 void addValidate(CLI::App& app, Run& run) {
-  CLI::App& command = *app.add_subcommand("validate", description);
+  CLI::App& command = *app.add_subcommand(name, description);
   command.footer(footer);
   const auto settings = std::make_shared<Settings>();
-  command.add_option("PATH", settings->paths, "Files and folders")->required()->check(notEmpty);
+  command.add_option("PATH", settings->paths, "Files and folders")
+      ->required()
+      ->check(notEmpty)
+      ->transform(CLI::Validator(withoutProtection, ""));
   addNumber(command, "--jobs", settings->jobs, 1, 1024, "At most this many files at once (processors)")->type_name("N");
   addNumber(command, "--time", settings->seconds, 0.0, 1e9, "Limit per file in seconds, 0 for none (600)")
       ->type_name("S");
