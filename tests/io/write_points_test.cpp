@@ -1,5 +1,6 @@
-#include <CGAL/IO/PLY.h>
+#include <CGAL/IO/read_ply_points.h>
 #include <CGAL/Simple_cartesian.h>
+#include <CGAL/property_map.h>
 #include <gtest/gtest.h>
 #include <pcl/conversions.h>
 #include <pcl/io/pcd_io.h>
@@ -7,7 +8,10 @@
 #include <pcl/point_types.h>
 
 #include <cmath>
+#include <cstring>
+#include <iterator>
 #include <limits>
+#include <utility>
 
 #include "field_values.h"
 #include "sample_laplacian.h"
@@ -204,17 +208,64 @@ TEST(WritePoints, FieldsOfOneNameAreAllKept) {
   }
 }
 
+TEST(WritePcd, PclReadsDoublesAtUtmCoordinatesByteForByte) {
+  const TemporaryDir dir;
+  const auto geometry = sampleGeometry();
+  tufted::writeLaplacian(dir / "out", sampleLaplacian(), geometry, both);
+  pcl::PCLPointCloud2 cloud;
+  ASSERT_EQ(pcl::PCDReader().read((dir / "out/points.pcd").string(), cloud), 0);
+  ASSERT_EQ(cloud.width * cloud.height, 4u);
+  for (const int axis : {0, 1, 2}) {
+    const pcl::PCLPointField& field = cloud.fields.at(axis);
+    EXPECT_EQ(field.name, std::string(1, static_cast<char>('x' + axis)));
+    ASSERT_EQ(field.datatype, pcl::PCLPointField::FLOAT64);
+    for (int i = 0; i < 4; ++i) {
+      const auto* const value = &cloud.data.at(i * cloud.point_step + field.offset);
+      EXPECT_EQ(std::memcmp(value, &geometry.points(i, axis), sizeof(double)), 0) << field.name << " of " << i;
+    }
+  }
+}
+
+using CgalKernel = CGAL::Simple_cartesian<double>;
+using CgalPoint = std::pair<CgalKernel::Point_3, CgalKernel::Vector_3>;
+
+/// Points and normals.
+std::vector<CgalPoint> readWithCgal(const std::filesystem::path& path) {
+  std::vector<CgalPoint> points;
+  EXPECT_TRUE(CGAL::IO::read_PLY(path.string(), std::back_inserter(points),
+                                 CGAL::parameters::point_map(CGAL::First_of_pair_property_map<CgalPoint>())
+                                     .normal_map(CGAL::Second_of_pair_property_map<CgalPoint>())));
+  return points;
+}
+
 TEST(WritePly, CgalReadsFloatsAndNormals) {
   const TemporaryDir dir;
   tufted::Geometry geometry = nearby();
   geometry.points.row(3) << 1, 2, 3;
-  tufted::writeLaplacian(dir / "out", withNormals(), geometry, both);
-  std::vector<CGAL::Simple_cartesian<double>::Point_3> points;
-  std::vector<std::vector<std::size_t>> faces;
-  ASSERT_TRUE(CGAL::IO::read_PLY((dir / "out/points.ply").string(), points, faces));
+  tufted::Laplacian laplacian = sampleLaplacian();
+  laplacian.frames.normals.resize(4, 3);
+  laplacian.frames.normals << 0.6, 0, 0.8, 0, -1, 0, 0, 0.6, -0.8, 1, 0, 0;
+  tufted::writeLaplacian(dir / "out", laplacian, geometry, both);
+  const auto points = readWithCgal(dir / "out/points.ply");
   ASSERT_EQ(points.size(), 4u);
-  EXPECT_EQ(points[2].z(), -8);
-  EXPECT_EQ(points[3].y(), 2);
+  for (int i = 0; i < 4; ++i) {
+    for (int axis = 0; axis < 3; ++axis) {
+      EXPECT_EQ(points[i].first[axis], geometry.points(i, axis)) << i;
+      EXPECT_EQ(points[i].second[axis], static_cast<float>(laplacian.frames.normals(i, axis))) << i;
+    }
+  }
+}
+
+TEST(WritePly, CgalReadsDoublesAtUtmCoordinatesBitForBit) {
+  const TemporaryDir dir;
+  auto geometry = sampleGeometry();
+  geometry.points.row(3) << 1, 2, 3;
+  tufted::writeLaplacian(dir / "out", sampleLaplacian(), geometry, both);
+  const auto points = readWithCgal(dir / "out/points.ply");
+  ASSERT_EQ(points.size(), 4u);
+  for (int i = 0; i < 4; ++i) {
+    for (int axis = 0; axis < 3; ++axis) EXPECT_EQ(points[i].first[axis], geometry.points(i, axis)) << i;
+  }
 }
 
 TEST(WriteLaplacian, AFieldWithoutAProperNameIsTheCallersMistake) {
