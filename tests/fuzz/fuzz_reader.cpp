@@ -15,13 +15,32 @@ void require(bool condition) {
   if (!condition) std::abort();
 }
 
+std::size_t sizeOf(tufted::FieldType type) {
+  switch (type) {
+    case tufted::FieldType::int8:
+    case tufted::FieldType::uint8:
+      return 1;
+    case tufted::FieldType::int16:
+    case tufted::FieldType::uint16:
+      return 2;
+    case tufted::FieldType::int32:
+    case tufted::FieldType::uint32:
+    case tufted::FieldType::float32:
+      return 4;
+    case tufted::FieldType::int64:
+    case tufted::FieldType::uint64:
+    case tufted::FieldType::float64:
+      return 8;
+  }
+  std::abort();  // no type at all
+}
+
 void checkGeometry(const tufted::Geometry& geometry) {
   const auto points = geometry.points.rows();
   require(static_cast<std::int64_t>(geometry.width) * geometry.height == points);
   require(geometry.normals.rows() == 0 || geometry.normals.rows() == points);
   for (const tufted::Field& field : geometry.fields)
-    require(points == 0 ? field.bytes.empty()
-                        : field.bytes.size() % (static_cast<std::size_t>(points) * field.count) == 0);
+    require(field.bytes.size() == static_cast<std::size_t>(points) * field.count * sizeOf(field.type));
   for (const int corner : geometry.triangles.reshaped()) require(corner >= 0 && corner < points);
 }
 
