@@ -31,8 +31,52 @@ enum class Delaunay {
   cgal,  ///< CGAL::Delaunay_triangulation_2 (GPL; needs TUFTED_WITH_GPL)
 };
 
+/// When the k nearest neighbours of a point are doubled, up to 8 k, before a plane is fitted to them.
+enum class Growth {
+  line,    ///< they lie on one line, as on one ring of a scanner
+  uneven,  ///< also when 40 % of them lie within half the radius: rings that are close to lines, density steps
+};
+
+/// When a star is wrapped again from twice as many neighbours.
+enum class StarSearch {
+  once,      ///< closed, but a circumcircle leaves the ball that was searched
+  thorough,  ///< the same again and again up to twice the neighbourhood; and once when it is open
+};
+
+/// Which triangles of the stars are dropped.
+enum class Filter {
+  radius,  ///< by their circumradius: slivers along a rim, bridges to outliers
+  votes,   ///< by circumradius, more strictly where no other corner's star has the triangle; points that no other star
+           ///< names lose theirs
+};
+
+/// What the lengths of edges are measured between.
+enum class Lengths {
+  points,    ///< the points themselves
+  denoised,  ///< where a neighbourhood is noise around a curved surface, its points moved onto the surface
+};
+
+/// What M holds.
+enum class Mass {
+  cover,  ///< a third of the area of each face of the cover around the point
+  star,   ///< the Voronoi area in the point's own star, which noise, rims and uneven sampling distort less
+};
+
+/// Kinds of clouds, see cloudOptions().
+enum class Preset {
+  clean,  ///< exact samples: the paper's steps and no others
+  scan,   ///< depth images, laser scans, photogrammetry: noise, jumps, outliers, near sheets
+  lidar,  ///< the same from a spinning scanner, whose rings would be taken for sheets
+};
+
 struct CloudOptions {
   int neighbors = 30;  ///< k >= 3, far fewer than N; larger than N - 1 is clamped and reported
+  Growth growth = Growth::line;
+  bool split_sheets = false;  ///< neighbours beyond a gap along the normal belong to another surface and are left out
+  StarSearch star_search = StarSearch::once;
+  Filter filter = Filter::radius;
+  Lengths lengths = Lengths::points;
+  Mass mass = Mass::cover;
   Gluing gluing = Gluing::star;
   FaceOrder order = FaceOrder::angle;
   std::uint64_t seed = 0;  ///< for FaceOrder::random
@@ -45,6 +89,9 @@ struct CloudOptions {
   const Neighborhoods* neighborhoods = nullptr;  ///< N x k indices used as they are, never grown; borrowed
   Progress progress = {};
 };
+
+/// The steps for a kind of cloud; all else as by default.
+CloudOptions cloudOptions(Preset preset);
 
 struct MeshOptions {
   FaceOrder order = FaceOrder::angle;

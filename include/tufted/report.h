@@ -29,8 +29,11 @@ struct Report {
   bool neighbors_clamped = false;          ///< the caller's k exceeded N - 1
   std::int64_t rejected_normals = 0;       ///< caller's normals that are zero or not finite, replaced by PCA
   std::int64_t rejected_neighbors = 0;     ///< caller's neighbours that repeat or name the point or an unusable one
-  std::int64_t grown_neighborhoods = 0;    ///< k doubled because the neighbours lie on one scan line
-  std::int64_t grown_stars = 0;            ///< k doubled because a closed star was not certified
+  std::int64_t grown_neighborhoods = 0;    ///< k doubled because the neighbours say too little, see Growth
+  std::int64_t split_neighborhoods = 0;    ///< neighbours of another sheet left out
+  std::int64_t isolated_by_sheets = 0;     ///< points without a star: next to all neighbours belong to other sheets
+  std::int64_t grown_stars = 0;            ///< times k was doubled because a closed star was not certified
+  std::int64_t closed_stars = 0;           ///< open stars that closed with twice the neighbours
   std::int64_t open_stars = 0;             ///< points whose Voronoi cell is not compact
   std::int64_t dropped_triangles = 0;      ///< star triangles removed by the circumradius filter
   std::array<std::int64_t, 3> votes = {};  ///< distinct triangles found by 1, 2, 3 of their corners

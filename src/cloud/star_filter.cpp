@@ -1,8 +1,10 @@
 #include "cloud/star_filter.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <cmath>
 
 namespace tufted {
 namespace {
@@ -18,27 +20,83 @@ bool contains(const Stars& stars, int a, int b, int c) {
   return false;
 }
 
+/// How many of the other two corners' stars contain the triangle at entry i of star p.
+int otherVotes(const Stars& stars, int p, int i) {
+  const int a = stars.link[i], b = stars.link[stars.after(p, i)];
+  return (contains(stars, a, b, p) ? 1 : 0) + (contains(stars, b, p, a) ? 1 : 0);
+}
+
+/// Circumradius in space; infinite for a triangle without area.
+double circumradius(const Points& points, int p, int a, int b) {
+  const Eigen::Vector3d u = points.row(a) - points.row(p), v = points.row(b) - points.row(p);
+  const double twice_area = u.cross(v).norm();
+  return twice_area > 0 ? u.norm() * v.norm() * (u - v).norm() / (2 * twice_area) : no_triangle;
+}
+
+/// Filter::radius: circumradius R > r_k(p), which are slivers along a rim, or R > 4 times the smallest r_k of the three
+/// corners, which are bridges to outliers.
+bool isTooLarge(const Stars& stars, int p, int i) {
+  const int a = stars.link[i], b = stars.link[stars.after(p, i)];
+  const double smallest = std::min({stars.reach[p], stars.reach[a], stars.reach[b]});
+  return stars.radius[i] > stars.reach[p] || stars.radius[i] > 4 * smallest;
+}
+
+/// Filter::votes: far larger than the neighbourhood; or of one star alone and, in space, large for its corners: for
+/// any of them, or for those around a point that sees further than they do.
+bool isImplausible(const Stars& stars, const Points& points, int p, int i) {
+  const int a = stars.link[i], b = stars.link[stars.after(p, i)];
+  if (stars.isolated[a] != 0 || stars.isolated[b] != 0 || stars.radius[i] > 3 * stars.reach[p]) return true;
+  const double smallest = std::min({stars.reach[p], stars.reach[a], stars.reach[b]});
+  // In space the circle is no smaller than half the longest side; only then the stars of a and b are looked at.
+  const double radius = circumradius(points, p, a, b);
+  if (radius <= smallest) return false;
+  const bool sees_further = stars.reach[p] > 1.5 * std::max(stars.reach[a], stars.reach[b]);
+  if (radius <= 2 * smallest && !sees_further) return false;
+  return otherVotes(stars, p, i) == 0;
+}
+
+/// Drops the triangles that `test(p, i)` condemns, after all were tested. Returns their number.
+template <class Test>
+std::int64_t dropTriangles(Stars& stars, const Workers& workers, const Test& test) {
+  std::vector<std::uint8_t> condemned(stars.link.size());
+  std::atomic<std::int64_t> dropped{0};
+  const auto forEachEntry = [&](const auto& visit) {
+    workers.forBlocks("filter", stars.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+      for (int p = static_cast<int>(begin); p < end; ++p)
+        for (int i = stars.offset[p]; i < stars.offset[p + 1]; ++i) visit(p, i);
+    });
+  };
+  forEachEntry([&](int p, int i) { condemned[i] = stars.hasTriangle(i) && test(p, i) ? 1 : 0; });
+  forEachEntry([&](int p, int i) {
+    if (condemned[i] == 0) return;
+    stars.radius[i] = no_triangle;
+    stars.ends[p] = 1;
+    dropped.fetch_add(1, std::memory_order_relaxed);
+  });
+  return dropped;
+}
+
+/// Which points are link vertices of a triangle in the star of another.
+std::vector<std::uint8_t> findNamed(const Stars& stars) {
+  std::vector<std::uint8_t> named(stars.size());
+  for (int p = 0; p < stars.size(); ++p)
+    for (int i = stars.offset[p]; i < stars.offset[p + 1]; ++i)
+      if (stars.hasTriangle(i)) named[stars.link[i]] = named[stars.link[stars.after(p, i)]] = 1;
+  return named;
+}
+
 }  // namespace
 
-void filterStars(Stars& stars, int k, const Workers& workers, Report& report) {
-  const bool whole_cloud = stars.size() <= k + 1;
-  std::atomic<std::int64_t> dropped{0};
-  workers.forBlocks("filter", stars.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
-    std::int64_t count = 0;
-    for (int p = static_cast<int>(begin); p < end; ++p) {
-      for (int i = stars.offset[p]; i < stars.offset[p + 1]; ++i) {
-        if (!stars.hasTriangle(i) || whole_cloud) continue;
-        const int a = stars.link[i], b = stars.link[stars.after(p, i)];
-        const double smallest = std::min({stars.reach[p], stars.reach[a], stars.reach[b]});
-        if (stars.radius[i] <= stars.reach[p] && stars.radius[i] <= 4 * smallest) continue;
-        stars.radius[i] = no_triangle;
-        stars.ends[p] = 1;
-        ++count;
-      }
-    }
-    dropped += count;
-  });
-  report.dropped_triangles += dropped;
+void filterStars(Stars& stars, const Points& points, int k, Filter filter, const Workers& workers, Report& report) {
+  if (stars.size() <= k + 1) return;
+  if (filter == Filter::radius) {
+    report.dropped_triangles += dropTriangles(stars, workers, [&](int p, int i) { return isTooLarge(stars, p, i); });
+    return;
+  }
+  report.dropped_triangles +=
+      dropTriangles(stars, workers, [&](int p, int i) { return isImplausible(stars, points, p, i); });
+  const std::vector<std::uint8_t> named = findNamed(stars);
+  report.dropped_triangles += dropTriangles(stars, workers, [&](int p, int) { return named[p] == 0; });
 }
 
 void countVotes(const Stars& stars, const Workers& workers, Report& report) {
@@ -46,11 +104,8 @@ void countVotes(const Stars& stars, const Workers& workers, Report& report) {
   workers.forBlocks("votes", stars.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
     std::array<std::int64_t, 3> found = {};
     for (int p = static_cast<int>(begin); p < end; ++p) {
-      for (int i = stars.offset[p]; i < stars.offset[p + 1]; ++i) {
-        if (!stars.hasTriangle(i)) continue;
-        const int a = stars.link[i], b = stars.link[stars.after(p, i)];
-        ++found[(contains(stars, a, b, p) ? 1 : 0) + (contains(stars, b, p, a) ? 1 : 0)];
-      }
+      for (int i = stars.offset[p]; i < stars.offset[p + 1]; ++i)
+        if (stars.hasTriangle(i)) ++found[otherVotes(stars, p, i)];
     }
     for (int v = 0; v < 3; ++v) copies[v] += found[v];
   });

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "cloud/delaunay_star.h"
+#include "cloud/neighborhood.h"
 #include "cloud/tangent_frame.h"
 #include "tufted/errors.h"
 
@@ -14,13 +15,7 @@ namespace tufted {
 namespace {
 
 constexpr std::int64_t block_size = 1024;  // points per block: its neighbour lists stay in the second-level cache
-constexpr int line_growth = 8;             // a neighbourhood on one scan line grows to at most 8 k
-
-/// One point's way through the stages of a block.
-struct Local {
-  std::vector<Neighbor> neighbors;
-  Eigen::Vector3d normal;
-};
+constexpr double flat_share = 0.02;        // of the second variance, below which a neighbourhood is a plane
 
 /// What one block of points leaves behind.
 struct BlockOfStars {
@@ -30,32 +25,38 @@ struct BlockOfStars {
 
 /// Memory, counts and times of one worker.
 struct WorkerState {
-  std::vector<Local> locals;
+  std::vector<Neighborhood> hoods;
+  SheetScratch sheets;
+  Neighborhood saved_hood;
+  DelaunayStar saved_star;
   std::vector<PlanarPoint> planar;
   StarScratch scratch;
   DelaunayStar star;
-  std::int64_t grown_neighborhoods = 0, grown_stars = 0, open_stars = 0, flat_triangles = 0;
+  std::int64_t grown_neighborhoods = 0, split_neighborhoods = 0, isolated = 0, grown_stars = 0, reopened_stars = 0,
+               open_stars = 0, flat_triangles = 0;
   std::array<double, 3> seconds = {};  // neighbours, frames, stars
 };
 
 class StarBuilder {
  public:
-  StarBuilder(const RankedCloud& cloud, const NeighborSource& source, Delaunay delaunay, Stars& stars)
+  StarBuilder(const RankedCloud& cloud, const NeighborSource& source, const CloudOptions& options, Stars& stars)
       : cloud_(cloud),
         source_(source),
-        wrap_(delaunay == Delaunay::star ? delaunayStar : cgalBackend()),
+        options_(options),
+        finder_(cloud.points, source, options),
+        wrap_(options.delaunay == Delaunay::star ? delaunayStar : cgalBackend()),
         stars_(stars) {}
 
   void build(std::int64_t begin, std::int64_t end, WorkerState& state, BlockOfStars& block) const {
     const int count = static_cast<int>(end - begin);
     const int first = static_cast<int>(begin);
-    state.locals.resize(std::max<std::size_t>(state.locals.size(), count));
+    state.hoods.resize(std::max<std::size_t>(state.hoods.size(), count));
     Stopwatch watch;
-    for (int i = 0; i < count; ++i) findNeighbors(first + i, state.locals[i]);
+    for (int i = 0; i < count; ++i) finder_.find(first + i, state.hoods[i]);
     state.seconds[0] += watch.restart();
-    for (int i = 0; i < count; ++i) fitFrame(first + i, state.locals[i], state);
+    for (int i = 0; i < count; ++i) fitFrame(first + i, state.hoods[i], state);
     state.seconds[1] += watch.restart();
-    for (int i = 0; i < count; ++i) wrapStar(first + i, state.locals[i], state, block);
+    for (int i = 0; i < count; ++i) wrapStar(first + i, state.hoods[i], state, block);
     state.seconds[2] += watch.restart();
   }
 
@@ -70,68 +71,72 @@ class StarBuilder {
 #endif
   }
 
-  void findNeighbors(int p, Local& local) const {
-    if (!source_.isFixed()) {
-      source_.search->nearest(p, source_.k, local.neighbors);
-      return;
-    }
-    local.neighbors.clear();
-    for (std::size_t i = source_.list_offset[p]; i < source_.list_offset[p + 1]; ++i) {
-      const int q = source_.list[i];
-      local.neighbors.push_back({(cloud_.points.row(q) - cloud_.points.row(p)).squaredNorm(), q});
-    }
-    std::sort(local.neighbors.begin(), local.neighbors.end());
+  void fitFrame(int p, Neighborhood& hood, WorkerState& state) const {
+    finder_.fit(p, hood, state.sheets);
+    state.grown_neighborhoods += hood.grown ? 1 : 0;
+    state.split_neighborhoods += hood.split ? 1 : 0;
+    state.isolated += hood.isolated ? 1 : 0;
+    if (source_.normals.rows() > 0 && !source_.normals.row(p).isZero(0)) hood.axes.normal = source_.normals.row(p);
+    stars_.normals.row(p) = hood.axes.normal;
+    stars_.reach[p] = hood.reach;
+    stars_.isolated[p] = hood.isolated ? 1 : 0;
+    stars_.flat[p] = hood.axes.variance[0] < flat_share * hood.axes.variance[1] ? 1 : 0;
   }
 
-  /// Doubles the neighbourhood, but not past `cap` or the whole cloud. False when there is nothing to gain.
-  bool grow(int p, int cap, Local& local) const {
-    const int k = static_cast<int>(local.neighbors.size());
-    const int wanted = std::min({2 * k, cap, cloud_.size() - 1});
-    if (source_.isFixed() || wanted <= k) return false;
-    source_.search->nearest(p, wanted, local.neighbors);
-    return true;
-  }
-
-  void fitFrame(int p, Local& local, WorkerState& state) const {
-    PrincipalAxes axes = principalAxes(cloud_.points, p, local.neighbors);
-    bool grown = false;
-    while (liesOnOneLine(axes) && grow(p, line_growth * source_.k, local)) {
-      axes = principalAxes(cloud_.points, p, local.neighbors);
-      grown = true;
-    }
-    state.grown_neighborhoods += grown ? 1 : 0;
-    local.normal = axes.normal;
-    if (source_.normals.rows() > 0 && !source_.normals.row(p).isZero(0)) local.normal = source_.normals.row(p);
-    stars_.normals.row(p) = local.normal;
-    stars_.reach[p] = local.neighbors.empty() ? 0 : std::sqrt(local.neighbors.back().squared_distance);
-  }
-
-  /// Coordinates in the tangent plane of p, in units of `unit`.
-  void project(int p, const Local& local, double unit, std::vector<PlanarPoint>& planar) const {
-    const Eigen::Vector3d tangent_x = tangentOf(local.normal);
-    const Eigen::Vector3d tangent_y = local.normal.cross(tangent_x);
-    planar.clear();
-    for (const Neighbor& q : local.neighbors) {
+  /// The star among the neighbours projected to the tangent plane of p, in units of `unit`.
+  void project(int p, const Neighborhood& hood, double unit, WorkerState& state) const {
+    const Eigen::Vector3d tangent_x = tangentOf(hood.axes.normal);
+    const Eigen::Vector3d tangent_y = hood.axes.normal.cross(tangent_x);
+    state.planar.clear();
+    for (const Neighbor& q : hood.neighbors) {
       const Eigen::Vector3d d = (cloud_.points.row(q.index) - cloud_.points.row(p)).transpose() * unit;
-      planar.push_back({d.dot(tangent_x), d.dot(tangent_y), q.index});
+      state.planar.push_back({d.dot(tangent_x), d.dot(tangent_y), q.index});
+    }
+    wrap_(state.planar, p, state.scratch, state.star);
+  }
+
+  /// Wraps the star and looks further where what was found is no proof that the star is right: a circle of a closed
+  /// star leaves the ball that was searched, or the star is open and might not be among more neighbours.
+  void wrapUntilCertain(int p, Neighborhood& hood, double unit, WorkerState& state) const {
+    const bool thorough = options_.star_search == StarSearch::thorough;
+    DelaunayStar& star = state.star;
+    int most = 2 * hood.k;
+    if (thorough) most = hood.k >= finder_.mostNeighbors() ? hood.k : std::max(2 * source_.k, most);
+    bool tried_open = !thorough;
+    project(p, hood, unit, state);
+    for (;;) {
+      if (star.closed) {
+        if (2 * star.largestCircumradius() <= hood.radius * unit || !finder_.grow(p, most, hood, state.sheets)) return;
+        ++state.grown_stars;
+        project(p, hood, unit, state);
+        if (!thorough) return;
+        continue;
+      }
+      if (tried_open) return;
+      tried_open = true;
+      state.saved_star = star;
+      state.saved_hood = hood;
+      if (!finder_.grow(p, 2 * hood.k, hood, state.sheets)) return;
+      project(p, hood, unit, state);
+      if (!star.closed) {
+        star = state.saved_star;
+        hood = state.saved_hood;
+        return;
+      }
+      ++state.reopened_stars;
+      most = std::max(most, 2 * hood.k);
     }
   }
 
-  void wrapStar(int p, Local& local, WorkerState& state, BlockOfStars& block) const {
+  void wrapStar(int p, Neighborhood& hood, WorkerState& state, BlockOfStars& block) const {
     // A power of two near the reach, so that the predicates meet numbers near 1 and scaling rounds nothing.
-    const double reach = stars_.reach[p];
-    const int exponent = reach > 0 ? std::max(std::ilogb(reach), -1022) : 0;
-    const double unit = std::ldexp(1.0, -exponent);
+    const int exponent = hood.reach > 0 ? std::max(std::ilogb(hood.reach), -1022) : 0;
     DelaunayStar& star = state.star;
-    project(p, local, unit, state.planar);
-    wrap_(state.planar, p, state.scratch, star);
-
-    // Certificate: no circle of a closed star leaves the ball that was searched. Otherwise look once further.
-    if (star.closed && 2 * star.largestCircumradius() > reach * unit &&
-        grow(p, 2 * static_cast<int>(local.neighbors.size()), local)) {
-      ++state.grown_stars;
-      project(p, local, unit, state.planar);
-      wrap_(state.planar, p, state.scratch, star);
+    if (hood.isolated) {
+      star.link.clear();
+      star.closed = false;
+    } else {
+      wrapUntilCertain(p, hood, std::ldexp(1.0, -exponent), state);
     }
 
     state.open_stars += star.closed ? 0 : 1;
@@ -149,6 +154,8 @@ class StarBuilder {
 
   const RankedCloud& cloud_;
   const NeighborSource& source_;
+  const CloudOptions& options_;
+  NeighborhoodFinder finder_;
   Wrap wrap_;
   Stars& stars_;
 };
@@ -156,8 +163,8 @@ class StarBuilder {
 }  // namespace
 
 std::size_t Stars::bytes() const {
-  return bytesOf(offset) + bytesOf(link) + bytesOf(radius) + bytesOf(reach) + bytesOf(ends) +
-         static_cast<std::size_t>(normals.size()) * sizeof(double);
+  return bytesOf(offset) + bytesOf(link) + bytesOf(radius) + bytesOf(reach) + bytesOf(ends) + bytesOf(isolated) +
+         bytesOf(flat) + static_cast<std::size_t>(normals.size()) * sizeof(double);
 }
 
 void takeNeighborhoods(const Neighborhoods& lists, const RankedCloud& cloud, const std::vector<PointStatus>& status,
@@ -202,19 +209,21 @@ void takeNormals(const Points& normals, const RankedCloud& cloud, NeighborSource
   }
 }
 
-Stars buildStars(const RankedCloud& cloud, const NeighborSource& source, Delaunay delaunay, const Workers& workers,
-                 Report& report) {
+Stars buildStars(const RankedCloud& cloud, const NeighborSource& source, const CloudOptions& options,
+                 const Workers& workers, Report& report) {
   const int n = cloud.size();
   Stars stars;
   stars.offset.assign(static_cast<std::size_t>(n) + 1, 0);
   stars.reach.resize(n);
   stars.ends.resize(n);
+  stars.isolated.resize(n);
+  stars.flat.resize(n);
   stars.normals.resize(n, 3);
 
   Stopwatch wall;
   std::vector<BlockOfStars> blocks((n + block_size - 1) / block_size);
   std::vector<WorkerState> states(workers.count());
-  const StarBuilder builder(cloud, source, delaunay, stars);
+  const StarBuilder builder(cloud, source, options, stars);
   workers.forBlocks("stars", n, block_size, [&](std::int64_t begin, std::int64_t end, int worker) {
     builder.build(begin, end, states[worker], blocks[begin / block_size]);
   });
@@ -231,7 +240,10 @@ Stars buildStars(const RankedCloud& cloud, const NeighborSource& source, Delauna
   std::array<double, 3> seconds = {};
   for (const WorkerState& state : states) {
     report.grown_neighborhoods += state.grown_neighborhoods;
+    report.split_neighborhoods += state.split_neighborhoods;
+    report.isolated_by_sheets += state.isolated;
     report.grown_stars += state.grown_stars;
+    report.closed_stars += state.reopened_stars;
     report.open_stars += state.open_stars;
     report.dropped_triangles += state.flat_triangles;
     for (int i = 0; i < 3; ++i) seconds[i] += state.seconds[i];

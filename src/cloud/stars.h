@@ -22,12 +22,14 @@ constexpr double no_triangle = std::numeric_limits<double>::infinity();
 /// stands for the triangle (p, link[i], successor of i); its `radius` is no_triangle where there is none: at the last
 /// link vertex of an open star, and where a filter dropped it.
 struct Stars {
-  std::vector<int> offset;         ///< n + 1
-  std::vector<int> link;           ///< ranks
-  std::vector<double> radius;      ///< circumradius in the tangent plane, per link entry
-  std::vector<double> reach;       ///< n, r_k: distance to the last neighbour before a star grows
-  std::vector<std::uint8_t> ends;  ///< n, 1 where the surface ends at p: an open star or a lost triangle
-  Points normals;                  ///< n x 3
+  std::vector<int> offset;             ///< n + 1
+  std::vector<int> link;               ///< ranks
+  std::vector<double> radius;          ///< circumradius in the tangent plane, per link entry
+  std::vector<double> reach;           ///< n, r_k: distance to the last neighbour before a star grows
+  std::vector<std::uint8_t> ends;      ///< n, 1 where the surface ends at p: an open star or a lost triangle
+  std::vector<std::uint8_t> isolated;  ///< n, 1 where all neighbours belong to other sheets
+  std::vector<std::uint8_t> flat;      ///< n, 1 where the neighbourhood is next to a plane
+  Points normals;                      ///< n x 3
 
   int size() const { return static_cast<int>(reach.size()); }
   /// The link entry after i in star p, cyclically.
@@ -55,9 +57,9 @@ void takeNeighborhoods(const Neighborhoods& lists, const RankedCloud& cloud, con
 /// Normalises the caller's normals and brings them into rank order.
 void takeNormals(const Points& normals, const RankedCloud& cloud, NeighborSource& source, Report& report);
 
-/// Steps 1 and 2 for every point: neighbourhood with growth on single scan lines, tangent frame, projection,
-/// Delaunay star with its certificate. Counts growth and open stars, and books the three stages' costs.
-Stars buildStars(const RankedCloud& cloud, const NeighborSource& source, Delaunay delaunay, const Workers& workers,
-                 Report& report);
+/// For every point the neighbourhood, the tangent frame, the projection and the Delaunay star with its certificate.
+/// Counts growth, splits and open stars, and books the three stages' costs.
+Stars buildStars(const RankedCloud& cloud, const NeighborSource& source, const CloudOptions& options,
+                 const Workers& workers, Report& report);
 
 }  // namespace tufted

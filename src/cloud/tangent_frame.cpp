@@ -7,14 +7,15 @@
 
 namespace tufted {
 
-PrincipalAxes principalAxes(const Points& points, int p, const std::vector<Neighbor>& neighbors) {
+PrincipalAxes principalAxes(const Points& points, int p, std::span<const Neighbor> neighbors) {
   // The extent as a power of two keeps squares in range at any scale, exactly.
   double extent = 0;
   for (const Neighbor& q : neighbors) {
     extent = std::max(extent, (points.row(q.index) - points.row(p)).cwiseAbs().maxCoeff());
   }
   if (extent == 0) return {Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Zero()};
-  const double unit = std::ldexp(1.0, -std::max(std::ilogb(extent), -1022));  // finite for any extent
+  const int exponent = std::max(std::ilogb(extent), -1022);
+  const double unit = std::ldexp(1.0, -exponent);  // finite for any extent
 
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
   Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
@@ -34,6 +35,7 @@ PrincipalAxes principalAxes(const Points& points, int p, const std::vector<Neigh
     solver.compute(covariance);
     axes = {solver.eigenvectors().col(0), solver.eigenvalues()};
   }
+  axes.extent = std::ldexp(1.0, exponent);
   return axes;
 }
 

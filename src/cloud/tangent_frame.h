@@ -1,7 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <vector>
+#include <span>
 
 #include "cloud/neighbors.h"
 #include "tufted/types.h"
@@ -11,12 +11,13 @@ namespace tufted {
 /// Principal axes of a neighbourhood.
 struct PrincipalAxes {
   Eigen::Vector3d normal;    ///< eigenvector of the smallest eigenvalue
-  Eigen::Vector3d variance;  ///< eigenvalues, ascending, in units of the neighbourhood's extent squared
+  Eigen::Vector3d variance;  ///< eigenvalues, ascending, in units of `extent` squared
+  double extent = 1;         ///< a power of two near the neighbourhood's extent
 };
 
 /// PCA of p and its neighbours about their centroid, from coordinates relative to p, so that the distance from the
 /// origin does not matter.
-PrincipalAxes principalAxes(const Points& points, int p, const std::vector<Neighbor>& neighbors);
+PrincipalAxes principalAxes(const Points& points, int p, std::span<const Neighbor> neighbors);
 
 /// One scan line only: the second axis has less than a tenth of the first one's variance.
 bool liesOnOneLine(const PrincipalAxes& axes);

@@ -130,10 +130,10 @@ Laplacian pointCloudLaplacian(const Points& points, const CloudOptions& options)
   report.neighbors = source.k;
   clock.finish("tree", search ? search->bytes() : bytesOf(source.list) + bytesOf(source.list_offset));
 
-  Stars stars = buildStars(cloud, source, options.delaunay, workers, report);
+  Stars stars = buildStars(cloud, source, options, workers, report);
   search.reset();
   clock.restart();  // buildStars books its own stages
-  filterStars(stars, source.k, workers, report);
+  filterStars(stars, cloud.points, source.k, options.filter, workers, report);
   countVotes(stars, workers, report);
   describePoints(stars, cloud, result);
   clock.finish("filter", 0);

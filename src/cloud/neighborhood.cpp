@@ -1,0 +1,135 @@
+#include "cloud/neighborhood.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "cloud/stars.h"
+
+namespace tufted {
+namespace {
+
+constexpr int most_growth = 8;      // a neighbourhood grows to at most 8 k
+constexpr double crowd = 0.4;       // of the neighbours within half the radius; on an even surface it is a quarter
+constexpr double sheet_gap = 0.25;  // of the reach, between the heights of two sheets
+constexpr int most_splits = 3;
+constexpr std::size_t least_sheet = 3, least_plane = 9;  // points, p included
+
+double flatness(const PrincipalAxes& axes) {
+  return axes.variance[1] > 0 ? axes.variance[0] / axes.variance[1] : 0;
+}
+
+}  // namespace
+
+int NeighborhoodFinder::mostNeighbors() const {
+  return most_growth * source_.k;
+}
+
+bool NeighborhoodFinder::query(int p, int k, Neighborhood& hood) const {
+  k = std::min(k, static_cast<int>(points_.rows()) - 1);
+  if (source_.isFixed() || k <= hood.k) return false;
+  source_.search->nearest(p, k, hood.neighbors);
+  hood.k = k;
+  hood.radius = std::sqrt(hood.neighbors.back().squared_distance);
+  return true;
+}
+
+void NeighborhoodFinder::find(int p, Neighborhood& hood) const {
+  hood.neighbors.clear();
+  hood.k = 0;
+  hood.radius = 0;
+  hood.grown = hood.split = hood.restored = hood.isolated = false;
+  if (!source_.isFixed()) {
+    query(p, source_.k, hood);
+    return;
+  }
+  for (std::size_t i = source_.list_offset[p]; i < source_.list_offset[p + 1]; ++i) {
+    const int q = source_.list[i];
+    hood.neighbors.push_back({(points_.row(q) - points_.row(p)).squaredNorm(), q});
+  }
+  std::sort(hood.neighbors.begin(), hood.neighbors.end());
+  hood.k = static_cast<int>(hood.neighbors.size());
+  if (hood.k > 0) hood.radius = std::sqrt(hood.neighbors.back().squared_distance);
+}
+
+bool NeighborhoodFinder::isUneven(const Neighborhood& hood) const {
+  if (liesOnOneLine(hood.axes)) return true;
+  if (options_.growth == Growth::line) return false;
+  const double half = hood.radius / 2;
+  const auto far = std::partition_point(hood.neighbors.begin(), hood.neighbors.end(),
+                                        [half](const Neighbor& q) { return q.squared_distance <= half * half; });
+  return static_cast<double>(far - hood.neighbors.begin()) > crowd * hood.k;
+}
+
+void NeighborhoodFinder::fit(int p, Neighborhood& hood, SheetScratch& scratch) const {
+  hood.axes = principalAxes(points_, p, hood.neighbors);
+  while (isUneven(hood) && query(p, std::min(2 * hood.k, mostNeighbors()), hood)) {
+    hood.axes = principalAxes(points_, p, hood.neighbors);
+    hood.grown = true;
+  }
+  hood.reach = hood.radius;
+  if (options_.split_sheets && !source_.isFixed()) splitSheets(p, hood, scratch);
+}
+
+bool NeighborhoodFinder::grow(int p, int most, Neighborhood& hood, SheetScratch& scratch) const {
+  if (!query(p, std::min(2 * hood.k, most), hood)) return false;
+  if (options_.split_sheets && (hood.split || (!hood.restored && !hood.grown)))
+    keepSheet(p, hood.axes.normal, hood, scratch);
+  return true;
+}
+
+bool NeighborhoodFinder::keepSheet(int p, const Eigen::Vector3d& normal, Neighborhood& hood,
+                                   SheetScratch& scratch) const {
+  const double gap = sheet_gap * hood.reach;
+  scratch.heights.clear();
+  for (const Neighbor& q : hood.neighbors)
+    scratch.heights.push_back((points_.row(q.index) - points_.row(p)).dot(normal.transpose()));
+  scratch.sorted = scratch.heights;
+  std::sort(scratch.sorted.begin(), scratch.sorted.end());
+  const auto above = std::lower_bound(scratch.sorted.begin(), scratch.sorted.end(), 0.0);
+  double highest = 0, lowest = 0;
+  for (auto height = above; height != scratch.sorted.end() && *height - highest <= gap; ++height) highest = *height;
+  for (auto height = above; height != scratch.sorted.begin() && lowest - *(height - 1) <= gap; --height)
+    lowest = *(height - 1);
+  if (lowest <= scratch.sorted.front() && highest >= scratch.sorted.back()) return false;
+  if (scratch.all.empty()) scratch.all = hood.neighbors;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < hood.neighbors.size(); ++i)
+    if (scratch.heights[i] >= lowest && scratch.heights[i] <= highest) hood.neighbors[kept++] = hood.neighbors[i];
+  hood.neighbors.resize(kept);
+  return true;
+}
+
+void NeighborhoodFinder::splitSheets(int p, Neighborhood& hood, SheetScratch& scratch) const {
+  if (hood.neighbors.empty()) return;
+  const PrincipalAxes before = hood.axes;
+  scratch.all.clear();
+  // Between two sheets the plane of all neighbours stands across them; that of the nearest few does not.
+  for (const std::size_t few : {8, 13}) {
+    if (hood.neighbors.size() <= few) break;
+    const PrincipalAxes axes = principalAxes(points_, p, std::span(hood.neighbors).first(few));
+    const double share = few == 8 ? 0.1 : 0.5;
+    if (!(flatness(axes) < share * flatness(before) && axes.variance[0] < 0.05 * axes.variance[1])) continue;
+    if (!keepSheet(p, axes.normal, hood, scratch)) continue;
+    hood.axes = principalAxes(points_, p, hood.neighbors);
+    break;
+  }
+  for (int i = 0; i < most_splits; ++i) {
+    if (!keepSheet(p, hood.axes.normal, hood, scratch)) break;
+    hood.axes = principalAxes(points_, p, hood.neighbors);
+  }
+  if (scratch.all.empty()) return;
+  const std::size_t kept = hood.neighbors.size() + 1;
+  if (kept <= least_sheet) {
+    hood.isolated = true;
+  } else if (kept >= least_plane && !liesOnOneLine(hood.axes) && flatness(hood.axes) < 0.1 &&
+             flatness(hood.axes) < 0.25 * flatness(before)) {
+    hood.split = true;
+  } else {
+    hood.restored = true;
+    hood.neighbors = scratch.all;
+    hood.axes = before;
+  }
+}
+
+}  // namespace tufted

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "cloud/neighbors.h"
+#include "cloud/tangent_frame.h"
+#include "tufted/options.h"
+
+namespace tufted {
+
+struct NeighborSource;
+
+/// The neighbours of one point and the plane through them.
+struct Neighborhood {
+  std::vector<Neighbor> neighbors;  ///< ascending; those of other sheets left out
+  PrincipalAxes axes;
+  int k = 0;              ///< neighbours asked for
+  double radius = 0;      ///< distance to the last of them
+  double reach = 0;       ///< the radius that the plane was fitted in, S(p)
+  bool grown = false;     ///< the plane was fitted to more than the caller's k
+  bool split = false;     ///< neighbours of another sheet were left out
+  bool restored = false;  ///< there were some, but without them there is no plane
+  bool isolated = false;  ///< next to all neighbours belong to other sheets
+};
+
+/// Memory that one worker reuses from point to point.
+struct SheetScratch {
+  std::vector<double> heights, sorted;
+  std::vector<Neighbor> all;  ///< before any were left out; empty while none were
+};
+
+/// Finds the neighbourhoods of points and fits planes to them.
+class NeighborhoodFinder {
+ public:
+  /// All arguments are borrowed.
+  NeighborhoodFinder(const Points& points, const NeighborSource& source, const CloudOptions& options)
+      : points_(points), source_(source), options_(options) {}
+
+  /// The caller's k neighbours, or the caller's own list.
+  void find(int p, Neighborhood& hood) const;
+
+  /// Doubles the neighbourhood while it says too little about the surface, fits the plane, and leaves other sheets out.
+  void fit(int p, Neighborhood& hood, SheetScratch& scratch) const;
+
+  /// Asks for twice as many neighbours, at most `most`; other sheets are left out as before, the plane stays as it is.
+  /// False when there are no more to be had.
+  bool grow(int p, int most, Neighborhood& hood, SheetScratch& scratch) const;
+
+  /// The most neighbours that fit() asks for.
+  int mostNeighbors() const;
+
+ private:
+  bool query(int p, int k, Neighborhood& hood) const;
+  bool isUneven(const Neighborhood& hood) const;
+  /// Keeps the neighbours whose heights along `normal` are reached from p over gaps of at most a quarter of the reach.
+  /// True if some were left out.
+  bool keepSheet(int p, const Eigen::Vector3d& normal, Neighborhood& hood, SheetScratch& scratch) const;
+  void splitSheets(int p, Neighborhood& hood, SheetScratch& scratch) const;
+
+  const Points& points_;
+  const NeighborSource& source_;
+  const CloudOptions& options_;
+};
+
+}  // namespace tufted
