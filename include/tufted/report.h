@@ -32,6 +32,7 @@ struct Report {
   std::int64_t grown_neighborhoods = 0;    ///< k doubled because the neighbours say too little, see Growth
   std::int64_t split_neighborhoods = 0;    ///< neighbours of another sheet left out
   std::int64_t isolated_by_sheets = 0;     ///< points without a star: next to all neighbours belong to other sheets
+  std::int64_t denoised = 0;               ///< points moved onto a surface for the lengths, see Lengths
   std::int64_t grown_stars = 0;            ///< times k was doubled because a closed star was not certified
   std::int64_t closed_stars = 0;           ///< open stars that closed with twice the neighbours
   std::int64_t open_stars = 0;             ///< points whose Voronoi cell is not compact
@@ -54,6 +55,9 @@ struct Report {
   std::int64_t flip_failures = 0;     ///< times an edge was given up after 100 flips; 0 unless something is wrong
 
   // Operator
+  double area = 0;                   ///< sum of M
+  double cover_area = 0;             ///< sum of the cover's areas, which M is where Mass::cover is chosen
+  std::int64_t cover_masses = 0;     ///< points whose mass is the cover's because their own star holds no triangle
   std::int64_t nonzeros = 0;         ///< stored entries of L
   std::int64_t components = 0;       ///< connected components among active points
   std::int64_t clamped_weights = 0;  ///< negative weights set to 0, within 1e-9 of the larger diagonal

@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "cloud/delaunay_star.h"
+#include "cloud/denoise.h"
 #include "cloud/neighborhood.h"
 #include "cloud/tangent_frame.h"
 #include "tufted/errors.h"
@@ -21,6 +22,9 @@ constexpr double flat_share = 0.02;        // of the second variance, below whic
 struct BlockOfStars {
   std::vector<int> link;
   std::vector<double> radius;
+  std::vector<int> noisy;              ///< ranks
+  std::vector<std::size_t> noisy_end;  ///< where the neighbours of each end in `noisy_neighbors`
+  std::vector<int> noisy_neighbors;    ///< ranks
 };
 
 /// Memory, counts and times of one worker.
@@ -54,7 +58,7 @@ class StarBuilder {
     Stopwatch watch;
     for (int i = 0; i < count; ++i) finder_.find(first + i, state.hoods[i]);
     state.seconds[0] += watch.restart();
-    for (int i = 0; i < count; ++i) fitFrame(first + i, state.hoods[i], state);
+    for (int i = 0; i < count; ++i) fitFrame(first + i, state.hoods[i], state, block);
     state.seconds[1] += watch.restart();
     for (int i = 0; i < count; ++i) wrapStar(first + i, state.hoods[i], state, block);
     state.seconds[2] += watch.restart();
@@ -71,7 +75,7 @@ class StarBuilder {
 #endif
   }
 
-  void fitFrame(int p, Neighborhood& hood, WorkerState& state) const {
+  void fitFrame(int p, Neighborhood& hood, WorkerState& state, BlockOfStars& block) const {
     finder_.fit(p, hood, state.sheets);
     state.grown_neighborhoods += hood.grown ? 1 : 0;
     state.split_neighborhoods += hood.split ? 1 : 0;
@@ -81,6 +85,18 @@ class StarBuilder {
     stars_.reach[p] = hood.reach;
     stars_.isolated[p] = hood.isolated ? 1 : 0;
     stars_.flat[p] = hood.axes.variance[0] < flat_share * hood.axes.variance[1] ? 1 : 0;
+    if (options_.lengths == Lengths::denoised) findSurface(p, hood, block);
+  }
+
+  /// Moves p onto the surface through its neighbours if they are noise around one, and keeps them for a second look.
+  void findSurface(int p, const Neighborhood& hood, BlockOfStars& block) const {
+    const HeightFit fit = fitHeights(cloud_.points, p, hood.neighbors, hood.axes.normal, hood.reach);
+    const double variance = hood.axes.variance[0] * hood.axes.extent * hood.axes.extent;
+    if (!isNoisy(fit, variance, hood.reach)) return;
+    stars_.surface.row(p) += fit.height * hood.axes.normal.transpose();
+    block.noisy.push_back(p);
+    for (const Neighbor& q : hood.neighbors) block.noisy_neighbors.push_back(q.index);
+    block.noisy_end.push_back(block.noisy_neighbors.size());
   }
 
   /// The star among the neighbours projected to the tangent plane of p, in units of `unit`.
@@ -160,11 +176,33 @@ class StarBuilder {
   Stars& stars_;
 };
 
+/// Fits the surface of noisy points once more, to points that lie on it by now.
+void refineSurface(Stars& stars, const std::vector<BlockOfStars>& blocks, const Workers& workers) {
+  const Points first = stars.surface;
+  workers.forBlocks("surface", static_cast<std::int64_t>(blocks.size()), 1,
+                    [&](std::int64_t begin, std::int64_t end, int) {
+                      std::vector<Neighbor> neighbors;
+                      for (std::int64_t b = begin; b < end; ++b) {
+                        const BlockOfStars& block = blocks[b];
+                        std::size_t next = 0;
+                        for (std::size_t i = 0; i < block.noisy.size(); ++i) {
+                          const int p = block.noisy[i];
+                          neighbors.clear();
+                          for (; next < block.noisy_end[i]; ++next)
+                            neighbors.push_back({0, block.noisy_neighbors[next]});
+                          const Eigen::Vector3d normal = principalAxes(first, p, neighbors).normal;
+                          const HeightFit fit = fitHeights(first, p, neighbors, normal, stars.reach[p]);
+                          if (fit.is_valid) stars.surface.row(p) += fit.height * normal.transpose();
+                        }
+                      }
+                    });
+}
+
 }  // namespace
 
 std::size_t Stars::bytes() const {
   return bytesOf(offset) + bytesOf(link) + bytesOf(radius) + bytesOf(reach) + bytesOf(ends) + bytesOf(isolated) +
-         bytesOf(flat) + static_cast<std::size_t>(normals.size()) * sizeof(double);
+         bytesOf(flat) + static_cast<std::size_t>(normals.size() + surface.size()) * sizeof(double);
 }
 
 void takeNeighborhoods(const Neighborhoods& lists, const RankedCloud& cloud, const std::vector<PointStatus>& status,
@@ -219,6 +257,7 @@ Stars buildStars(const RankedCloud& cloud, const NeighborSource& source, const C
   stars.isolated.resize(n);
   stars.flat.resize(n);
   stars.normals.resize(n, 3);
+  stars.surface = cloud.points;
 
   Stopwatch wall;
   std::vector<BlockOfStars> blocks((n + block_size - 1) / block_size);
@@ -227,6 +266,9 @@ Stars buildStars(const RankedCloud& cloud, const NeighborSource& source, const C
   workers.forBlocks("stars", n, block_size, [&](std::int64_t begin, std::int64_t end, int worker) {
     builder.build(begin, end, states[worker], blocks[begin / block_size]);
   });
+
+  for (const BlockOfStars& block : blocks) report.denoised += static_cast<std::int64_t>(block.noisy.size());
+  if (report.denoised > 0) refineSurface(stars, blocks, workers);
 
   std::partial_sum(stars.offset.begin(), stars.offset.end(), stars.offset.begin());
   stars.link.reserve(stars.offset.back());

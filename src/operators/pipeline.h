@@ -35,7 +35,7 @@ void checkCommon(const char* function, const Options& options) {
 
 /// Algorithm 3 from the glued cover on: lengths, mollification, flips, matrices, and the cover in the caller's
 /// numbering and unit.
-/// @param points by vertex of the cover, in units of 2^exponent of the caller's
+/// @param points by vertex of the cover, in units of 2^exponent of the caller's: what lengths are measured between
 /// @param caller the caller's index of each vertex
 /// @param scale 1/2 for the two sheets, times 1/3 where every triangle comes thrice
 template <class Options>
@@ -56,6 +56,8 @@ void finishLaplacian(std::shared_ptr<IntrinsicTriangulation> cover, const Points
 
   // Back from units of 2^exponent, which is exact.
   for (double& mass : result.M) mass = std::ldexp(mass, 2 * exponent);
+  result.cover_areas = result.M;
+  report.area = report.cover_area = result.M.sum();
   for (std::size_t i = 0; i < result.status.size(); ++i) {
     const bool has_row = result.L.outerIndexPtr()[i] != result.L.outerIndexPtr()[i + 1];
     if (result.status[i] == PointStatus::active && !has_row) result.status[i] = PointStatus::isolated;

@@ -9,6 +9,7 @@
 #include "cloud/stars.h"
 #include "cloud/tangent_frame.h"
 #include "operators/pipeline.h"
+#include "operators/star_mass.h"
 
 namespace tufted {
 namespace {
@@ -98,6 +99,19 @@ void describePoints(const Stars& stars, const RankedCloud& cloud, Laplacian& res
   }
 }
 
+/// Makes the stars' own areas M where they are positive and the point has a row.
+void takeAreas(const VectorXd& areas, const RankedCloud& cloud, Laplacian& result) {
+  for (int p = 0; p < cloud.size(); ++p) {
+    const int i = cloud.caller[p];
+    if (result.status[i] != PointStatus::active) continue;
+    if (areas[p] > 0)
+      result.M[i] = std::ldexp(areas[p], 2 * cloud.exponent);
+    else
+      ++result.report.cover_masses;
+  }
+  result.report.area = result.M.sum();
+}
+
 }  // namespace
 
 Laplacian pointCloudLaplacian(const Points& points, const CloudOptions& options) {
@@ -138,15 +152,33 @@ Laplacian pointCloudLaplacian(const Points& points, const CloudOptions& options)
   describePoints(stars, cloud, result);
   clock.finish("filter", 0);
 
+  VectorXd areas;
+  if (options.mass == Mass::star) areas = starAreas(stars, stars.surface, workers);
+  const Points surface = std::move(stars.surface);
+  clock.finish("mass", 0);
+
   auto cover = std::make_shared<IntrinsicTriangulation>();
   addStars(stars, options.gluing, *cover, workers);
   stars = {};
   glueEdges(*cover, cloud.points, {options.order, options.seed}, workers);
   clock.finish("cover", bytesOf(*cover));
 
-  finishLaplacian(std::move(cover), cloud.points, cloud.caller, cloud.exponent, 1.0 / 2 / 3, options, workers, clock,
+  finishLaplacian(std::move(cover), surface, cloud.caller, cloud.exponent, 1.0 / 2 / 3, options, workers, clock,
                   result);
+  if (options.mass == Mass::star) takeAreas(areas, cloud, result);
   return result;
+}
+
+CloudOptions cloudOptions(Preset preset) {
+  CloudOptions options;
+  if (preset == Preset::clean) return options;
+  options.growth = Growth::uneven;
+  options.split_sheets = preset == Preset::scan;
+  options.star_search = StarSearch::thorough;
+  options.filter = Filter::votes;
+  options.lengths = Lengths::denoised;
+  options.mass = Mass::star;
+  return options;
 }
 
 const IntrinsicTriangulation& Laplacian::cover() const {
