@@ -118,7 +118,7 @@ class StarBuilder {
     DelaunayStar& star = state.star;
     int most = 2 * hood.k;
     if (thorough) most = hood.k >= finder_.mostNeighbors() ? hood.k : std::max(2 * source_.k, most);
-    bool tried_open = !thorough;
+    int open_tries = thorough ? 2 : 0;
     project(p, hood, unit, state);
     for (;;) {
       if (star.closed) {
@@ -128,12 +128,12 @@ class StarBuilder {
         if (!thorough) return;
         continue;
       }
-      if (tried_open) return;
-      tried_open = true;
+      if (open_tries == 0) return;
       state.saved_star = star;
       state.saved_hood = hood;
-      if (!finder_.grow(p, 2 * hood.k, hood, state.sheets)) return;
-      project(p, hood, unit, state);
+      while (!star.closed && open_tries-- > 0 && finder_.grow(p, 2 * hood.k, hood, state.sheets))
+        project(p, hood, unit, state);
+      open_tries = 0;
       if (!star.closed) {
         star = state.saved_star;
         hood = state.saved_hood;
