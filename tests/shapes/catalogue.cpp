@@ -24,6 +24,8 @@ std::vector<Cloud> allClouds(int size) {
     clouds.push_back(saddle(n, sampling));
     clouds.push_back(saddle(n, sampling, Rim::included));
   }
+  for (const double ratio : {16.0, 100.0}) clouds.push_back(sphere(n, Sampling::densityStep(ratio)));
+  for (const Outliers where : {Outliers::near, Outliers::far}) clouds.push_back(withOutliers(sphere(n), where, 0.01));
   clouds.push_back(ellipsoid(std::min(n, 100000)));
   clouds.push_back(squareLattice(side));
   clouds.push_back(shuffled(squareLattice(side)));

@@ -157,6 +157,35 @@ Cloud withNoise(Cloud cloud, double sigma, std::uint64_t seed) {
   return cloud;
 }
 
+Cloud withOutliers(Cloud cloud, Outliers where, double share, std::uint64_t seed) {
+  Random random(seed);
+  const int n = static_cast<int>(cloud.points.rows());
+  const int added = static_cast<int>(std::lround(share * n));
+  const double spacing = std::sqrt(cloud.area / n);
+  const Eigen::RowVector3d low = cloud.points.colwise().minCoeff(), high = cloud.points.colwise().maxCoeff();
+  cloud.points.conservativeResize(n + added, Eigen::NoChange);
+  cloud.normals.conservativeResize(n + added, Eigen::NoChange);
+  for (int i = n; i < n + added; ++i) {
+    if (where == Outliers::near) {
+      const int p = random.below(n);
+      const double off = random.uniform(2, 6) * spacing, side = random.uniform() < 0.5 ? -1 : 1;
+      cloud.points.row(i) = cloud.points.row(p) + side * off * cloud.normals.row(p);
+      cloud.normals.row(i) = cloud.normals.row(p);
+    } else {
+      for (int axis = 0; axis < 3; ++axis) {
+        const double margin = (high[axis] - low[axis]) / 4;
+        cloud.points(i, axis) = random.uniform(low[axis] - margin, high[axis] + margin);
+      }
+      cloud.normals.row(i).setZero();
+    }
+  }
+  if (!cloud.labels.empty()) cloud.labels.resize(n + added, -1);
+  cloud.width = cloud.height = 0;
+  cloud.outliers = added;
+  cloud.name += where == Outliers::near ? "_outliers_near" : "_outliers_far";
+  return cloud;
+}
+
 Cloud shuffled(Cloud cloud, std::uint64_t seed) {
   const std::vector<int> order = Random(seed).permutation(static_cast<int>(cloud.points.rows()));
   cloud.points = Points(cloud.points(order, Eigen::all));
@@ -164,7 +193,7 @@ Cloud shuffled(Cloud cloud, std::uint64_t seed) {
   std::vector<int> labels(cloud.labels.size());
   for (std::size_t i = 0; i < labels.size(); ++i) labels[i] = cloud.labels[order[i]];
   cloud.labels = std::move(labels);
-  cloud.width = cloud.height = 0;
+  cloud.width = cloud.height = cloud.rim_points = cloud.outliers = 0;
   cloud.name += "_shuffled";
   return cloud;
 }

@@ -106,7 +106,7 @@ TEST_P(EveryCloud, IsReproducible) {
 
 INSTANTIATE_TEST_SUITE_P(Shapes, EveryCloud, testing::ValuesIn(indicesOf([](const Cloud&) { return true; })), nameOf);
 INSTANTIATE_TEST_SUITE_P(Shapes, EverySurface, testing::ValuesIn(indicesOf([](const Cloud& cloud) {
-                           return cloud.noise == 0 && cloud.shape != "room";
+                           return cloud.noise == 0 && cloud.outliers == 0 && cloud.shape != "room";
                          })),
                          nameOf);
 
@@ -121,8 +121,8 @@ TEST(Clouds, SeedsGiveOtherPoints) {
 }
 
 TEST(Clouds, CountIsExactExceptForLattices) {
-  for (const Sampling sampling :
-       {Sampling::uniform, Sampling::jittered, Sampling::nonuniform, Sampling::scanLines(10)}) {
+  for (const Sampling sampling : {Sampling::uniform, Sampling::jittered, Sampling::nonuniform, Sampling::scanLines(10),
+                                  Sampling::densityStep(16)}) {
     EXPECT_EQ(sphere(1234, sampling).points.rows(), 1234);
     EXPECT_EQ(cylinderPatch(1234, sampling).points.rows(), 1234);
   }
@@ -195,12 +195,12 @@ TEST(Clouds, LatticeStepsAreExact) {
 }
 
 TEST(Clouds, ScanLinesHaveTheirAnisotropy) {
-  for (const double anisotropy : {4.0, 10.0, 20.0, 40.0}) {
-    const Cloud cloud = sphere(16000, Sampling::scanLines(anisotropy));
+  for (const double anisotropy : {4.0, 10.0, 20.0, 40.0, 80.0}) {
+    const Cloud cloud = sphere(64000, Sampling::scanLines(anisotropy));
     std::set<double> heights;
     for (Eigen::Index i = 0; i < cloud.points.rows(); ++i) heights.insert(cloud.points(i, 2));
     const double line = pi / static_cast<double>(heights.size());
-    EXPECT_NEAR(line / (4 * pi / 16000 / line), anisotropy, 0.05 * anisotropy);
+    EXPECT_NEAR(line / (4 * pi / 64000 / line), anisotropy, 0.05 * anisotropy);
   }
 }
 
@@ -217,6 +217,47 @@ TEST(Clouds, RimsCarryPoints) {
   EXPECT_NEAR(onRim(disk(1600, Sampling::uniform, Rim::included), circle), 2 * pi / std::sqrt(pi / 1600), 1);
   const auto ends = [](const RowVector3d& p) { return p.z() == 0 || p.z() == 2; };
   EXPECT_GT(onRim(cylinderPatch(1600), ends), 90);
+}
+
+TEST(Clouds, RimPointsAreCountedAndComeFirst) {
+  EXPECT_EQ(square(1600).rim_points, 0);
+  EXPECT_EQ(sphere(1600).rim_points, 0);
+  const Cloud cloud = square(1600, Sampling::uniform, Rim::included);
+  ASSERT_EQ(cloud.rim_points, 4 * 40);
+  for (int i = 0; i < 1600; ++i) {
+    EXPECT_EQ((cloud.points.row(i).head(2).array() - 0.5).abs().maxCoeff() == 0.5, i < cloud.rim_points) << i;
+  }
+}
+
+TEST(Clouds, DensityStepsHaveTheirRatioOnEquallyLargeHalves) {
+  for (const double ratio : {16.0, 100.0}) {
+    const Cloud cloud = sphere(100000, Sampling::densityStep(ratio));
+    const double sparse = static_cast<double>((cloud.points.col(2).array() < 0).count());
+    // The sparse half is a binomial count; three of its standard deviations.
+    EXPECT_NEAR(sparse, 100000 / (ratio + 1), 3 * std::sqrt(100000 / (ratio + 1)));
+  }
+}
+
+TEST(Clouds, NearOutliersAreTwoToSixSpacingsOffOnEitherSide) {
+  const Cloud cloud = withOutliers(sphere(10000), Outliers::near, 0.01);
+  ASSERT_EQ(cloud.outliers, 100);
+  ASSERT_EQ(cloud.points.rows(), 10100);
+  const double spacing = std::sqrt(4 * pi / 10000);
+  const Eigen::ArrayXd off = (cloud.points.bottomRows(100).rowwise().norm().array() - 1) / spacing;
+  EXPECT_GE(off.abs().minCoeff(), 2 - 1e-9);
+  EXPECT_LE(off.abs().maxCoeff(), 6 + 1e-9);
+  EXPECT_LT(off.minCoeff(), -5);
+  EXPECT_GT(off.maxCoeff(), 5);
+  EXPECT_TRUE(same(cloud.points.topRows(10000), sphere(10000).points));
+}
+
+TEST(Clouds, FarOutliersFillTheEnlargedBox) {
+  const Cloud cloud = withOutliers(sphere(10000), Outliers::far, 0.1);
+  ASSERT_EQ(cloud.outliers, 1000);
+  const Eigen::ArrayX3d far = cloud.points.bottomRows(1000);
+  EXPECT_LE(far.abs().maxCoeff(), 1.5);
+  EXPECT_GT(far.colwise().maxCoeff().minCoeff(), 1.4);
+  EXPECT_LT(far.colwise().minCoeff().maxCoeff(), -1.4);
 }
 
 TEST(Clouds, NoiseHasItsDeviation) {

@@ -15,13 +15,20 @@ struct Parameters {
 };
 using Places = std::vector<Parameters>;
 
-// Independent points by rejection. The density varies by 16^-sin^2, which is smooth on closed and open surfaces.
-void addRandom(const Surface& surface, int n, bool nonuniform, Random& random, Places& places) {
+// The density at row t by that of the densest row; 16^-sin^2 is smooth on closed and open surfaces.
+double densityAt(const Surface& surface, const Sampling& sampling, double t) {
+  if (sampling.kind == Sampling::Kind::nonuniform) {
+    return std::exp2(-4 * std::pow(std::sin(std::numbers::pi * t / surface.span), 2));
+  }
+  return sampling.kind == Sampling::Kind::density_step && t > surface.span / 2 ? 1 / sampling.density_ratio : 1;
+}
+
+// Independent points by rejection.
+void addRandom(const Surface& surface, int n, const Sampling& sampling, Random& random, Places& places) {
   for (int found = 0; found < n;) {
     const double t = surface.span * random.uniform();
     const double s = random.uniform();
-    double accept = surface.at(t, s).stretch / surface.max_stretch;
-    if (nonuniform) accept *= std::exp2(-4 * std::pow(std::sin(std::numbers::pi * t / surface.span), 2));
+    const double accept = surface.at(t, s).stretch / surface.max_stretch * densityAt(surface, sampling, t);
     if (random.uniform() >= accept) continue;
     places.push_back({t, s});
     ++found;
@@ -85,6 +92,8 @@ std::string nameOf(Sampling sampling) {
       return "lattice";
     case Sampling::Kind::nonuniform:
       return "nonuniform";
+    case Sampling::Kind::density_step:
+      return "density_step_" + std::to_string(std::lround(sampling.density_ratio));
     case Sampling::Kind::scan_lines:
       break;
   }
@@ -97,11 +106,12 @@ Cloud sampleSurface(const Surface& surface, int n, Sampling sampling, Rim rim, s
   Random random(seed);
   Places places;
   if (rim == Rim::included) addRim(surface, n, places);
-  const int inner = std::max(0, n - static_cast<int>(places.size()));
+  const int rim_points = static_cast<int>(places.size()), inner = std::max(0, n - rim_points);
   switch (sampling.kind) {
     case Sampling::Kind::uniform:
     case Sampling::Kind::nonuniform:
-      addRandom(surface, inner, sampling.kind == Sampling::Kind::nonuniform, random, places);
+    case Sampling::Kind::density_step:
+      addRandom(surface, inner, sampling, random, places);
       break;
     case Sampling::Kind::jittered:
       addRows(surface, inner, 1, 0.35, random, places);
@@ -123,7 +133,8 @@ Cloud sampleSurface(const Surface& surface, int n, Sampling sampling, Rim rim, s
               .normals = Points(places.size(), 3),
               .area = surface.area,
               .boundary = boundary,
-              .eigenvalues = surface.eigenvalues};
+              .eigenvalues = surface.eigenvalues,
+              .rim_points = rim_points};
   for (std::size_t i = 0; i < places.size(); ++i) {
     const SurfacePoint point = surface.at(places[i].t, places[i].s);
     cloud.points.row(i) = point.point.transpose();

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "shapes/random.h"
 #include "shapes/shapes.h"
@@ -97,6 +98,13 @@ double visibleArea(double low, double high) {
   return area;
 }
 
+// The lowest and the highest ring of common scanners of so many rings, rad.
+std::pair<double, double> elevations(int rings) {
+  if (rings == 16) return {-15 * degree, 15 * degree};
+  if (rings == 32) return {-30.67 * degree, 10.67 * degree};
+  return {-24.8 * degree, 2 * degree};
+}
+
 Cloud emptyScan(int width, int height) {
   const int n = width * height;
   return {.points = Points(n, 3),
@@ -110,7 +118,7 @@ Cloud emptyScan(int width, int height) {
 }  // namespace
 
 Cloud lidar(const LidarOptions& options, std::uint64_t seed) {
-  const double low = (options.rings == 16 ? -15 : -24.8) * degree, high = (options.rings == 16 ? 15 : 2) * degree;
+  const auto [low, high] = elevations(options.rings);
   const int columns = static_cast<int>(std::lround(360 / options.azimuth_step));
   Random random(seed);
   Cloud cloud = emptyScan(columns, options.rings);
@@ -124,7 +132,7 @@ Cloud lidar(const LidarOptions& options, std::uint64_t seed) {
     const double elevation = low + (high - low) * row / (options.rings - 1);
     for (int column = 0; column < columns; ++column) {
       const int i = row * columns + column;
-      const Vector3d direction = beam(2 * std::numbers::pi * column / columns, elevation);
+      const Vector3d direction = beam(2 * std::numbers::pi * (column + options.first_azimuth) / columns, elevation);
       const Hit hit = castRay(direction);
       const double range = hit.range + (options.noise > 0 ? options.noise * random.normal() : 0);
       cloud.points.row(i) = (range * direction).transpose();

@@ -95,6 +95,65 @@ TEST(Scanners, LidarAreaIsThatOfTheSurfacesSeen) {
   EXPECT_LT(cloud.area, walls + 2 * 20 * 15);
 }
 
+TEST(Scanners, LidarsOf32RingsLookUpToTheCeiling) {
+  const Cloud cloud = lidar({.rings = 32, .azimuth_step = 1});
+  const auto elevation = [&](int i) { return std::asin(cloud.points(i, 2) / cloud.points.row(i).norm()); };
+  const double degree = std::atan(1.0) / 45;
+  EXPECT_NEAR(elevation(0), -30.67 * degree, 1e-12);
+  EXPECT_NEAR(elevation(31 * cloud.width), 10.67 * degree, 1e-12);
+}
+
+TEST(Scanners, LidarStartsAtItsFirstAzimuth) {
+  const Cloud cloud = lidar({.azimuth_step = 2, .first_azimuth = 0.25});
+  EXPECT_NEAR(std::atan2(cloud.points(3, 1), cloud.points(3, 0)), 3.25 * 2 * std::atan(1.0) / 45, 1e-12);
+}
+
+// Four by three rays onto the plane z = 0, and one column of rays onto another one.
+Cloud smallScan() {
+  Cloud scan{.points = Points::Zero(12, 3), .labels = std::vector<int>(12, 0), .width = 4, .height = 3};
+  for (int i = 0; i < 12; ++i) scan.points.row(i) << i % 4, i / 4, 0;
+  return scan;
+}
+
+TEST(ScanTruth, AreaIsThatOfTheTrianglesOnOneSurface) {
+  Cloud scan = smallScan();
+  EXPECT_DOUBLE_EQ(scanTruth(scan, false).area, 6);
+  scan.labels[5] = 1;  // the corner of four cells, which keep the triangle of their other corners
+  EXPECT_DOUBLE_EQ(scanTruth(scan, false).area, 4);
+  scan.labels[6] = 1;  // two cells now have two corners on either surface
+  EXPECT_DOUBLE_EQ(scanTruth(scan, false).area, 2);
+}
+
+TEST(ScanTruth, SurfacesArePiecesOfOneLabel) {
+  Cloud scan = smallScan();
+  EXPECT_EQ(scanTruth(scan, false).surfaces, 1);
+  for (const int i : {1, 5, 9}) scan.labels[i] = 1;
+  EXPECT_EQ(scanTruth(scan, false).surfaces, 3);
+  EXPECT_EQ(scanTruth(scan, true).surfaces, 2);  // column 3 meets column 0
+}
+
+TEST(ScanTruth, InnerRaysHaveEightNeighboursOnTheirSurface) {
+  Cloud scan = smallScan();
+  const auto inner = [&](bool goes_round) {
+    int count = 0;
+    for (const int flag : scanTruth(scan, goes_round).inner) count += flag;
+    return count;
+  };
+  EXPECT_EQ(inner(false), 2);
+  EXPECT_EQ(inner(true), 4);
+  scan.labels[0] = 1;
+  EXPECT_EQ(inner(false), 1);
+  EXPECT_EQ(inner(true), 1);
+}
+
+TEST(ScanTruth, OfALidarRoomIsNearlyTheAreaSeen) {
+  // 64 rings leave no more than the strips between surfaces, and between rays of grazing incidence, unseen.
+  const Cloud cloud = lidar({.rings = 64, .azimuth_step = 0.5});
+  const ScanTruth truth = scanTruth(cloud, true);
+  EXPECT_LT(truth.area, cloud.area);
+  EXPECT_GT(truth.area, 0.9 * cloud.area);
+}
+
 TEST(Scanners, DepthCameraIsQuantisedAndOrganized) {
   const DepthCameraOptions options{.width = 160, .height = 120, .depth_step = 0.004};
   const Cloud cloud = depthCamera(options);

@@ -27,7 +27,9 @@ struct Cloud {
   int components = 1;         ///< of the surface
   bool boundary = false;      ///< the surface has one
   VectorXd eigenvalues{};     ///< ascending, zeros included; empty: unknown
-  std::vector<int> labels{};  ///< which sheet, face or wall; empty: all one
+  std::vector<int> labels{};  ///< which sheet, face or wall, -1: an outlier; empty: all one
+  int rim_points = 0;         ///< so many first points lie exactly on the boundary
+  int outliers = 0;           ///< so many last points do not belong to the surface
   int width = 0, height = 0;  ///< of an organized cloud, row-major; 0: not organized
 };
 
@@ -50,15 +52,18 @@ struct Mesh {
 
 /// How points are spread over a surface.
 struct Sampling {
-  enum class Kind { uniform, jittered, lattice, nonuniform, scan_lines };
+  enum class Kind { uniform, jittered, lattice, nonuniform, scan_lines, density_step };
   Kind kind;
-  double anisotropy;  ///< distance of lines by distance along a line
+  double anisotropy;         ///< distance of lines by distance along a line
+  double density_ratio = 1;  ///< points per area on both sides of a step, one by the other
 
   static const Sampling uniform;     ///< independent, equal probability per area
   static const Sampling jittered;    ///< one point per cell of a grid, moved by up to 0.35 cells
   static const Sampling lattice;     ///< rows of equal steps; gives about n points
   static const Sampling nonuniform;  ///< independent, density varies smoothly by a factor of 16
   static constexpr Sampling scanLines(double anisotropy) { return {Kind::scan_lines, anisotropy}; }
+  /// Independent; the second half of the rows is sparser by `ratio` >= 1 than the first.
+  static constexpr Sampling densityStep(double ratio) { return {Kind::density_step, 1, ratio}; }
 };
 inline constexpr Sampling Sampling::uniform{Kind::uniform, 1};
 inline constexpr Sampling Sampling::jittered{Kind::jittered, 1};
@@ -93,6 +98,13 @@ Cloud prismSurface(int n, std::uint64_t seed = 1);  ///< the solid of prismMesh;
 
 /// Isotropic Gaussian noise of standard deviation sigma; 0.01 is 1 % of the radius of the unit shapes.
 Cloud withNoise(Cloud cloud, double sigma, std::uint64_t seed = 1);
+/// Where points go that do not belong to the surface.
+enum class Outliers {
+  near,  ///< 2 to 6 spacings off the surface along its normal, on either side; a spacing is sqrt(area / points)
+  far,   ///< anywhere in the surface's bounding box, enlarged by half about its centre; their normals are zero
+};
+/// Adds `share` times as many outliers as there are points, as last points.
+Cloud withOutliers(Cloud cloud, Outliers where, double share, std::uint64_t seed = 1);
 /// The same points in random order.
 Cloud shuffled(Cloud cloud, std::uint64_t seed = 1);
 /// n points, uniform per area; labels are triangle indices.
@@ -117,13 +129,24 @@ enum class RoomSurface : int {
 };
 
 struct LidarOptions {
-  int rings = 16;             ///< 16: -15 to 15 degrees; others: -24.8 to 2 degrees
+  int rings = 16;             ///< 16: -15 to 15 degrees; 32: -30.67 to 10.67 degrees; others: -24.8 to 2 degrees
   double azimuth_step = 0.4;  ///< degrees; divides 360
+  double first_azimuth = 0;   ///< in steps
   double noise = 0;           ///< standard deviation of the range, m
 };
 /// Organized: width = steps of azimuth, height = rings from the lowest. Scanner at the origin, floor at z = -1.8. The
 /// area is that of everything seen between the outermost rings.
 Cloud lidar(const LidarOptions& options = {}, std::uint64_t seed = 1);
+
+/// What the rays of a scan without noise know of the surfaces, for judging a noisy one by the same rays.
+struct ScanTruth {
+  double area = 0;                  ///< of the triangles between neighbouring rays that hit one surface
+  int surfaces = 0;                 ///< pieces of surfaces, connected through neighbouring rays of a row or column
+  std::vector<std::uint8_t> inner;  ///< N; 1 where a ray and the eight around it hit one surface
+};
+/// @param scan organized, labelled, all points finite
+/// @param goes_round the last column is a neighbour of the first, as in lidar()
+ScanTruth scanTruth(const Cloud& scan, bool goes_round);
 
 struct DepthCameraOptions {
   int width = 640, height = 480;

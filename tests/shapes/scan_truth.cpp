@@ -1,0 +1,98 @@
+#include <Eigen/Geometry>
+#include <array>
+#include <numeric>
+#include <stdexcept>
+#include <vector>
+
+#include "shapes/shapes.h"
+
+namespace tufted::shapes {
+namespace {
+
+class ScanGrid {
+ public:
+  ScanGrid(const Cloud& scan, bool goes_round) : scan_(scan), goes_round_(goes_round) {}
+
+  double area() const {
+    double sum = 0;
+    for (int row = 0; row + 1 < scan_.height; ++row) {
+      for (int column = 0; column + 1 < scan_.width + (goes_round_ ? 1 : 0); ++column) sum += cellArea(row, column);
+    }
+    return sum;
+  }
+
+  int surfaces() const {
+    std::vector<int> parent(scan_.labels.size());
+    std::iota(parent.begin(), parent.end(), 0);
+    const auto root = [&parent](int p) {
+      while (parent[p] != p) p = parent[p] = parent[parent[p]];
+      return p;
+    };
+    int count = static_cast<int>(parent.size());
+    const auto join = [&](int a, int b) {
+      if (b < 0 || scan_.labels[a] != scan_.labels[b] || root(a) == root(b)) return;
+      parent[root(a)] = root(b);
+      --count;
+    };
+    for (int row = 0; row < scan_.height; ++row) {
+      for (int column = 0; column < scan_.width; ++column) {
+        join(ray(row, column), ray(row, column + 1));
+        join(ray(row, column), ray(row + 1, column));
+      }
+    }
+    return count;
+  }
+
+  bool isInner(int row, int column) const {
+    for (int r = row - 1; r <= row + 1; ++r) {
+      for (int c = column - 1; c <= column + 1; ++c) {
+        if (ray(r, c) < 0 || scan_.labels[ray(r, c)] != scan_.labels[ray(row, column)]) return false;
+      }
+    }
+    return true;
+  }
+
+ private:
+  /// The index of a ray, or -1 outside the scan.
+  int ray(int row, int column) const {
+    if (goes_round_) column = (column + scan_.width) % scan_.width;
+    const bool inside = row >= 0 && row < scan_.height && column >= 0 && column < scan_.width;
+    return inside ? row * scan_.width + column : -1;
+  }
+
+  /// Between four rays: both triangles, by the mean of both diagonals, or the one whose corners hit one surface.
+  double cellArea(int row, int column) const {
+    const std::array<int, 4> corner{ray(row, column), ray(row, column + 1), ray(row + 1, column + 1),
+                                    ray(row + 1, column)};
+    double sum = 0;
+    int triangles = 0;
+    for (int left_out = 0; left_out < 4; ++left_out) {
+      const int a = corner[(left_out + 1) % 4], b = corner[(left_out + 2) % 4], c = corner[(left_out + 3) % 4];
+      if (scan_.labels[a] != scan_.labels[b] || scan_.labels[a] != scan_.labels[c]) continue;
+      const Eigen::Vector3d ab = scan_.points.row(b) - scan_.points.row(a);
+      const Eigen::Vector3d ac = scan_.points.row(c) - scan_.points.row(a);
+      sum += ab.cross(ac).norm() / 2;
+      ++triangles;
+    }
+    return triangles == 4 ? sum / 2 : sum;
+  }
+
+  const Cloud& scan_;
+  bool goes_round_;
+};
+
+}  // namespace
+
+ScanTruth scanTruth(const Cloud& scan, bool goes_round) {
+  if (scan.width * scan.height != static_cast<int>(scan.labels.size()) || !scan.points.allFinite()) {
+    throw std::invalid_argument("scanTruth: the scan must be organized, labelled and finite");
+  }
+  const ScanGrid grid(scan, goes_round);
+  ScanTruth truth{.area = grid.area(), .surfaces = grid.surfaces(), .inner = {}};
+  for (int row = 0; row < scan.height; ++row) {
+    for (int column = 0; column < scan.width; ++column) truth.inner.push_back(grid.isInner(row, column) ? 1 : 0);
+  }
+  return truth;
+}
+
+}  // namespace tufted::shapes
