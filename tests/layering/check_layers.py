@@ -12,7 +12,7 @@ import re
 import sys
 
 LAYERS = ["base", "cloud", "intrinsic", "operators", "algorithms", "pcl"]
-FIXTURES = ["shapes", "oracles"]  # folders of tests/ that tools for developers may use
+FIXTURES = ["shapes", "oracles", "guarantees"]  # folders of tests/ that tools for developers may use
 SUFFIXES = {".h", ".hpp", ".cpp"}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)', re.MULTILINE)

@@ -1,0 +1,230 @@
+#include "bench/scan_metrics.h"
+
+#include <Eigen/Geometry>
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "base/stage_clock.h"
+#include "bench/star_union.h"
+#include "guarantees/guarantees.h"
+#include "oracles/oracles.h"
+
+namespace tufted::bench {
+namespace {
+
+using shapes::RoomSurface;
+
+double spectrumError(const SparseMatrix& L, const VectorXd& M, const VectorXd& truth, int count) {
+  const VectorXd values = oracles::smallestEigenvalues(L, M, count + 1);
+  return oracles::meanRelativeError(values, truth.head(count + 1));
+}
+
+VectorXd withoutMean(const VectorXd& f, const VectorXd& M) {
+  return f.array() - M.dot(f) / M.sum();
+}
+
+/// Where M is zero, nothing is asked and nothing counts.
+double poissonError(const SparseMatrix& L, const VectorXd& M, const Points& points) {
+  const auto x = points.col(0).array(), y = points.col(1).array(), z = points.col(2).array();
+  constexpr double eigenvalue = 3 * 4;
+  const VectorXd expected = withoutMean(x * y * z, M);
+  // Doubling one diagonal entry pins that point, for the right-hand side sums to zero; unused rows become u = 0.
+  SparseMatrix pinned = L;
+  Eigen::Index pin = -1;
+  for (Eigen::Index i = 0; i < L.rows(); ++i) {
+    const double diagonal = L.coeff(i, i);
+    if (diagonal == 0) pinned.coeffRef(i, i) = 1;
+    if (diagonal != 0 && pin < 0) pinned.coeffRef(pin = i, i) += diagonal;
+  }
+  const Eigen::SimplicialLDLT<SparseMatrix> factor(pinned);
+  if (factor.info() != Eigen::Success) return shapes::unknown;
+  const VectorXd u = withoutMean(factor.solve(M.cwiseProduct(eigenvalue * expected)), M);
+  const VectorXd error = u - expected;
+  return std::sqrt(error.cwiseAbs2().dot(M) / expected.cwiseAbs2().dot(M));
+}
+
+bool hasOneLabel(const std::vector<int>& labels, const Triangles& triangles, Eigen::Index t) {
+  const int label = labels[triangles(t, 0)];
+  return labels[triangles(t, 1)] == label && labels[triangles(t, 2)] == label;
+}
+
+double mixedArea(const Build& build, const std::vector<int>& labels) {
+  const Points& points = build.cloud().points;
+  const Triangles& triangles = build.stars();
+  double mixed = 0, whole = 0;
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+    const Eigen::Vector3d a = points.row(triangles(t, 1)) - points.row(triangles(t, 0));
+    const Eigen::Vector3d b = points.row(triangles(t, 2)) - points.row(triangles(t, 0));
+    const double area = a.cross(b).norm();
+    whole += area;
+    if (!hasOneLabel(labels, triangles, t)) mixed += area;
+  }
+  return mixed / whole;
+}
+
+/// 0: floor, ceiling and walls, 1: the box, 2: the pole.
+int bodyOf(int label) {
+  if (label == static_cast<int>(RoomSurface::pole)) return 2;
+  return label < static_cast<int>(RoomSurface::box_west) ? 0 : 1;
+}
+
+struct Tags {
+  int rim = 0, tagged = 0, both = 0;
+};
+
+Tags countTags(const Build& build) {
+  Tags tags{.rim = build.cloud().rim_points};
+  const std::vector<std::uint8_t>& boundary = build.laplacian().boundary;
+  for (int i = 0; i < static_cast<int>(boundary.size()); ++i) {
+    if (boundary[i] == 0) continue;
+    ++tags.tagged;
+    if (i < tags.rim) ++tags.both;
+  }
+  return tags;
+}
+
+}  // namespace
+
+Build::Build(const Sample& sample, const CloudOptions& options, const Build* core)
+    : sample_(sample), options_(options), core_(core) {
+  const Stopwatch watch;
+  laplacian_ = pointCloudLaplacian(sample.cloud.points, options);
+  seconds_ = watch.seconds();
+}
+
+const Triangles& Build::stars() const {
+  if (!stars_) stars_ = unionOfStars(sample_.cloud.points, options_, laplacian_);
+  return *stars_;
+}
+
+double spectrumError(const Build& build, int count) {
+  // Every component adds a zero; where there are only zeros, every eigenvalue is off by itself.
+  if (build.laplacian().report.components > count) return 1;
+  return spectrumError(build.laplacian().L, build.laplacian().M, build.cloud().eigenvalues, count);
+}
+
+double hullSpectrumError(const Sample& sample, int count) {
+  const Points& points = sample.cloud.points;
+  const auto [L, M] = oracles::cotanLaplacian(points, oracles::convexHullMesh(points));
+  return spectrumError(L, M, sample.cloud.eigenvalues, count);
+}
+
+double poissonError(const Build& build) {
+  return poissonError(build.laplacian().L, build.laplacian().M, build.cloud().points);
+}
+
+double hullPoissonError(const Sample& sample) {
+  const Points& points = sample.cloud.points;
+  const auto [L, M] = oracles::cotanLaplacian(points, oracles::convexHullMesh(points));
+  return poissonError(L, M, points);
+}
+
+double areaError(const Build& build) {
+  return build.laplacian().M.sum() / build.cloud().area - 1;
+}
+
+double gridAreaError(const Build& build) {
+  return build.laplacian().M.sum() / build.sample().truth.area - 1;
+}
+
+double componentsOfSurfaces(const Build& build) {
+  const SparseMatrix& L = build.laplacian().L;
+  const std::vector<int>& labels = build.cloud().labels;
+  std::vector<int> parent(labels.size());
+  std::iota(parent.begin(), parent.end(), 0);
+  const auto root = [&parent](int p) {
+    while (parent[p] != p) p = parent[p] = parent[parent[p]];
+    return p;
+  };
+  auto components = build.laplacian().report.active;
+  for (int column = 0; column < L.outerSize(); ++column) {
+    for (SparseMatrix::InnerIterator entry(L, column); entry; ++entry) {
+      const int row = static_cast<int>(entry.row());
+      if (entry.value() == 0 || labels[row] != labels[column]) continue;
+      const int a = root(row), b = root(column);
+      if (a == b) continue;
+      parent[a] = b;
+      --components;
+    }
+  }
+  return static_cast<double>(components);
+}
+
+double closedInnerStars(const Build& build) {
+  const Laplacian& laplacian = build.laplacian();
+  const std::vector<std::uint8_t>& is_inner = build.sample().truth.inner;
+  int inner = 0, closed = 0;
+  for (std::size_t i = 0; i < is_inner.size(); ++i) {
+    if (is_inner[i] == 0) continue;
+    ++inner;
+    if (laplacian.status[i] == PointStatus::active && laplacian.boundary[i] == 0) ++closed;
+  }
+  return static_cast<double>(closed) / inner;
+}
+
+double mixedLabels(const Build& build) {
+  return mixedArea(build, build.cloud().labels);
+}
+
+double mixedBodies(const Build& build) {
+  std::vector<int> bodies = build.cloud().labels;
+  std::transform(bodies.begin(), bodies.end(), bodies.begin(), bodyOf);
+  return mixedArea(build, bodies);
+}
+
+double bridges(const Build& build) {
+  const Triangles& triangles = build.stars();
+  int count = 0;
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+    if (!hasOneLabel(build.cloud().labels, triangles, t)) ++count;
+  }
+  return count;
+}
+
+double trianglesAcrossJumps(const Build& build) {
+  constexpr double jump = 1.05;
+  const Points& points = build.cloud().points;
+  const Triangles& triangles = build.stars();
+  int count = 0;
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+    const Eigen::Vector3d depth(points(triangles(t, 0), 2), points(triangles(t, 1), 2), points(triangles(t, 2), 2));
+    if (depth.maxCoeff() > jump * depth.minCoeff()) ++count;
+  }
+  return count;
+}
+
+double boundaryRecall(const Build& build) {
+  const Tags tags = countTags(build);
+  return static_cast<double>(tags.both) / tags.rim;
+}
+
+double boundaryPrecision(const Build& build) {
+  const Tags tags = countTags(build);
+  return static_cast<double>(tags.both) / tags.tagged;
+}
+
+double equalRows(const Build& build) {
+  const SparseMatrix& L = build.laplacian().L;
+  const SparseMatrix& reference = build.core().laplacian().L;
+  const SparseMatrix difference = L - reference;
+  int active = 0, equal = 0;
+  for (int column = 0; column < reference.outerSize(); ++column) {
+    const double diagonal = reference.coeff(column, column);
+    if (diagonal == 0) continue;
+    ++active;
+    double largest = 0;
+    for (SparseMatrix::InnerIterator entry(difference, column); entry; ++entry) {
+      largest = std::max(largest, std::abs(entry.value()));
+    }
+    if (largest <= 1e-6 * diagonal) ++equal;
+  }
+  return static_cast<double>(equal) / active;
+}
+
+double brokenPromises(const Build& build) {
+  return static_cast<double>(guarantees::brokenGuarantees(build.laplacian(), build.cloud().points).size());
+}
+
+}  // namespace tufted::bench

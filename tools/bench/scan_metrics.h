@@ -1,0 +1,45 @@
+#pragma once
+
+#include "bench/scan_case.h"
+
+namespace tufted::bench {
+
+/// Mean relative error of the first `count` eigenvalues after the first zero, of L x = lambda M x with the product's M.
+double spectrumError(const Build& build, int count);
+/// The same of the cotan Laplacian of the convex hull of the sample's points.
+double hullSpectrumError(const Sample& sample, int count);
+
+/// |u - f / 12| / |f / 12| in the norm of M, for L u = M f on the unit sphere with the spherical harmonic f = x y z of
+/// degree 3, whose eigenvalue is 12; u and f without their means.
+double poissonError(const Build& build);
+double hullPoissonError(const Sample& sample);
+
+double areaError(const Build& build);      ///< sum(M) / the surface's area - 1
+double gridAreaError(const Build& build);  ///< sum(M) / the area between the noise-free rays - 1
+
+/// Components of L without the entries between rays that hit different surfaces: a surface in pieces counts as often,
+/// however well its neighbours hold it together.
+double componentsOfSurfaces(const Build& build);
+/// Share of the inner rays whose star is closed and has lost nothing.
+double closedInnerStars(const Build& build);
+/// Share of the area of the union of stars in triangles whose corners do not all have one label.
+double mixedLabels(const Build& build);
+/// The same with one label for the room's shell, one for the box and one for the pole: walls, floor and ceiling, and
+/// the faces of the box, do meet at creases, whose triangles are right.
+double mixedBodies(const Build& build);
+/// Triangles of the union of stars, all copies counted, whose corners do not all have one label.
+double bridges(const Build& build);
+/// Triangles of the union of stars, all copies counted, one of whose corners is at least a twentieth farther (along
+/// z) than another: across a depth jump, for a wall seen at 5 degrees grows by a fiftieth per pixel.
+double trianglesAcrossJumps(const Build& build);
+
+double boundaryRecall(const Build& build);     ///< share of rim points that are tagged
+double boundaryPrecision(const Build& build);  ///< share of tagged points that are rim points
+
+/// Share of the points active in the core's build whose row of L is the same up to 1e-6 of its diagonal.
+double equalRows(const Build& build);
+
+/// Broken guarantees, lines of brokenGuarantees().
+double brokenPromises(const Build& build);
+
+}  // namespace tufted::bench

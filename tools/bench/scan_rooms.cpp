@@ -1,0 +1,142 @@
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "bench/scan_metrics.h"
+#include "tufted/io/read.h"
+
+namespace tufted::bench {
+namespace {
+
+namespace fs = std::filesystem;
+using shapes::LidarOptions;
+using Rule = Mark::Rule;
+using Reference = Mark::Reference;
+
+double surfacesOf(const Sample& sample) {
+  return sample.truth.surfaces;
+}
+
+/// Rays of every seed start at another part of a step, so that rooms without noise are samples, too.
+Sample room(LidarOptions options, std::uint64_t seed) {
+  constexpr double golden = 0.6180339887498949;
+  options.first_azimuth = golden * static_cast<double>(seed - 1) - std::floor(golden * static_cast<double>(seed - 1));
+  LidarOptions without_noise = options;
+  without_noise.noise = 0;
+  return {shapes::lidar(options, seed), shapes::scanTruth(shapes::lidar(without_noise), true)};
+}
+
+/// Marks hold at 0.1 and 0.2 degrees; coarser rooms are reported.
+std::vector<Metric> roomMetrics(const LidarOptions& options) {
+  Mark components{.variant = "lidar"}, closed = components, area = components, mixed = components;
+  const bool is_stretched = options.rings == 16 && options.azimuth_step < 0.15;
+  if (options.azimuth_step < 0.3 && options.noise == 0) {
+    components.rule = Rule::at_most, components.reference = Reference::yardstick, components.value = 4;
+    closed.rule = Rule::at_least, closed.value = 0.96;
+    area.rule = Rule::off_by_at_most, area.value = 0.045;
+    mixed.rule = Rule::at_most, mixed.value = 1e-3;
+    if (is_stretched) components.stretch = 1, closed.stretch = 0.98, area.stretch = 0.03;
+  } else if (options.azimuth_step < 0.3) {
+    components.rule = Rule::at_most, components.reference = Reference::core, components.value = 5;
+    mixed.rule = Rule::at_most, mixed.value = 1.5e-3;
+  }
+  const auto inL = [](const Build& build) { return static_cast<double>(build.laplacian().report.components); };
+  return {{"components", Format::count, inL, components, {"surfaces", surfacesOf}},
+          {"components of surfaces", Format::count, componentsOfSurfaces, components, {"surfaces", surfacesOf}},
+          {"closed inner stars", Format::percent, closedInnerStars, closed, {}},
+          {"area", Format::signed_percent, gridAreaError, area, {}},
+          {"wrong, by body", Format::percent, mixedBodies, mixed, {}},
+          {"wrong, by label", Format::percent, mixedLabels, mixed, {}}};
+}
+
+/// What image neighbours are for, beside the core's search.
+std::vector<Metric> imageMetrics() {
+  const auto time = [](const Build& build) { return build.seconds() / build.core().seconds(); };
+  const Mark none_across{.rule = Rule::at_most, .value = 0, .variant = "image"};
+  return {{"across jumps", Format::count, trianglesAcrossJumps, none_across, {}},
+          {"rows as the core's", Format::percent, equalRows, {}, {}},
+          {"time by the core's", Format::percent, time, {}, {}}};
+}
+
+std::vector<fs::path> filesIn(const fs::path& folder) {
+  std::error_code absent;
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::directory_iterator(folder, absent)) {
+    if (entry.is_regular_file()) files.push_back(entry.path());
+  }
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+Sample sampleOf(const fs::path& file) {
+  Geometry geometry = read(file, ReadAs::cloud);
+  Sample sample;
+  sample.cloud.points = std::move(geometry.points);
+  if (geometry.height > 1) sample.cloud.width = geometry.width, sample.cloud.height = geometry.height;
+  return sample;
+}
+
+}  // namespace
+
+void addRooms(bool is_quick, std::vector<Case>& cases) {
+  for (const double noise : {0.0, 0.02}) {
+    for (const int rings : {16, 32, 64}) {
+      for (const double step : {0.1, 0.2, 0.4}) {
+        if (is_quick && step < 0.15) continue;
+        const LidarOptions options{.rings = rings, .azimuth_step = step, .noise = noise};
+        char name[64];
+        std::snprintf(name, sizeof name, "%d rings, %g deg, %g cm", rings, step, 100 * noise);
+        cases.push_back({.what = "lidar",
+                         .dataset = name,
+                         .make = [options](std::uint64_t seed) { return room(options, seed); },
+                         .metrics = roomMetrics(options)});
+      }
+    }
+  }
+}
+
+void addDepthCamera(bool is_quick, std::vector<Case>& cases) {
+  const shapes::DepthCameraOptions camera{.width = is_quick ? 320 : 640, .height = is_quick ? 240 : 480};
+  std::vector<Metric> metrics = imageMetrics();
+  metrics.push_back({"wrong, by body", Format::percent, mixedBodies, {}, {}});
+  cases.push_back({.what = "depth images",
+                   .dataset = "room, " + std::to_string(camera.width) + " x " + std::to_string(camera.height),
+                   .make =
+                       [camera](std::uint64_t seed) {
+                         return Sample{shapes::depthCamera(camera, seed), {}};
+                       },
+                   .metrics = std::move(metrics)});
+}
+
+void addFiles(std::vector<Case>& cases) {
+  for (const char* folder : {TUFTED_DATA_DIR "/clouds", TUFTED_CGAL_DATA_DIR "/points_3"}) {
+    for (const fs::path& file : filesIn(folder)) {
+      const bool is_image = sampleOf(file).cloud.height > 0;
+      cases.push_back({.what = is_image ? "depth images" : "files",
+                       .dataset = file.filename(),
+                       .make = [file](std::uint64_t) { return sampleOf(file); },
+                       .metrics = is_image ? imageMetrics() : std::vector<Metric>(),
+                       .is_random = false});
+    }
+  }
+}
+
+std::vector<Case> scanCases(bool is_quick) {
+  std::vector<Case> cases;
+  addShapes(is_quick, cases);
+  addRooms(is_quick, cases);
+  addDepthCamera(is_quick, cases);
+  addFiles(cases);
+  for (Case& c : cases) {
+    c.metrics.push_back({"build", Format::seconds, [](const Build& build) { return build.seconds(); }, {}, {}});
+    c.metrics.push_back({"broken guarantees",
+                         Format::count,
+                         brokenPromises,
+                         {.rule = Rule::at_most, .variant = "all", .at_any_size = true},
+                         {}});
+  }
+  return cases;
+}
+
+}  // namespace tufted::bench

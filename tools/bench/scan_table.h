@@ -1,0 +1,45 @@
+#pragma once
+
+#include <map>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "bench/scan_case.h"
+
+namespace tufted::bench {
+
+/// The figures of one metric, by seed.
+struct Figures {
+  std::vector<double> values;
+  double seconds = 0;  ///< that measuring them took, without the builds
+
+  double mean() const;
+  double low() const;
+  double high() const;
+};
+
+/// One metric of one case over all variants.
+struct Row {
+  std::string what, dataset;
+  const Metric* metric = nullptr;
+  bool is_full_size = true;
+  std::vector<Figures> figures;  ///< by variant
+  Figures yardstick;             ///< empty without one
+};
+
+enum class Verdict { unmarked, missed, held, stretched };
+
+/// Whether a variant holds the mark of a row, asked of variants the mark is not for, too.
+Verdict judge(const Row& row, std::size_t variant);
+/// The mark in words, with the variant it is for; "" without one.
+std::string markText(const Row& row);
+
+void printHeader();
+/// One line per variant and one for the yardstick.
+void printRow(const Row& row, const std::vector<Variant>& variants);
+/// Of every variant the marks meant for it; of the first one all marks.
+void printSummary(const std::vector<Row>& rows, const std::vector<Variant>& variants);
+nlohmann::ordered_json asJson(const Row& row, const std::vector<Variant>& variants);
+
+}  // namespace tufted::bench

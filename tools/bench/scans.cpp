@@ -1,0 +1,135 @@
+// tufted_scans: how well a build treats clouds as scanners and noise make them, as a table with the marks it is meant
+// to hold; every variant of the build beside the core on the same clouds. See --help.
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <stdexcept>
+
+#include "base/stage_clock.h"
+#include "bench/scan_case.h"
+#include "bench/scan_table.h"
+
+namespace tufted::bench {
+namespace {
+
+/// What is measured; marks name them. The first one is what the others are compared with.
+const std::vector<Variant>& variants() {
+  static const std::vector<Variant> all{{"core", {}}};
+  return all;
+}
+
+struct Settings {
+  int seeds = 3;
+  std::string filter;
+  std::string json;
+  bool quick = false;
+};
+
+/// One line on stderr when it is a terminal.
+void showProgress(const std::string& line) {
+  static const bool is_terminal = isatty(STDERR_FILENO) != 0;
+  if (!is_terminal) return;
+  std::fprintf(stderr, "\r%s\033[K", line.c_str());
+  std::fflush(stderr);
+}
+
+/// A figure that cannot be had, such as a spectrum that does not converge, is NaN.
+template <class Measure>
+void measureInto(Figures& figures, Measure measure) {
+  const Stopwatch watch;
+  try {
+    figures.values.push_back(measure());
+  } catch (const std::runtime_error&) {
+    figures.values.push_back(shapes::unknown);
+  }
+  figures.seconds += watch.seconds();
+}
+
+/// The rows of a case whose names the filter is part of.
+std::vector<Row> rowsOf(const Case& c, const std::string& filter) {
+  std::vector<Row> rows;
+  for (const Metric& metric : c.metrics) {
+    const std::string name = c.what + " / " + c.dataset + " / " + metric.name;
+    if (name.find(filter) == std::string::npos) continue;
+    rows.push_back({.what = c.what,
+                    .dataset = c.dataset,
+                    .metric = &metric,
+                    .is_full_size = c.is_full_size,
+                    .figures = {},
+                    .yardstick = {}});
+    rows.back().figures.resize(variants().size());
+  }
+  return rows;
+}
+
+std::vector<Row> measureCase(const Case& c, const Settings& settings) {
+  std::vector<Row> rows = rowsOf(c, settings.filter);
+  const int seeds = rows.empty() ? 0 : c.is_random ? settings.seeds : 1;
+  for (int seed = 1; seed <= seeds; ++seed) {
+    const std::string name = c.what + " / " + c.dataset + ", seed " + std::to_string(seed);
+    showProgress(name);
+    const Sample sample = c.make(seed);
+    const Build core(sample, variants().front().options, nullptr);
+    for (std::size_t v = 0; v < variants().size(); ++v) {
+      showProgress(name + ", " + variants()[v].name);
+      std::optional<Build> other;
+      if (v > 0) other.emplace(sample, variants()[v].options, &core);
+      const Build& build = other ? *other : core;
+      for (Row& row : rows) measureInto(row.figures[v], [&] { return row.metric->measure(build); });
+    }
+    for (Row& row : rows) {
+      if (row.metric->yardstick.measure) {
+        measureInto(row.yardstick, [&] { return row.metric->yardstick.measure(sample); });
+      }
+    }
+  }
+  showProgress("");
+  return rows;
+}
+
+void run(const Settings& settings) {
+  const Stopwatch watch;
+  const std::vector<Case> cases = scanCases(settings.quick);
+  std::vector<Row> rows;
+  printHeader();
+  for (const Case& c : cases) {
+    for (Row& row : measureCase(c, settings)) {
+      printRow(row, variants());
+      rows.push_back(std::move(row));
+    }
+  }
+  std::printf("\n");
+  printSummary(rows, variants());
+  std::printf("%.0f s\n", watch.seconds());
+  if (settings.json.empty()) return;
+
+  nlohmann::ordered_json json{{"seeds", settings.seeds}, {"quick", settings.quick}, {"seconds", watch.seconds()}};
+  json["rows"] = nlohmann::ordered_json::array();
+  for (const Row& row : rows) json["rows"].push_back(asJson(row, variants()));
+  std::ofstream stream(settings.json);
+  stream << json.dump(1) << "\n";
+  if (!stream.flush()) throw std::runtime_error("cannot write " + settings.json);
+}
+
+}  // namespace
+}  // namespace tufted::bench
+
+int main(int argc, char** argv) {
+  tufted::bench::Settings settings;
+  CLI::App app("Measures the build on scans, noise, outliers, sheets and rims, with the marks it is meant to hold.");
+  app.add_option("--seeds", settings.seeds, "samples per dataset")->check(CLI::Range(1, 1000))->capture_default_str();
+  app.add_option("--filter", settings.filter, "only rows whose `what / dataset / metric` contains this");
+  app.add_option("--json", settings.json, "write all figures to this file as well");
+  app.add_flag("--quick", settings.quick, "a quarter of the points, coarser rooms, few marks");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    tufted::bench::run(settings);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "tufted_scans: %s\n", error.what());
+    return 1;
+  }
+  return 0;
+}

@@ -1,0 +1,50 @@
+#include "bench/star_union.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <string>
+
+#include "cloud/morton.h"
+#include "cloud/neighbors.h"
+#include "cloud/star_filter.h"
+#include "cloud/stars.h"
+
+namespace tufted::bench {
+
+Triangles unionOfStars(const Points& points, const CloudOptions& options, const Laplacian& laplacian) {
+  if (options.normals != nullptr || options.neighborhoods != nullptr) {
+    throw std::logic_error("unionOfStars: the caller's normals and neighbourhoods are not followed");
+  }
+  const Workers workers(options.threads, options.progress);
+  std::vector<PointStatus> status;
+  std::vector<int> representative;
+  Report report;
+  const RankedCloud cloud = rankPoints(points, status, representative);
+  const NeighborSearch search(cloud.points);
+  NeighborSource source;
+  source.search = &search;
+  source.k = std::min(options.neighbors, std::max(0, cloud.size() - 1));
+  Stars stars = buildStars(cloud, source, options.delaunay, workers, report);
+  filterStars(stars, source.k, workers, report);
+
+  Triangles triangles(laplacian.report.triangles, 3);
+  Eigen::Index count = 0;
+  for (int p = 0; p < stars.size(); ++p) {
+    for (int i = stars.offset[p]; i < stars.offset[p + 1]; ++i) {
+      if (!stars.hasTriangle(i)) continue;
+      if (count < triangles.rows()) {
+        triangles.row(count) << cloud.caller[p], cloud.caller[stars.link[i]],
+            cloud.caller[stars.link[stars.after(p, i)]];
+      }
+      ++count;
+    }
+  }
+  // The stages above follow pointCloudLaplacian; should that change, no figure may come from an older way.
+  if (count != triangles.rows() || report.dropped_triangles != laplacian.report.dropped_triangles) {
+    throw std::logic_error("unionOfStars: " + std::to_string(count) + " triangles instead of " +
+                           std::to_string(triangles.rows()) + ": no longer follows pointCloudLaplacian");
+  }
+  return triangles;
+}
+
+}  // namespace tufted::bench
