@@ -45,16 +45,16 @@ class ShapeCases {
   ShapeCases(bool is_quick, std::vector<Case>& cases) : is_quick_(is_quick), cases_(cases) {}
 
   template <class Make>
-  void add(std::string what, const std::string& shape, int n, Make make, std::vector<Metric> metrics,
+  void add(const std::string& what, const std::string& shape, int n, Make make, const std::vector<Metric>& metrics,
            bool is_random = true) {
     const int points = is_quick_ ? n / 4 : n;
-    cases_.push_back({.what = std::move(what),
+    cases_.push_back({.what = what,
                       .dataset = shape + ", " + std::to_string(points),
                       .make =
                           [make, points](std::uint64_t seed) {
                             return Sample{make(points, seed), {}};
                           },
-                      .metrics = std::move(metrics),
+                      .metrics = metrics,
                       .is_random = is_random,
                       .is_full_size = !is_quick_});
   }

@@ -118,14 +118,14 @@ void run(const Settings& settings) {
 }  // namespace tufted::bench
 
 int main(int argc, char** argv) {
-  tufted::bench::Settings settings;
-  CLI::App app("Measures the build on scans, noise, outliers, sheets and rims, with the marks it is meant to hold.");
-  app.add_option("--seeds", settings.seeds, "samples per dataset")->check(CLI::Range(1, 1000))->capture_default_str();
-  app.add_option("--filter", settings.filter, "only rows whose `what / dataset / metric` contains this");
-  app.add_option("--json", settings.json, "write all figures to this file as well");
-  app.add_flag("--quick", settings.quick, "a quarter of the points, coarser rooms, few marks");
-  CLI11_PARSE(app, argc, argv);
   try {
+    tufted::bench::Settings settings;
+    CLI::App app("Measures the build on scans, noise, outliers, sheets and rims, with the marks it is meant to hold.");
+    app.add_option("--seeds", settings.seeds, "samples per dataset")->check(CLI::Range(1, 1000))->capture_default_str();
+    app.add_option("--filter", settings.filter, "only rows whose `what / dataset / metric` contains this");
+    app.add_option("--json", settings.json, "write all figures to this file as well");
+    app.add_flag("--quick", settings.quick, "a quarter of the points, coarser rooms, few marks");
+    CLI11_PARSE(app, argc, argv);
     tufted::bench::run(settings);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "tufted_scans: %s\n", error.what());
