@@ -24,8 +24,8 @@ Triangles unionOfStars(const Points& points, const CloudOptions& options, const 
   NeighborSource source;
   source.search = &search;
   source.k = std::min(options.neighbors, std::max(0, cloud.size() - 1));
-  Stars stars = buildStars(cloud, source, options.delaunay, workers, report);
-  filterStars(stars, source.k, workers, report);
+  Stars stars = buildStars(cloud, source, options, workers, report);
+  filterStars(stars, cloud.points, source.k, options.filter, workers, report);
 
   Triangles triangles(laplacian.report.triangles, 3);
   Eigen::Index count = 0;
