@@ -93,7 +93,7 @@ class StarBuilder {
     const HeightFit fit = fitHeights(cloud_.points, p, hood.neighbors, hood.axes.normal, hood.reach);
     const double variance = hood.axes.variance[0] * hood.axes.extent * hood.axes.extent;
     if (!isNoisy(fit, variance, hood.reach)) return;
-    stars_.surface.row(p) += fit.height * hood.axes.normal.transpose();
+    stars_.move.row(p) = fit.height * hood.axes.normal.transpose();
     block.noisy.push_back(p);
     for (const Neighbor& q : hood.neighbors) block.noisy_neighbors.push_back(q.index);
     block.noisy_end.push_back(block.noisy_neighbors.size());
@@ -176,25 +176,34 @@ class StarBuilder {
   Stars& stars_;
 };
 
-/// Fits the surface of noisy points once more, to points that lie on it by now.
-void refineSurface(Stars& stars, const std::vector<BlockOfStars>& blocks, const Workers& workers) {
-  const Points first = stars.surface;
+/// Fits the surface of noisy points once more, to points that lie on it by now. Positions are taken relative to the
+/// point, so that the distance from the origin does not matter.
+void refineSurface(const Points& points, Stars& stars, const std::vector<BlockOfStars>& blocks,
+                   const Workers& workers) {
+  const Points first = stars.move;
+  const auto refine = [&](const BlockOfStars& block, Points& local, std::vector<Neighbor>& neighbors) {
+    std::size_t begin = 0;
+    for (std::size_t i = 0; i < block.noisy.size(); begin = block.noisy_end[i++]) {
+      const int p = block.noisy[i];
+      const auto count = static_cast<int>(block.noisy_end[i] - begin);
+      local.resize(count + 1, 3);
+      local.row(0) = first.row(p);
+      neighbors.clear();
+      for (int j = 1; j <= count; ++j) {
+        const int q = block.noisy_neighbors[begin + j - 1];
+        local.row(j) = points.row(q) - points.row(p) + first.row(q);
+        neighbors.push_back({0, j});
+      }
+      const Eigen::Vector3d normal = principalAxes(local, 0, neighbors).normal;
+      const HeightFit fit = fitHeights(local, 0, neighbors, normal, stars.reach[p]);
+      if (fit.is_valid) stars.move.row(p) += fit.height * normal.transpose();
+    }
+  };
   workers.forBlocks("surface", static_cast<std::int64_t>(blocks.size()), 1,
                     [&](std::int64_t begin, std::int64_t end, int) {
+                      Points local;
                       std::vector<Neighbor> neighbors;
-                      for (std::int64_t b = begin; b < end; ++b) {
-                        const BlockOfStars& block = blocks[b];
-                        std::size_t next = 0;
-                        for (std::size_t i = 0; i < block.noisy.size(); ++i) {
-                          const int p = block.noisy[i];
-                          neighbors.clear();
-                          for (; next < block.noisy_end[i]; ++next)
-                            neighbors.push_back({0, block.noisy_neighbors[next]});
-                          const Eigen::Vector3d normal = principalAxes(first, p, neighbors).normal;
-                          const HeightFit fit = fitHeights(first, p, neighbors, normal, stars.reach[p]);
-                          if (fit.is_valid) stars.surface.row(p) += fit.height * normal.transpose();
-                        }
-                      }
+                      for (std::int64_t b = begin; b < end; ++b) refine(blocks[b], local, neighbors);
                     });
 }
 
@@ -202,7 +211,7 @@ void refineSurface(Stars& stars, const std::vector<BlockOfStars>& blocks, const 
 
 std::size_t Stars::bytes() const {
   return bytesOf(offset) + bytesOf(link) + bytesOf(radius) + bytesOf(reach) + bytesOf(ends) + bytesOf(isolated) +
-         bytesOf(flat) + static_cast<std::size_t>(normals.size() + surface.size()) * sizeof(double);
+         bytesOf(flat) + static_cast<std::size_t>(normals.size() + move.size()) * sizeof(double);
 }
 
 void takeNeighborhoods(const Neighborhoods& lists, const RankedCloud& cloud, const std::vector<PointStatus>& status,
@@ -257,7 +266,7 @@ Stars buildStars(const RankedCloud& cloud, const NeighborSource& source, const C
   stars.isolated.resize(n);
   stars.flat.resize(n);
   stars.normals.resize(n, 3);
-  stars.surface = cloud.points;
+  if (options.lengths == Lengths::denoised) stars.move.setZero(n, 3);
 
   Stopwatch wall;
   std::vector<BlockOfStars> blocks((n + block_size - 1) / block_size);
@@ -268,7 +277,7 @@ Stars buildStars(const RankedCloud& cloud, const NeighborSource& source, const C
   });
 
   for (const BlockOfStars& block : blocks) report.denoised += static_cast<std::int64_t>(block.noisy.size());
-  if (report.denoised > 0) refineSurface(stars, blocks, workers);
+  if (report.denoised > 0) refineSurface(cloud.points, stars, blocks, workers);
 
   std::partial_sum(stars.offset.begin(), stars.offset.end(), stars.offset.begin());
   stars.link.reserve(stars.offset.back());

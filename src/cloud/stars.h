@@ -30,7 +30,7 @@ struct Stars {
   std::vector<std::uint8_t> isolated;  ///< n, 1 where all neighbours belong to other sheets
   std::vector<std::uint8_t> flat;      ///< n, 1 where the neighbourhood is next to a plane
   Points normals;                      ///< n x 3
-  Points surface;                      ///< n x 3, where lengths are measured: the points, or moved onto the surface
+  Points move;                         ///< n x 3, from each point to where lengths are measured; 0 x 3: no point moves
 
   int size() const { return static_cast<int>(reach.size()); }
   /// The link entry after i in star p, cyclically.

@@ -21,7 +21,8 @@ void addTriangle(IntrinsicTriangulation& cover, int t, int i, int j, int k) {
   cover.faces[2 * t + 1] = {i, k, j};
 }
 
-MeanLengths measureLengths(IntrinsicTriangulation& cover, const Points& points, const Workers& workers) {
+MeanLengths measureLengths(IntrinsicTriangulation& cover, const Points& points, const Points& move,
+                           const Workers& workers) {
   const std::int64_t triangles = cover.size() / 2;
   // Per block, so that the means have the same bits always.
   std::vector<MeanLengths> sums((triangles + block_size - 1) / block_size);
@@ -30,7 +31,10 @@ MeanLengths measureLengths(IntrinsicTriangulation& cover, const Points& points, 
     for (int t = static_cast<int>(begin); t < end; ++t) {
       const auto& corner = cover.faces[2 * t];
       for (int s = 0; s < 3; ++s) {
-        const double length = (points.row(corner[s]) - points.row(corner[(s + 1) % 3])).norm();
+        const int a = corner[s], b = corner[(s + 1) % 3];
+        Eigen::RowVector3d edge = points.row(a) - points.row(b);
+        if (move.rows() > 0) edge += move.row(a) - move.row(b);
+        const double length = edge.norm();
         cover.length[frontSide(t, s)] = cover.length[backSide(t, s)] = length;
         sum.length += length;
         sum.square += length * length;

@@ -59,7 +59,9 @@ struct MeanLengths {
 };
 
 /// Euclidean lengths of all sides (MEASUREEDGELENGTHS).
-MeanLengths measureLengths(IntrinsicTriangulation& cover, const Points& points, const Workers& workers);
+/// @param move by vertex, added to `points`; 0 x 3: nothing
+MeanLengths measureLengths(IntrinsicTriangulation& cover, const Points& points, const Points& move,
+                           const Workers& workers);
 
 /// Section 4.5: adds to all lengths the least amount that leaves every triangle inequality a slack of `delta`.
 /// Returns that amount.

@@ -75,7 +75,8 @@ Laplacian meshLaplacian(const Points& points, const Triangles& triangles, const 
 
   std::vector<int> caller(n);
   std::iota(caller.begin(), caller.end(), 0);
-  finishLaplacian(std::move(cover), scaled, caller, scaling.exponent, 1.0 / 2, options, workers, clock, result);
+  finishLaplacian(std::move(cover), scaled, Points(0, 3), caller, scaling.exponent, 1.0 / 2, options, workers, clock,
+                  result);
   return result;
 }
 

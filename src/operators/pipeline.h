@@ -35,15 +35,16 @@ void checkCommon(const char* function, const Options& options) {
 
 /// Algorithm 3 from the glued cover on: lengths, mollification, flips, matrices, and the cover in the caller's
 /// numbering and unit.
-/// @param points by vertex of the cover, in units of 2^exponent of the caller's: what lengths are measured between
+/// @param points by vertex of the cover, in units of 2^exponent of the caller's
+/// @param move by vertex, from the points to where lengths are measured; 0 x 3: no vertex moves
 /// @param caller the caller's index of each vertex
 /// @param scale 1/2 for the two sheets, times 1/3 where every triangle comes thrice
 template <class Options>
-void finishLaplacian(std::shared_ptr<IntrinsicTriangulation> cover, const Points& points,
+void finishLaplacian(std::shared_ptr<IntrinsicTriangulation> cover, const Points& points, const Points& move,
                      const std::vector<int>& caller, int exponent, double scale, const Options& options,
                      const Workers& workers, StageClock& clock, Laplacian& result) {
   Report& report = result.report;
-  const MeanLengths mean = measureLengths(*cover, points, workers);
+  const MeanLengths mean = measureLengths(*cover, points, move, workers);
   const double added = mollify(*cover, options.mollify * mean.length, workers);
   clock.finish("lengths", 0);
 

@@ -153,8 +153,8 @@ Laplacian pointCloudLaplacian(const Points& points, const CloudOptions& options)
   clock.finish("filter", 0);
 
   VectorXd areas;
-  if (options.mass == Mass::star) areas = starAreas(stars, stars.surface, workers);
-  const Points surface = std::move(stars.surface);
+  if (options.mass == Mass::star) areas = starAreas(stars, cloud.points, workers);
+  const Points move = std::move(stars.move);
   clock.finish("mass", 0);
 
   auto cover = std::make_shared<IntrinsicTriangulation>();
@@ -163,8 +163,8 @@ Laplacian pointCloudLaplacian(const Points& points, const CloudOptions& options)
   glueEdges(*cover, cloud.points, {options.order, options.seed}, workers);
   clock.finish("cover", bytesOf(*cover));
 
-  finishLaplacian(std::move(cover), surface, cloud.caller, cloud.exponent, 1.0 / 2 / 3, options, workers, clock,
-                  result);
+  finishLaplacian(std::move(cover), cloud.points, move, cloud.caller, cloud.exponent, 1.0 / 2 / 3, options, workers,
+                  clock, result);
   if (options.mass == Mass::star) takeAreas(areas, cloud, result);
   return result;
 }

@@ -8,14 +8,13 @@ namespace {
 constexpr std::int64_t block_size = 8192;
 constexpr double least_share = 0.1;  // of the mixed area, which a sound Voronoi area exceeds by far
 
-/// The two areas of p in one triangle (p, a, b).
+/// The two areas of p in one triangle (p, a, b), from its sides.
 struct CornerAreas {
   double voronoi = 0;
   double mixed = 0;
 };
 
-CornerAreas cornerAreas(const Points& x, int p, int a, int b) {
-  const double pa = (x.row(p) - x.row(a)).norm(), pb = (x.row(p) - x.row(b)).norm(), ab = (x.row(a) - x.row(b)).norm();
+CornerAreas cornerAreas(double pa, double pb, double ab) {
   const double area = triangleArea(pa, pb, ab);
   if (!(area > 0)) return {};
   // Four times the area times the cotangent, of the angles at p, a, b.
@@ -36,14 +35,20 @@ bool isInside(const Stars& stars, int p) {
 
 }  // namespace
 
-VectorXd starAreas(const Stars& stars, const Points& positions, const Workers& workers) {
+VectorXd starAreas(const Stars& stars, const Points& points, const Workers& workers) {
+  const auto distance = [&](int a, int b) {
+    Eigen::RowVector3d edge = points.row(a) - points.row(b);
+    if (stars.move.rows() > 0) edge += stars.move.row(a) - stars.move.row(b);
+    return edge.norm();
+  };
   VectorXd areas = VectorXd::Zero(stars.size());
   workers.forBlocks("mass", stars.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
     for (int p = static_cast<int>(begin); p < end; ++p) {
       CornerAreas sum;
       for (int i = stars.offset[p]; i < stars.offset[p + 1]; ++i) {
         if (!stars.hasTriangle(i)) continue;
-        const CornerAreas corner = cornerAreas(positions, p, stars.link[i], stars.link[stars.after(p, i)]);
+        const int a = stars.link[i], b = stars.link[stars.after(p, i)];
+        const CornerAreas corner = cornerAreas(distance(p, a), distance(p, b), distance(a, b));
         sum.voronoi += corner.voronoi;
         sum.mixed += corner.mixed;
       }

@@ -8,13 +8,14 @@
 
 namespace tufted {
 
-/// The area that belongs to each point in its own star, by the lengths between `positions`; 0 without triangles.
+/// The area that belongs to each point in its own star, by the lengths between the moved points; 0 without
+/// triangles.
 ///
 /// The Voronoi area where p and all its link vertices have whole stars and the neighbourhood is next to a plane: there
 /// the stars agree, and the areas of neighbours fit together. Elsewhere the mixed area (Meyer et al. 2003), which no
 /// obtuse triangle can turn negative.
-/// @param positions n x 3, by rank
-/// @returns n areas in units of `positions` squared
-VectorXd starAreas(const Stars& stars, const Points& positions, const Workers& workers);
+/// @param points n x 3, by rank
+/// @returns n areas in units of `points` squared
+VectorXd starAreas(const Stars& stars, const Points& points, const Workers& workers);
 
 }  // namespace tufted

@@ -89,9 +89,10 @@ TEST_P(OddInput, Cloud) {
   for (int round = 0; round < 50; ++round) {
     const int n = 1 + below(round % 2 == 0 ? 12 : 400);
     const Points points = oddPoints(n);
-    const CloudOptions options{.neighbors = 3 + below(40),
-                               .gluing = below(2) == 0 ? Gluing::star : Gluing::vertex_pair,
-                               .order = static_cast<FaceOrder>(below(3))};
+    CloudOptions options = cloudOptions(static_cast<Preset>(below(3)));
+    options.neighbors = 3 + below(40);
+    options.gluing = below(2) == 0 ? Gluing::star : Gluing::vertex_pair;
+    options.order = static_cast<FaceOrder>(below(3));
     SCOPED_TRACE("round " + std::to_string(round) + ", " + std::to_string(n) + " points");
     const Laplacian l = pointCloudLaplacian(points, options);
     ASSERT_THAT(brokenGuarantees(l, points), IsEmpty());

@@ -52,6 +52,13 @@ TEST_P(GuaranteesOfCloud, InAnyGluingAndOrder) {
   }
 }
 
+TEST_P(GuaranteesOfCloud, OfEveryPreset) {
+  for (const Preset preset : {Preset::scan, Preset::lidar}) {
+    SCOPED_TRACE(static_cast<int>(preset));
+    EXPECT_THAT(brokenGuarantees(pointCloudLaplacian(points(), cloudOptions(preset)), points()), IsEmpty());
+  }
+}
+
 TEST_P(GuaranteesOfCloud, OfFewNeighbors) {
   EXPECT_THAT(brokenGuarantees(pointCloudLaplacian(points(), {.neighbors = 6}), points()), IsEmpty());
 }

@@ -59,7 +59,7 @@ TEST_P(FlatSolid, NeedsItsFlips) {
     addTriangle(cover, t, bad.triangles(t, 0), bad.triangles(t, 1), bad.triangles(t, 2));
   }
   glueEdges(cover, bad.points, {}, workers);
-  measureLengths(cover, bad.points, workers);
+  measureLengths(cover, bad.points, Points(0, 3), workers);
   std::vector<int> caller(n);
   for (int i = 0; i < n; ++i) caller[i] = i;
   Report unflipped, flipped;

@@ -1,0 +1,87 @@
+// What noise, rings, outliers and near sheets do to the operator, with the core's steps and with the preset for scans.
+// The whole table, with three seeds, is tufted_scans.
+#include <gtest/gtest.h>
+
+#include "oracles/oracles.h"
+#include "shapes/shapes.h"
+#include "support/compare.h"
+#include "tufted/tufted.h"
+
+namespace tufted {
+namespace {
+
+double spectrumError(const shapes::Cloud& cloud, const CloudOptions& options, int eigenvalues) {
+  const Laplacian laplacian = pointCloudLaplacian(cloud.points, options);
+  return oracles::meanRelativeError(oracles::smallestEigenvalues(laplacian.L, laplacian.M, eigenvalues),
+                                    cloud.eigenvalues.head(eigenvalues));
+}
+
+const CloudOptions clean = cloudOptions(Preset::clean), scan = cloudOptions(Preset::scan);
+
+class Scans : public testing::TestWithParam<int> {};
+
+TEST_P(Scans, NoiseOnASphereIsTamed) {
+  const auto sphere = shapes::sphere(16000, shapes::Sampling::uniform, GetParam());
+  EXPECT_LE(spectrumError(shapes::withNoise(sphere, 0.0025, GetParam()), scan, 30), 2.5e-3);
+  EXPECT_LE(spectrumError(shapes::withNoise(sphere, 0.01, GetParam()), scan, 30), 9e-3);
+  EXPECT_GE(spectrumError(shapes::withNoise(sphere, 0.01, GetParam()), clean, 30), 0.1);
+}
+
+TEST_P(Scans, NoiseOnACubeIsTamedAndItsCreasesStay) {
+  const auto cube = shapes::cubeSurface(16000, GetParam());
+  EXPECT_LE(spectrumError(shapes::withNoise(cube, 0.01, GetParam()), scan, 30), 1.2e-2);
+  EXPECT_LE(spectrumError(cube, scan, 30), 1.02 * spectrumError(cube, clean, 30));
+}
+
+TEST_P(Scans, ACleanSphereIsNoWorse) {
+  const auto sphere = shapes::sphere(16000, shapes::Sampling::uniform, GetParam());
+  EXPECT_LE(spectrumError(sphere, scan, 30), 1.02 * spectrumError(sphere, clean, 30));
+}
+
+INSTANTIATE_TEST_SUITE_P(Seeds, Scans, testing::Values(1, 2, 3));
+
+TEST(Scans, ScanLinesAreNoWorseThanTheHullOfTheirPoints) {
+  for (const double anisotropy : {10.0, 20.0}) {
+    const auto lines = shapes::sphere(16000, shapes::Sampling::scanLines(anisotropy));
+    const auto [L, M] = oracles::cotanLaplacian(lines.points, oracles::convexHullMesh(lines.points));
+    const double hull = oracles::meanRelativeError(oracles::smallestEigenvalues(L, M, 33), lines.eigenvalues.head(33));
+    EXPECT_LE(spectrumError(lines, scan, 33), hull) << anisotropy;
+  }
+}
+
+TEST(Scans, TheMassIsPositiveAndKnowsBothAreas) {
+  const auto torus = shapes::torus(16000);
+  const Laplacian laplacian = pointCloudLaplacian(torus.points, scan);
+  EXPECT_GT(laplacian.M.minCoeff(), 0);
+  EXPECT_EQ(laplacian.report.area, laplacian.M.sum());
+  EXPECT_EQ(laplacian.report.cover_area, laplacian.cover_areas.sum());
+  EXPECT_NEAR(laplacian.report.area, torus.area, 1e-3 * torus.area);
+  EXPECT_NEAR(laplacian.report.cover_area, torus.area, 1e-3 * torus.area);
+  EXPECT_NE(laplacian.report.area, laplacian.report.cover_area);
+  const Laplacian core = pointCloudLaplacian(torus.points, clean);
+  EXPECT_TRUE(support::sameBits(core.M, core.cover_areas));
+}
+
+TEST(Scans, PresetsDependOnTheShapeAlone) {
+  // Exact moves and powers of two, another order and other numbers of threads: the same bits.
+  Points points = shapes::withNoise(shapes::sphere(4000), 0.01).points;
+  points = (points * 0x1p20).array().round() * 0x1p-20;
+  for (const Preset preset : {Preset::scan, Preset::lidar}) {
+    CloudOptions options = cloudOptions(preset);
+    options.threads = 1;
+    const Laplacian reference = pointCloudLaplacian(points, options);
+    const Points moved = points.rowwise() + Eigen::RowVector3d(500000, 4000000, 100);
+    EXPECT_TRUE(support::sameBits(pointCloudLaplacian(moved, options).M, reference.M));
+    EXPECT_TRUE(support::sameBits(pointCloudLaplacian(0x1p27 * points, options).L, reference.L));
+    options.threads = 4;
+    const Laplacian parallel = pointCloudLaplacian(points, options);
+    EXPECT_TRUE(support::sameBits(parallel.L, reference.L));
+    EXPECT_TRUE(support::sameBits(parallel.M, reference.M));
+    const Points turned = points.colwise().reverse();
+    const VectorXd M = pointCloudLaplacian(turned, options).M.reverse();
+    EXPECT_TRUE(support::sameBits(M, reference.M));
+  }
+}
+
+}  // namespace
+}  // namespace tufted
