@@ -72,8 +72,7 @@ bool parseInto(std::string_view token, FieldType type, std::byte* bytes) {
 
 void allocate(Columns& columns, std::int64_t rows) {
   columns.rows = rows;
-  for (Field& field : columns.fields)
-    if (!isPadding(field)) field.bytes.resize(rows * field.count * sizeOf(field.type));
+  for (Field& field : columns.fields) field.bytes.resize(rows * field.count * sizeOf(field.type));
 }
 
 Geometry toGeometry(const std::filesystem::path& path, std::int64_t line, Columns&& columns) {
@@ -86,7 +85,7 @@ Geometry toGeometry(const std::filesystem::path& path, std::int64_t line, Column
   if (!normal) normal = find(columns.fields, {"nx", "ny", "nz"});
   if (normal) geometry.normals = take(columns, *normal, used);
   for (std::size_t f = 0; f < columns.fields.size(); ++f) {
-    if (!used[f] && !isPadding(columns.fields[f])) geometry.fields.push_back(std::move(columns.fields[f]));
+    if (!used[f] && columns.fields[f].name != "_") geometry.fields.push_back(std::move(columns.fields[f]));
   }
   geometry.width = static_cast<int>(columns.rows);
   return geometry;

@@ -51,12 +51,7 @@ struct Columns {
   std::int64_t rows = 0;
 };
 
-/// Whether a field is padding, which nobody keeps.
-inline bool isPadding(const Field& field) {
-  return field.name == "_";
-}
-
-/// Makes room for `rows` values in each field but padding.
+/// Makes room for `rows` values in each field.
 void allocate(Columns& columns, std::int64_t rows);
 
 /// Moves x, y, z to `points`, a full set of normal_x, normal_y, normal_z or nx, ny, nz to `normals`, and all other

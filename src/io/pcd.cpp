@@ -15,7 +15,7 @@ void readAscii(const std::filesystem::path& path, std::string_view text, PcdHead
   const std::size_t rest = text.size() - std::min(header.body, text.size());
   if (static_cast<double>(header.points) * static_cast<double>(header.row_values) * 2 > static_cast<double>(rest) + 1)
     refuseByte(path, text.size(), "too short for the " + std::to_string(header.points) + " points of its header");
-  allocate(header.columns, header.points);
+  allocate(header);
   LineScanner scanner(path, text, {.comment = '#'});
   scanner.seek(header.body, header.line);
   for (std::int64_t i = 0; i < header.points; ++i) {

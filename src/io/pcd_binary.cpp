@@ -16,7 +16,7 @@ void readPcdBinary(const std::filesystem::path& path, std::string_view bytes, Pc
     refuseByte(path, bytes.size(),
                "ends there, too short for " + std::to_string(header.points) + " points of " +
                    std::to_string(header.row_bytes) + " bytes");
-  allocate(header.columns, header.points);
+  allocate(header);
   const char* value = bytes.data() + header.body;
   for (std::int64_t i = 0; i < header.points; ++i) {
     for (Field& field : header.columns.fields) {
@@ -32,7 +32,7 @@ void readPcdCompressed(const std::filesystem::path& path, std::string_view bytes
   const std::size_t rest = bytes.size() - std::min(header.body, bytes.size());
   std::uint32_t sizes[2];
   if (rest < sizeof(sizes)) {
-    if (header.points == 0) return allocate(header.columns, 0);
+    if (header.points == 0) return allocate(header);
     refuseByte(path, bytes.size(), "ends before the compressed data");
   }
   std::memcpy(sizes, bytes.data() + header.body, sizeof(sizes));
@@ -55,7 +55,7 @@ void readPcdCompressed(const std::filesystem::path& path, std::string_view bytes
   if (sizes[1] > 0 &&
       pcl::lzfDecompress(bytes.data() + header.body + sizeof(sizes), sizes[0], columns.data(), sizes[1]) != sizes[1])
     refuseByte(path, header.body + sizeof(sizes), "the compressed data are damaged");
-  allocate(header.columns, header.points);
+  allocate(header);
   const char* column = columns.data();
   for (Field& field : header.columns.fields) {
     if (field.bytes.empty()) continue;

@@ -137,6 +137,12 @@ class PcdHeaderParser {
 
 }  // namespace
 
+void allocate(PcdHeader& header) {
+  header.columns.rows = header.points;
+  for (Field& field : header.columns.fields)
+    if (!isPadding(field)) field.bytes.resize(header.points * field.count * sizeOf(field.type));
+}
+
 PcdHeader parsePcdHeader(const std::filesystem::path& path, std::string_view text) {
   return PcdHeaderParser(path, text).parse();
 }

@@ -25,6 +25,14 @@ struct PcdHeader {
   std::int64_t row_values = 0;
 };
 
+/// Whether a field is padding, which nobody keeps.
+inline bool isPadding(const Field& field) {
+  return field.name == "_";
+}
+
+/// Makes room for the values of all fields but padding, which may be far larger than the file.
+void allocate(PcdHeader& header);
+
 /// Parses and checks a header: counts and sizes are in range and points = width x height.
 /// @param text at least the header
 /// @throws IoError naming the line

@@ -188,6 +188,15 @@ TEST(Ply, WhatPclWritesIsRead) {
   }
 }
 
+TEST(Ply, APropertyWithoutANameIsPassedOver) {
+  const auto geometry = tufted::parse(
+      "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\nproperty float _\nproperty float y\n"
+      "property float z\nend_header\n1 5 2 3\n",
+      "a.ply");
+  EXPECT_TRUE(geometry.fields.empty());
+  EXPECT_EQ(geometry.points.row(0), Eigen::RowVector3d(1, 2, 3));
+}
+
 TEST(Ply, WhatCgalWritesIsRead) {
   using Point = CGAL::Simple_cartesian<double>::Point_3;
   const std::vector<Point> points = {{500000.1234567891, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};

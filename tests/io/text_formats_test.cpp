@@ -54,6 +54,10 @@ TEST(Xyz, EveryEndOfLineEndsALine) {
   EXPECT_EQ(tufted::parse("v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3\r", "a.obj").triangles.rows(), 1);
 }
 
+TEST(Xyz, AColumnWithoutANameIsPassedOver) {
+  EXPECT_TRUE(tufted::parse("x,y,z,_\n0,0,0,5\n", "a.csv").fields.empty());
+}
+
 TEST(Xyz, AFirstLineOfNamesNamesTheColumns) {
   const TemporaryDir dir;
   const auto geometry = tufted::read(dir.write("a.csv", "Intensity,X,Y,Z\n9,1,2,3\n8,4,5,6\n"));

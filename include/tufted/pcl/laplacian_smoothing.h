@@ -14,8 +14,9 @@ namespace tufted {
 ///
 /// The operator is built from all finite points of the input. With setIndices only the points named move, all others
 /// are held, with every copy of them. Every other field, the order, width and height, header and sensor pose are
-/// copied; NaN points stay NaN in place, and is_dense says whether there are any. Nothing is removed, so getRemovedIndices is always empty. The output
-/// may be the input. A caller's mistake is told on PCL's console and leaves an empty output.
+/// copied; NaN points stay NaN in place, and is_dense says whether there are any. Nothing is removed, so
+/// getRemovedIndices is always empty. The output may be the input. A caller's mistake is told on PCL's console and
+/// leaves an empty output.
 ///
 /// Instantiated for PCL_XYZ_POINT_TYPES; for other types include impl/laplacian_smoothing.hpp.
 template <typename PointT>
