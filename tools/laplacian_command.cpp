@@ -38,6 +38,12 @@ constexpr const char* footer = R"(Sign and scale:
   --dummy gives those points 1 (-1 with --sign igl) on the diagonal of L and, in M, a thousandth of the smallest
   positive mass.
 
+Presets of clouds:
+  clean  exact samples: the paper's steps and no others
+  scan   depth images, laser scans, photogrammetry: noise, jumps, outliers, near sheets. Lengths are measured between
+         points moved onto the surface, and M is the Voronoi area in each point's own star.
+  lidar  the same from a spinning scanner, whose rings would be taken for sheets
+
 Reads PCD, PLY, LAS and text in columns (clouds), PLY, OBJ, OFF and STL (meshes; OBJ and OFF without faces are clouds).
 The format goes by the extension, .pcd .ply .las .xyz .xyzn .pwn .txt .csv .asc .pts .obj .off .coff .noff .stl, and
 where that is unknown by the content. Normals of a file are used for L and M with --normals alone; points.ply and
@@ -66,6 +72,7 @@ struct Settings {
   Input input;
   std::filesystem::path out;
   bool normals = false;  ///< use those of the file
+  tufted::Preset preset = tufted::Preset::clean;
   tufted::CloudOptions cloud;
   std::optional<double> mollify;  ///< the default of clouds or of meshes
   tufted::WriteOptions write;
@@ -75,6 +82,8 @@ const std::map<std::string, tufted::Gluing> gluings = {{"star", tufted::Gluing::
                                                        {"vertex-pair", tufted::Gluing::vertex_pair}};
 const std::map<std::string, tufted::FaceOrder> orders = {
     {"angle", tufted::FaceOrder::angle}, {"area", tufted::FaceOrder::area}, {"random", tufted::FaceOrder::random}};
+const std::map<std::string, tufted::Preset> presets = {
+    {"clean", tufted::Preset::clean}, {"scan", tufted::Preset::scan}, {"lidar", tufted::Preset::lidar}};
 const std::map<std::string, tufted::Delaunay> backends = {{"star", tufted::Delaunay::star},
                                                           {"cgal", tufted::Delaunay::cgal}};
 const std::map<std::string, tufted::Format> formats = {{"npz", tufted::Format::npz}, {"mtx", tufted::Format::mtx},
@@ -100,6 +109,17 @@ void addWriteOptions(CLI::App& command, tufted::WriteOptions& options) {
       ->type_name("LIST");
   addChoice(command, "--sign", options.sign, signs, "Sign of L in the files, see below (psd)");
   command.add_flag("--dummy", options.dummy, "Dummy values for points that cannot take part, see below");
+}
+
+/// The steps of a preset, all else as it is.
+void applyPreset(tufted::Preset preset, tufted::CloudOptions& options) {
+  const tufted::CloudOptions steps = tufted::cloudOptions(preset);
+  options.growth = steps.growth;
+  options.split_sheets = steps.split_sheets;
+  options.star_search = steps.star_search;
+  options.filter = steps.filter;
+  options.lengths = steps.lengths;
+  options.mass = steps.mass;
 }
 
 /// Refuses what no build can be written to.
@@ -172,6 +192,7 @@ int runLaplacian(Settings settings, const std::vector<CLI::Option*>& cloud_only)
       throw tufted::IoError(settings.input.name() + ": has no normals, which --normals asks for");
     settings.cloud.normals = &geometry.normals;
   }
+  applyPreset(settings.preset, settings.cloud);
   settings.cloud.progress = progress;
   settings.cloud.keep_cover = false;
   tufted::MeshOptions mesh = meshOptions(settings.cloud);
@@ -209,6 +230,7 @@ void addLaplacian(CLI::App& app, Run& run) {
       addNumber(command, "--neighbors", options.neighbors, 3, std::numeric_limits<int>::max(),
                 "Neighbours per point, clouds only (30)")
           ->type_name("K"),
+      addChoice(command, "--preset", settings->preset, presets, "Kind of cloud, see below, clouds only (clean)"),
       addChoice(command, "--gluing", options.gluing, gluings, "How the stars are glued, clouds only (star)"),
       addChoice(command, "--delaunay", options.delaunay, backends, "Who finds the stars, clouds only (star)"),
       command.add_flag("--normals", settings->normals,

@@ -91,6 +91,12 @@ Json optionsObject(const CloudOptions& options) {
   Json json = {{"neighbors", options.neighbors},
                {"gluing", name(options.gluing)},
                {"delaunay", name(options.delaunay)},
+               {"growth", options.growth == Growth::line ? "line" : "uneven"},
+               {"split_sheets", options.split_sheets},
+               {"star_search", options.star_search == StarSearch::once ? "once" : "thorough"},
+               {"filter", options.filter == Filter::radius ? "radius" : "votes"},
+               {"lengths", options.lengths == Lengths::points ? "points" : "denoised"},
+               {"mass", options.mass == Mass::cover ? "cover" : "star"},
                {"given_normals", options.normals != nullptr},
                {"given_neighborhoods", options.neighborhoods != nullptr}};
   json.update(commonOptions(options));

@@ -50,6 +50,19 @@ TEST_F(Command, WritesAllFilesForAMesh) {
   EXPECT_NE(readAll(dir_ / "out/report.json").find("\"order\": \"area\""), std::string::npos);
 }
 
+TEST_F(Command, PresetsChooseTheStepsOfClouds) {
+  const auto file = dir_.write("sphere.xyz", sphere(500));
+  ASSERT_EQ(runTufted({"laplacian", file, "--out", out()}).code, 0);
+  EXPECT_NE(readAll(dir_ / "out/report.json").find("\"mass\": \"cover\""), std::string::npos);
+  const std::string clean = readAll(dir_ / "out/M.npy");
+  ASSERT_EQ(runTufted({"laplacian", file, "--out", out(), "--preset", "scan"}).code, 0);
+  EXPECT_NE(readAll(dir_ / "out/report.json").find("\"mass\": \"star\""), std::string::npos);
+  EXPECT_NE(readAll(dir_ / "out/M.npy"), clean);
+  const std::string mesh = dir_.write("tetrahedron.off", tetrahedron);
+  EXPECT_EQ(runTufted({"laplacian", mesh, "--out", out(), "--preset", "scan"}).code, 2);
+  EXPECT_EQ(runTufted({"laplacian", file, "--out", out(), "--preset", "dirty"}).code, 2);
+}
+
 TEST_F(Command, TakesAMeshAsACloudWhenAsked) {
   const auto file = dir_.write("tetrahedron.off", tetrahedron);
   const Result result = runTufted({"laplacian", file, "--out", out(), "--as", "cloud", "--neighbors", "3"});
