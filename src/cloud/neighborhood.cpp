@@ -80,6 +80,7 @@ bool NeighborhoodFinder::grow(int p, int most, Neighborhood& hood, SheetScratch&
 
 bool NeighborhoodFinder::keepSheet(int p, const Eigen::Vector3d& normal, Neighborhood& hood,
                                    SheetScratch& scratch) const {
+  if (hood.neighbors.empty()) return false;
   const double gap = sheet_gap * hood.reach;
   scratch.heights.clear();
   for (const Neighbor& q : hood.neighbors)

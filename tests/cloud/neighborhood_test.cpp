@@ -111,5 +111,16 @@ TEST(Neighborhood, OfAPointBetweenSheetsIsIsolated) {
   EXPECT_TRUE(hood.isolated);
 }
 
+TEST(Neighborhood, MayLoseAllItsNeighbors) {
+  // Two points far above each other and above all others: nothing lies within a quarter of the reach.
+  Points points(12, 3);
+  for (int i = 0; i < 12; ++i) points.row(i) << i % 3, i / 3 % 2, std::pow(3.0, i);
+  Hoods hoods(points, {.neighbors = 9, .split_sheets = true});
+  for (int p = 0; p < points.rows(); ++p) {
+    const Neighborhood hood = hoods.at(p);
+    EXPECT_TRUE(!hood.isolated || hood.neighbors.size() <= 2) << p;
+  }
+}
+
 }  // namespace
 }  // namespace tufted
