@@ -51,7 +51,8 @@ void PointTable::addTriple(const std::array<const char*, 3>& names, const Points
     }
     first = made;
   }
-  for (std::size_t c = 0; c < 3; ++c) add({names[c], type, 1, first + c * sizeOf(type), 3 * sizeOf(type)});
+  const std::size_t bytes = values.size() > 0 ? sizeOf(type) : 0;  // no points: no memory to step through
+  for (std::size_t c = 0; c < 3; ++c) add({names[c], type, 1, first + c * bytes, 3 * bytes});
 }
 
 void PointTable::write(OutputBuffer& buffer) const {
