@@ -116,6 +116,7 @@ void applyPreset(tufted::Preset preset, tufted::CloudOptions& options) {
   const tufted::CloudOptions steps = tufted::cloudOptions(preset);
   options.growth = steps.growth;
   options.split_sheets = steps.split_sheets;
+  options.isolate_outliers = steps.isolate_outliers;
   options.star_search = steps.star_search;
   options.filter = steps.filter;
   options.lengths = steps.lengths;

@@ -46,8 +46,7 @@ enum class StarSearch {
 /// Which triangles of the stars are dropped.
 enum class Filter {
   radius,  ///< by their circumradius: slivers along a rim, bridges to outliers
-  votes,   ///< by circumradius, more strictly where no other corner's star has the triangle; points that no other star
-           ///< names lose theirs
+  votes,   ///< by circumradius, more strictly where no other corner's star has the triangle
 };
 
 /// What the lengths of edges are measured between.
@@ -73,6 +72,7 @@ struct CloudOptions {
   int neighbors = 30;  ///< k >= 3, far fewer than N; larger than N - 1 is clamped and reported
   Growth growth = Growth::line;
   bool split_sheets = false;  ///< neighbours beyond a gap along the normal belong to another surface and are left out
+  bool isolate_outliers = false;  ///< points that hover over a surface that does not reach to them lose their stars
   StarSearch star_search = StarSearch::once;
   Filter filter = Filter::radius;
   Lengths lengths = Lengths::points;

@@ -32,6 +32,7 @@ struct Report {
   std::int64_t grown_neighborhoods = 0;    ///< k doubled because the neighbours say too little, see Growth
   std::int64_t split_neighborhoods = 0;    ///< neighbours of another sheet left out
   std::int64_t isolated_by_sheets = 0;     ///< points without a star: next to all neighbours belong to other sheets
+  std::int64_t outliers = 0;               ///< points without a star: they hover over a surface, see CloudOptions
   std::int64_t denoised = 0;               ///< points moved onto a surface for the lengths, see Lengths
   std::int64_t grown_stars = 0;            ///< times k was doubled because a closed star was not certified
   std::int64_t closed_stars = 0;           ///< open stars that closed with twice the neighbours

@@ -50,7 +50,7 @@ bool isImplausible(const Stars& stars, const Points& points, int p, int i) {
   // In space the circle is no smaller than half the longest side; only then the stars of a and b are looked at.
   const double radius = circumradius(points, p, a, b);
   if (radius <= smallest) return false;
-  const bool sees_further = stars.reach[p] > 1.5 * std::max(stars.reach[a], stars.reach[b]);
+  const bool sees_further = stars.reach[p] > 3 * std::max(stars.reach[a], stars.reach[b]);
   if (radius <= 2 * smallest && !sees_further) return false;
   return otherVotes(stars, p, i) == 0;
 }
@@ -76,27 +76,13 @@ std::int64_t dropTriangles(Stars& stars, const Workers& workers, const Test& tes
   return dropped;
 }
 
-/// Which points are link vertices of a triangle in the star of another.
-std::vector<std::uint8_t> findNamed(const Stars& stars) {
-  std::vector<std::uint8_t> named(stars.size());
-  for (int p = 0; p < stars.size(); ++p)
-    for (int i = stars.offset[p]; i < stars.offset[p + 1]; ++i)
-      if (stars.hasTriangle(i)) named[stars.link[i]] = named[stars.link[stars.after(p, i)]] = 1;
-  return named;
-}
-
 }  // namespace
 
 void filterStars(Stars& stars, const Points& points, int k, Filter filter, const Workers& workers, Report& report) {
   if (stars.size() <= k + 1) return;
-  if (filter == Filter::radius) {
-    report.dropped_triangles += dropTriangles(stars, workers, [&](int p, int i) { return isTooLarge(stars, p, i); });
-    return;
-  }
-  report.dropped_triangles +=
-      dropTriangles(stars, workers, [&](int p, int i) { return isImplausible(stars, points, p, i); });
-  const std::vector<std::uint8_t> named = findNamed(stars);
-  report.dropped_triangles += dropTriangles(stars, workers, [&](int p, int) { return named[p] == 0; });
+  report.dropped_triangles += dropTriangles(stars, workers, [&](int p, int i) {
+    return filter == Filter::radius ? isTooLarge(stars, p, i) : isImplausible(stars, points, p, i);
+  });
 }
 
 void countVotes(const Stars& stars, const Workers& workers, Report& report) {

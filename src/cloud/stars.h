@@ -22,15 +22,16 @@ constexpr double no_triangle = std::numeric_limits<double>::infinity();
 /// stands for the triangle (p, link[i], successor of i); its `radius` is no_triangle where there is none: at the last
 /// link vertex of an open star, and where a filter dropped it.
 struct Stars {
-  std::vector<int> offset;             ///< n + 1
-  std::vector<int> link;               ///< ranks
-  std::vector<double> radius;          ///< circumradius in the tangent plane, per link entry
-  std::vector<double> reach;           ///< n, r_k: distance to the last neighbour before a star grows
-  std::vector<std::uint8_t> ends;      ///< n, 1 where the surface ends at p: an open star or a lost triangle
-  std::vector<std::uint8_t> isolated;  ///< n, 1 where all neighbours belong to other sheets
-  std::vector<std::uint8_t> flat;      ///< n, 1 where the neighbourhood is next to a plane
-  Points normals;                      ///< n x 3
-  Points move;                         ///< n x 3, from each point to where lengths are measured; 0 x 3: no point moves
+  std::vector<int> offset;         ///< n + 1
+  std::vector<int> link;           ///< ranks
+  std::vector<double> radius;      ///< circumradius in the tangent plane, per link entry
+  std::vector<double> reach;       ///< n, r_k: distance to the last neighbour before a star grows
+  std::vector<std::uint8_t> ends;  ///< n, 1 where the surface ends at p: an open star or a lost triangle
+  std::vector<std::uint8_t>
+      isolated;  ///< n, 1 for points without a star: outliers, and where all neighbours are of other sheets
+  std::vector<std::uint8_t> flat;  ///< n, 1 where the neighbourhood is next to a plane
+  Points normals;                  ///< n x 3
+  Points move;                     ///< n x 3, from each point to where lengths are measured; 0 x 3: no point moves
 
   int size() const { return static_cast<int>(reach.size()); }
   /// The link entry after i in star p, cyclically.

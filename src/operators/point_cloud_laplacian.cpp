@@ -5,6 +5,7 @@
 
 #include "cloud/morton.h"
 #include "cloud/neighbors.h"
+#include "cloud/outliers.h"
 #include "cloud/star_filter.h"
 #include "cloud/stars.h"
 #include "cloud/tangent_frame.h"
@@ -145,6 +146,7 @@ Laplacian pointCloudLaplacian(const Points& points, const CloudOptions& options)
   clock.finish("tree", search ? search->bytes() : bytesOf(source.list) + bytesOf(source.list_offset));
 
   Stars stars = buildStars(cloud, source, options, workers, report);
+  if (options.isolate_outliers) isolateOutliers(stars, cloud, source, workers, report);
   search.reset();
   clock.restart();  // buildStars books its own stages
   filterStars(stars, cloud.points, source.k, options.filter, workers, report);
@@ -172,8 +174,9 @@ Laplacian pointCloudLaplacian(const Points& points, const CloudOptions& options)
 CloudOptions cloudOptions(Preset preset) {
   CloudOptions options;
   if (preset == Preset::clean) return options;
-  options.growth = Growth::uneven;
+  options.growth = preset == Preset::lidar ? Growth::uneven : Growth::line;
   options.split_sheets = preset == Preset::scan;
+  options.isolate_outliers = true;
   options.star_search = StarSearch::thorough;
   options.filter = Filter::votes;
   options.lengths = Lengths::denoised;

@@ -62,6 +62,43 @@ TEST(Scans, TheMassIsPositiveAndKnowsBothAreas) {
   EXPECT_TRUE(support::sameBits(core.M, core.cover_areas));
 }
 
+TEST_P(Scans, OutliersDoNotCount) {
+  const auto sphere = shapes::sphere(16000, shapes::Sampling::uniform, GetParam());
+  for (const auto where : {shapes::Outliers::near, shapes::Outliers::far}) {
+    const auto cloud = shapes::withOutliers(sphere, where, 0.01, GetParam() + 100);
+    const Laplacian laplacian = pointCloudLaplacian(cloud.points, scan);
+    EXPECT_LE(spectrumError(cloud, scan, 49), 1e-2);
+    EXPECT_NEAR(laplacian.report.area, sphere.area, 5e-3 * sphere.area);
+    EXPECT_GT(laplacian.report.outliers, where == shapes::Outliers::far ? 100 : 0);
+    for (int p = 0; p < 16000; ++p) ASSERT_EQ(laplacian.status[p], PointStatus::active);
+    EXPECT_GE(pointCloudLaplacian(cloud.points, clean).report.area, 1.03 * sphere.area);
+  }
+}
+
+TEST(Scans, SurfacesHaveNoOutliers) {
+  constexpr int n = 16000;
+  for (const auto& cloud :
+       {shapes::sphere(n), shapes::cubeSurface(n), shapes::sphere(n, shapes::Sampling::densityStep(100)),
+        shapes::twoSheets(n, 0.03), shapes::withNoise(shapes::torus(n), 0.01), shapes::square(n)})
+    EXPECT_EQ(pointCloudLaplacian(cloud.points, scan).report.outliers, 0) << cloud.name;
+  // Where planes cross, tangent planes stand askew.
+  EXPECT_LE(pointCloudLaplacian(shapes::crossingPlanes(n).points, scan).report.outliers, n / 1000);
+}
+
+TEST(Scans, APointIsAnOutlierOverASurfaceButNotBesideIt) {
+  Points points = shapes::squareLattice(40, 1).points;  // 40 x 40 points a unit apart
+  const Eigen::RowVector3d corner = points.row(0), middle = points.colwise().mean();
+  points.conservativeResize(1601, 3);
+  CloudOptions options = scan;
+  options.split_sheets = false;
+  points.row(1600) = middle + Eigen::RowVector3d(0, 0, 6);
+  const Laplacian over = pointCloudLaplacian(points, options);
+  EXPECT_EQ(over.status[1600], PointStatus::isolated);
+  EXPECT_EQ(over.report.outliers, 1);
+  points.row(1600) = corner + Eigen::RowVector3d(-6, 0, 0);
+  EXPECT_EQ(pointCloudLaplacian(points, options).report.outliers, 0);
+}
+
 TEST(Scans, PresetsDependOnTheShapeAlone) {
   // Exact moves and powers of two, another order and other numbers of threads: the same bits.
   Points points = shapes::withNoise(shapes::sphere(4000), 0.01).points;

@@ -143,6 +143,26 @@ Cloud lidar(const LidarOptions& options, std::uint64_t seed) {
   return cloud;
 }
 
+bool crossesJump(const Vector3d& a, const Vector3d& b) {
+  constexpr int rays = 64, halvings = 40;
+  const Vector3d from = a.normalized(), to = b.normalized();
+  const auto cast = [&](double t) { return castRay(((1 - t) * from + t * to).normalized()); };
+  Hit previous = cast(0);
+  for (int i = 1; i <= rays; ++i) {
+    double low = (i - 1.0) / rays, high = static_cast<double>(i) / rays;
+    Hit before = previous, after = cast(high);
+    previous = after;
+    for (int j = 0; j < halvings && before.surface != after.surface; ++j) {
+      const double middle = (low + high) / 2;
+      const Hit hit = cast(middle);
+      (hit.surface == before.surface ? before : after) = hit;
+      (hit.surface == before.surface ? low : high) = middle;
+    }
+    if (std::abs(after.range - before.range) > 1e-6 * before.range && before.surface != after.surface) return true;
+  }
+  return false;
+}
+
 Cloud depthCamera(const DepthCameraOptions& options, std::uint64_t seed) {
   // Looks past the box into the room's corner, 20 degrees down; the camera's axes in the room's frame.
   const double yaw = -25 * degree, pitch = -20 * degree;

@@ -154,6 +154,16 @@ TEST(ScanTruth, OfALidarRoomIsNearlyTheAreaSeen) {
   EXPECT_GT(truth.area, 0.9 * cloud.area);
 }
 
+TEST(Scanners, AJumpIsWhereTheScannerSeesPastAnEdge) {
+  const Eigen::Vector3d floor_before_box(2.8, -2, -1.8), box_front(3, -2, -1.5), box_top(4, -2, -0.3);
+  const Eigen::Vector3d east_wall(11, -4, 0.5), south_wall(10, -6, 0.5);
+  EXPECT_FALSE(crossesJump(floor_before_box, box_front));
+  EXPECT_FALSE(crossesJump(box_front, box_top));
+  EXPECT_FALSE(crossesJump(south_wall, east_wall));
+  EXPECT_TRUE(crossesJump(box_top, east_wall));
+  EXPECT_TRUE(crossesJump(east_wall, box_front));
+}
+
 TEST(Scanners, DepthCameraIsQuantisedAndOrganized) {
   const DepthCameraOptions options{.width = 160, .height = 120, .depth_step = 0.004};
   const Cloud cloud = depthCamera(options);

@@ -148,6 +148,11 @@ struct ScanTruth {
 /// @param goes_round the last column is a neighbour of the first, as in lidar()
 ScanTruth scanTruth(const Cloud& scan, bool goes_round);
 
+/// Whether what the scanner of lidar() sees between two directions breaks off anywhere and goes on at another distance:
+/// at the edge of something that stands in front of something else, not where two surfaces meet.
+/// @param a,b points in the scanner's frame, less than 180 degrees apart
+bool crossesJump(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
+
 struct DepthCameraOptions {
   int width = 640, height = 480;
   double depth_step = 0.002;  ///< depth is rounded to multiples of this, m; 0: not rounded

@@ -50,18 +50,20 @@ bool hasOneLabel(const std::vector<int>& labels, const Triangles& triangles, Eig
   return labels[triangles(t, 1)] == label && labels[triangles(t, 2)] == label;
 }
 
-double mixedArea(const Build& build, const std::vector<int>& labels) {
+/// Part of the area of the triangles that `isWrong(row of Build::stars())` says yes to.
+template <class Test>
+double shareOf(const Build& build, const Test& isWrong) {
   const Points& points = build.cloud().points;
   const Triangles& triangles = build.stars();
-  double mixed = 0, whole = 0;
+  double wrong = 0, whole = 0;
   for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
     const Eigen::Vector3d a = points.row(triangles(t, 1)) - points.row(triangles(t, 0));
     const Eigen::Vector3d b = points.row(triangles(t, 2)) - points.row(triangles(t, 0));
     const double area = a.cross(b).norm();
     whole += area;
-    if (!hasOneLabel(labels, triangles, t)) mixed += area;
+    if (isWrong(t)) wrong += area;
   }
-  return mixed / whole;
+  return wrong / whole;
 }
 
 /// 0: floor, ceiling and walls, 1: the box, 2: the pole.
@@ -164,14 +166,22 @@ double closedInnerStars(const Build& build) {
   return static_cast<double>(closed) / inner;
 }
 
-double mixedLabels(const Build& build) {
-  return mixedArea(build, build.cloud().labels);
-}
-
 double mixedBodies(const Build& build) {
   std::vector<int> bodies = build.cloud().labels;
   std::transform(bodies.begin(), bodies.end(), bodies.begin(), bodyOf);
-  return mixedArea(build, bodies);
+  return shareOf(build, [&](Eigen::Index t) { return !hasOneLabel(bodies, build.stars(), t); });
+}
+
+double areaAcrossJumps(const Build& build) {
+  const std::vector<int>& labels = build.cloud().labels;
+  const Points& points = build.cloud().points;
+  return shareOf(build, [&](Eigen::Index t) {
+    for (int i = 0; i < 3; ++i) {
+      const int a = build.stars()(t, i), b = build.stars()(t, (i + 1) % 3);
+      if (bodyOf(labels[a]) != bodyOf(labels[b]) && shapes::crossesJump(points.row(a), points.row(b))) return true;
+    }
+    return false;
+  });
 }
 
 double bridges(const Build& build) {

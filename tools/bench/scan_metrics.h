@@ -22,10 +22,11 @@ double gridAreaError(const Build& build);  ///< sum(M) / the area between the no
 double componentsOfSurfaces(const Build& build);
 /// Share of the inner rays whose star is closed and has lost nothing.
 double closedInnerStars(const Build& build);
-/// Share of the area of the union of stars in triangles whose corners do not all have one label.
-double mixedLabels(const Build& build);
-/// The same with one label for the room's shell, one for the box and one for the pole: walls, floor and ceiling, and
-/// the faces of the box, do meet at creases, whose triangles are right.
+/// Rooms of lidar(): share of the area of the union of stars in triangles between bodies that the scanner sees one
+/// behind the other, see shapes::crossesJump(). Where the box or the pole stands on the floor, such triangles are right.
+double areaAcrossJumps(const Build& build);
+/// Share of the area of the union of stars in triangles whose corners do not all belong to the room's shell, to the box
+/// or to the pole.
 double mixedBodies(const Build& build);
 /// Triangles of the union of stars, all copies counted, whose corners do not all have one label.
 double bridges(const Build& build);

@@ -18,8 +18,8 @@ namespace {
 /// What is measured; marks name them. The first one is what the others are compared with.
 const std::vector<Variant>& variants() {
   static const std::vector<Variant> all{{"core", cloudOptions(Preset::clean)},
-                                         {"scan", cloudOptions(Preset::scan)},
-                                         {"lidar", cloudOptions(Preset::lidar)}};
+                                        {"scan", cloudOptions(Preset::scan)},
+                                        {"lidar", cloudOptions(Preset::lidar)}};
   return all;
 }
 

@@ -6,6 +6,7 @@
 
 #include "cloud/morton.h"
 #include "cloud/neighbors.h"
+#include "cloud/outliers.h"
 #include "cloud/star_filter.h"
 #include "cloud/stars.h"
 
@@ -25,6 +26,7 @@ Triangles unionOfStars(const Points& points, const CloudOptions& options, const 
   source.search = &search;
   source.k = std::min(options.neighbors, std::max(0, cloud.size() - 1));
   Stars stars = buildStars(cloud, source, options, workers, report);
+  if (options.isolate_outliers) isolateOutliers(stars, cloud, source, workers, report);
   filterStars(stars, cloud.points, source.k, options.filter, workers, report);
 
   Triangles triangles(laplacian.report.triangles, 3);

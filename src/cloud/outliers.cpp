@@ -1,0 +1,76 @@
+#include "cloud/outliers.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace tufted {
+namespace {
+
+constexpr std::int64_t block_size = 1024;
+constexpr double steep = 0.5;  // sine of the angle between a tangent plane and the way to a point
+
+/// Whether p lies beyond the neighbours that q looked at.
+bool isUnseen(const Stars& stars, const Points& points, int p, int q) {
+  return (points.row(p) - points.row(q)).squaredNorm() > stars.reach[q] * stars.reach[q];
+}
+
+/// Whether p lies far off the tangent plane of q, for its distance.
+bool isOffPlane(const Stars& stars, const Points& points, int p, int q) {
+  const Eigen::RowVector3d d = points.row(p) - points.row(q);
+  const double height = std::abs(d.dot(stars.normals.row(q)));
+  return height > steep * d.norm();
+}
+
+/// Whether the star alone allows p to be an outlier. Next to all points are spared the search.
+bool isSuspect(const Stars& stars, const Points& points, int p) {
+  const auto begin = stars.link.begin() + stars.offset[p], end = stars.link.begin() + stars.offset[p + 1];
+  return std::any_of(begin, end, [&](int q) { return stars.isolated[q] != 0 || isUnseen(stars, points, p, q); });
+}
+
+bool isOutlier(const Stars& stars, const Points& points, int p, const std::vector<Neighbor>& neighbors) {
+  const auto hovered = std::count_if(neighbors.begin(), neighbors.end(), [&](const Neighbor& q) {
+    return isUnseen(stars, points, p, q.index) && isOffPlane(stars, points, p, q.index);
+  });
+  return 2 * hovered > static_cast<std::ptrdiff_t>(neighbors.size());
+}
+
+/// Leaves the point without a triangle. Returns how many it loses.
+int isolate(Stars& stars, int p) {
+  int dropped = 0;
+  stars.isolated[p] = stars.ends[p] = 1;
+  for (int i = stars.offset[p]; i < stars.offset[p + 1]; ++i) {
+    dropped += stars.hasTriangle(i) ? 1 : 0;
+    stars.radius[i] = no_triangle;
+  }
+  return dropped;
+}
+
+}  // namespace
+
+void isolateOutliers(Stars& stars, const RankedCloud& cloud, const NeighborSource& source, const Workers& workers,
+                     Report& report) {
+  if (source.isFixed() || stars.size() <= source.k + 1) return;
+  enum Verdict : std::uint8_t { untried, sound, outlier, isolated };
+  std::vector<Verdict> verdicts(stars.size(), untried);
+  // Outliers that see each other alone become suspect once one of them is isolated.
+  for (bool found = true; found;) {
+    found = false;
+    workers.forBlocks("outliers", stars.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+      std::vector<Neighbor> neighbors;
+      for (int p = static_cast<int>(begin); p < end; ++p) {
+        if (verdicts[p] != untried || !isSuspect(stars, cloud.points, p)) continue;
+        source.search->nearest(p, source.k, neighbors);
+        verdicts[p] = isOutlier(stars, cloud.points, p, neighbors) ? outlier : sound;
+      }
+    });
+    for (int p = 0; p < stars.size(); ++p) {
+      if (verdicts[p] != outlier) continue;
+      verdicts[p] = isolated;
+      report.dropped_triangles += isolate(stars, p);
+      ++report.outliers;
+      found = true;
+    }
+  }
+}
+
+}  // namespace tufted
