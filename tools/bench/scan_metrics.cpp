@@ -76,9 +76,9 @@ struct Tags {
 
 Tags countTags(const Build& build) {
   Tags tags{.rim = build.cloud().rim_points};
-  const std::vector<std::uint8_t>& boundary = build.laplacian().boundary;
+  const std::vector<Boundary>& boundary = build.laplacian().boundary;
   for (int i = 0; i < static_cast<int>(boundary.size()); ++i) {
-    if (boundary[i] == 0) continue;
+    if (boundary[i] == Boundary::none) continue;
     ++tags.tagged;
     if (i < tags.rim) ++tags.both;
   }
@@ -159,7 +159,7 @@ double closedInnerStars(const Build& build) {
   for (std::size_t i = 0; i < is_inner.size(); ++i) {
     if (is_inner[i] == 0) continue;
     ++inner;
-    if (laplacian.status[i] == PointStatus::active && laplacian.boundary[i] == 0) ++closed;
+    if (laplacian.status[i] == PointStatus::active && laplacian.boundary[i] == Boundary::none) ++closed;
   }
   return static_cast<double>(closed) / inner;
 }
