@@ -85,12 +85,53 @@ Tags countTags(const Build& build) {
   return tags;
 }
 
+/// Pixels of a depth image, by whether they are tagged and where they ought to be.
+struct ImageTags {
+  int truth = 0;   ///< beside an edge of the kind
+  int found = 0;   ///< of these, tagged or beside a pixel that is
+  int tagged = 0;  ///< as of the kind
+  int right = 0;   ///< of these, at most two pixels from where the kind may be
+};
+
+/// @param edges where the kind has to be found
+/// @param allowed where it may be
+ImageTags countImageTags(const Build& build, Boundary kind, const std::vector<std::uint8_t>& edges,
+                         const std::vector<std::uint8_t>& allowed) {
+  const Laplacian& laplacian = build.laplacian();
+  std::vector<std::uint8_t> tagged(edges.size());
+  for (std::size_t i = 0; i < tagged.size(); ++i) tagged[i] = laplacian.boundary[i] == kind ? 1 : 0;
+  const int width = build.cloud().width;
+  const auto beside_tagged = shapes::widened(tagged, width, 1), beside_allowed = shapes::widened(allowed, width, 1);
+  ImageTags tags;
+  for (std::size_t i = 0; i < tagged.size(); ++i) {
+    if (laplacian.status[i] != PointStatus::active) continue;
+    tags.truth += edges[i];
+    tags.found += edges[i] & beside_tagged[i];
+    tags.tagged += tagged[i];
+    tags.right += tagged[i] & beside_allowed[i];
+  }
+  return tags;
+}
+
+ImageTags countRims(const Build& build) {
+  const shapes::ImageEdges& edges = build.sample().edges;
+  std::vector<std::uint8_t> only_rim = edges.rim;
+  const auto beside_other = shapes::widened(edges.other, build.cloud().width, 1);
+  for (std::size_t i = 0; i < only_rim.size(); ++i) only_rim[i] = edges.rim[i] != 0 && beside_other[i] == 0 ? 1 : 0;
+  return countImageTags(build, Boundary::rim, only_rim, edges.rim);
+}
+
+ImageTags countJumps(const Build& build) {
+  return countImageTags(build, Boundary::jump, build.sample().edges.jump, build.sample().edges.other);
+}
+
 }  // namespace
 
 Build::Build(const Sample& sample, const CloudOptions& options, const Build* core)
     : sample_(sample), options_(options), core_(core) {
+  if (sample.viewpoint) options_.viewpoint = &*sample.viewpoint;
   const Stopwatch watch;
-  laplacian_ = pointCloudLaplacian(sample.cloud.points, options);
+  laplacian_ = pointCloudLaplacian(sample.cloud.points, options_);
   seconds_ = watch.seconds();
 }
 
@@ -203,6 +244,26 @@ double boundaryRecall(const Build& build) {
 double boundaryPrecision(const Build& build) {
   const Tags tags = countTags(build);
   return static_cast<double>(tags.both) / tags.tagged;
+}
+
+double imageRimRecall(const Build& build) {
+  const ImageTags tags = countRims(build);
+  return static_cast<double>(tags.found) / tags.truth;
+}
+
+double imageRimPrecision(const Build& build) {
+  const ImageTags tags = countRims(build);
+  return static_cast<double>(tags.right) / tags.tagged;
+}
+
+double imageJumpRecall(const Build& build) {
+  const ImageTags tags = countJumps(build);
+  return static_cast<double>(tags.found) / tags.truth;
+}
+
+double imageJumpPrecision(const Build& build) {
+  const ImageTags tags = countJumps(build);
+  return static_cast<double>(tags.right) / tags.tagged;
 }
 
 double equalRows(const Build& build) {
