@@ -4,8 +4,8 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
+#include "base/disjoint_sets.h"
 #include "base/stage_clock.h"
 #include "bench/star_union.h"
 #include "guarantees/guarantees.h"
@@ -173,21 +173,12 @@ double gridAreaError(const Build& build) {
 double componentsOfSurfaces(const Build& build) {
   const SparseMatrix& L = build.laplacian().L;
   const std::vector<int>& labels = build.cloud().labels;
-  std::vector<int> parent(labels.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&parent](int p) {
-    while (parent[p] != p) p = parent[p] = parent[parent[p]];
-    return p;
-  };
+  DisjointSets sets(L.cols());
   auto components = build.laplacian().report.active;
   for (int column = 0; column < L.outerSize(); ++column) {
     for (SparseMatrix::InnerIterator entry(L, column); entry; ++entry) {
       const int row = static_cast<int>(entry.row());
-      if (entry.value() == 0 || labels[row] != labels[column]) continue;
-      const int a = root(row), b = root(column);
-      if (a == b) continue;
-      parent[a] = b;
-      --components;
+      if (entry.value() != 0 && labels[row] == labels[column] && sets.unite(row, column)) --components;
     }
   }
   return static_cast<double>(components);
