@@ -33,7 +33,8 @@ enum class Boundary : std::uint8_t {
   none = 0,  ///< it does not: triangles all around; points that are not active belong to no surface that could end
   rim = 1,   ///< nothing lies beyond: the sampling ends, at a border or at a hole (meshes: a vertex of a free edge)
   jump = 2,  ///< another surface lies there: behind, before or beside this one, as at a depth discontinuity
-  lost = 3,  ///< this surface goes on, but its triangles were dropped or not found: an outlier, uneven sampling
+  lost = 3,  ///< this surface goes on, but its triangles were dropped or not found: an outlier, uneven sampling;
+             ///< also where none of the point's own triangles is left, but others name it
 };
 
 }  // namespace tufted

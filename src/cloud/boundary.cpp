@@ -72,7 +72,8 @@ class BoundaryFinder {
   }
 
   Boundary find(int p, WorkerState& state) const {
-    if (stars_.ends[p] == 0 || !hasTriangles(p)) return Boundary::none;
+    if (stars_.ends[p] == 0) return Boundary::none;
+    if (!hasTriangles(p)) return Boundary::lost;
     if (source_.isFixed()) {
       state.near.clear();
       for (std::size_t i = source_.list_offset[p]; i < source_.list_offset[p + 1]; ++i)

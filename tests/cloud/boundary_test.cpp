@@ -218,6 +218,12 @@ TEST(BoundaryTags, OfACallersNeighborhoodsComeFromThemAlone) {
     for (int j = 0; j < 40; ++j) lists(p, j) = all[j].second;
   }
   expectRim(pointCloudLaplacian(square.points, {.neighborhoods = &lists}), square.rim_points);
+
+  const int last = static_cast<int>(lists.rows()) - 1;
+  lists.row(last).tail(39).setConstant(-1);  // one neighbour, no triangle
+  const Laplacian laplacian = pointCloudLaplacian(square.points, {.neighborhoods = &lists});
+  EXPECT_EQ(laplacian.status[last], PointStatus::active);  // others name it
+  EXPECT_EQ(laplacian.boundary[last], Boundary::lost);
 }
 
 TEST(BoundaryTags, OfAMeshAreTheVerticesOfItsFreeEdges) {
