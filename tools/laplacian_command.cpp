@@ -56,7 +56,9 @@ Writes into DIR, renamed one after the other when all are complete; files of oth
   M.npy               areas
   status.npy          0 active, 1 not finite, 2 coincident, 3 isolated
   representative.npy  the point that stands for a coincident one, counted from 0
-  boundary.npy        1 where the surface ends
+  boundary.npy        0, or why the surface ends there: 1 rim (the sampling ends), 2 jump (another surface lies
+                      beyond; of organized clouds and those with a VIEWPOINT as seen from there), 3 lost (triangles
+                      of the surface are missing)
   --format mtx
   L.mtx, M.mtx        Matrix Market: lower triangle of a symmetric matrix, N x 1 array
   --format mat
@@ -160,6 +162,9 @@ void printSummary(const Settings& settings, const tufted::Geometry& geometry, co
   std::printf("%-15s %lld, %lld active, %lld not finite, %lld coincident, %lld isolated\n", "points",
               count(report.points), count(report.active), count(report.not_finite), count(report.coincident),
               count(report.isolated));
+  if (report.rim_points + report.jump_points + report.lost_points > 0)
+    std::printf("%-15s %lld on rims, %lld at jumps, %lld where triangles are missing\n", "boundary",
+                count(report.rim_points), count(report.jump_points), count(report.lost_points));
   std::printf("%-15s %lld\n", "triangles", count(report.triangles));
   std::printf("%-15s %.2f\n", "nonzeros/row",
               static_cast<double>(report.nonzeros) / static_cast<double>(std::max<std::int64_t>(report.active, 1)));
@@ -194,6 +199,9 @@ int runLaplacian(Settings settings, const std::vector<CLI::Option*>& cloud_only)
     settings.cloud.normals = &geometry.normals;
   }
   applyPreset(settings.preset, settings.cloud);
+  // The position is at hand where a file states one, and where an image of depths leaves it at the origin.
+  const Eigen::Vector3d viewpoint(geometry.viewpoint[0], geometry.viewpoint[1], geometry.viewpoint[2]);
+  if ((geometry.height > 1 || !viewpoint.isZero(0)) && viewpoint.allFinite()) settings.cloud.viewpoint = &viewpoint;
   settings.cloud.progress = progress;
   settings.cloud.keep_cover = false;
   tufted::MeshOptions mesh = meshOptions(settings.cloud);

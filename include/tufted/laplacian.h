@@ -24,13 +24,13 @@ struct Frames {
 ///   Poisson        L u = M f
 ///   eigenproblem   L x = lambda M x
 struct Laplacian {
-  SparseMatrix L;                      ///< N x N, column-major, compressed, rows ascending; no unit (lengths cancel)
-  VectorXd M;                          ///< N areas in length^2; their sum approximates the surface area
-  VectorXd cover_areas;                ///< N; areas lumped from the faces of the cover, equal to M with Mass::cover
-  std::vector<PointStatus> status;     ///< N
-  std::vector<int> representative;     ///< N; the point itself unless coincident, then the lowest equal index
-  std::vector<std::uint8_t> boundary;  ///< N; 1 where the surface ends: an open star, a lost triangle, a free edge
-  Frames frames;                       ///< clouds only; 0 x 3 on meshes
+  SparseMatrix L;                   ///< N x N, column-major, compressed, rows ascending; no unit (lengths cancel)
+  VectorXd M;                       ///< N areas in length^2; their sum approximates the surface area
+  VectorXd cover_areas;             ///< N; areas lumped from the faces of the cover, equal to M with Mass::cover
+  std::vector<PointStatus> status;  ///< N
+  std::vector<int> representative;  ///< N; the point itself unless coincident, then the lowest equal index
+  std::vector<Boundary> boundary;   ///< N; why the surface ends at a point, if it does
+  Frames frames;                    ///< clouds only; 0 x 3 on meshes
   Report report;
 
   /// The tufted cover after flips to intrinsic Delaunay, vertices numbered as the caller's points.

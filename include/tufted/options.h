@@ -87,6 +87,9 @@ struct CloudOptions {
   bool keep_cover = true;  ///< false frees the cover (about 600 bytes per point)
   const Points* normals = nullptr;               ///< N x 3, any length and sign, used instead of the PCA's; borrowed
   const Neighborhoods* neighborhoods = nullptr;  ///< N x k indices used as they are, never grown; borrowed
+  /// Where the sensor stood, in the points' unit; tells Boundary::jump from rim however far the surfaces lie apart
+  /// along the line of sight. Borrowed.
+  const Eigen::Vector3d* viewpoint = nullptr;
   Progress progress = {};
 };
 

@@ -24,6 +24,11 @@ struct Report {
   std::int64_t coincident = 0;  ///< merged with an earlier equal point (clouds)
   std::int64_t isolated = 0;    ///< points without a triangle
 
+  // Where the surface ends, active points by Boundary
+  std::int64_t rim_points = 0;
+  std::int64_t jump_points = 0;
+  std::int64_t lost_points = 0;
+
   // Clouds
   int neighbors = 0;                       ///< k in use, after clamping to N - 1
   bool neighbors_clamped = false;          ///< the caller's k exceeded N - 1

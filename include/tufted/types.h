@@ -27,4 +27,14 @@ enum class PointStatus : std::uint8_t {
   isolated = 3,    ///< no triangle: too few neighbours, all collinear, or an unreferenced vertex
 };
 
+/// Why the surface ends at a point. Told by what lies beyond, where triangles are missing around the point: the middle
+/// half of the gap between its triangles is looked at, as far as twice its longest edge to a neighbour.
+enum class Boundary : std::uint8_t {
+  none = 0,  ///< it does not: triangles all around; points that are not active belong to no surface that could end
+  rim = 1,   ///< nothing lies beyond: the sampling ends, at a border or at a hole (meshes: a vertex of a free edge)
+  jump = 2,  ///< another surface lies there: behind, before or beside this one, as at a depth discontinuity
+  lost = 3,  ///< this surface goes on, but its triangles were dropped or not found: an outlier, uneven sampling;
+             ///< also where none of the point's own triangles is left, but others name it
+};
+
 }  // namespace tufted

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/disjoint_sets.h"
 #include "base/parallel.h"
 #include "base/stage_clock.h"
 #include "cloud/morton.h"
@@ -74,19 +75,10 @@ std::int64_t countOutliers(const NeighborGraph& graph, const Workers& workers) {
 }
 
 std::int64_t countComponents(const NeighborGraph& graph) {
-  std::vector<int> parent(graph.distance.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&parent](int p) {
-    while (parent[p] != p) p = parent[p] = parent[parent[p]];
-    return p;
-  };
-  auto components = static_cast<std::int64_t>(parent.size());
-  for (std::size_t i = 0; i < graph.nearest.size(); ++i) {
-    const int a = root(static_cast<int>(i / graph.k)), b = root(graph.nearest[i]);
-    if (a == b) continue;
-    parent[std::max(a, b)] = std::min(a, b);
-    --components;
-  }
+  auto components = std::ssize(graph.distance);
+  DisjointSets sets(components);
+  for (std::size_t i = 0; i < graph.nearest.size(); ++i)
+    if (sets.unite(static_cast<int>(i / graph.k), graph.nearest[i])) --components;
   return components;
 }
 

@@ -48,9 +48,9 @@ struct EdgeCounts {
 };
 
 /// Algorithm 1: puts all sides that are not glued yet into one pool per vertex pair, orders each pool circularly and
-/// glues front to back. `boundary`, if given, gets 1 at both vertices of an edge of a single face.
+/// glues front to back. `boundary`, if given, gets rim at both vertices of an edge of a single face.
 EdgeCounts glueEdges(IntrinsicTriangulation& cover, const Points& points, const EdgeOrder& order,
-                     const Workers& workers, std::vector<std::uint8_t>* boundary = nullptr);
+                     const Workers& workers, std::vector<Boundary>* boundary = nullptr);
 
 /// Means over the triangles' sides; 0 without a triangle.
 struct MeanLengths {

@@ -107,7 +107,7 @@ void glueAround(IntrinsicTriangulation& cover, const PooledSide* sides, std::siz
 }  // namespace
 
 EdgeCounts glueEdges(IntrinsicTriangulation& cover, const Points& points, const EdgeOrder& order,
-                     const Workers& workers, std::vector<std::uint8_t>* boundary) {
+                     const Workers& workers, std::vector<Boundary>* boundary) {
   // All sides that are still open, grouped by their smaller vertex: count, prefix sum, fill.
   const int sides = static_cast<int>(3 * (cover.size() / 2));
   const auto isOpen = [&](int side) { return cover.glue[frontSide(side / 3, side % 3)] == unglued; };
@@ -155,7 +155,7 @@ EdgeCounts glueEdges(IntrinsicTriangulation& cover, const Points& points, const 
     for (int side = 0; side < sides; ++side) {
       if (cover.glue[frontSide(side / 3, side % 3)] != backSide(side / 3, side % 3)) continue;
       const auto [low, high] = ends(side);
-      (*boundary)[low] = (*boundary)[high] = 1;
+      (*boundary)[low] = (*boundary)[high] = Boundary::rim;
     }
   }
   return {edges[0], edges[2]};

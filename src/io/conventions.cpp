@@ -30,7 +30,8 @@ std::vector<Convention> conventions(const Laplacian& laplacian, const WriteOptio
       {"status", "0 active, 1 not finite, 2 coincident, 3 isolated", true},
       {"inactive", inactive(laplacian, options), true},
       {"representative", "the point that stands for a coincident one, else the point itself; counted from 0", true},
-      {"boundary", "1 where the surface ends", true},
+      {"boundary", "0 the surface goes on, 1 rim, 2 jump: another surface lies beyond, 3 lost: triangles are missing",
+       true},
   };
 }
 

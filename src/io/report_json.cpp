@@ -19,6 +19,9 @@ Json reportObject(const Report& report) {
       {"not_finite", report.not_finite},
       {"coincident", report.coincident},
       {"isolated", report.isolated},
+      {"rim_points", report.rim_points},
+      {"jump_points", report.jump_points},
+      {"lost_points", report.lost_points},
       {"neighbors", report.neighbors},
       {"neighbors_clamped", report.neighbors_clamped},
       {"rejected_normals", report.rejected_normals},
@@ -62,6 +65,7 @@ Json conventionsObject(const std::vector<io::Convention>& conventions) {
   for (const io::Convention& convention : conventions)
     json[Json::json_pointer("/" + convention.name)] = convention.text;
   json["status"] = {"active", "not_finite", "coincident", "isolated"};  // by number
+  json["boundary"] = {"none", "rim", "jump", "lost"};
   return json;
 }
 
@@ -101,6 +105,10 @@ Json optionsObject(const CloudOptions& options) {
                {"mass", options.mass == Mass::cover ? "cover" : "star"},
                {"given_normals", options.normals != nullptr},
                {"given_neighborhoods", options.neighborhoods != nullptr}};
+  if (options.viewpoint != nullptr) {
+    const Eigen::Vector3d& viewpoint = *options.viewpoint;
+    json["viewpoint"] = {viewpoint.x(), viewpoint.y(), viewpoint.z()};
+  }
   json.update(commonOptions(options));
   return json;
 }

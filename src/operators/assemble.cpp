@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "base/disjoint_sets.h"
 #include "intrinsic/geometry.h"
 #include "tufted/errors.h"
 
@@ -204,22 +205,13 @@ Matrices assembleLaplacian(const IntrinsicTriangulation& cover, const std::vecto
 }
 
 std::int64_t countComponents(const SparseMatrix& L) {
-  std::vector<int> parent(L.cols());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&](int v) {
-    while (parent[v] != v) v = parent[v] = parent[parent[v]];
-    return v;
-  };
+  DisjointSets sets(L.cols());
   std::int64_t components = 0;
   for (int j = 0; j < L.cols(); ++j) {
     const int first = L.outerIndexPtr()[j], last = L.outerIndexPtr()[j + 1];
     components += first < last ? 1 : 0;
-    for (int i = first; i < last && L.innerIndexPtr()[i] < j; ++i) {
-      const int a = root(L.innerIndexPtr()[i]), b = root(j);
-      if (a == b) continue;
-      parent[std::max(a, b)] = std::min(a, b);
-      --components;
-    }
+    for (int i = first; i < last && L.innerIndexPtr()[i] < j; ++i)
+      if (sets.unite(L.innerIndexPtr()[i], j)) --components;
   }
   return components;
 }

@@ -65,7 +65,7 @@ void checkColumns(const SparseMatrix& L, Promise& storage) {
 
 /// Sizes, indices and codes. False where the rest cannot be looked at.
 bool checkShape(const Laplacian& laplacian, std::vector<std::string>& faults) {
-  Promise size("size"), storage("storage"), status("status");
+  Promise size("size"), storage("storage"), status("status"), boundary("boundary");
   const SparseMatrix& L = laplacian.L;
   const Index n = std::ssize(laplacian.status);
   const auto expect = [&](const char* what, Index found) {
@@ -93,7 +93,13 @@ bool checkShape(const Laplacian& laplacian, std::vector<std::string>& faults) {
     const int code = static_cast<int>(laplacian.status[i]);
     if (code > static_cast<int>(PointStatus::isolated)) status.brokenBy("that of point ", i, " is ", code);
   }
-  for (const Promise* promise : {&size, &storage, &status}) promise->addTo(faults);
+  for (Index i = 0; i < n && size.count() == 0; ++i) {
+    const int code = static_cast<int>(laplacian.boundary[i]);
+    if (code > static_cast<int>(Boundary::lost)) boundary.brokenBy("that of point ", i, " is ", code);
+    const bool has_surface = isActive(laplacian, i) || laplacian.status[i] == PointStatus::coincident;
+    if (code != 0 && !has_surface) boundary.brokenBy("that of point ", i, ", which is not active, is ", code);
+  }
+  for (const Promise* promise : {&size, &storage, &status, &boundary}) promise->addTo(faults);
   return faults.empty();
 }
 

@@ -58,7 +58,7 @@ Laplacian meshLaplacian(const Points& points, const Triangles& triangles, const 
   }
   result.representative.resize(n);
   std::iota(result.representative.begin(), result.representative.end(), 0);
-  result.boundary.assign(n, 0);
+  result.boundary.assign(n, Boundary::none);
   const std::vector<int> usable = usableTriangles(points, triangles, result.status, report);
   clock.finish("scale", static_cast<std::size_t>(n) * 3 * sizeof(double) + bytesOf(usable));
 

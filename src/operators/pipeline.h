@@ -33,6 +33,12 @@ void checkCommon(const char* function, const Options& options) {
   }
 }
 
+inline void countBoundary(Boundary boundary, Report& report) {
+  report.rim_points += boundary == Boundary::rim ? 1 : 0;
+  report.jump_points += boundary == Boundary::jump ? 1 : 0;
+  report.lost_points += boundary == Boundary::lost ? 1 : 0;
+}
+
 /// Algorithm 3 from the glued cover on: lengths, mollification, flips, matrices, and the cover in the caller's
 /// numbering and unit.
 /// @param points by vertex of the cover, in units of 2^exponent of the caller's
@@ -62,6 +68,13 @@ void finishLaplacian(std::shared_ptr<IntrinsicTriangulation> cover, const Points
   for (std::size_t i = 0; i < result.status.size(); ++i) {
     const bool has_row = result.L.outerIndexPtr()[i] != result.L.outerIndexPtr()[i + 1];
     if (result.status[i] == PointStatus::active && !has_row) result.status[i] = PointStatus::isolated;
+    // Surfaces end at points of surfaces; a representative comes before the points it stands for.
+    if (result.status[i] == PointStatus::coincident)
+      result.boundary[i] = result.boundary[result.representative[i]];
+    else if (result.status[i] != PointStatus::active)
+      result.boundary[i] = Boundary::none;
+    else
+      countBoundary(result.boundary[i], report);
     report.active += result.status[i] == PointStatus::active ? 1 : 0;
     report.not_finite += result.status[i] == PointStatus::not_finite ? 1 : 0;
     report.coincident += result.status[i] == PointStatus::coincident ? 1 : 0;

@@ -3,6 +3,7 @@
 #include <numeric>
 #include <optional>
 
+#include "cloud/boundary.h"
 #include "cloud/morton.h"
 #include "cloud/neighbors.h"
 #include "cloud/outliers.h"
@@ -30,6 +31,11 @@ void checkOptions(const Points& points, const CloudOptions& options) {
                          std::to_string(points.rows()) + ", one per point");
     }
   };
+  if (options.viewpoint != nullptr && !options.viewpoint->allFinite()) {
+    const Eigen::Vector3d& v = *options.viewpoint;
+    throw InvalidInput(name + ": viewpoint = " + std::to_string(v.x()) + " " + std::to_string(v.y()) + " " +
+                       std::to_string(v.z()) + ", must be finite");
+  }
   if (options.normals != nullptr) checkRows("normals", options.normals->rows());
   if (options.neighborhoods != nullptr) checkRows("neighborhoods", options.neighborhoods->rows());
 #ifndef TUFTED_WITH_GPL
@@ -79,22 +85,22 @@ void addStars(const Stars& stars, Gluing gluing, IntrinsicTriangulation& cover, 
   });
 }
 
-/// Boundary tags and frames in the caller's order; coincident points take their representative's.
-void describePoints(const Stars& stars, const RankedCloud& cloud, Laplacian& result) {
+/// Boundary tags and frames in the caller's order; coincident points take the frame of their representative.
+void describePoints(const Stars& stars, const std::vector<Boundary>& boundary, const RankedCloud& cloud,
+                    Laplacian& result) {
   const auto n = static_cast<Eigen::Index>(result.status.size());
-  result.boundary.assign(result.status.size(), 0);
+  result.boundary.assign(result.status.size(), Boundary::none);
   result.frames.normals.setZero(n, 3);
   result.frames.tangents.setZero(n, 3);
   for (int p = 0; p < stars.size(); ++p) {
     const int i = cloud.caller[p];
-    result.boundary[i] = stars.ends[p];
+    result.boundary[i] = boundary[p];
     result.frames.normals.row(i) = stars.normals.row(p);
     result.frames.tangents.row(i) = tangentOf(stars.normals.row(p));
   }
   for (Eigen::Index i = 0; i < n; ++i) {
     if (result.status[i] != PointStatus::coincident) continue;
     const int same = result.representative[i];
-    result.boundary[i] = result.boundary[same];
     result.frames.normals.row(i) = result.frames.normals.row(same);
     result.frames.tangents.row(i) = result.frames.tangents.row(same);
   }
@@ -147,12 +153,14 @@ Laplacian pointCloudLaplacian(const Points& points, const CloudOptions& options)
 
   Stars stars = buildStars(cloud, source, options, workers, report);
   if (options.isolate_outliers) isolateOutliers(stars, cloud, source, workers, report);
-  search.reset();
   clock.restart();  // buildStars books its own stages
   filterStars(stars, cloud.points, source.k, options.filter, workers, report);
   countVotes(stars, workers, report);
-  describePoints(stars, cloud, result);
   clock.finish("filter", 0);
+
+  describePoints(stars, findBoundary(stars, cloud, source, options.viewpoint, workers), cloud, result);
+  search.reset();
+  clock.finish("boundary", 0);
 
   VectorXd areas;
   if (options.mass == Mass::star) areas = starAreas(stars, cloud.points, workers);

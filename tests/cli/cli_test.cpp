@@ -63,6 +63,29 @@ TEST_F(Command, PresetsChooseTheStepsOfClouds) {
   EXPECT_EQ(runTufted({"laplacian", file, "--out", out(), "--preset", "dirty"}).code, 2);
 }
 
+TEST_F(Command, LooksForJumpsFromWhereTheFileSaysTheSensorStood) {
+  // A square before a wall four times as far, in the same pixels, as an image and as a list.
+  const auto jumps = [&](int width, int height, const std::string& viewpoint) {
+    std::string text = "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH " + std::to_string(width) +
+                       "\nHEIGHT " + std::to_string(height) + "\nVIEWPOINT " + viewpoint +
+                       " 1 0 0 0\nPOINTS 1296\nDATA ascii\n";
+    for (int row = -18; row < 18; ++row) {
+      for (int column = -18; column < 18; ++column) {
+        const int z = std::max(std::abs(row), std::abs(column)) < 7 ? 16 : 64;
+        text += std::to_string(column * z) + " " + std::to_string(row * z) + " " + std::to_string(z) + "\n";
+      }
+    }
+    const Result result = runTufted({"laplacian", dir_.write("wall.pcd", text), "--out", out()});
+    EXPECT_EQ(result.code, 0) << result.err;
+    EXPECT_NE(result.out.find(" on rims, "), std::string::npos) << result.out;
+    const std::string report = readAll(dir_ / "out/report.json"), name = "\"jump_points\": ";
+    return std::stoi(report.substr(report.find(name) + name.size()));
+  };
+  EXPECT_EQ(jumps(1296, 1, "0 0 0"), 0);  // says nothing of a list
+  EXPECT_GE(jumps(36, 36, "0 0 0"), 48);  // around the square of 13 x 13 pixels
+  EXPECT_GE(jumps(1296, 1, "0 0 1"), 48);
+}
+
 TEST_F(Command, TakesAMeshAsACloudWhenAsked) {
   const auto file = dir_.write("tetrahedron.off", tetrahedron);
   const Result result = runTufted({"laplacian", file, "--out", out(), "--as", "cloud", "--neighbors", "3"});

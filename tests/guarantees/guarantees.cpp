@@ -93,6 +93,13 @@ void checkEntries(const Laplacian& laplacian, std::vector<std::string>& broken) 
     if (isActive(laplacian, j) && !(diagonal > 0)) diagonal_sign.at("L", j, j, diagonal);
   }
 
+  Breach boundary("boundary");
+  for (std::size_t i = 0; i < laplacian.boundary.size(); ++i) {
+    const int tag = static_cast<int>(laplacian.boundary[i]);
+    const PointStatus status = laplacian.status[i];
+    const bool has_surface = status == PointStatus::active || status == PointStatus::coincident;
+    if (tag > (has_surface ? 3 : 0)) boundary.at("tag", i, tag);
+  }
   Breach mass("mass");
   for (Eigen::Index i = 0; i < laplacian.M.size(); ++i) {
     const double m = laplacian.M[i];
@@ -100,7 +107,7 @@ void checkEntries(const Laplacian& laplacian, std::vector<std::string>& broken) 
     if (m < 0) mass.at("M", i, m);
     if (m != 0 && !isActive(laplacian, i)) inactive.at("M", i, m);
   }
-  for (const Breach* breach : {&storage, &finite, &sign, &row_sum, &diagonal_sign, &inactive, &mass}) {
+  for (const Breach* breach : {&storage, &finite, &sign, &row_sum, &diagonal_sign, &inactive, &mass, &boundary}) {
     breach->addTo(broken);
   }
 }

@@ -55,6 +55,8 @@ std::vector<Planted> planted() {
       {"OtherSizeOfM", "size", [](Laplacian& l) { l.M.conservativeResize(501); }},
       {"OtherSizeOfL", "size", [](Laplacian& l) { l.L.conservativeResize(503, 502); }},
       {"OtherSizeOfStatus", "size", [](Laplacian& l) { l.status.pop_back(); }},
+      {"NoBoundaryTag", "boundary", [](Laplacian& l) { l.boundary[5] = static_cast<Boundary>(4); }},
+      {"TaggedWithoutASurface", "boundary", [](Laplacian& l) { l.boundary[not_finite_row] = Boundary::rim; }},
       {"NotCompressed", "storage", [](Laplacian& l) { l.L.uncompress(); }},
       {"RowsDoNotAscend", "storage",
        [](Laplacian& l) {

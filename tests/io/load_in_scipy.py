@@ -82,7 +82,7 @@ arrays = {
     "M": np.array([2 / 3, 2 / 3, 2 / 3, 0]),
     "status": np.array([0, 0, 0, 1], np.uint8),
     "representative": np.array([0, 1, 2, 3], np.int32),
-    "boundary": np.array([1, 1, 1, 0], np.uint8),
+    "boundary": np.array([1, 2, 3, 0], np.uint8),
 }
 for name, expected in arrays.items():
     assert same_bits(values[name], expected) and values[name].flags.c_contiguous, (name, values[name])

@@ -69,7 +69,7 @@ std::string overflowing() {
     names += " _";
     sizes += " 8";
     types += " F";
-    counts += " " + std::to_string(std::min<std::int64_t>(rest, 8'000'000) / 8);
+    counts.append(" ").append(std::to_string(std::min<std::int64_t>(rest, 8'000'000) / 8));
   }
   return names + "\n" + sizes + "\n" + types + "\n" + counts + "\nWIDTH 1073741824\nHEIGHT 1\nDATA binary\n";
 }

@@ -47,10 +47,12 @@ tufted::Laplacian sampleLaplacian() {
   laplacian.status.assign(4, tufted::PointStatus::active);
   laplacian.status[3] = tufted::PointStatus::not_finite;
   laplacian.representative = {0, 1, 2, 3};
-  laplacian.boundary = {1, 1, 1, 0};
+  using tufted::Boundary;
+  laplacian.boundary = {Boundary::rim, Boundary::jump, Boundary::lost, Boundary::none};
   laplacian.report.points = 4;
   laplacian.report.active = 3;
   laplacian.report.not_finite = 1;
+  laplacian.report.rim_points = laplacian.report.jump_points = laplacian.report.lost_points = 1;
   laplacian.report.triangles = 1;
   laplacian.report.nonzeros = 7;
   laplacian.report.votes = {1, 2, 3};

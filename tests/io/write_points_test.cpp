@@ -81,7 +81,7 @@ TEST_P(PointsFile, DoublesAtUtmCoordinatesAreReadAgainBitForBit) {
     ASSERT_NE(fieldNamed(again, name), nullptr) << name;
   EXPECT_EQ(valuesOf<double>(*fieldNamed(again, "mass")), (std::vector<double>{2.0 / 3, 2.0 / 3, 2.0 / 3, 0}));
   EXPECT_EQ(valuesOf<std::uint8_t>(*fieldNamed(again, "status")), (std::vector<std::uint8_t>{0, 0, 0, 1}));
-  EXPECT_EQ(valuesOf<std::uint8_t>(*fieldNamed(again, "boundary")), (std::vector<std::uint8_t>{1, 1, 1, 0}));
+  EXPECT_EQ(valuesOf<std::uint8_t>(*fieldNamed(again, "boundary")), (std::vector<std::uint8_t>{1, 2, 3, 0}));
   EXPECT_EQ(valuesOf<std::int32_t>(*fieldNamed(again, "representative")), (std::vector<std::int32_t>{0, 1, 2, 3}));
   EXPECT_EQ(valuesOf<float>(*fieldNamed(again, "intensity")), (std::vector<float>{0.1f, 0.2f, 0.3f, 0.4f}));
 }

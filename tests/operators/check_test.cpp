@@ -37,7 +37,7 @@ Laplacian graphLaplacian(int n, const std::vector<Edge>& edges, int components) 
   laplacian.M = VectorXd::Ones(n);
   laplacian.status.assign(n, PointStatus::active);
   for (int i = 0; i < n; ++i) laplacian.representative.push_back(i);
-  laplacian.boundary.assign(n, 0);
+  laplacian.boundary.assign(n, Boundary::none);
   laplacian.report.points = laplacian.report.active = n;
   laplacian.report.nonzeros = laplacian.L.nonZeros();
   laplacian.report.components = components;

@@ -52,6 +52,25 @@ TEST(LaplacianEstimation, IsTheCoresLaplacianOfTheSameFloats) {
   EXPECT_EQ(result.status[20], PointStatus::coincident);
 }
 
+TEST(LaplacianEstimation, LooksForJumpsFromTheSensorOfAnOrganizedCloud) {
+  const Eigen::RowVector3d sensor(1, 2, 3);
+  auto cloud = cloudOf(shapes::depthCamera({.width = 80, .height = 60}).points.rowwise() + sensor);
+  cloud->sensor_origin_ = {1, 2, 3, 0};
+  Estimation estimation;
+  estimation.setInputCloud(cloud);
+  const Points points = pointsOf(*cloud);
+  const Eigen::Vector3d viewpoint = sensor;
+  const Laplacian seen = pointCloudLaplacian(points, {.viewpoint = &viewpoint}), unseen = pointCloudLaplacian(points);
+  ASSERT_NE(seen.boundary, unseen.boundary);
+  EXPECT_EQ(computed(estimation).boundary, unseen.boundary);
+  cloud->width = 80;
+  cloud->height = 60;
+  EXPECT_EQ(computed(estimation).boundary, seen.boundary);
+  const Eigen::Vector3d elsewhere(-50, 80, 3);
+  estimation.setOptions({.viewpoint = &elsewhere});
+  EXPECT_EQ(computed(estimation).boundary, pointCloudLaplacian(points, {.viewpoint = &elsewhere}).boundary);
+}
+
 TEST(LaplacianEstimation, OfIndicesIsThatOfTheirPointsAlone) {
   const Points points = shapes::sphere(2000).points;
   const auto cloud = cloudOf(points);

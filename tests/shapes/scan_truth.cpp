@@ -1,4 +1,5 @@
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <array>
 #include <numeric>
 #include <stdexcept>
@@ -93,6 +94,50 @@ ScanTruth scanTruth(const Cloud& scan, bool goes_round) {
     for (int column = 0; column < scan.width; ++column) truth.inner.push_back(grid.isInner(row, column) ? 1 : 0);
   }
   return truth;
+}
+
+namespace {
+
+/// Calls `visit(i, j)` for all pixels i and those j around that are at most `pixels` rows and columns away; j is -1
+/// outside the image.
+template <class Visit>
+void forPairs(int width, int height, int pixels, const Visit& visit) {
+  for (int row = 0; row < height; ++row) {
+    for (int column = 0; column < width; ++column) {
+      for (int r = row - pixels; r <= row + pixels; ++r) {
+        for (int c = column - pixels; c <= column + pixels; ++c) {
+          const bool inside = r >= 0 && r < height && c >= 0 && c < width;
+          visit(row * width + column, inside ? r * width + c : -1);
+        }
+      }
+    }
+  }
+}
+
+}  // namespace
+
+ImageEdges imageEdges(const Cloud& image) {
+  constexpr double jump = 1.05;  // a wall seen at 5 degrees grows by a fiftieth per pixel
+  const std::vector<std::uint8_t> unmarked(image.labels.size());
+  ImageEdges edges{unmarked, unmarked, unmarked};
+  forPairs(image.width, image.height, 1, [&](int i, int j) {
+    if (j < 0 || !image.points.row(j).allFinite()) {
+      edges.rim[i] = 1;
+    } else if (image.labels[i] != image.labels[j]) {
+      const auto [near, far] = std::minmax(image.points(i, 2), image.points(j, 2));
+      edges.other[i] = 1;
+      if (far >= jump * near) edges.jump[i] = 1;
+    }
+  });
+  return edges;
+}
+
+std::vector<std::uint8_t> widened(const std::vector<std::uint8_t>& marks, int width, int pixels) {
+  std::vector<std::uint8_t> wide(marks.size());
+  forPairs(width, static_cast<int>(marks.size()) / width, pixels, [&](int i, int j) {
+    if (j >= 0 && marks[j] != 0) wide[i] = 1;
+  });
+  return wide;
 }
 
 }  // namespace tufted::shapes

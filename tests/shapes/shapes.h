@@ -159,6 +159,17 @@ struct DepthCameraOptions {
   double max_depth = 9;       ///< NaN beyond, m
   double dropouts = 0.01;     ///< part of the pixels that are NaN at random
 };
+/// What the pixels of a depth image without dropouts know of where surfaces end in it.
+struct ImageEdges {
+  std::vector<std::uint8_t> rim;    ///< N; 1 where one of the eight pixels around sees nothing, or there is none
+  std::vector<std::uint8_t> jump;   ///< N; 1 where one sees another surface, at least a twentieth nearer or farther
+  std::vector<std::uint8_t> other;  ///< N; 1 where one sees another surface
+};
+/// @param image organized, labelled, depth along z
+ImageEdges imageEdges(const Cloud& image);
+/// The pixels at most `pixels` rows and columns away from a marked one.
+std::vector<std::uint8_t> widened(const std::vector<std::uint8_t>& marks, int width, int pixels);
+
 /// Organized, camera at the origin, z along the view, y down. NaN also where a surface is seen at less than
 /// 5 degrees.
 Cloud depthCamera(const DepthCameraOptions& options = {}, std::uint64_t seed = 1);

@@ -22,12 +22,15 @@ struct Variant {
 /// A cloud with its truth.
 struct Sample {
   shapes::Cloud cloud;
-  shapes::ScanTruth truth{};  ///< rooms only: of the same rays without noise
+  shapes::ScanTruth truth{};                   ///< rooms only: of the same rays without noise
+  shapes::ImageEdges edges{};                  ///< depth images only: of the same pixels, all seen and not rounded
+  std::optional<Eigen::Vector3d> viewpoint{};  ///< told to the build
 };
 
 /// One build of one sample.
 class Build {
  public:
+  /// @param sample borrowed
   /// @param core the build of the first variant; null for that one itself
   Build(const Sample& sample, const CloudOptions& options, const Build* core);
 
@@ -41,7 +44,7 @@ class Build {
 
  private:
   const Sample& sample_;
-  const CloudOptions& options_;
+  CloudOptions options_;
   const Build* core_;
   Laplacian laplacian_;
   double seconds_;

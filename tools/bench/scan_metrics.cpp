@@ -4,8 +4,8 @@
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
+#include "base/disjoint_sets.h"
 #include "base/stage_clock.h"
 #include "bench/star_union.h"
 #include "guarantees/guarantees.h"
@@ -78,21 +78,62 @@ struct Tags {
 
 Tags countTags(const Build& build) {
   Tags tags{.rim = build.cloud().rim_points};
-  const std::vector<std::uint8_t>& boundary = build.laplacian().boundary;
+  const std::vector<Boundary>& boundary = build.laplacian().boundary;
   for (int i = 0; i < static_cast<int>(boundary.size()); ++i) {
-    if (boundary[i] == 0) continue;
+    if (boundary[i] == Boundary::none) continue;
     ++tags.tagged;
     if (i < tags.rim) ++tags.both;
   }
   return tags;
 }
 
+/// Pixels of a depth image, by whether they are tagged and where they ought to be.
+struct ImageTags {
+  int truth = 0;   ///< beside an edge of the kind
+  int found = 0;   ///< of these, tagged or beside a pixel that is
+  int tagged = 0;  ///< as of the kind
+  int right = 0;   ///< of these, at most two pixels from where the kind may be
+};
+
+/// @param edges where the kind has to be found
+/// @param allowed where it may be
+ImageTags countImageTags(const Build& build, Boundary kind, const std::vector<std::uint8_t>& edges,
+                         const std::vector<std::uint8_t>& allowed) {
+  const Laplacian& laplacian = build.laplacian();
+  std::vector<std::uint8_t> tagged(edges.size());
+  for (std::size_t i = 0; i < tagged.size(); ++i) tagged[i] = laplacian.boundary[i] == kind ? 1 : 0;
+  const int width = build.cloud().width;
+  const auto beside_tagged = shapes::widened(tagged, width, 1), beside_allowed = shapes::widened(allowed, width, 1);
+  ImageTags tags;
+  for (std::size_t i = 0; i < tagged.size(); ++i) {
+    if (laplacian.status[i] != PointStatus::active) continue;
+    tags.truth += edges[i];
+    tags.found += edges[i] & beside_tagged[i];
+    tags.tagged += tagged[i];
+    tags.right += tagged[i] & beside_allowed[i];
+  }
+  return tags;
+}
+
+ImageTags countRims(const Build& build) {
+  const shapes::ImageEdges& edges = build.sample().edges;
+  std::vector<std::uint8_t> only_rim = edges.rim;
+  const auto beside_other = shapes::widened(edges.other, build.cloud().width, 1);
+  for (std::size_t i = 0; i < only_rim.size(); ++i) only_rim[i] = edges.rim[i] != 0 && beside_other[i] == 0 ? 1 : 0;
+  return countImageTags(build, Boundary::rim, only_rim, edges.rim);
+}
+
+ImageTags countJumps(const Build& build) {
+  return countImageTags(build, Boundary::jump, build.sample().edges.jump, build.sample().edges.other);
+}
+
 }  // namespace
 
 Build::Build(const Sample& sample, const CloudOptions& options, const Build* core)
     : sample_(sample), options_(options), core_(core) {
+  if (sample.viewpoint) options_.viewpoint = &*sample.viewpoint;
   const Stopwatch watch;
-  laplacian_ = pointCloudLaplacian(sample.cloud.points, options);
+  laplacian_ = pointCloudLaplacian(sample.cloud.points, options_);
   seconds_ = watch.seconds();
 }
 
@@ -134,21 +175,12 @@ double gridAreaError(const Build& build) {
 double componentsOfSurfaces(const Build& build) {
   const SparseMatrix& L = build.laplacian().L;
   const std::vector<int>& labels = build.cloud().labels;
-  std::vector<int> parent(labels.size());
-  std::iota(parent.begin(), parent.end(), 0);
-  const auto root = [&parent](int p) {
-    while (parent[p] != p) p = parent[p] = parent[parent[p]];
-    return p;
-  };
+  DisjointSets sets(L.cols());
   auto components = build.laplacian().report.active;
   for (int column = 0; column < L.outerSize(); ++column) {
     for (SparseMatrix::InnerIterator entry(L, column); entry; ++entry) {
       const int row = static_cast<int>(entry.row());
-      if (entry.value() == 0 || labels[row] != labels[column]) continue;
-      const int a = root(row), b = root(column);
-      if (a == b) continue;
-      parent[a] = b;
-      --components;
+      if (entry.value() != 0 && labels[row] == labels[column] && sets.unite(row, column)) --components;
     }
   }
   return static_cast<double>(components);
@@ -161,7 +193,7 @@ double closedInnerStars(const Build& build) {
   for (std::size_t i = 0; i < is_inner.size(); ++i) {
     if (is_inner[i] == 0) continue;
     ++inner;
-    if (laplacian.status[i] == PointStatus::active && laplacian.boundary[i] == 0) ++closed;
+    if (laplacian.status[i] == PointStatus::active && laplacian.boundary[i] == Boundary::none) ++closed;
   }
   return static_cast<double>(closed) / inner;
 }
@@ -213,6 +245,26 @@ double boundaryRecall(const Build& build) {
 double boundaryPrecision(const Build& build) {
   const Tags tags = countTags(build);
   return static_cast<double>(tags.both) / tags.tagged;
+}
+
+double imageRimRecall(const Build& build) {
+  const ImageTags tags = countRims(build);
+  return static_cast<double>(tags.found) / tags.truth;
+}
+
+double imageRimPrecision(const Build& build) {
+  const ImageTags tags = countRims(build);
+  return static_cast<double>(tags.right) / tags.tagged;
+}
+
+double imageJumpRecall(const Build& build) {
+  const ImageTags tags = countJumps(build);
+  return static_cast<double>(tags.found) / tags.truth;
+}
+
+double imageJumpPrecision(const Build& build) {
+  const ImageTags tags = countJumps(build);
+  return static_cast<double>(tags.right) / tags.tagged;
 }
 
 double equalRows(const Build& build) {

@@ -24,7 +24,7 @@ Sample room(LidarOptions options, std::uint64_t seed) {
   options.first_azimuth = golden * static_cast<double>(seed - 1) - std::floor(golden * static_cast<double>(seed - 1));
   LidarOptions without_noise = options;
   without_noise.noise = 0;
-  return {shapes::lidar(options, seed), shapes::scanTruth(shapes::lidar(without_noise), true)};
+  return {.cloud = shapes::lidar(options, seed), .truth = shapes::scanTruth(shapes::lidar(without_noise), true)};
 }
 
 /// Marks hold at 0.1 and 0.2 degrees; coarser rooms are reported.
@@ -56,6 +56,23 @@ std::vector<Metric> imageMetrics() {
   return {{"across jumps", Format::count, trianglesAcrossJumps, none_across, {}},
           {"rows as the core's", Format::percent, equalRows, {}, {}},
           {"time by the core's", Format::percent, time, {}, {}}};
+}
+
+/// The camera stands at the origin.
+Sample depthImage(const shapes::DepthCameraOptions& camera, std::uint64_t seed) {
+  shapes::DepthCameraOptions exact = camera;
+  exact.depth_step = exact.dropouts = 0;
+  return {.cloud = shapes::depthCamera(camera, seed),
+          .edges = shapes::imageEdges(shapes::depthCamera(exact)),
+          .viewpoint = Eigen::Vector3d::Zero()};
+}
+
+std::vector<Metric> kindsOfTags() {
+  const Mark tagged{.rule = Rule::at_least, .value = 0.95};
+  return {{"recall of rims", Format::percent, imageRimRecall, tagged, {}},
+          {"precision of rims", Format::percent, imageRimPrecision, tagged, {}},
+          {"recall of jumps", Format::percent, imageJumpRecall, tagged, {}},
+          {"precision of jumps", Format::percent, imageJumpPrecision, tagged, {}}};
 }
 
 std::vector<fs::path> filesIn(const fs::path& folder) {
@@ -98,13 +115,11 @@ void addRooms(bool is_quick, std::vector<Case>& cases) {
 void addDepthCamera(bool is_quick, std::vector<Case>& cases) {
   const shapes::DepthCameraOptions camera{.width = is_quick ? 320 : 640, .height = is_quick ? 240 : 480};
   std::vector<Metric> metrics = imageMetrics();
+  for (Metric& metric : kindsOfTags()) metrics.push_back(std::move(metric));
   metrics.push_back({"mixed, by body", Format::percent, mixedBodies, {}, {}});
   cases.push_back({.what = "depth images",
                    .dataset = "room, " + std::to_string(camera.width) + " x " + std::to_string(camera.height),
-                   .make =
-                       [camera](std::uint64_t seed) {
-                         return Sample{shapes::depthCamera(camera, seed), {}};
-                       },
+                   .make = [camera](std::uint64_t seed) { return depthImage(camera, seed); },
                    .metrics = std::move(metrics)});
 }
 

@@ -46,7 +46,7 @@ std::vector<std::string> resultFiles(const std::vector<Format>& formats);
 ///   M.npy               float64, N
 ///   status.npy          uint8, N, see PointStatus
 ///   representative.npy  int32, N, counted from 0
-///   boundary.npy        uint8, N, 0 or 1
+///   boundary.npy        uint8, N, see Boundary
 ///   L.mtx               coordinate real symmetric: the lower triangle; an L that is not symmetric loses the upper one
 ///   M.mtx               array real general, N x 1
 ///   laplacian.mat       L (sparse), M, status, representative, boundary (N x 1) and the text `conventions`

@@ -13,7 +13,8 @@ namespace tufted {
 ///
 /// Built from the points that setIndices names, and from them alone: row r of the result belongs to (*indices)[r].
 /// Without indices row r is point r. Points that are NaN, whatever is_dense says, keep a row of zeros. A caller's
-/// mistake is told on PCL's console and leaves an empty result.
+/// mistake is told on PCL's console and leaves an empty result. Of an organized cloud the sensor's origin is the
+/// viewpoint, which tells jumps from rims in Laplacian::boundary, unless setOptions names another.
 ///
 /// Instantiated for PCL_XYZ_POINT_TYPES; for other types include impl/laplacian_estimation.hpp.
 template <typename PointT>

@@ -14,7 +14,10 @@ void tufted::LaplacianEstimation<PointT>::compute(Laplacian& result) {
   try {
     detail::checkIndices("setIndices", *input_, *indices_);
     const Points points = detail::toPoints(*input_, *indices_);
-    result = detail::cloudLaplacian<PointT>(input_, *indices_, points, search_, options_);
+    CloudOptions options = options_;
+    const Eigen::Vector3d sensor = input_->sensor_origin_.template head<3>().template cast<double>();
+    if (options.viewpoint == nullptr && input_->isOrganized() && sensor.allFinite()) options.viewpoint = &sensor;
+    result = detail::cloudLaplacian<PointT>(input_, *indices_, points, search_, options);
   } catch (const std::exception& error) {
     PCL_ERROR("[tufted::%s::compute] %s\n", getClassName().c_str(), error.what());
   }
