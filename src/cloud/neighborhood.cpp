@@ -28,8 +28,14 @@ int NeighborhoodFinder::mostNeighbors() const {
 bool NeighborhoodFinder::query(int p, int k, Neighborhood& hood) const {
   k = std::min(k, static_cast<int>(points_.rows()) - 1);
   if (source_.isFixed() || k <= hood.k) return false;
-  source_.search->nearest(p, k, hood.neighbors);
   hood.k = k;
+  if (source_.scan != nullptr) {
+    const ScanSearch::Searched searched = source_.scan->nearest(p, k, hood.neighbors);
+    hood.radius = searched.radius;
+    hood.cut = searched.cut;
+    return true;
+  }
+  source_.search->nearest(p, k, hood.neighbors);
   hood.radius = std::sqrt(hood.neighbors.back().squared_distance);
   return true;
 }
@@ -38,6 +44,7 @@ void NeighborhoodFinder::find(int p, Neighborhood& hood) const {
   hood.neighbors.clear();
   hood.k = 0;
   hood.radius = 0;
+  hood.cut = 0;
   hood.grown = hood.split = hood.restored = hood.isolated = false;
   if (!source_.isFixed()) {
     query(p, source_.k, hood);
@@ -54,7 +61,7 @@ void NeighborhoodFinder::find(int p, Neighborhood& hood) const {
 
 bool NeighborhoodFinder::isUneven(const Neighborhood& hood) const {
   if (liesOnOneLine(hood.axes)) return true;
-  if (options_.growth == Growth::line) return false;
+  if (options_.growth == Growth::line || (source_.scan != nullptr && source_.scan->isGraded())) return false;
   const double half = hood.radius / 2;
   const auto far = std::partition_point(hood.neighbors.begin(), hood.neighbors.end(),
                                         [half](const Neighbor& q) { return q.squared_distance <= half * half; });

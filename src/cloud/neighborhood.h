@@ -15,6 +15,7 @@ struct NeighborSource;
 struct Neighborhood {
   std::vector<Neighbor> neighbors;  ///< ascending; those of other sheets left out
   PrincipalAxes axes;
+  std::int64_t cut = 0;   ///< left out because the surface jumps in between
   int k = 0;              ///< neighbours asked for
   double radius = 0;      ///< distance to the last of them
   double reach = 0;       ///< the radius that the plane was fitted in, S(p)

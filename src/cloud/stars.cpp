@@ -36,7 +36,7 @@ struct WorkerState {
   std::vector<PlanarPoint> planar;
   StarScratch scratch;
   DelaunayStar star;
-  std::int64_t grown_neighborhoods = 0, split_neighborhoods = 0, isolated = 0, grown_stars = 0, reopened_stars = 0,
+  std::int64_t cut_neighbors = 0, grown_neighborhoods = 0, split_neighborhoods = 0, isolated = 0, grown_stars = 0, reopened_stars = 0,
                open_stars = 0, flat_triangles = 0;
   std::array<double, 3> seconds = {};  // neighbours, frames, stars
 };
@@ -155,6 +155,7 @@ class StarBuilder {
       wrapUntilCertain(p, hood, std::ldexp(1.0, -exponent), state);
     }
 
+    state.cut_neighbors += hood.cut;
     state.open_stars += star.closed ? 0 : 1;
     stars_.ends[p] = star.closed ? 0 : 1;
     stars_.offset[p + 1] = static_cast<int>(star.link.size());
@@ -290,6 +291,7 @@ Stars buildStars(const RankedCloud& cloud, const NeighborSource& source, const C
 
   std::array<double, 3> seconds = {};
   for (const WorkerState& state : states) {
+    report.cut_neighbors += state.cut_neighbors;
     report.grown_neighborhoods += state.grown_neighborhoods;
     report.split_neighborhoods += state.split_neighborhoods;
     report.isolated_by_sheets += state.isolated;

@@ -9,6 +9,7 @@
 #include "base/stage_clock.h"
 #include "cloud/morton.h"
 #include "cloud/neighbors.h"
+#include "cloud/scan_search.h"
 #include "tufted/options.h"
 #include "tufted/report.h"
 
@@ -42,12 +43,13 @@ struct Stars {
 /// Where the neighbours and normals of each point come from.
 struct NeighborSource {
   int k = 0;                               ///< neighbours per point, at most n - 1
-  const NeighborSearch* search = nullptr;  ///< null when the caller's lists are used
+  const NeighborSearch* search = nullptr;  ///< null when the caller's lists or the structure of a scan are used
+  const ScanSearch* scan = nullptr;        ///< null without a structure
   std::vector<std::size_t> list_offset;    ///< n + 1, into `list`
   std::vector<int> list;                   ///< the caller's lists by rank, checked
   Points normals;                          ///< the caller's, by rank, unit length or zero where unusable; else 0 x 3
 
-  bool isFixed() const { return search == nullptr; }
+  bool isFixed() const { return search == nullptr && scan == nullptr; }
 };
 
 /// Checks the caller's lists and brings them into rank order.

@@ -23,6 +23,8 @@ Json reportObject(const Report& report) {
       {"neighbors_clamped", report.neighbors_clamped},
       {"rejected_normals", report.rejected_normals},
       {"rejected_neighbors", report.rejected_neighbors},
+      {"unplaced", report.unplaced},
+      {"cut_neighbors", report.cut_neighbors},
       {"grown_neighborhoods", report.grown_neighborhoods},
       {"split_neighborhoods", report.split_neighborhoods},
       {"isolated_by_sheets", report.isolated_by_sheets},

@@ -30,6 +30,9 @@ void checkOptions(const Points& points, const CloudOptions& options) {
     }
   };
   if (options.normals != nullptr) checkRows("normals", options.normals->rows());
+  if (options.structure != nullptr && options.neighborhoods != nullptr) {
+    throw InvalidInput(name + ": structure and neighborhoods are both given, must be one at most");
+  }
   if (options.neighborhoods != nullptr) checkRows("neighborhoods", options.neighborhoods->rows());
 #ifndef TUFTED_WITH_GPL
   if (options.delaunay == Delaunay::cgal) {
@@ -42,6 +45,12 @@ void checkOptions(const Points& points, const CloudOptions& options) {
   throw InvalidInput(std::string(function_name) + ": " + std::to_string(points) + " points in stars of " +
                      std::to_string(triangles) + " triangles, must be at most " + std::to_string(most_triangles) +
                      " triangles (about 59 million points)");
+}
+
+/// The caller's k, or as many others as there are.
+void takeCount(const CloudOptions& options, const RankedCloud& cloud, NeighborSource& source, Report& report) {
+  source.k = std::min(options.neighbors, std::max(0, cloud.size() - 1));
+  report.neighbors_clamped = source.k < options.neighbors;
 }
 
 /// The union of all stars, front and back of every copy of a triangle. With `Gluing::star` the two faces of a star that
@@ -132,20 +141,28 @@ Laplacian pointCloudLaplacian(const Points& points, const CloudOptions& options)
   NeighborSource source;
   if (options.normals != nullptr) takeNormals(*options.normals, cloud, source, report);
   std::optional<NeighborSearch> search;
+  std::unique_ptr<ScanSearch> scan;
   if (options.neighborhoods != nullptr) {
     takeNeighborhoods(*options.neighborhoods, cloud, result.status, result.representative, source, report);
+  } else if (options.structure != nullptr) {
+    workers.report("structure", 0);
+    scan = takeStructure(*options.structure, cloud, result.status, result.representative, report);
+    source.scan = scan.get();
+    takeCount(options, cloud, source, report);
   } else {
     workers.report("tree", 0);
     search.emplace(cloud.points);
     source.search = &*search;
-    source.k = std::min(options.neighbors, std::max(0, cloud.size() - 1));
-    report.neighbors_clamped = source.k < options.neighbors;
+    takeCount(options, cloud, source, report);
   }
   report.neighbors = source.k;
-  clock.finish("tree", search ? search->bytes() : bytesOf(source.list) + bytesOf(source.list_offset));
+  clock.finish("tree", search ? search->bytes()
+                       : scan ? scan->bytes()
+                              : bytesOf(source.list) + bytesOf(source.list_offset));
 
   Stars stars = buildStars(cloud, source, options, workers, report);
   search.reset();
+  scan.reset();
   clock.restart();  // buildStars books its own stages
   filterStars(stars, cloud.points, source.k, options.filter, workers, report);
   countVotes(stars, workers, report);

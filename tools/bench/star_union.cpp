@@ -1,6 +1,8 @@
 #include "bench/star_union.h"
 
 #include <algorithm>
+#include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -20,9 +22,15 @@ Triangles unionOfStars(const Points& points, const CloudOptions& options, const 
   std::vector<int> representative;
   Report report;
   const RankedCloud cloud = rankPoints(points, status, representative);
-  const NeighborSearch search(cloud.points);
+  std::optional<NeighborSearch> search;
+  std::unique_ptr<ScanSearch> scan;
   NeighborSource source;
-  source.search = &search;
+  if (options.structure != nullptr) {
+    scan = takeStructure(*options.structure, cloud, status, representative, report);
+    source.scan = scan.get();
+  } else {
+    source.search = &search.emplace(cloud.points);
+  }
   source.k = std::min(options.neighbors, std::max(0, cloud.size() - 1));
   Stars stars = buildStars(cloud, source, options, workers, report);
   filterStars(stars, cloud.points, source.k, options.filter, workers, report);
