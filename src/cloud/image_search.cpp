@@ -12,10 +12,13 @@ namespace {
 
 constexpr std::int64_t most_pixels = 1 << 24;  // of an image that holds few points
 constexpr std::int64_t pixels_per_point = 64;
-constexpr int most_pixels_per_neighbor = 16;  // of the window
+constexpr int most_pixels_per_neighbor = 4;           // of the window
+constexpr double grazing = 1.0 / 12;                  // sine of 5 degrees: no camera sees a surface at a lower angle
+constexpr double most_along = 1 - grazing * grazing;  // of a step's squared length, along the line of sight
 
 /// The nearest of the pixels around p: those of a window that grows, in columns or in rows, while its border is nearer
-/// than the last neighbour taken. On a smooth surface these are the nearest of all points.
+/// than the last neighbour taken. On a smooth surface these are the nearest of all points, until it is seen at so low
+/// an angle that the window would get too large. What can be reached only along the line of sight is across a jump.
 class ImageSearch final : public ScanSearch {
  public:
   ImageSearch(const RankedScan& scan, const RankedCloud& cloud) : points_(cloud.points), scan_(scan) {
@@ -100,12 +103,19 @@ class ImageSearch final : public ScanSearch {
     const std::int64_t right = std::min<std::int64_t>(columns_ - 1, column + window.columns);
     const std::int64_t bottom = std::min<std::int64_t>(rows_ - 1, row + window.rows);
     double to_columns = std::numeric_limits<double>::infinity(), to_rows = to_columns;
+    const Eigen::RowVector3d sight = (points_.row(p) - scan_.origin.transpose()).stableNormalized();
     for (std::int64_t r = std::max<std::int64_t>(0, row - window.rows); r <= bottom; ++r) {
       const bool is_border_row = std::abs(r - row) == window.rows;
       for (int i = begin_[r * columns_ + left]; i < begin_[r * columns_ + right + 1]; ++i) {
         const int q = rank_[i];
         if (q == p) continue;
-        const double squared = (points_.row(q) - points_.row(p)).squaredNorm();
+        const Eigen::RowVector3d step = points_.row(q) - points_.row(p);
+        const double squared = step.squaredNorm();
+        const double along = step.dot(sight);
+        if (along * along > squared * most_along) {
+          ++searched.cut;
+          continue;
+        }
         if (std::abs(static_cast<std::int64_t>(scan_.position[q]) - column) == window.columns)
           to_columns = std::min(to_columns, squared);
         if (is_border_row) to_rows = std::min(to_rows, squared);

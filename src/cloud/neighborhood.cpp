@@ -61,7 +61,7 @@ void NeighborhoodFinder::find(int p, Neighborhood& hood) const {
 
 bool NeighborhoodFinder::isUneven(const Neighborhood& hood) const {
   if (liesOnOneLine(hood.axes)) return true;
-  if (options_.growth == Growth::line || (source_.scan != nullptr && source_.scan->isGraded())) return false;
+  if (options_.growth == Growth::line || source_.isGraded()) return false;
   const double half = hood.radius / 2;
   const auto far = std::partition_point(hood.neighbors.begin(), hood.neighbors.end(),
                                         [half](const Neighbor& q) { return q.squared_distance <= half * half; });

@@ -1,8 +1,8 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <utility>
 
 #include "base/stage_clock.h"
 #include "cloud/scan_search.h"
@@ -11,14 +11,17 @@ namespace tufted {
 namespace {
 
 constexpr int first_stride = 16;  // of the search for the nearest point of a ring, which noise must not stop
-constexpr int dense_steps = 4;    // beyond so many points from it a ring is looked at ever more sparsely
-constexpr int most_misses = 2;    // points or rings in a row that are too far, and the surface has ended
+constexpr int dense_steps = 16;   // beyond so many points from it a ring is looked at ever more sparsely
+constexpr int most_rings = 2;     // on each side; those beyond have no part in a star
+constexpr double neighbors_per_spacing = 15;  // in a ball of one spacing; half as many as ask for that
+constexpr int most_misses = 2;  // points of a ring, one after the other, that are too far: the surface has ended
 
 /// Neighbours on the own ring and on those beside it.
 ///
 /// Distances along a ring are often a tenth to a hundredth of those between rings: a ball that reaches a few rings
-/// holds thousands of points, nearly all of them on p's own ring and of no use. On each ring within the ball those
-/// nearest to p count; of the others every second, every fourth and so on tell the plane.
+/// holds thousands of points, nearly all of them on p's own ring and of no use. Of each ring those nearest to p count,
+/// for an empty circle through p that misses its neighbours on the ring meets other rings nowhere else; of the others
+/// every second, every fourth and so on tell the plane. A ring that is too far hides those behind it.
 class RingSearch final : public ScanSearch {
  public:
   RingSearch(const RankedScan& scan, const RankedCloud& cloud) : place_(scan.row.size(), -1) {
@@ -49,28 +52,20 @@ class RingSearch final : public ScanSearch {
     if (place_[p] < 0) return {};
     const int self = place_[p];
     const int own = ring_[self];
-    const auto [near_above, near_below] = std::pair(footOn(own + 1, self, self), footOn(own - 1, self, self));
-    const double spacing = std::max(std::min(distanceTo(self, near_above), distanceTo(self, near_below)),
-                                    std::min(distanceTo(self, stepped(self, 1)), distanceTo(self, stepped(self, -1))));
+    const auto [above, below] = std::pair(footOn(own + 1, self, self), footOn(own - 1, self, self));
     Searched searched;
-    // So many points a ball would hold were they nowhere denser than across the rings.
-    searched.radius = std::sqrt(k / std::numbers::pi) * spacing;
-    if (!std::isfinite(spacing)) searched.radius = std::numeric_limits<double>::max();
-    addRing(self, self, searched, found);
+    searched.radius =
+        ballRadius(k, larger(std::min(distanceTo(self, above), distanceTo(self, below)),
+                             std::min(distanceTo(self, stepped(self, 1)), distanceTo(self, stepped(self, -1)))));
+    addRing(self, self, searched.radius, found);
     for (const int side : {1, -1}) {
-      int misses = 0;
-      int foot = side > 0 ? near_above : near_below;
-      for (int ring = own + side; foot >= 0; ring += side, foot = footOn(ring, self, foot)) {
-        if (distanceTo(self, foot) <= searched.radius) {
-          misses = 0;
-          addRing(self, foot, searched, found);
-        } else if (++misses == most_misses) {
-          break;
-        }
+      int foot = side > 0 ? above : below;
+      for (int rings = 1; rings <= most_rings && distanceTo(self, foot) <= searched.radius; ++rings) {
+        addRing(self, foot, searched.radius, found);
+        foot = footOn(own + side * (rings + 1), self, foot);
       }
     }
     std::sort(found.begin(), found.end());
-    if (!std::isfinite(spacing) && !found.empty()) searched.radius = std::sqrt(found.back().squared_distance);
     return searched;
   }
 
@@ -97,6 +92,13 @@ class RingSearch final : public ScanSearch {
     return b < 0 ? std::numeric_limits<double>::infinity() : std::sqrt(squaredDistance(a, b));
   }
 
+  /// As far as a star reaches where points are nowhere denser than across the rings, 1.4 spacings for 30 neighbours.
+  /// What lies beyond, above all on a sparse ring, is on the other side of a crease or jump more often than not.
+  static double ballRadius(int k, double spacing) { return std::sqrt(k / neighbors_per_spacing) * spacing; }
+
+  /// The larger of those that are finite; 0 without any.
+  static double larger(double a, double b) { return std::max(std::isfinite(a) ? a : 0, std::isfinite(b) ? b : 0); }
+
   /// A point of the ring that is nearer to `self` than those around it, sought from the azimuth of `from`; -1 if there
   /// is no such ring.
   int footOn(int ring, int self, int from) const {
@@ -119,10 +121,10 @@ class RingSearch final : public ScanSearch {
     return best;
   }
 
-  /// Adds the points of a ring around `foot` in the ball around `self`.
-  void addRing(int self, int foot, const Searched& searched, std::vector<Neighbor>& found) const {
+  /// Adds the points of a ring around `foot` that lie in the ball around `self`.
+  void addRing(int self, int foot, double radius, std::vector<Neighbor>& found) const {
     if (foot != self) found.push_back({squaredDistance(self, foot), rank_[foot]});
-    const double most = searched.radius * searched.radius;
+    const double most = radius * radius;
     const int half = (ringSize(ring_[foot]) - 1) / 2;
     for (const int side : {1, -1}) {
       int misses = 0;
@@ -139,7 +141,7 @@ class RingSearch final : public ScanSearch {
     }
   }
 
-  /// 1, 2, 3, 4, 6, 8, 12, 16, ...: two per octave.
+  /// Every point up to 16, then 24, 32, 48, 64, ...: two per octave.
   static int nextStep(int steps) {
     if (steps < dense_steps) return steps + 1;
     const bool is_power = (steps & (steps - 1)) == 0;

@@ -36,8 +36,8 @@ struct WorkerState {
   std::vector<PlanarPoint> planar;
   StarScratch scratch;
   DelaunayStar star;
-  std::int64_t cut_neighbors = 0, grown_neighborhoods = 0, split_neighborhoods = 0, isolated = 0, grown_stars = 0, reopened_stars = 0,
-               open_stars = 0, flat_triangles = 0;
+  std::int64_t cut_neighbors = 0, grown_neighborhoods = 0, split_neighborhoods = 0, isolated = 0, grown_stars = 0,
+               reopened_stars = 0, open_stars = 0, flat_triangles = 0;
   std::array<double, 3> seconds = {};  // neighbours, frames, stars
 };
 
@@ -118,7 +118,7 @@ class StarBuilder {
     DelaunayStar& star = state.star;
     int most = 2 * hood.k;
     if (thorough) most = hood.k >= finder_.mostNeighbors() ? hood.k : std::max(2 * source_.k, most);
-    int open_tries = thorough ? 2 : 0;
+    int open_tries = thorough && !source_.isGraded() ? 2 : 0;  // graded neighbours reach past the star as it is
     project(p, hood, unit, state);
     for (;;) {
       if (star.closed) {

@@ -49,6 +49,8 @@ struct NeighborSource {
   std::vector<int> list;                   ///< the caller's lists by rank, checked
   Points normals;                          ///< the caller's, by rank, unit length or zero where unusable; else 0 x 3
 
+  /// Whether the points found get sparser with their distance by design.
+  bool isGraded() const { return scan != nullptr && scan->isGraded(); }
   bool isFixed() const { return search == nullptr && scan == nullptr; }
 };
 

@@ -76,6 +76,9 @@ const char* name(FaceOrder order) {
   return order == FaceOrder::angle ? "angle" : order == FaceOrder::area ? "area" : "random";
 }
 
+const char* name(const ScanStructure* structure) {
+  return structure == nullptr ? "none" : structure->has_rings ? "rings" : "image";
+}
 const char* name(Sign sign) {
   return sign == Sign::psd ? "psd" : "igl";
 }
@@ -99,6 +102,7 @@ Json optionsObject(const CloudOptions& options) {
                {"filter", options.filter == Filter::radius ? "radius" : "votes"},
                {"lengths", options.lengths == Lengths::points ? "points" : "denoised"},
                {"mass", options.mass == Mass::cover ? "cover" : "star"},
+               {"structure", name(options.structure)},
                {"given_normals", options.normals != nullptr},
                {"given_neighborhoods", options.neighborhoods != nullptr}};
   json.update(commonOptions(options));

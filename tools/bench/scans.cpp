@@ -19,10 +19,10 @@ namespace {
 /// What is measured; marks name them. The first one is what the others are compared with.
 const std::vector<Variant>& variants() {
   static const std::vector<Variant> all{{"core", cloudOptions(Preset::clean)},
-                                         {"scan", cloudOptions(Preset::scan)},
-                                         {"lidar", cloudOptions(Preset::lidar)},
-                                         {"image", cloudOptions(Preset::clean), Neighbors::image},
-                                         {"rings", cloudOptions(Preset::lidar), Neighbors::rings}};
+                                        {"scan", cloudOptions(Preset::scan)},
+                                        {"lidar", cloudOptions(Preset::lidar)},
+                                        {"image", cloudOptions(Preset::clean), Neighbors::image},
+                                        {"rings", cloudOptions(Preset::lidar), Neighbors::rings}};
   return all;
 }
 
