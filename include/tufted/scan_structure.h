@@ -9,7 +9,8 @@ namespace tufted {
 
 /// How a scanner took the points of a cloud: in rows, each point at a place along its row. Rows are those of an image
 /// or the rings of a spinning scanner; consecutive rows were taken side by side. With it neighbours are found without a
-/// tree, and on rings however far apart those are. See imageStructure() and ringStructure().
+/// tree, and on rings however far apart those are. See imageStructure(), ringStructure()
+/// and findRings().
 struct ScanStructure {
   std::vector<int> row;          ///< N; row of the image or number of the ring; negative: the point has no place
   std::vector<double> position;  ///< N; column of the image, or azimuth in radians; not finite: the point has no place
@@ -32,8 +33,8 @@ ScanStructure ringStructure(const Points& points, std::vector<int> ring,
 /// The same where nobody numbered them: the rings are the clusters of the points' elevations seen from the origin.
 /// Points that are not finite, or at the origin, have no place.
 /// @param points N x 3, in the scanner's frame: it turns around the z axis through `origin`
-/// @throws InvalidInput where the elevations do not cluster: the widest gap within a ring is more than a quarter of the
-/// narrowest between two
-ScanStructure ringStructure(const Points& points, const Eigen::Vector3d& origin = Eigen::Vector3d::Zero());
+/// @throws InvalidInput where the elevations do not cluster: fewer than 4 rings, one wider than the narrowest gap, or
+/// no gap within one is less than a quarter of that; and for an origin that is not finite
+ScanStructure findRings(const Points& points, const Eigen::Vector3d& origin = Eigen::Vector3d::Zero());
 
 }  // namespace tufted

@@ -20,8 +20,8 @@ constexpr double grazing = 1.0 / 12;  // sine of 5 degrees: no camera sees a sur
 constexpr int far_from_jumps = 255;
 
 /// The nearest of the pixels around p, found in a window that is enlarged, in columns or in rows, while its border is
-/// nearer than the last neighbour taken. On a smooth surface these are the nearest of all points, unless it is seen at
-/// so low an angle that the window would get too large.
+/// nearer than the last neighbour taken. On a smooth surface these are the nearest of all points (a last one apart,
+/// perhaps), unless it is seen at so low an angle that the window would get too large.
 ///
 /// The surface jumps between two neighbouring pixels of a row or column where the step from one to the other goes
 /// along the line of sight. Pixels to be reached across a jump only, first along the row and then along the column or

@@ -13,11 +13,12 @@ namespace tufted {
 namespace {
 
 constexpr double least_contrast = 4;  // of the gaps between rings to those within
-constexpr double rounding = 1e-9;     // rad; gaps below are rounding
+constexpr int least_rings = 4;
+constexpr double rounding = 1e-9;  // rad; gaps below are rounding
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-void checkOrigin(const Eigen::Vector3d& origin) {
-  if (!origin.allFinite()) throw InvalidInput("ringStructure: origin is not finite, must be");
+void checkOrigin(const char* function, const Eigen::Vector3d& origin) {
+  if (!origin.allFinite()) throw InvalidInput(std::string(function) + ": origin is not finite, must be");
 }
 
 double azimuthOf(const Eigen::Vector3d& ray) {
@@ -38,7 +39,7 @@ double widestInnerGap(std::vector<double> gaps) {
     if (here > contrast) contrast = here, inner = gaps[i];
   }
   if (!(contrast >= least_contrast)) {
-    throw InvalidInput("ringStructure: the gaps between elevations fall by a factor of " + std::to_string(contrast) +
+    throw InvalidInput("findRings: the gaps between elevations fall by a factor of " + std::to_string(contrast) +
                        " at most, must be at least 4 for rings to show (is `origin` the sensor's?)");
   }
   return inner;
@@ -65,7 +66,7 @@ ScanStructure imageStructure(int width, int height, const Eigen::Vector3d& origi
 }
 
 ScanStructure ringStructure(const Points& points, std::vector<int> ring, const Eigen::Vector3d& origin) {
-  checkOrigin(origin);
+  checkOrigin("ringStructure", origin);
   if (static_cast<Eigen::Index>(ring.size()) != points.rows()) {
     throw InvalidInput("ringStructure: ring has " + std::to_string(ring.size()) + " entries, must have " +
                        std::to_string(points.rows()) + ", one per point");
@@ -79,8 +80,8 @@ ScanStructure ringStructure(const Points& points, std::vector<int> ring, const E
   return structure;
 }
 
-ScanStructure ringStructure(const Points& points, const Eigen::Vector3d& origin) {
-  checkOrigin(origin);
+ScanStructure findRings(const Points& points, const Eigen::Vector3d& origin) {
+  checkOrigin("findRings", origin);
   struct Ray {
     double elevation;
     int index;
@@ -97,9 +98,20 @@ ScanStructure ringStructure(const Points& points, const Eigen::Vector3d& origin)
     for (std::size_t i = 1; i < rays.size(); ++i) gaps.push_back(rays[i].elevation - rays[i - 1].elevation);
     const double inner = widestInnerGap(gaps);
     int number = 0;
+    double start = rays.front().elevation, widest = 0, narrowest = std::numbers::pi;
     for (std::size_t i = 0; i < rays.size(); ++i) {
-      if (i > 0 && gaps[i - 1] > std::max(inner, rounding)) ++number;
+      if (i > 0 && gaps[i - 1] > std::max(inner, rounding)) {
+        ++number;
+        narrowest = std::min(narrowest, gaps[i - 1]);
+        start = rays[i].elevation;
+      }
+      widest = std::max(widest, rays[i].elevation - start);
       ring[rays[i].index] = number;
+    }
+    if (widest > narrowest || number + 1 < least_rings) {
+      throw InvalidInput("findRings: " + std::to_string(number + 1) + " rings of up to " + std::to_string(widest) +
+                         " rad with gaps down to " + std::to_string(narrowest) +
+                         " rad, must be at least 4 and narrower than the gaps (is `origin` the sensor's?)");
     }
   }
   return ringStructure(points, std::move(ring), origin);

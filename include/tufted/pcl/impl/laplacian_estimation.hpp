@@ -14,7 +14,7 @@ void tufted::LaplacianEstimation<PointT>::compute(Laplacian& result) {
   try {
     detail::checkIndices("setIndices", *input_, *indices_);
     const Points points = detail::toPoints(*input_, *indices_);
-    result = detail::cloudLaplacian<PointT>(input_, *indices_, points, search_, options_);
+    result = detail::cloudLaplacian<PointT>(input_, *indices_, points, search_, organized_, options_);
   } catch (const std::exception& error) {
     PCL_ERROR("[tufted::%s::compute] %s\n", getClassName().c_str(), error.what());
   }
