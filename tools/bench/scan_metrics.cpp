@@ -228,6 +228,22 @@ double boundaryPrecision(const Build& build) {
   return static_cast<double>(tags.both) / tags.tagged;
 }
 
+double equalColumns(const Build& build) {
+  const SparseMatrix& L = build.laplacian().L;
+  const SparseMatrix& reference = build.core().laplacian().L;
+  const int *begin = reference.outerIndexPtr(), *columns = reference.innerIndexPtr();
+  int active = 0, equal = 0;
+  for (int i = 0; i < reference.outerSize(); ++i) {
+    if (begin[i] == begin[i + 1]) continue;
+    ++active;
+    equal += std::equal(columns + begin[i], columns + begin[i + 1], L.innerIndexPtr() + L.outerIndexPtr()[i],
+                        L.innerIndexPtr() + L.outerIndexPtr()[i + 1])
+                 ? 1
+                 : 0;
+  }
+  return static_cast<double>(equal) / active;
+}
+
 double equalRows(const Build& build) {
   const SparseMatrix& L = build.laplacian().L;
   const SparseMatrix& reference = build.core().laplacian().L;

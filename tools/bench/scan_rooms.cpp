@@ -57,6 +57,7 @@ std::vector<Metric> imageMetrics() {
   const Mark none_across{.rule = Rule::at_most, .value = 0, .variant = "image"};
   return {{"across jumps", Format::count, trianglesAcrossJumps, none_across, {}},
           {"rows as the core's", Format::percent, equalRows, {}, {}},
+          {"columns as the core's", Format::percent, equalColumns, {}, {}},
           {"search by the core's", Format::percent, search, {}, {}},
           {"time by the core's", Format::percent, time, {}, {}}};
 }
