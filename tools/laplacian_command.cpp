@@ -18,6 +18,7 @@
 #include "options.h"
 #include "peak_memory.h"
 #include "progress_bar.h"
+#include "structure.h"
 #include "tufted/errors.h"
 #include "tufted/io/read.h"
 #include "tufted/io/write.h"
@@ -43,6 +44,11 @@ Presets of clouds:
   scan   depth images, laser scans, photogrammetry: noise, jumps, outliers, near sheets. Lengths are measured between
          points moved onto the surface, and M is the Voronoi area in each point's own star.
   lidar  the same from a spinning scanner, whose rings would be taken for sheets
+
+Structures of scans:
+  image  the neighbours are pixels around the point, none behind a depth jump; the cloud must be organized (PCD)
+  rings  they lie on the rings beside the point, however far apart those are: by the field `ring`, or else by the
+         elevations seen from the file's viewpoint, which must show rings
 
 Reads PCD, PLY, LAS and text in columns (clouds), PLY, OBJ, OFF and STL (meshes; OBJ and OFF without faces are clouds).
 The format goes by the extension, .pcd .ply .las .xyz .xyzn .pwn .txt .csv .asc .pts .obj .off .coff .noff .stl, and
@@ -75,6 +81,7 @@ struct Settings {
   std::filesystem::path out;
   bool normals = false;  ///< use those of the file
   tufted::Preset preset = tufted::Preset::clean;
+  Structure structure = Structure::none;
   tufted::CloudOptions cloud;
   std::optional<double> mollify;  ///< the default of clouds or of meshes
   tufted::WriteOptions write;
@@ -198,6 +205,9 @@ int runLaplacian(Settings settings, const std::vector<CLI::Option*>& cloud_only)
       throw tufted::IoError(settings.input.name() + ": has no normals, which --normals asks for");
     settings.cloud.normals = &geometry.normals;
   }
+  const std::optional<tufted::ScanStructure> structure =
+      structureOf(geometry, settings.structure, settings.input.name());
+  if (structure) settings.cloud.structure = &*structure;
   applyPreset(settings.preset, settings.cloud);
   // The position is at hand where a file states one, and where an image of depths leaves it at the origin.
   const Eigen::Vector3d viewpoint(geometry.viewpoint[0], geometry.viewpoint[1], geometry.viewpoint[2]);
@@ -240,6 +250,8 @@ void addLaplacian(CLI::App& app, Run& run) {
                 "Neighbours per point, clouds only (30)")
           ->type_name("K"),
       addChoice(command, "--preset", settings->preset, presets, "Kind of cloud, see below, clouds only (clean)"),
+      addChoice(command, "--structure", settings->structure, structures,
+                "Neighbours by the scan's own structure, see below, clouds only (none)"),
       addChoice(command, "--gluing", options.gluing, gluings, "How the stars are glued, clouds only (star)"),
       addChoice(command, "--delaunay", options.delaunay, backends, "Who finds the stars, clouds only (star)"),
       command.add_flag("--normals", settings->normals,

@@ -4,6 +4,7 @@
 #include <functional>
 #include <string_view>
 
+#include "tufted/scan_structure.h"
 #include "tufted/types.h"
 
 namespace tufted {
@@ -87,8 +88,9 @@ struct CloudOptions {
   bool keep_cover = true;  ///< false frees the cover (about 600 bytes per point)
   const Points* normals = nullptr;               ///< N x 3, any length and sign, used instead of the PCA's; borrowed
   const Neighborhoods* neighborhoods = nullptr;  ///< N x k indices used as they are, never grown; borrowed
+  const ScanStructure* structure = nullptr;      ///< finds neighbours by rows and columns, not by a tree; borrowed
   /// Where the sensor stood, in the points' unit; tells Boundary::jump from rim however far the surfaces lie apart
-  /// along the line of sight. Borrowed.
+  /// along the line of sight. Null: the origin of `structure`, if there is one. Borrowed.
   const Eigen::Vector3d* viewpoint = nullptr;
   Progress progress = {};
 };

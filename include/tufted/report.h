@@ -34,6 +34,8 @@ struct Report {
   bool neighbors_clamped = false;          ///< the caller's k exceeded N - 1
   std::int64_t rejected_normals = 0;       ///< caller's normals that are zero or not finite, replaced by PCA
   std::int64_t rejected_neighbors = 0;     ///< caller's neighbours that repeat or name the point or an unusable one
+  std::int64_t unplaced = 0;               ///< usable points that have no place in the structure of the scan
+  std::int64_t cut_neighbors = 0;          ///< neighbours in the scan left out because the surface jumps in between
   std::int64_t grown_neighborhoods = 0;    ///< k doubled because the neighbours say too little, see Growth
   std::int64_t split_neighborhoods = 0;    ///< neighbours of another sheet left out
   std::int64_t isolated_by_sheets = 0;     ///< points without a star: next to all neighbours belong to other sheets

@@ -9,5 +9,6 @@
 #include "tufted/options.h"
 #include "tufted/polygons.h"
 #include "tufted/report.h"
+#include "tufted/scan_structure.h"
 #include "tufted/smoothing.h"
 #include "tufted/types.h"

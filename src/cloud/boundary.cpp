@@ -74,13 +74,7 @@ class BoundaryFinder {
   Boundary find(int p, WorkerState& state) const {
     if (stars_.ends[p] == 0) return Boundary::none;
     if (!hasTriangles(p)) return Boundary::lost;
-    if (source_.isFixed()) {
-      state.near.clear();
-      for (std::size_t i = source_.list_offset[p]; i < source_.list_offset[p + 1]; ++i)
-        state.near.push_back({0, source_.list[i]});
-    } else {
-      source_.search->nearest(p, search_factor * source_.k, state.near);
-    }
+    source_.nearest(points_, p, search_factor * source_.k, state.near);
     const Eigen::Vector3d normal = stars_.normals.row(p);
     const Boundary along_normal = lookBeyond(p, View::along_normal, Chart(points_, p, normal), state);
     if (!seen_ || along_normal == Boundary::jump) return along_normal;

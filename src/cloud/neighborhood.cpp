@@ -28,33 +28,25 @@ int NeighborhoodFinder::mostNeighbors() const {
 bool NeighborhoodFinder::query(int p, int k, Neighborhood& hood) const {
   k = std::min(k, static_cast<int>(points_.rows()) - 1);
   if (source_.isFixed() || k <= hood.k) return false;
-  source_.search->nearest(p, k, hood.neighbors);
-  hood.k = k;
-  hood.radius = std::sqrt(hood.neighbors.back().squared_distance);
+  search(p, k, hood);
   return true;
 }
 
+void NeighborhoodFinder::search(int p, int k, Neighborhood& hood) const {
+  const ScanSearch::Searched searched = source_.nearest(points_, p, k, hood.neighbors);
+  hood.k = source_.isFixed() ? static_cast<int>(hood.neighbors.size()) : k;
+  hood.radius = searched.radius;
+  hood.cut = searched.cut;
+}
+
 void NeighborhoodFinder::find(int p, Neighborhood& hood) const {
-  hood.neighbors.clear();
-  hood.k = 0;
-  hood.radius = 0;
   hood.grown = hood.split = hood.restored = hood.isolated = false;
-  if (!source_.isFixed()) {
-    query(p, source_.k, hood);
-    return;
-  }
-  for (std::size_t i = source_.list_offset[p]; i < source_.list_offset[p + 1]; ++i) {
-    const int q = source_.list[i];
-    hood.neighbors.push_back({(points_.row(q) - points_.row(p)).squaredNorm(), q});
-  }
-  std::sort(hood.neighbors.begin(), hood.neighbors.end());
-  hood.k = static_cast<int>(hood.neighbors.size());
-  if (hood.k > 0) hood.radius = std::sqrt(hood.neighbors.back().squared_distance);
+  search(p, source_.k, hood);
 }
 
 bool NeighborhoodFinder::isUneven(const Neighborhood& hood) const {
   if (liesOnOneLine(hood.axes)) return true;
-  if (options_.growth == Growth::line) return false;
+  if (options_.growth == Growth::line || source_.isGraded()) return false;
   const double half = hood.radius / 2;
   const auto far = std::partition_point(hood.neighbors.begin(), hood.neighbors.end(),
                                         [half](const Neighbor& q) { return q.squared_distance <= half * half; });

@@ -3,18 +3,17 @@
 #include <Eigen/Core>
 #include <vector>
 
-#include "cloud/neighbors.h"
+#include "cloud/neighbor_source.h"
 #include "cloud/tangent_frame.h"
 #include "tufted/options.h"
 
 namespace tufted {
 
-struct NeighborSource;
-
 /// The neighbours of one point and the plane through them.
 struct Neighborhood {
   std::vector<Neighbor> neighbors;  ///< ascending; those of other sheets left out
   PrincipalAxes axes;
+  std::int64_t cut = 0;   ///< left out because the surface jumps in between
   int k = 0;              ///< neighbours asked for
   double radius = 0;      ///< distance to the last of them
   double reach = 0;       ///< the radius that the plane was fitted in, S(p)
@@ -51,6 +50,7 @@ class NeighborhoodFinder {
   int mostNeighbors() const;
 
  private:
+  void search(int p, int k, Neighborhood& hood) const;
   bool query(int p, int k, Neighborhood& hood) const;
   bool isUneven(const Neighborhood& hood) const;
   /// Keeps the neighbours whose heights along `normal` are reached from p over gaps of at most a quarter of the reach.

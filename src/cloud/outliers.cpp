@@ -59,7 +59,7 @@ void isolateOutliers(Stars& stars, const RankedCloud& cloud, const NeighborSourc
       std::vector<Neighbor> neighbors;
       for (int p = static_cast<int>(begin); p < end; ++p) {
         if (verdicts[p] != untried || !isSuspect(stars, cloud.points, p)) continue;
-        source.search->nearest(p, source.k, neighbors);
+        source.nearest(cloud.points, p, source.k, neighbors);
         verdicts[p] = isOutlier(stars, cloud.points, p, neighbors) ? outlier : sound;
       }
     });

@@ -10,7 +10,6 @@
 #include "cloud/denoise.h"
 #include "cloud/neighborhood.h"
 #include "cloud/tangent_frame.h"
-#include "tufted/errors.h"
 
 namespace tufted {
 namespace {
@@ -36,8 +35,8 @@ struct WorkerState {
   std::vector<PlanarPoint> planar;
   StarScratch scratch;
   DelaunayStar star;
-  std::int64_t grown_neighborhoods = 0, split_neighborhoods = 0, isolated = 0, grown_stars = 0, reopened_stars = 0,
-               open_stars = 0, flat_triangles = 0;
+  std::int64_t cut_neighbors = 0, grown_neighborhoods = 0, split_neighborhoods = 0, isolated = 0, grown_stars = 0,
+               reopened_stars = 0, open_stars = 0, flat_triangles = 0;
   std::array<double, 3> seconds = {};  // neighbours, frames, stars
 };
 
@@ -118,7 +117,7 @@ class StarBuilder {
     DelaunayStar& star = state.star;
     int most = 2 * hood.k;
     if (thorough) most = hood.k >= finder_.mostNeighbors() ? hood.k : std::max(2 * source_.k, most);
-    int open_tries = thorough ? 2 : 0;
+    int open_tries = thorough && !source_.isGraded() ? 2 : 0;  // graded neighbours reach past the star as it is
     project(p, hood, unit, state);
     for (;;) {
       if (star.closed) {
@@ -155,6 +154,7 @@ class StarBuilder {
       wrapUntilCertain(p, hood, std::ldexp(1.0, -exponent), state);
     }
 
+    state.cut_neighbors += hood.cut;
     state.open_stars += star.closed ? 0 : 1;
     stars_.ends[p] = star.closed ? 0 : 1;
     stars_.offset[p + 1] = static_cast<int>(star.link.size());
@@ -214,48 +214,6 @@ std::size_t Stars::bytes() const {
          bytesOf(flat) + static_cast<std::size_t>(normals.size() + move.size()) * sizeof(double);
 }
 
-void takeNeighborhoods(const Neighborhoods& lists, const RankedCloud& cloud, const std::vector<PointStatus>& status,
-                       const std::vector<int>& representative, NeighborSource& source, Report& report) {
-  const int n = static_cast<int>(status.size());
-  std::vector<int> rank(status.size(), -1);
-  for (int r = 0; r < cloud.size(); ++r) rank[cloud.caller[r]] = r;
-  source.list_offset.assign(1, 0);
-  for (int p = 0; p < cloud.size(); ++p) {
-    const std::size_t start = source.list.size();
-    for (Eigen::Index j = 0; j < lists.cols(); ++j) {
-      const int index = lists(cloud.caller[p], j);
-      if (index < 0) continue;  // padding
-      if (index >= n) {
-        throw InvalidInput("pointCloudLaplacian: neighborhoods(" + std::to_string(cloud.caller[p]) + ", " +
-                           std::to_string(j) + ") = " + std::to_string(index) + ", must be less than " +
-                           std::to_string(n) + ", the number of points");
-      }
-      const int q = rank[representative[index]];
-      const bool repeats = std::find(source.list.begin() + start, source.list.end(), q) != source.list.end();
-      if (q < 0 || q == p || repeats) {
-        ++report.rejected_neighbors;
-      } else {
-        source.list.push_back(q);
-      }
-    }
-    source.list_offset.push_back(source.list.size());
-    source.k = std::max(source.k, static_cast<int>(source.list.size() - start));
-  }
-}
-
-void takeNormals(const Points& normals, const RankedCloud& cloud, NeighborSource& source, Report& report) {
-  source.normals.setZero(cloud.size(), 3);
-  for (int p = 0; p < cloud.size(); ++p) {
-    const Eigen::Vector3d normal = normals.row(cloud.caller[p]);
-    const double length = normal.stableNorm();
-    if (length > 0 && std::isfinite(length)) {
-      source.normals.row(p) = (normal / length).normalized();
-    } else {
-      ++report.rejected_normals;
-    }
-  }
-}
-
 Stars buildStars(const RankedCloud& cloud, const NeighborSource& source, const CloudOptions& options,
                  const Workers& workers, Report& report) {
   const int n = cloud.size();
@@ -290,6 +248,7 @@ Stars buildStars(const RankedCloud& cloud, const NeighborSource& source, const C
 
   std::array<double, 3> seconds = {};
   for (const WorkerState& state : states) {
+    report.cut_neighbors += state.cut_neighbors;
     report.grown_neighborhoods += state.grown_neighborhoods;
     report.split_neighborhoods += state.split_neighborhoods;
     report.isolated_by_sheets += state.isolated;

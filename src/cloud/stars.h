@@ -2,13 +2,12 @@
 
 #include <cstdint>
 #include <limits>
-#include <memory>
 #include <vector>
 
 #include "base/parallel.h"
 #include "base/stage_clock.h"
 #include "cloud/morton.h"
-#include "cloud/neighbors.h"
+#include "cloud/neighbor_source.h"
 #include "tufted/options.h"
 #include "tufted/report.h"
 
@@ -39,25 +38,6 @@ struct Stars {
   bool hasTriangle(int i) const { return radius[i] != no_triangle; }
   std::size_t bytes() const;
 };
-
-/// Where the neighbours and normals of each point come from.
-struct NeighborSource {
-  int k = 0;                               ///< neighbours per point, at most n - 1
-  const NeighborSearch* search = nullptr;  ///< null when the caller's lists are used
-  std::vector<std::size_t> list_offset;    ///< n + 1, into `list`
-  std::vector<int> list;                   ///< the caller's lists by rank, checked
-  Points normals;                          ///< the caller's, by rank, unit length or zero where unusable; else 0 x 3
-
-  bool isFixed() const { return search == nullptr; }
-};
-
-/// Checks the caller's lists and brings them into rank order.
-/// @throws InvalidInput for an index past the last point in the row of a usable point
-void takeNeighborhoods(const Neighborhoods& lists, const RankedCloud& cloud, const std::vector<PointStatus>& status,
-                       const std::vector<int>& representative, NeighborSource& source, Report& report);
-
-/// Normalises the caller's normals and brings them into rank order.
-void takeNormals(const Points& normals, const RankedCloud& cloud, NeighborSource& source, Report& report);
 
 /// For every point the neighbourhood, the tangent frame, the projection and the Delaunay star with its certificate.
 /// Counts growth, splits and open stars, and books the three stages' costs.

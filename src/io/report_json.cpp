@@ -26,6 +26,8 @@ Json reportObject(const Report& report) {
       {"neighbors_clamped", report.neighbors_clamped},
       {"rejected_normals", report.rejected_normals},
       {"rejected_neighbors", report.rejected_neighbors},
+      {"unplaced", report.unplaced},
+      {"cut_neighbors", report.cut_neighbors},
       {"grown_neighborhoods", report.grown_neighborhoods},
       {"split_neighborhoods", report.split_neighborhoods},
       {"isolated_by_sheets", report.isolated_by_sheets},
@@ -79,6 +81,9 @@ const char* name(FaceOrder order) {
   return order == FaceOrder::angle ? "angle" : order == FaceOrder::area ? "area" : "random";
 }
 
+const char* name(const ScanStructure* structure) {
+  return structure == nullptr ? "none" : structure->has_rings ? "rings" : "image";
+}
 const char* name(Sign sign) {
   return sign == Sign::psd ? "psd" : "igl";
 }
@@ -103,6 +108,7 @@ Json optionsObject(const CloudOptions& options) {
                {"filter", options.filter == Filter::radius ? "radius" : "votes"},
                {"lengths", options.lengths == Lengths::points ? "points" : "denoised"},
                {"mass", options.mass == Mass::cover ? "cover" : "star"},
+               {"structure", name(options.structure)},
                {"given_normals", options.normals != nullptr},
                {"given_neighborhoods", options.neighborhoods != nullptr}};
   if (options.viewpoint != nullptr) {

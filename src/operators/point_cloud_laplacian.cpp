@@ -5,7 +5,7 @@
 
 #include "cloud/boundary.h"
 #include "cloud/morton.h"
-#include "cloud/neighbors.h"
+#include "cloud/neighbor_source.h"
 #include "cloud/outliers.h"
 #include "cloud/star_filter.h"
 #include "cloud/stars.h"
@@ -37,6 +37,9 @@ void checkOptions(const Points& points, const CloudOptions& options) {
                        std::to_string(v.z()) + ", must be finite");
   }
   if (options.normals != nullptr) checkRows("normals", options.normals->rows());
+  if (options.structure != nullptr && options.neighborhoods != nullptr) {
+    throw InvalidInput(name + ": structure and neighborhoods are both given, must be one at most");
+  }
   if (options.neighborhoods != nullptr) checkRows("neighborhoods", options.neighborhoods->rows());
 #ifndef TUFTED_WITH_GPL
   if (options.delaunay == Delaunay::cgal) {
@@ -125,6 +128,8 @@ Laplacian pointCloudLaplacian(const Points& points, const CloudOptions& options)
   checkOptions(points, options);
   if (points.rows() > INT32_MAX) tooMany(points.rows(), 6 * points.rows());
   const Workers workers(options.threads, options.progress);
+  const Eigen::Vector3d* viewpoint = options.viewpoint;
+  if (viewpoint == nullptr && options.structure != nullptr) viewpoint = &options.structure->origin;
   Laplacian result;
   Report& report = result.report;
   StageClock clock(report);
@@ -136,20 +141,8 @@ Laplacian pointCloudLaplacian(const Points& points, const CloudOptions& options)
   if (cloud.size() > most_triangles / 6) tooMany(cloud.size(), 6 * static_cast<std::int64_t>(cloud.size()));
   clock.finish("order", static_cast<std::size_t>(cloud.size()) * (3 * sizeof(double) + sizeof(int)));
 
-  NeighborSource source;
-  if (options.normals != nullptr) takeNormals(*options.normals, cloud, source, report);
-  std::optional<NeighborSearch> search;
-  if (options.neighborhoods != nullptr) {
-    takeNeighborhoods(*options.neighborhoods, cloud, result.status, result.representative, source, report);
-  } else {
-    workers.report("tree", 0);
-    search.emplace(cloud.points);
-    source.search = &*search;
-    source.k = std::min(options.neighbors, std::max(0, cloud.size() - 1));
-    report.neighbors_clamped = source.k < options.neighbors;
-  }
-  report.neighbors = source.k;
-  clock.finish("tree", search ? search->bytes() : bytesOf(source.list) + bytesOf(source.list_offset));
+  NeighborSource source = neighborSource(options, cloud, result.status, result.representative, workers, report);
+  clock.finish("tree", source.bytes());
 
   Stars stars = buildStars(cloud, source, options, workers, report);
   if (options.isolate_outliers) isolateOutliers(stars, cloud, source, workers, report);
@@ -158,8 +151,8 @@ Laplacian pointCloudLaplacian(const Points& points, const CloudOptions& options)
   countVotes(stars, workers, report);
   clock.finish("filter", 0);
 
-  describePoints(stars, findBoundary(stars, cloud, source, options.viewpoint, workers), cloud, result);
-  search.reset();
+  describePoints(stars, findBoundary(stars, cloud, source, viewpoint, workers), cloud, result);
+  source = {};
   clock.finish("boundary", 0);
 
   VectorXd areas;

@@ -16,8 +16,8 @@ namespace {
 class Hoods {
  public:
   Hoods(const Points& points, const CloudOptions& options)
-      : points_(points), options_(options), search_(points_), finder_(points_, source_, options_) {
-    source_.search = &search_;
+      : points_(points), options_(options), finder_(points_, source_, options_) {
+    source_.search = std::make_unique<NeighborSearch>(points_);
     source_.k = options.neighbors;
   }
 
@@ -31,7 +31,6 @@ class Hoods {
  private:
   Points points_;
   CloudOptions options_;
-  NeighborSearch search_;
   NeighborSource source_;
   NeighborhoodFinder finder_;
   SheetScratch scratch_;

@@ -71,6 +71,45 @@ TEST(LaplacianEstimation, LooksForJumpsFromTheSensorOfAnOrganizedCloud) {
   EXPECT_EQ(computed(estimation).boundary, pointCloudLaplacian(points, {.viewpoint = &elsewhere}).boundary);
 }
 
+TEST(LaplacianEstimation, ByPixelsIsTheCoresByTheImage) {
+  const auto scan = shapes::depthCamera({.width = 64, .height = 48}, 3);
+  auto cloud = cloudOf(scan.points);
+  cloud->width = 64;
+  cloud->height = 48;
+  const Points points = pointsOf(*cloud);
+  Estimation estimation;
+  estimation.setInputCloud(cloud);
+  EXPECT_FALSE(estimation.getOrganizedSearch());
+  estimation.setOrganizedSearch(true);
+  const ScanStructure whole = imageStructure(64, 48);
+  const CloudOptions options{.structure = &whole};
+  EXPECT_TRUE(sameBits(computed(estimation).L, pointCloudLaplacian(points, options).L));
+
+  // Of indices the pixels that they name.
+  std::vector<int> some;
+  ScanStructure structure;
+  Points chosen(64 * 48 / 2, 3);
+  for (int i = 0; i < 64 * 48 / 2; ++i) {
+    some.push_back(2 * i);
+    structure.row.push_back(2 * i / 64);
+    structure.position.push_back(2 * i % 64);
+    chosen.row(i) = points.row(2 * i);
+  }
+  estimation.setIndices(indicesOf(some));
+  const CloudOptions of_some{.structure = &structure};
+  EXPECT_TRUE(sameBits(computed(estimation).L, pointCloudLaplacian(chosen, of_some).L));
+}
+
+TEST(LaplacianEstimation, ByPixelsOfAnUnorganizedCloudIsAMistake) {
+  Estimation estimation;
+  estimation.setInputCloud(cloudOf(shapes::sphere(100).points));
+  estimation.setOrganizedSearch(true);
+  Laplacian result;
+  const std::string console = consoleOf([&] { estimation.compute(result); });
+  EXPECT_NE(console.find("setOrganizedSearch"), std::string::npos) << console;
+  EXPECT_TRUE(isEmpty(result));
+}
+
 TEST(LaplacianEstimation, OfIndicesIsThatOfTheirPointsAlone) {
   const Points points = shapes::sphere(2000).points;
   const auto cloud = cloudOf(points);

@@ -13,10 +13,14 @@
 /// The table of real scans: cases (a dataset each) have metrics, each of which is one row per variant of the build.
 namespace tufted::bench {
 
+/// Which structure of the scan finds the neighbours.
+enum class Neighbors { searched, image, rings };
+
 /// A way to build; the first of the table is the one that others are compared with.
 struct Variant {
   std::string name;
   CloudOptions options;
+  Neighbors neighbors = Neighbors::searched;
 };
 
 /// A cloud with its truth.
@@ -25,6 +29,9 @@ struct Sample {
   shapes::ScanTruth truth{};                   ///< rooms only: of the same rays without noise
   shapes::ImageEdges edges{};                  ///< depth images only: of the same pixels, all seen and not rounded
   std::optional<Eigen::Vector3d> viewpoint{};  ///< told to the build
+
+  /// Whether it has what a variant finds neighbours by.
+  bool has(Neighbors neighbors) const;
 };
 
 /// One build of one sample.
@@ -32,18 +39,21 @@ class Build {
  public:
   /// @param sample borrowed
   /// @param core the build of the first variant; null for that one itself
-  Build(const Sample& sample, const CloudOptions& options, const Build* core);
+  Build(const Sample& sample, const Variant& variant, const Build* core);
 
   const Sample& sample() const { return sample_; }
   const shapes::Cloud& cloud() const { return sample_.cloud; }
   const Laplacian& laplacian() const { return laplacian_; }
   const Build& core() const { return core_ == nullptr ? *this : *core_; }
   double seconds() const { return seconds_; }
+  /// Of all up to the neighbours of each point, its plane not included.
+  double searchSeconds() const;
   /// See unionOfStars(); found when first asked for.
   const Triangles& stars() const;
 
  private:
   const Sample& sample_;
+  std::optional<ScanStructure> structure_;
   CloudOptions options_;
   const Build* core_;
   Laplacian laplacian_;

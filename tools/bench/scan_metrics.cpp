@@ -45,6 +45,15 @@ double poissonError(const SparseMatrix& L, const VectorXd& M, const Points& poin
   return std::sqrt(error.cwiseAbs2().dot(M) / expected.cwiseAbs2().dot(M));
 }
 
+std::optional<ScanStructure> structureOf(const Sample& sample, Neighbors neighbors) {
+  const shapes::Cloud& cloud = sample.cloud;
+  if (neighbors == Neighbors::searched) return std::nullopt;
+  if (neighbors == Neighbors::image) return imageStructure(cloud.width, cloud.height);
+  std::vector<int> ring;
+  for (int i = 0; i < cloud.width * cloud.height; ++i) ring.push_back(i / cloud.width);
+  return ringStructure(cloud.points, std::move(ring));
+}
+
 bool hasOneLabel(const std::vector<int>& labels, const Triangles& triangles, Eigen::Index t) {
   const int label = labels[triangles(t, 0)];
   return labels[triangles(t, 1)] == label && labels[triangles(t, 2)] == label;
@@ -129,12 +138,26 @@ ImageTags countJumps(const Build& build) {
 
 }  // namespace
 
-Build::Build(const Sample& sample, const CloudOptions& options, const Build* core)
-    : sample_(sample), options_(options), core_(core) {
+bool Sample::has(Neighbors neighbors) const {
+  const bool is_room = !truth.inner.empty();
+  return neighbors == Neighbors::searched || (cloud.height > 0 && (neighbors == Neighbors::rings) == is_room);
+}
+
+Build::Build(const Sample& sample, const Variant& variant, const Build* core)
+    : sample_(sample), structure_(structureOf(sample, variant.neighbors)), options_(variant.options), core_(core) {
+  if (structure_) options_.structure = &*structure_;
   if (sample.viewpoint) options_.viewpoint = &*sample.viewpoint;
   const Stopwatch watch;
   laplacian_ = pointCloudLaplacian(sample.cloud.points, options_);
   seconds_ = watch.seconds();
+}
+
+double Build::searchSeconds() const {
+  double seconds = 0;
+  for (const StageCost& stage : laplacian_.report.stages) {
+    if (stage.name == "tree" || stage.name == "structure" || stage.name == "neighbors") seconds += stage.seconds;
+  }
+  return seconds;
 }
 
 const Triangles& Build::stars() const {
@@ -265,6 +288,22 @@ double imageJumpRecall(const Build& build) {
 double imageJumpPrecision(const Build& build) {
   const ImageTags tags = countJumps(build);
   return static_cast<double>(tags.right) / tags.tagged;
+}
+
+double equalColumns(const Build& build) {
+  const SparseMatrix& L = build.laplacian().L;
+  const SparseMatrix& reference = build.core().laplacian().L;
+  const int *begin = reference.outerIndexPtr(), *columns = reference.innerIndexPtr();
+  int active = 0, equal = 0;
+  for (int i = 0; i < reference.outerSize(); ++i) {
+    if (begin[i] == begin[i + 1]) continue;
+    ++active;
+    equal += std::equal(columns + begin[i], columns + begin[i + 1], L.innerIndexPtr() + L.outerIndexPtr()[i],
+                        L.innerIndexPtr() + L.outerIndexPtr()[i + 1])
+                 ? 1
+                 : 0;
+  }
+  return static_cast<double>(equal) / active;
 }
 
 double equalRows(const Build& build) {

@@ -47,6 +47,8 @@ double imageJumpPrecision(const Build& build);
 
 /// Share of the points active in the core's build whose row of L is the same up to 1e-6 of its diagonal.
 double equalRows(const Build& build);
+/// The same where only the columns of a row's entries are compared.
+double equalColumns(const Build& build);
 
 /// Broken guarantees, lines of brokenGuarantees().
 double brokenPromises(const Build& build);

@@ -52,9 +52,12 @@ std::vector<Metric> roomMetrics(const LidarOptions& options) {
 /// What image neighbours are for, beside the core's search.
 std::vector<Metric> imageMetrics() {
   const auto time = [](const Build& build) { return build.seconds() / build.core().seconds(); };
+  const auto search = [](const Build& build) { return build.searchSeconds() / build.core().searchSeconds(); };
   const Mark none_across{.rule = Rule::at_most, .value = 0, .variant = "image"};
   return {{"across jumps", Format::count, trianglesAcrossJumps, none_across, {}},
           {"rows as the core's", Format::percent, equalRows, {}, {}},
+          {"columns as the core's", Format::percent, equalColumns, {}, {}},
+          {"search by the core's", Format::percent, search, {}, {}},
           {"time by the core's", Format::percent, time, {}, {}}};
 }
 

@@ -101,8 +101,8 @@ double Figures::high() const {
 
 Verdict judge(const Row& row, std::size_t variant) {
   const Mark& mark = row.metric->mark;
-  if (!isMarked(row)) return Verdict::unmarked;
   const Figures& figures = row.figures[variant];
+  if (!isMarked(row) || figures.values.empty()) return Verdict::unmarked;
   double base = 0;
   if (mark.reference == Reference::core) base = mark.factor * row.figures.front().mean();
   if (mark.reference == Reference::yardstick) base = mark.factor * row.yardstick.mean();
@@ -147,6 +147,7 @@ void printHeader() {
 
 void printRow(const Row& row, const std::vector<Variant>& variants) {
   for (std::size_t v = 0; v < variants.size(); ++v) {
+    if (row.figures[v].values.empty()) continue;  // not built
     printLine(row, variants[v].name, row.figures[v], markText(row), word(judge(row, v)));
   }
   if (!row.yardstick.values.empty()) printLine(row, row.metric->yardstick.name, row.yardstick, "", "");
@@ -170,6 +171,7 @@ nlohmann::ordered_json asJson(const Row& row, const std::vector<Variant>& varian
   if (isMarked(row)) json["mark"] = markText(row);
   if (!row.yardstick.values.empty()) json[row.metric->yardstick.name] = asJson(row.yardstick);
   for (std::size_t v = 0; v < variants.size(); ++v) {
+    if (row.figures[v].values.empty()) continue;
     nlohmann::ordered_json figures = asJson(row.figures[v]);
     const Verdict verdict = judge(row, v);
     if (verdict != Verdict::unmarked) figures["held"] = verdict != Verdict::missed;

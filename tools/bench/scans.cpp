@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -19,7 +20,9 @@ namespace {
 const std::vector<Variant>& variants() {
   static const std::vector<Variant> all{{"core", cloudOptions(Preset::clean)},
                                         {"scan", cloudOptions(Preset::scan)},
-                                        {"lidar", cloudOptions(Preset::lidar)}};
+                                        {"lidar", cloudOptions(Preset::lidar)},
+                                        {"image", cloudOptions(Preset::clean), Neighbors::image},
+                                        {"rings", cloudOptions(Preset::lidar), Neighbors::rings}};
   return all;
 }
 
@@ -28,6 +31,11 @@ struct Settings {
   std::string filter;
   std::string json;
   bool quick = false;
+  std::vector<std::string> builds;  ///< besides the first one; empty: all
+
+  bool asksFor(const Variant& variant) const {
+    return builds.empty() || std::find(builds.begin(), builds.end(), variant.name) != builds.end();
+  }
 };
 
 /// One line on stderr when it is a terminal.
@@ -74,11 +82,12 @@ std::vector<Row> measureCase(const Case& c, const Settings& settings) {
     const std::string name = c.what + " / " + c.dataset + ", seed " + std::to_string(seed);
     showProgress(name);
     const Sample sample = c.make(seed);
-    const Build core(sample, variants().front().options, nullptr);
+    const Build core(sample, variants().front(), nullptr);
     for (std::size_t v = 0; v < variants().size(); ++v) {
+      if (v > 0 && !(settings.asksFor(variants()[v]) && sample.has(variants()[v].neighbors))) continue;
       showProgress(name + ", " + variants()[v].name);
       std::optional<Build> other;
-      if (v > 0) other.emplace(sample, variants()[v].options, &core);
+      if (v > 0) other.emplace(sample, variants()[v], &core);
       const Build& build = other ? *other : core;
       for (Row& row : rows) measureInto(row.figures[v], [&] { return row.metric->measure(build); });
     }
@@ -125,6 +134,8 @@ int main(int argc, char** argv) {
     CLI::App app("Measures the build on scans, noise, outliers, sheets and rims, with the marks it is meant to hold.");
     app.add_option("--seeds", settings.seeds, "samples per dataset")->check(CLI::Range(1, 1000))->capture_default_str();
     app.add_option("--filter", settings.filter, "only rows whose `what / dataset / metric` contains this");
+    app.add_option("--builds", settings.builds, "only these besides the core: scan, lidar, image, rings")
+        ->delimiter(',');
     app.add_option("--json", settings.json, "write all figures to this file as well");
     app.add_flag("--quick", settings.quick, "a quarter of the points, coarser rooms, few marks");
     CLI11_PARSE(app, argc, argv);

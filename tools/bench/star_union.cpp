@@ -5,7 +5,7 @@
 #include <string>
 
 #include "cloud/morton.h"
-#include "cloud/neighbors.h"
+#include "cloud/neighbor_source.h"
 #include "cloud/outliers.h"
 #include "cloud/star_filter.h"
 #include "cloud/stars.h"
@@ -13,18 +13,12 @@
 namespace tufted::bench {
 
 Triangles unionOfStars(const Points& points, const CloudOptions& options, const Laplacian& laplacian) {
-  if (options.normals != nullptr || options.neighborhoods != nullptr) {
-    throw std::logic_error("unionOfStars: the caller's normals and neighbourhoods are not followed");
-  }
   const Workers workers(options.threads, options.progress);
   std::vector<PointStatus> status;
   std::vector<int> representative;
   Report report;
   const RankedCloud cloud = rankPoints(points, status, representative);
-  const NeighborSearch search(cloud.points);
-  NeighborSource source;
-  source.search = &search;
-  source.k = std::min(options.neighbors, std::max(0, cloud.size() - 1));
+  const NeighborSource source = neighborSource(options, cloud, status, representative, workers, report);
   Stars stars = buildStars(cloud, source, options, workers, report);
   if (options.isolate_outliers) isolateOutliers(stars, cloud, source, workers, report);
   filterStars(stars, cloud.points, source.k, options.filter, workers, report);

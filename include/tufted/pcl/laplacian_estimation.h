@@ -40,8 +40,14 @@ class LaplacianEstimation : public pcl::PCLBase<PointT> {
   void setSearchMethod(const SearchPtr& search) { search_ = search; }
   SearchPtr getSearchMethod() const { return search_; }
 
-  /// Everything that the core can be told, k and threads included. What it borrows (normals, neighborhoods: one row per
-  /// index) must live until compute() is done; a search method wins over neighborhoods.
+  /// Whether the core finds neighbours by the pixels of an organized input and cuts at depth jumps seen from its
+  /// sensor_origin_; false unless set. A search method wins over it.
+  void setOrganizedSearch(bool organized) { organized_ = organized; }
+  bool getOrganizedSearch() const { return organized_; }
+
+  /// Everything that the core can be told, k and threads included. What it borrows (normals, neighborhoods,
+  /// structure: one row per index) must live until compute() is done; a search method or an organized search wins over
+  /// neighborhoods and structure.
   void setOptions(const CloudOptions& options) { options_ = options; }
   const CloudOptions& getOptions() const { return options_; }
 
@@ -55,6 +61,7 @@ class LaplacianEstimation : public pcl::PCLBase<PointT> {
   std::string class_name_ = "LaplacianEstimation";
   CloudOptions options_;
   SearchPtr search_;
+  bool organized_ = false;
 };
 
 }  // namespace tufted

@@ -50,6 +50,11 @@ class LaplacianSmoothing : public pcl::Filter<PointT> {
   void setSearchMethod(const SearchPtr& search) { search_ = search; }
   SearchPtr getSearchMethod() const { return search_; }
 
+  /// Whether the core finds neighbours by the pixels of an organized input and cuts at depth jumps seen from its
+  /// sensor_origin_; false unless set. A search method wins over it.
+  void setOrganizedSearch(bool organized) { organized_ = organized; }
+  bool getOrganizedSearch() const { return organized_; }
+
   /// What happened in the last filter(): odd points, edge lengths, costs.
   const Report& getReport() const { return report_; }
 
@@ -66,6 +71,7 @@ class LaplacianSmoothing : public pcl::Filter<PointT> {
   int iterations_ = 1;
   CloudOptions options_{.keep_cover = false};
   SearchPtr search_;
+  bool organized_ = false;
   Report report_;
 };
 

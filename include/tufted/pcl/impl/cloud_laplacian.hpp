@@ -67,17 +67,42 @@ Neighborhoods nearestNeighbors(pcl::search::Search<PointT>& search,
   return neighborhoods;
 }
 
+/// Where in an organized cloud the points that `indices` name lie, seen from its sensor.
+/// @throws InvalidInput for a cloud that is not organized
+template <typename PointT>
+ScanStructure pixelsOf(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices) {
+  if (!cloud.isOrganized()) {
+    throw InvalidInput("setOrganizedSearch: the input has height " + std::to_string(cloud.height) +
+                       ", must be more than 1 for an organized cloud");
+  }
+  const ScanStructure whole = imageStructure(static_cast<int>(cloud.width), static_cast<int>(cloud.height));
+  ScanStructure structure;
+  structure.origin = cloud.sensor_origin_.template head<3>().template cast<double>();
+  for (const pcl::index_t i : indices) {
+    structure.row.push_back(whole.row.at(i));
+    structure.position.push_back(whole.position.at(i));
+  }
+  return structure;
+}
+
 /// The Laplacian of the points that `indices` name.
 /// @param search finds the neighbours; null: the core does
+/// @param organized whether the core does so by the pixels of the cloud
 /// @throws what pointCloudLaplacian throws
 template <typename PointT>
 Laplacian cloudLaplacian(const typename pcl::PointCloud<PointT>::ConstPtr& cloud, const pcl::Indices& indices,
-                         const Points& points, const typename pcl::search::Search<PointT>::Ptr& search,
+                         const Points& points, const typename pcl::search::Search<PointT>::Ptr& search, bool organized,
                          CloudOptions options) {
   Neighborhoods neighborhoods;
+  ScanStructure structure;
   if (search) {
     neighborhoods = nearestNeighbors<PointT>(*search, cloud, indices, points, options.neighbors);
     options.neighborhoods = &neighborhoods;
+    options.structure = nullptr;
+  } else if (organized) {
+    structure = pixelsOf(*cloud, indices);
+    options.structure = &structure;
+    options.neighborhoods = nullptr;
   }
   return pointCloudLaplacian(points, options);
 }

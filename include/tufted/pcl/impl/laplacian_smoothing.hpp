@@ -22,7 +22,7 @@ void tufted::LaplacianSmoothing<PointT>::applyFilter(PointCloud& output) {
     pcl::Indices all(input_->size());
     std::iota(all.begin(), all.end(), 0);
     const Points points = detail::toPoints(*input_, all);
-    const Laplacian laplacian = detail::cloudLaplacian<PointT>(input_, all, points, search_, options_);
+    const Laplacian laplacian = detail::cloudLaplacian<PointT>(input_, all, points, search_, organized_, options_);
     report_ = laplacian.report;
     const Points smoothed =
         smooth(laplacian, points,

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "tufted/types.h"
+
+namespace tufted {
+
+/// How a scanner took the points of a cloud: in rows, each point at a place along its row. Rows are those of an image
+/// or the rings of a spinning scanner; consecutive rows were taken side by side. With it neighbours are found without a
+/// tree, and on rings however far apart those are. See imageStructure(), ringStructure()
+/// and findRings().
+struct ScanStructure {
+  std::vector<int> row;          ///< N; row of the image or number of the ring; negative: the point has no place
+  std::vector<double> position;  ///< N; column of the image, or azimuth in radians; not finite: the point has no place
+  bool has_rings = false;        ///< rows are rings, closed around 2 pi; otherwise positions are whole columns >= 0
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< of the sensor, in the points' unit
+};
+
+/// The pixels of an organized cloud, row-major as in PCL.
+/// @param width,height columns and rows, at least 0 each; the cloud has width x height points
+/// @throws InvalidInput for negative sizes or more than 2^31 - 1 pixels
+ScanStructure imageStructure(int width, int height, const Eigen::Vector3d& origin = Eigen::Vector3d::Zero());
+
+/// The rings of a spinning scanner, as its driver numbered them.
+/// @param points N x 3; azimuths are their directions around the z axis through `origin`
+/// @param ring N; in the order of elevation (up or down), negative where unknown
+/// @throws InvalidInput for arrays of different sizes or an origin that is not finite
+ScanStructure ringStructure(const Points& points, std::vector<int> ring,
+                            const Eigen::Vector3d& origin = Eigen::Vector3d::Zero());
+
+/// The same where nobody numbered them: the rings are the clusters of the points' elevations seen from the origin.
+/// Points that are not finite, or at the origin, have no place.
+/// @param points N x 3, in the scanner's frame: it turns around the z axis through `origin`
+/// @throws InvalidInput where the elevations do not cluster: fewer than 4 rings, one wider than the narrowest gap, or
+/// no gap within one is less than a quarter of that; and for an origin that is not finite
+ScanStructure findRings(const Points& points, const Eigen::Vector3d& origin = Eigen::Vector3d::Zero());
+
+}  // namespace tufted

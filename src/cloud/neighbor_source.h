@@ -1,0 +1,44 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "base/parallel.h"
+#include "cloud/morton.h"
+#include "cloud/neighbors.h"
+#include "cloud/scan_search.h"
+#include "tufted/options.h"
+#include "tufted/report.h"
+
+namespace tufted {
+
+/// Where the neighbours and normals of each point come from, by rank.
+struct NeighborSource {
+  int k = 0;                               ///< neighbours per point, at most n - 1
+  std::unique_ptr<NeighborSearch> search;  ///< null when the caller's lists or the structure of a scan are used
+  std::unique_ptr<ScanSearch> scan;        ///< null without a structure
+  std::vector<std::size_t> list_offset;    ///< n + 1, into `list`
+  std::vector<int> list;                   ///< the caller's lists, checked
+  Points normals;                          ///< the caller's, unit length or zero where unusable; else 0 x 3
+
+  /// Whether there are the caller's lists and no others.
+  bool isFixed() const { return search == nullptr && scan == nullptr; }
+  /// Whether the points found get sparser with their distance by design.
+  bool isGraded() const { return scan != nullptr && scan->isGraded(); }
+
+  /// `count` neighbours of p, ascending by (distance, index), or the caller's list as it is. See NeighborSearch::nearest
+  /// and ScanSearch::nearest.
+  /// @returns the region that was searched
+  ScanSearch::Searched nearest(const Points& points, int p, int count, std::vector<Neighbor>& found) const;
+
+  std::size_t bytes() const;
+};
+
+/// What the options ask for.
+/// @param cloud borrowed for the life of the source
+/// @throws InvalidInput for an index past the last point in the row of a usable point, or a structure of other points
+NeighborSource neighborSource(const CloudOptions& options, const RankedCloud& cloud,
+                              const std::vector<PointStatus>& status, const std::vector<int>& representative,
+                              const Workers& workers, Report& report);
+
+}  // namespace tufted

@@ -1,0 +1,120 @@
+#include "tufted/scan_structure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <string>
+
+#include "tufted/errors.h"
+
+namespace tufted {
+namespace {
+
+constexpr double least_contrast = 4;  // of the gaps between rings to those within
+constexpr int least_rings = 4;
+constexpr double rounding = 1e-9;  // rad; gaps below are rounding
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+void checkOrigin(const char* function, const Eigen::Vector3d& origin) {
+  if (!origin.allFinite()) throw InvalidInput(std::string(function) + ": origin is not finite, must be");
+}
+
+double azimuthOf(const Eigen::Vector3d& ray) {
+  return ray.x() == 0 && ray.y() == 0 ? 0 : std::atan2(ray.y(), ray.x());
+}
+
+double elevationOf(const Eigen::Vector3d& ray) {
+  return std::atan2(ray.z(), std::hypot(ray.x(), ray.y()));
+}
+
+/// The gap that every gap between two rings exceeds and none within one: where the gaps, from the widest down, fall
+/// by the largest factor.
+double widestInnerGap(std::vector<double> gaps) {
+  std::sort(gaps.begin(), gaps.end(), std::greater<>());
+  double contrast = 0, inner = 0;
+  for (std::size_t i = 1; i < gaps.size() && gaps[i - 1] > rounding; ++i) {
+    const double here = gaps[i - 1] / std::max(gaps[i], rounding);
+    if (here > contrast) contrast = here, inner = gaps[i];
+  }
+  if (!(contrast >= least_contrast)) {
+    throw InvalidInput("findRings: the gaps between elevations fall by a factor of " + std::to_string(contrast) +
+                       " at most, must be at least 4 for rings to show (is `origin` the sensor's?)");
+  }
+  return inner;
+}
+
+}  // namespace
+
+ScanStructure imageStructure(int width, int height, const Eigen::Vector3d& origin) {
+  if (width < 0 || height < 0 || static_cast<std::int64_t>(width) * height > INT32_MAX) {
+    throw InvalidInput("imageStructure: " + std::to_string(width) + " x " + std::to_string(height) +
+                       " pixels, must be at least 0 each and at most 2^31 - 1 together");
+  }
+  ScanStructure structure;
+  structure.origin = origin;
+  structure.row.reserve(static_cast<std::size_t>(width) * height);
+  structure.position.reserve(static_cast<std::size_t>(width) * height);
+  for (int row = 0; row < height; ++row) {
+    for (int column = 0; column < width; ++column) {
+      structure.row.push_back(row);
+      structure.position.push_back(column);
+    }
+  }
+  return structure;
+}
+
+ScanStructure ringStructure(const Points& points, std::vector<int> ring, const Eigen::Vector3d& origin) {
+  checkOrigin("ringStructure", origin);
+  if (static_cast<Eigen::Index>(ring.size()) != points.rows()) {
+    throw InvalidInput("ringStructure: ring has " + std::to_string(ring.size()) + " entries, must have " +
+                       std::to_string(points.rows()) + ", one per point");
+  }
+  ScanStructure structure{.row = std::move(ring), .position = {}, .has_rings = true, .origin = origin};
+  structure.position.reserve(structure.row.size());
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    const Eigen::Vector3d ray = points.row(i).transpose() - origin;
+    structure.position.push_back(ray.allFinite() ? azimuthOf(ray) : unknown);
+  }
+  return structure;
+}
+
+ScanStructure findRings(const Points& points, const Eigen::Vector3d& origin) {
+  checkOrigin("findRings", origin);
+  struct Ray {
+    double elevation;
+    int index;
+  };
+  std::vector<Ray> rays;
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    const Eigen::Vector3d ray = points.row(i).transpose() - origin;
+    if (ray.allFinite() && !ray.isZero(0)) rays.push_back({elevationOf(ray), static_cast<int>(i)});
+  }
+  std::sort(rays.begin(), rays.end(), [](const Ray& a, const Ray& b) { return a.elevation < b.elevation; });
+  std::vector<int> ring(static_cast<std::size_t>(points.rows()), -1);
+  if (!rays.empty()) {
+    std::vector<double> gaps;
+    for (std::size_t i = 1; i < rays.size(); ++i) gaps.push_back(rays[i].elevation - rays[i - 1].elevation);
+    const double inner = widestInnerGap(gaps);
+    int number = 0;
+    double start = rays.front().elevation, widest = 0, narrowest = std::numbers::pi;
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      if (i > 0 && gaps[i - 1] > std::max(inner, rounding)) {
+        ++number;
+        narrowest = std::min(narrowest, gaps[i - 1]);
+        start = rays[i].elevation;
+      }
+      widest = std::max(widest, rays[i].elevation - start);
+      ring[rays[i].index] = number;
+    }
+    if (widest > narrowest || number + 1 < least_rings) {
+      throw InvalidInput("findRings: " + std::to_string(number + 1) + " rings of up to " + std::to_string(widest) +
+                         " rad with gaps down to " + std::to_string(narrowest) +
+                         " rad, must be at least 4 and narrower than the gaps (is `origin` the sensor's?)");
+    }
+  }
+  return ringStructure(points, std::move(ring), origin);
+}
+
+}  // namespace tufted

@@ -1,0 +1,177 @@
+// The Laplacian by the scan's own structure: the same promises, and the surfaces that a scanner sees.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+
+#include "guarantees/guarantees.h"
+#include "shapes/random.h"
+#include "shapes/shapes.h"
+#include "support/compare.h"
+#include "tufted/tufted.h"
+
+namespace tufted {
+namespace {
+
+Laplacian build(const Points& points, const ScanStructure& structure, Preset preset = Preset::clean, int threads = 0) {
+  CloudOptions options = cloudOptions(preset);
+  options.structure = &structure;
+  options.threads = threads;
+  Laplacian laplacian = pointCloudLaplacian(points, options);
+  for (const std::string& broken : guarantees::brokenGuarantees(laplacian, points)) ADD_FAILURE() << broken;
+  return laplacian;
+}
+
+ScanStructure ringsOf(const shapes::Cloud& scan) {
+  return ringStructure(scan.points, imageStructure(scan.width, scan.height).row);
+}
+
+int countOpen(const Laplacian& laplacian, int from, int to) {
+  const auto begin = laplacian.boundary.begin();
+  return to - from - static_cast<int>(std::count(begin + from, begin + to, Boundary::none));
+}
+
+TEST(ImageStructure, GivesTheLaplacianOfTheTreeWhereTheSurfaceIsSmooth) {
+  // A bowl; within 12 pixels of the rim windows end where balls do not.
+  constexpr int width = 70, height = 60;
+  Points points(width * height, 3);
+  for (int i = 0; i < points.rows(); ++i) {
+    const double u = (i % width - 34.3) / 100, v = (i / width - 29.6) / 100;
+    points.row(i) = Eigen::RowVector3d(u, v, 1) * (2 - u * u - 0.7 * v * v + 0.1 * u * v);
+  }
+  const CloudOptions exact{.mollify = 0};
+  CloudOptions by_image = exact;
+  const ScanStructure structure = imageStructure(width, height);
+  by_image.structure = &structure;
+  const SparseMatrix expected = pointCloudLaplacian(points, exact).L, L = pointCloudLaplacian(points, by_image).L;
+  const SparseMatrix difference = L - expected;
+  for (int i = 0; i < L.cols(); ++i) {
+    const int column = i % width, row = i / width;
+    if (std::min({column, row, width - 1 - column, height - 1 - row}) < 12) continue;
+    for (SparseMatrix::InnerIterator entry(difference, i); entry; ++entry) EXPECT_EQ(entry.value(), 0) << i;
+  }
+}
+
+TEST(ImageStructure, JoinsNothingAcrossADepthJump) {
+  constexpr int width = 60, height = 40;
+  Points points(width * height, 3);
+  const auto isNear = [](int i) { return std::hypot(i % width - 30, i / width - 20) < 10; };
+  for (int i = 0; i < points.rows(); ++i) {
+    const double u = (i % width - 30) / 100.0, v = (i / width - 20) / 100.0;
+    points.row(i) = Eigen::RowVector3d(u, v, 1) * (isNear(i) ? 0.85 : 1.0);
+  }
+  for (const Preset preset : {Preset::clean, Preset::scan}) {
+    const Laplacian laplacian = build(points, imageStructure(width, height), preset);
+    EXPECT_EQ(laplacian.report.components, 2);
+    EXPECT_GT(laplacian.report.cut_neighbors, 0);
+    for (int i = 0; i < laplacian.L.cols(); ++i) {
+      for (SparseMatrix::InnerIterator entry(laplacian.L, i); entry; ++entry)
+        EXPECT_EQ(isNear(static_cast<int>(entry.row())), isNear(i));
+    }
+  }
+}
+
+TEST(ImageStructure, TakesHolesAndNoiseAsTheyCome) {
+  const auto scan = shapes::depthCamera({.width = 80, .height = 60, .depth_step = 0.05, .dropouts = 0.3}, 2);
+  for (const Preset preset : {Preset::clean, Preset::scan, Preset::lidar}) {
+    const Laplacian laplacian = build(scan.points, imageStructure(scan.width, scan.height), preset);
+    EXPECT_GT(laplacian.report.not_finite, 0);
+    EXPECT_GT(laplacian.report.active, 2000);
+  }
+}
+
+TEST(ImageStructure, OfOneRowHasNoSurface) {
+  Points points(20, 3);
+  for (int i = 0; i < 20; ++i) points.row(i) << 0.1 * i, 0, 1;
+  EXPECT_EQ(build(points, imageStructure(20, 1)).report.active, 0);
+  EXPECT_EQ(build(points, imageStructure(1, 20)).report.active, 0);
+  EXPECT_EQ(build(Points(0, 3), imageStructure(0, 0)).report.points, 0);
+  EXPECT_EQ(build(points.topRows(1), imageStructure(1, 1)).report.isolated, 1);
+}
+
+TEST(RingStructure, ClosesACylinderAroundItsSensor) {
+  // 23 times as far between rings as along them; every star but those of the outermost rings is closed.
+  constexpr int rings = 10, steps = 1440;
+  Points points(rings * steps, 3);
+  for (int i = 0; i < points.rows(); ++i) {
+    const double angle = 2 * std::numbers::pi * (i % steps + 0.31) / steps;
+    points.row(i) << std::cos(angle), std::sin(angle), 0.1 * (i / steps - 4);
+  }
+  for (const Preset preset : {Preset::clean, Preset::lidar}) {
+    const Laplacian laplacian = build(points, findRings(points), preset);
+    EXPECT_EQ(laplacian.report.components, 1);
+    EXPECT_EQ(countOpen(laplacian, steps, (rings - 1) * steps), 0);
+    EXPECT_EQ(countOpen(laplacian, 0, steps), steps);
+    // Masses beside an open star are not Voronoi areas.
+    const double inner = laplacian.M.segment(2 * steps, (rings - 4) * steps).sum();
+    EXPECT_NEAR(inner, 2 * std::numbers::pi * 0.1 * (rings - 4), 0.005 * inner);
+  }
+}
+
+TEST(RingStructure, ClosesTheRoomThatTheTreeLeavesOpen) {
+  const auto scan = shapes::lidar({.rings = 32, .azimuth_step = 0.4});
+  const auto inner = shapes::scanTruth(scan, true).inner;
+  const auto closed = [&](const Laplacian& laplacian) {
+    int count = 0;
+    for (std::size_t i = 0; i < inner.size(); ++i)
+      count += inner[i] != 0 && laplacian.boundary[i] == Boundary::none ? 1 : 0;
+    return count;
+  };
+  const Laplacian by_rings = build(scan.points, ringsOf(scan), Preset::lidar);
+  EXPECT_LT(closed(pointCloudLaplacian(scan.points, cloudOptions(Preset::clean))), 0.9 * closed(by_rings));
+  EXPECT_GE(closed(by_rings), 0.96 * std::count(inner.begin(), inner.end(), 1));
+}
+
+TEST(ScanStructure, PermutedOrOnMoreThreadsGivesTheSameBits) {
+  const auto scan = shapes::lidar({.rings = 16, .azimuth_step = 2, .noise = 0.02}, 7);
+  const auto n = static_cast<int>(scan.points.rows());
+  const std::vector<int> source = shapes::Random(2).permutation(n);
+  const Points shuffled = support::permuted(scan.points, source);
+  for (const bool by_rings : {true, false}) {
+    const ScanStructure structure = by_rings ? ringsOf(scan) : imageStructure(scan.width, scan.height);
+    ScanStructure permuted = structure;
+    for (int i = 0; i < n; ++i) {
+      permuted.row[i] = structure.row[source[i]];
+      permuted.position[i] = structure.position[source[i]];
+    }
+    const Laplacian laplacian = build(scan.points, structure, Preset::lidar, 1);
+    EXPECT_TRUE(
+        support::sameBits(build(shuffled, permuted, Preset::lidar, 3).L, support::permuted(laplacian.L, source)));
+    EXPECT_TRUE(support::sameBits(build(scan.points, structure, Preset::lidar, 4).L, laplacian.L));
+  }
+}
+
+TEST(ScanStructure, KeepsEveryPromiseWhereverItPutsThePoints) {
+  shapes::Random random(11);
+  for (int round = 0; round < 60; ++round) {
+    const int n = 1 + static_cast<int>(random.uniform() * (round % 2 == 0 ? 12 : 300));
+    Points points(n, 3);
+    ScanStructure structure;
+    structure.has_rings = round % 3 != 0;
+    for (int i = 0; i < n; ++i) {
+      const double kind = random.uniform();
+      points.row(i) << random.uniform(), random.uniform(), random.uniform();
+      if (kind < 0.1) points.row(i).setConstant(std::nan(""));
+      if (kind > 0.9 && i > 0) points.row(i) = points.row(i - 1);
+      if (kind > 0.4 && kind < 0.42) points.row(i) *= 1e90;
+      structure.row.push_back(static_cast<int>(random.uniform() * 6) - 1);
+      structure.position.push_back(structure.has_rings ? 20 * (random.uniform() - 0.5)
+                                                       : std::floor(8 * random.uniform()));
+    }
+    SCOPED_TRACE("round " + std::to_string(round));
+    build(points, structure, static_cast<Preset>(round % 3));
+  }
+}
+
+TEST(ScanStructure, AndNeighborhoodsTogetherAreAMistake) {
+  const Points points = Points::Random(12, 3);
+  const Neighborhoods neighborhoods = Neighborhoods::Zero(12, 3);
+  const ScanStructure structure = imageStructure(4, 3);
+  const CloudOptions options{.neighborhoods = &neighborhoods, .structure = &structure};
+  EXPECT_THROW(pointCloudLaplacian(points, options), InvalidInput);
+}
+
+}  // namespace
+}  // namespace tufted

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+
+#include "tufted/io/read.h"
+#include "tufted/scan_structure.h"
+
+/// What finds the neighbours of a cloud, as --structure says.
+enum class Structure { none, image, rings };
+
+/// The values of --structure.
+inline const std::map<std::string, Structure> structures = {
+    {"none", Structure::none}, {"image", Structure::image}, {"rings", Structure::rings}};
+
+/// The structure of a file's scan: its width and height, or its field `ring`, or rings by the elevations seen from its
+/// viewpoint.
+/// @param name of the input, for messages
+/// @throws IoError where the file has no such structure
+std::optional<tufted::ScanStructure> structureOf(const tufted::Geometry& geometry, Structure structure,
+                                                 const std::string& name);
