@@ -20,7 +20,8 @@ double spectrumError(const tufted::SparseMatrix& L, const tufted::VectorXd& M) {
 }
 
 double gluingError(const tufted::Points& points, tufted::Gluing gluing) {
-  const tufted::Laplacian laplacian = tufted::pointCloudLaplacian(points, {.gluing = gluing, .keep_cover = false});
+  const tufted::Laplacian laplacian = tufted::pointCloudLaplacian(
+      points, {.steps = tufted::cloudSteps(tufted::Preset::clean), .gluing = gluing, .keep_cover = false});
   return spectrumError(laplacian.L, laplacian.M);
 }
 

@@ -80,7 +80,7 @@ struct Settings {
   Input input;
   std::filesystem::path out;
   bool normals = false;  ///< use those of the file
-  tufted::Preset preset = tufted::Preset::clean;
+  tufted::Preset preset = tufted::Preset::scan;
   Structure structure = Structure::none;
   tufted::CloudOptions cloud;
   std::optional<double> mollify;  ///< the default of clouds or of meshes
@@ -118,18 +118,6 @@ void addWriteOptions(CLI::App& command, tufted::WriteOptions& options) {
       ->type_name("LIST");
   addChoice(command, "--sign", options.sign, signs, "Sign of L in the files, see below (psd)");
   command.add_flag("--dummy", options.dummy, "Dummy values for points that cannot take part, see below");
-}
-
-/// The steps of a preset, all else as it is.
-void applyPreset(tufted::Preset preset, tufted::CloudOptions& options) {
-  const tufted::CloudOptions steps = tufted::cloudOptions(preset);
-  options.growth = steps.growth;
-  options.split_sheets = steps.split_sheets;
-  options.isolate_outliers = steps.isolate_outliers;
-  options.star_search = steps.star_search;
-  options.filter = steps.filter;
-  options.lengths = steps.lengths;
-  options.mass = steps.mass;
 }
 
 /// Refuses what no build can be written to.
@@ -208,7 +196,7 @@ int runLaplacian(Settings settings, const std::vector<CLI::Option*>& cloud_only)
   const std::optional<tufted::ScanStructure> structure =
       structureOf(geometry, settings.structure, settings.input.name());
   if (structure) settings.cloud.structure = &*structure;
-  applyPreset(settings.preset, settings.cloud);
+  settings.cloud.steps = tufted::cloudSteps(settings.preset);
   // The position is at hand where a file states one, and where an image of depths leaves it at the origin.
   const Eigen::Vector3d viewpoint(geometry.viewpoint[0], geometry.viewpoint[1], geometry.viewpoint[2]);
   if ((geometry.height > 1 || !viewpoint.isZero(0)) && viewpoint.allFinite()) settings.cloud.viewpoint = &viewpoint;
@@ -249,7 +237,7 @@ void addLaplacian(CLI::App& app, Run& run) {
       addNumber(command, "--neighbors", options.neighbors, 3, std::numeric_limits<int>::max(),
                 "Neighbours per point, clouds only (30)")
           ->type_name("K"),
-      addChoice(command, "--preset", settings->preset, presets, "Kind of cloud, see below, clouds only (clean)"),
+      addChoice(command, "--preset", settings->preset, presets, "Kind of cloud, see below, clouds only (scan)"),
       addChoice(command, "--structure", settings->structure, structures,
                 "Neighbours by the scan's own structure, see below, clouds only (none)"),
       addChoice(command, "--gluing", options.gluing, gluings, "How the stars are glued, clouds only (star)"),

@@ -62,22 +62,31 @@ enum class Mass {
   star,   ///< the Voronoi area in the point's own star, which noise, rims and uneven sampling distort less
 };
 
-/// Kinds of clouds, see cloudOptions().
+/// Kinds of clouds, see cloudSteps().
 enum class Preset {
-  clean,  ///< exact samples: the paper's steps and no others
-  scan,   ///< depth images, laser scans, photogrammetry: noise, jumps, outliers, near sheets
+  clean,  ///< exact samples: the paper's steps and no others, the fastest
+  scan,   ///< the default; depth images, laser scans, photogrammetry: noise, jumps, outliers, near sheets, rims; on
+         ///< clean clouds as good as `clean`
   lidar,  ///< the same from a spinning scanner, whose rings would be taken for sheets
 };
 
+/// What is done about clouds that are not exact samples of one surface. By default those of Preset::scan.
+struct CloudSteps {
+  Growth growth = Growth::line;
+  bool split_sheets = true;  ///< neighbours beyond a gap along the normal belong to another surface and are left out
+  StarSearch star_search = StarSearch::thorough;
+  bool isolate_outliers = true;  ///< points that hover over a surface that does not reach to them lose their stars
+  Filter filter = Filter::votes;
+  Lengths lengths = Lengths::denoised;
+  Mass mass = Mass::star;
+};
+
+/// The steps for a kind of cloud.
+CloudSteps cloudSteps(Preset preset);
+
 struct CloudOptions {
   int neighbors = 30;  ///< k >= 3, far fewer than N; larger than N - 1 is clamped and reported
-  Growth growth = Growth::line;
-  bool split_sheets = false;  ///< neighbours beyond a gap along the normal belong to another surface and are left out
-  bool isolate_outliers = false;  ///< points that hover over a surface that does not reach to them lose their stars
-  StarSearch star_search = StarSearch::once;
-  Filter filter = Filter::radius;
-  Lengths lengths = Lengths::points;
-  Mass mass = Mass::cover;
+  CloudSteps steps = {};
   Gluing gluing = Gluing::star;
   FaceOrder order = FaceOrder::angle;
   std::uint64_t seed = 0;  ///< for FaceOrder::random
@@ -95,7 +104,7 @@ struct CloudOptions {
   Progress progress = {};
 };
 
-/// The steps for a kind of cloud; all else as by default.
+/// CloudOptions of these steps, all else as by default.
 CloudOptions cloudOptions(Preset preset);
 
 struct MeshOptions {

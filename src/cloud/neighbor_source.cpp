@@ -55,7 +55,8 @@ void takeNormals(const Points& normals, const RankedCloud& cloud, NeighborSource
 
 }  // namespace
 
-ScanSearch::Searched NeighborSource::nearest(const Points& points, int p, int count, std::vector<Neighbor>& found) const {
+ScanSearch::Searched NeighborSource::nearest(const Points& points, int p, int count,
+                                             std::vector<Neighbor>& found) const {
   if (scan != nullptr) return scan->nearest(p, count, found);
   if (search != nullptr) {
     search->nearest(p, count, found);

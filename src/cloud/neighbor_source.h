@@ -26,8 +26,8 @@ struct NeighborSource {
   /// Whether the points found get sparser with their distance by design.
   bool isGraded() const { return scan != nullptr && scan->isGraded(); }
 
-  /// `count` neighbours of p, ascending by (distance, index), or the caller's list as it is. See NeighborSearch::nearest
-  /// and ScanSearch::nearest.
+  /// `count` neighbours of p, ascending by (distance, index), or the caller's list as it is. See
+  /// NeighborSearch::nearest and ScanSearch::nearest.
   /// @returns the region that was searched
   ScanSearch::Searched nearest(const Points& points, int p, int count, std::vector<Neighbor>& found) const;
 

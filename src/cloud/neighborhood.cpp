@@ -46,7 +46,7 @@ void NeighborhoodFinder::find(int p, Neighborhood& hood) const {
 
 bool NeighborhoodFinder::isUneven(const Neighborhood& hood) const {
   if (liesOnOneLine(hood.axes)) return true;
-  if (options_.growth == Growth::line || source_.isGraded()) return false;
+  if (options_.steps.growth == Growth::line || source_.isGraded()) return false;
   const double half = hood.radius / 2;
   const auto far = std::partition_point(hood.neighbors.begin(), hood.neighbors.end(),
                                         [half](const Neighbor& q) { return q.squared_distance <= half * half; });
@@ -60,12 +60,12 @@ void NeighborhoodFinder::fit(int p, Neighborhood& hood, SheetScratch& scratch) c
     hood.grown = true;
   }
   hood.reach = hood.radius;
-  if (options_.split_sheets && !source_.isFixed()) splitSheets(p, hood, scratch);
+  if (options_.steps.split_sheets && !source_.isFixed()) splitSheets(p, hood, scratch);
 }
 
 bool NeighborhoodFinder::grow(int p, int most, Neighborhood& hood, SheetScratch& scratch) const {
   if (!query(p, std::min(2 * hood.k, most), hood)) return false;
-  if (options_.split_sheets && (hood.split || (!hood.restored && !hood.grown)))
+  if (options_.steps.split_sheets && (hood.split || (!hood.restored && !hood.grown)))
     keepSheet(p, hood.axes.normal, hood, scratch);
   return true;
 }

@@ -49,7 +49,7 @@ int isolate(Stars& stars, int p) {
 
 void isolateOutliers(Stars& stars, const RankedCloud& cloud, const NeighborSource& source, const Workers& workers,
                      Report& report) {
-  if (source.isFixed() || stars.size() <= source.k + 1) return;
+  if (source.search == nullptr || stars.size() <= source.k + 1) return;
   enum Verdict : std::uint8_t { untried, sound, outlier, isolated };
   std::vector<Verdict> verdicts(stars.size(), untried);
   // Outliers that see each other alone become suspect once one of them is isolated.

@@ -10,6 +10,8 @@ namespace tufted {
 namespace {
 
 constexpr std::int64_t block_size = 8192;
+/// Less takes triangles from steps of density, more leaves bridges from the last ring of a scan.
+constexpr double further = 2.75;
 
 /// Whether the star of `a` contains the triangle (a, b, c), either way round.
 bool contains(const Stars& stars, int a, int b, int c) {
@@ -50,7 +52,7 @@ bool isImplausible(const Stars& stars, const Points& points, int p, int i) {
   // In space the circle is no smaller than half the longest side; only then the stars of a and b are looked at.
   const double radius = circumradius(points, p, a, b);
   if (radius <= smallest) return false;
-  const bool sees_further = stars.reach[p] > 3 * std::max(stars.reach[a], stars.reach[b]);
+  const bool sees_further = stars.reach[p] > further * std::max(stars.reach[a], stars.reach[b]);
   if (radius <= 2 * smallest && !sees_further) return false;
   return otherVotes(stars, p, i) == 0;
 }

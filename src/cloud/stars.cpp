@@ -84,7 +84,7 @@ class StarBuilder {
     stars_.reach[p] = hood.reach;
     stars_.isolated[p] = hood.isolated ? 1 : 0;
     stars_.flat[p] = hood.axes.variance[0] < flat_share * hood.axes.variance[1] ? 1 : 0;
-    if (options_.lengths == Lengths::denoised) findSurface(p, hood, block);
+    if (options_.steps.lengths == Lengths::denoised) findSurface(p, hood, block);
   }
 
   /// Moves p onto the surface through its neighbours if they are noise around one, and keeps them for a second look.
@@ -113,7 +113,7 @@ class StarBuilder {
   /// Wraps the star and looks further where what was found is no proof that the star is right: a circle of a closed
   /// star leaves the ball that was searched, or the star is open and might not be among more neighbours.
   void wrapUntilCertain(int p, Neighborhood& hood, double unit, WorkerState& state) const {
-    const bool thorough = options_.star_search == StarSearch::thorough;
+    const bool thorough = options_.steps.star_search == StarSearch::thorough;
     DelaunayStar& star = state.star;
     int most = 2 * hood.k;
     if (thorough) most = hood.k >= finder_.mostNeighbors() ? hood.k : std::max(2 * source_.k, most);
@@ -224,7 +224,7 @@ Stars buildStars(const RankedCloud& cloud, const NeighborSource& source, const C
   stars.isolated.resize(n);
   stars.flat.resize(n);
   stars.normals.resize(n, 3);
-  if (options.lengths == Lengths::denoised) stars.move.setZero(n, 3);
+  if (options.steps.lengths == Lengths::denoised) stars.move.setZero(n, 3);
 
   Stopwatch wall;
   std::vector<BlockOfStars> blocks((n + block_size - 1) / block_size);

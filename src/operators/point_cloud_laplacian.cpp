@@ -145,9 +145,9 @@ Laplacian pointCloudLaplacian(const Points& points, const CloudOptions& options)
   clock.finish("tree", source.bytes());
 
   Stars stars = buildStars(cloud, source, options, workers, report);
-  if (options.isolate_outliers) isolateOutliers(stars, cloud, source, workers, report);
+  if (options.steps.isolate_outliers) isolateOutliers(stars, cloud, source, workers, report);
   clock.restart();  // buildStars books its own stages
-  filterStars(stars, cloud.points, source.k, options.filter, workers, report);
+  filterStars(stars, cloud.points, source.k, options.steps.filter, workers, report);
   countVotes(stars, workers, report);
   clock.finish("filter", 0);
 
@@ -156,7 +156,7 @@ Laplacian pointCloudLaplacian(const Points& points, const CloudOptions& options)
   clock.finish("boundary", 0);
 
   VectorXd areas;
-  if (options.mass == Mass::star) areas = starAreas(stars, cloud.points, workers);
+  if (options.steps.mass == Mass::star) areas = starAreas(stars, cloud.points, workers);
   const Points move = std::move(stars.move);
   clock.finish("mass", 0);
 
@@ -168,21 +168,29 @@ Laplacian pointCloudLaplacian(const Points& points, const CloudOptions& options)
 
   finishLaplacian(std::move(cover), cloud.points, move, cloud.caller, cloud.exponent, 1.0 / 2 / 3, options, workers,
                   clock, result);
-  if (options.mass == Mass::star) takeAreas(areas, cloud, result);
+  if (options.steps.mass == Mass::star) takeAreas(areas, cloud, result);
   return result;
 }
 
+CloudSteps cloudSteps(Preset preset) {
+  CloudSteps steps;
+  if (preset == Preset::clean) {
+    steps = {.growth = Growth::line,
+             .split_sheets = false,
+             .star_search = StarSearch::once,
+             .isolate_outliers = false,
+             .filter = Filter::radius,
+             .lengths = Lengths::points,
+             .mass = Mass::cover};
+  } else if (preset == Preset::lidar) {
+    steps.growth = Growth::uneven;
+    steps.split_sheets = false;
+  }
+  return steps;
+}
+
 CloudOptions cloudOptions(Preset preset) {
-  CloudOptions options;
-  if (preset == Preset::clean) return options;
-  options.growth = preset == Preset::lidar ? Growth::uneven : Growth::line;
-  options.split_sheets = preset == Preset::scan;
-  options.isolate_outliers = true;
-  options.star_search = StarSearch::thorough;
-  options.filter = Filter::votes;
-  options.lengths = Lengths::denoised;
-  options.mass = Mass::star;
-  return options;
+  return {.steps = cloudSteps(preset)};
 }
 
 const IntrinsicTriangulation& Laplacian::cover() const {

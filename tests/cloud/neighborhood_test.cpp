@@ -63,7 +63,7 @@ TEST(Neighborhood, OnALineGrowsUntilItIsAPlane) {
 TEST(Neighborhood, OnAnEvenSurfaceStaysAsItIs) {
   const Points lattice = shapes::squareLattice(60, 1).points;
   for (const Growth growth : {Growth::line, Growth::uneven})
-    EXPECT_FALSE(Hoods(lattice, {.growth = growth}).at(30 * 60 + 30).grown);
+    EXPECT_FALSE(Hoods(lattice, {.steps = {.growth = growth, .split_sheets = false}}).at(30 * 60 + 30).grown);
 }
 
 TEST(Neighborhood, ThatIsCrowdedInTheMiddleGrowsWhenAskedTo) {
@@ -72,16 +72,16 @@ TEST(Neighborhood, ThatIsCrowdedInTheMiddleGrowsWhenAskedTo) {
   Points spot = 0.01 * shapes::squareLattice(4, 1).points;
   spot.rowwise() += lattice.row(30 * 60 + 30) + Eigen::RowVector3d(0.3, 0.3, 0) - spot.row(5);
   const Points points = together(spot, lattice);
-  EXPECT_FALSE(Hoods(points, {.growth = Growth::line}).at(5).grown);
-  EXPECT_TRUE(Hoods(points, {.growth = Growth::uneven}).at(5).grown);
+  EXPECT_FALSE(Hoods(points, {.steps = {.growth = Growth::line, .split_sheets = false}}).at(5).grown);
+  EXPECT_TRUE(Hoods(points, {.steps = {.growth = Growth::uneven, .split_sheets = false}}).at(5).grown);
 }
 
 TEST(Neighborhood, LeavesTheOtherSheetOut) {
   const int n = 4000;
   const double spacing = 1 / std::sqrt(double(n));
   const Points points = together(sheet(n, 0, 1), sheet(n, 4 * spacing, 2));
-  const Neighborhood mixed = Hoods(points, {.neighbors = 60}).at(0);
-  const Neighborhood own = Hoods(points, {.neighbors = 60, .split_sheets = true}).at(0);
+  const Neighborhood mixed = Hoods(points, {.neighbors = 60, .steps = cloudSteps(Preset::clean)}).at(0);
+  const Neighborhood own = Hoods(points, {.neighbors = 60, .steps = cloudSteps(Preset::scan)}).at(0);
   const auto isOther = [n](const Neighbor& q) { return q.index >= n; };
   EXPECT_TRUE(std::any_of(mixed.neighbors.begin(), mixed.neighbors.end(), isOther));
   EXPECT_TRUE(std::none_of(own.neighbors.begin(), own.neighbors.end(), isOther));
@@ -95,7 +95,7 @@ TEST(Neighborhood, OfANoisySheetIsNotSplit) {
   Points points = sheet(4000, 0, 3);
   shapes::Random random(4);
   for (int i = 0; i < points.rows(); ++i) points(i, 2) = 0.005 * random.normal();
-  Hoods hoods(points, {.split_sheets = true});
+  Hoods hoods(points, {.steps = cloudSteps(Preset::scan)});
   int split = 0;
   for (int p = 0; p < 500; ++p) split += hoods.at(p).split || hoods.at(p).isolated ? 1 : 0;
   EXPECT_LE(split, 5);
@@ -106,7 +106,7 @@ TEST(Neighborhood, OfAPointBetweenSheetsIsIsolated) {
   const double spacing = 1 / std::sqrt(double(n));
   Points points = sheet(n, 0, 1);
   points.row(0) << 0.5, 0.5, 2.5 * spacing;  // an outlier
-  const Neighborhood hood = Hoods(points, {.split_sheets = true}).at(0);
+  const Neighborhood hood = Hoods(points, {.steps = cloudSteps(Preset::scan)}).at(0);
   EXPECT_TRUE(hood.isolated);
 }
 
@@ -114,7 +114,7 @@ TEST(Neighborhood, MayLoseAllItsNeighbors) {
   // Two points far above each other and above all others: nothing lies within a quarter of the reach.
   Points points(12, 3);
   for (int i = 0; i < 12; ++i) points.row(i) << i % 3, i / 3 % 2, std::pow(3.0, i);
-  Hoods hoods(points, {.neighbors = 9, .split_sheets = true});
+  Hoods hoods(points, {.neighbors = 9, .steps = cloudSteps(Preset::scan)});
   for (int p = 0; p < points.rows(); ++p) {
     const Neighborhood hood = hoods.at(p);
     EXPECT_TRUE(!hood.isolated || hood.neighbors.size() <= 2) << p;

@@ -53,7 +53,7 @@ TEST_P(GuaranteesOfCloud, InAnyGluingAndOrder) {
 }
 
 TEST_P(GuaranteesOfCloud, OfEveryPreset) {
-  for (const Preset preset : {Preset::scan, Preset::lidar}) {
+  for (const Preset preset : {Preset::clean, Preset::scan, Preset::lidar}) {
     SCOPED_TRACE(static_cast<int>(preset));
     EXPECT_THAT(brokenGuarantees(pointCloudLaplacian(points(), cloudOptions(preset)), points()), IsEmpty());
   }

@@ -90,7 +90,7 @@ TEST(Scans, APointIsAnOutlierOverASurfaceButNotBesideIt) {
   const Eigen::RowVector3d corner = points.row(0), middle = points.colwise().mean();
   points.conservativeResize(1601, 3);
   CloudOptions options = scan;
-  options.split_sheets = false;
+  options.steps.split_sheets = false;
   points.row(1600) = middle + Eigen::RowVector3d(0, 0, 6);
   const Laplacian over = pointCloudLaplacian(points, options);
   EXPECT_EQ(over.status[1600], PointStatus::isolated);
@@ -103,7 +103,7 @@ TEST(Scans, PresetsDependOnTheShapeAlone) {
   // Exact moves and powers of two, another order and other numbers of threads: the same bits.
   Points points = shapes::withNoise(shapes::sphere(4000), 0.01).points;
   points = (points * 0x1p20).array().round() * 0x1p-20;
-  for (const Preset preset : {Preset::scan, Preset::lidar}) {
+  for (const Preset preset : {Preset::clean, Preset::scan, Preset::lidar}) {
     CloudOptions options = cloudOptions(preset);
     options.threads = 1;
     const Laplacian reference = pointCloudLaplacian(points, options);

@@ -12,14 +12,15 @@ constexpr int neighbor_count = 30;
 
 struct CloudCase {
   int points;
+  Preset preset;
   Gluing gluing;
   Delaunay delaunay;
   int threads;
 
   std::string name() const {
-    return std::string("cloud/") + (delaunay == Delaunay::star ? "star" : "cgal") + "/" +
-           (gluing == Gluing::star ? "star" : "vertex_pair") + "/" + std::to_string(points) + "/" +
-           threadsName(threads);
+    return std::string("cloud/") + (preset == Preset::clean ? "clean/" : "scan/") +
+           (delaunay == Delaunay::star ? "star" : "cgal") + "/" + (gluing == Gluing::star ? "star" : "vertex_pair") +
+           "/" + std::to_string(points) + "/" + threadsName(threads);
   }
 };
 
@@ -56,8 +57,11 @@ void runCloud(benchmark::State& state, const CloudCase& c) {
   for ([[maybe_unused]] auto _ : state) {
     {
       Stopwatch watch;
-      const Laplacian laplacian = pointCloudLaplacian(
-          points, {.neighbors = neighbor_count, .gluing = c.gluing, .delaunay = c.delaunay, .threads = c.threads});
+      const Laplacian laplacian = pointCloudLaplacian(points, {.neighbors = neighbor_count,
+                                                               .steps = cloudSteps(c.preset),
+                                                               .gluing = c.gluing,
+                                                               .delaunay = c.delaunay,
+                                                               .threads = c.threads});
       const double seconds = watch.seconds();
       state.SetIterationTime(seconds);
       costs.addBuild(seconds, laplacian.report);
@@ -70,22 +74,24 @@ void runCloud(benchmark::State& state, const CloudCase& c) {
   }
 }
 
+void registerCloud(const CloudCase& c) {
+  benchmark::RegisterBenchmark(c.name().c_str(), [c](benchmark::State& state) { runCloud(state, c); })
+      ->UseManualTime()
+      ->Iterations(iterationsFor(c.points))
+      ->Unit(benchmark::kMillisecond);
+}
+
 }  // namespace
 
 void registerClouds() {
   for (const int points : {10'000, 100'000, 1'000'000}) {
     for (const int threads : {1, 0}) {
+      registerCloud({points, Preset::scan, Gluing::star, Delaunay::star, threads});
       for (const Gluing gluing : {Gluing::star, Gluing::vertex_pair}) {
-        for (const Delaunay delaunay : {Delaunay::star, Delaunay::cgal}) {
-#ifndef TUFTED_WITH_GPL
-          if (delaunay == Delaunay::cgal) continue;
+        registerCloud({points, Preset::clean, gluing, Delaunay::star, threads});
+#ifdef TUFTED_WITH_GPL
+        registerCloud({points, Preset::clean, gluing, Delaunay::cgal, threads});
 #endif
-          const CloudCase c{points, gluing, delaunay, threads};
-          benchmark::RegisterBenchmark(c.name().c_str(), [c](benchmark::State& state) { runCloud(state, c); })
-              ->UseManualTime()
-              ->Iterations(iterationsFor(points))
-              ->Unit(benchmark::kMillisecond);
-        }
       }
     }
   }

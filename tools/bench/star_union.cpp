@@ -20,8 +20,8 @@ Triangles unionOfStars(const Points& points, const CloudOptions& options, const 
   const RankedCloud cloud = rankPoints(points, status, representative);
   const NeighborSource source = neighborSource(options, cloud, status, representative, workers, report);
   Stars stars = buildStars(cloud, source, options, workers, report);
-  if (options.isolate_outliers) isolateOutliers(stars, cloud, source, workers, report);
-  filterStars(stars, cloud.points, source.k, options.filter, workers, report);
+  if (options.steps.isolate_outliers) isolateOutliers(stars, cloud, source, workers, report);
+  filterStars(stars, cloud.points, source.k, options.steps.filter, workers, report);
 
   Triangles triangles(laplacian.report.triangles, 3);
   Eigen::Index count = 0;
