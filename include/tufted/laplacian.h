@@ -25,7 +25,7 @@ struct Frames {
 ///   eigenproblem   L x = lambda M x
 struct Laplacian {
   SparseMatrix L;                   ///< N x N, column-major, compressed, rows ascending; no unit (lengths cancel)
-  VectorXd M;                       ///< N areas in length^2; their sum approximates the surface area
+  VectorXd M;                       ///< N areas in length^2, see Mass; their sum approximates the surface area
   VectorXd cover_areas;             ///< N; areas lumped from the faces of the cover, equal to M with Mass::cover
   std::vector<PointStatus> status;  ///< N
   std::vector<int> representative;  ///< N; the point itself unless coincident, then the lowest equal index

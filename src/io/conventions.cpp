@@ -23,8 +23,8 @@ std::vector<Convention> conventions(const Laplacian& laplacian, const WriteOptio
       {"sign", psd ? "L is minus the Laplacian, integrated; libigl and PMP use the opposite sign"
                    : "L is the Laplacian, integrated, with the sign of libigl and PMP"},
       {"M", "lumped areas in length^2, N values; their sum approximates the surface area", true},
-      {"scale/cloud", "1/2 (front and back of the cover) times 1/3 (each triangle is found by its three corners)"},
-      {"scale/mesh", "1/2 (front and back of the cover)"},
+      {"scale/cloud", "L: 1/2 (front and back of the cover) times 1/3 (each triangle is found by its three corners)"},
+      {"scale/mesh", "L: 1/2 (front and back of the cover)"},
       {"poisson", psd ? "L u = M f" : "-L u = M f"},
       {"eigenproblem", psd ? "L x = lambda M x" : "-L x = lambda M x"},
       {"status", "0 active, 1 not finite, 2 coincident, 3 isolated", true},

@@ -196,7 +196,7 @@ TEST(WriteLaplacian, TheReportStatesSignScaleAndOptions) {
        {"positive semidefinite", "opposite sign", "length^2", "L u = M f", "L x = lambda M x", "\"neighbors\": 17",
         "\"gluing\": \"vertex-pair\"", "\"tufted\": \"",
         "1/2 (front and back of the cover) times 1/3 (each triangle is found by its three corners)",
-        "\"mesh\": \"1/2 (front and back of the cover)\"", "\"polygons\": 5", "\"merged_vertices\": 6"})
+        "\"mesh\": \"L: 1/2 (front and back of the cover)\"", "\"polygons\": 5", "\"merged_vertices\": 6"})
     EXPECT_NE(json.find(part), std::string::npos) << part;
 }
 
