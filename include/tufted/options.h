@@ -66,7 +66,7 @@ enum class Mass {
 enum class Preset {
   clean,  ///< exact samples: the paper's steps and no others, the fastest
   scan,   ///< the default; depth images, laser scans, photogrammetry: noise, jumps, outliers, near sheets, rims; on
-         ///< clean clouds as good as `clean`
+          ///< clean clouds as good as `clean`
   lidar,  ///< the same from a spinning scanner, whose rings would be taken for sheets
 };
 

@@ -20,7 +20,7 @@ struct Report {
   // Input
   std::int64_t points = 0;      ///< rows of the caller's array
   std::int64_t active = 0;      ///< points with a positive diagonal
-  std::int64_t not_finite = 0;  ///< NaN, infinite, or beyond 1e100 median spreads or 1e152
+  std::int64_t not_finite = 0;  ///< NaN, infinite, or beyond 1e70 median spreads or 1e152
   std::int64_t coincident = 0;  ///< merged with an earlier equal point (clouds)
   std::int64_t isolated = 0;    ///< points without a triangle
 
@@ -39,12 +39,12 @@ struct Report {
   std::int64_t grown_neighborhoods = 0;    ///< k doubled because the neighbours say too little, see Growth
   std::int64_t split_neighborhoods = 0;    ///< neighbours of another sheet left out
   std::int64_t isolated_by_sheets = 0;     ///< points without a star: next to all neighbours belong to other sheets
-  std::int64_t outliers = 0;               ///< points without a star: they hover over a surface, see CloudOptions
+  std::int64_t outliers = 0;               ///< points without a star: they hover over a surface, see CloudSteps
   std::int64_t denoised = 0;               ///< points moved onto a surface for the lengths, see Lengths
   std::int64_t grown_stars = 0;            ///< times k was doubled because a closed star was not certified
   std::int64_t closed_stars = 0;           ///< open stars that closed with twice the neighbours
   std::int64_t open_stars = 0;             ///< points whose Voronoi cell is not compact
-  std::int64_t dropped_triangles = 0;      ///< star triangles removed by the circumradius filter
+  std::int64_t dropped_triangles = 0;      ///< star triangles removed: by the filter, with outliers, too flat
   std::array<std::int64_t, 3> votes = {};  ///< distinct triangles found by 1, 2, 3 of their corners
 
   // Meshes

@@ -6,7 +6,7 @@
 namespace tufted {
 namespace {
 
-constexpr double farthest_spreads = 1e100;  // in median spreads; squares and fourth powers of it still fit a double
+constexpr double farthest_spreads = 1e70;   // in median spreads; squares and fourth powers of it still fit a double
 constexpr double largest_distance = 1e152;  // in the caller's unit; an area still fits a double
 
 double median(std::vector<double>& values) {

@@ -17,7 +17,7 @@ struct Scaling {
   double scaled(double x) const;
 };
 
-/// Scaling of the finite rows. Rows that are not finite, or more than 1e100 median spreads or 1e152 from the centre,
+/// Scaling of the finite rows. Rows that are not finite, or more than 1e70 median spreads or 1e152 from the centre,
 /// get PointStatus::not_finite in `status` (resized to N; all others active).
 Scaling measureScaling(const Points& points, std::vector<PointStatus>& status);
 

@@ -15,7 +15,7 @@ constexpr std::int64_t block_size = 4096;
 constexpr int search_factor = 8;    // times k: what is looked through for points beyond a gap
 constexpr double off_plane = 0.25;  // of the reach, as between the heights of two sheets
 constexpr double farthest = 2;      // times the longest edge
-constexpr double infinity = 1e100;  // median spreads; squares of what lies farther away may overflow
+constexpr double infinity = 1e70;   // median spreads; squares of what lies farther away may overflow
 constexpr double margin = 0.25;     // of a gap, on either side: neighbours along its border may reach into that
 
 /// A gap between the triangles of a star, counterclockwise.

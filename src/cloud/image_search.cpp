@@ -73,6 +73,13 @@ class ImageSearch final : public ScanSearch {
     for (int windows = 1;; ++windows) {
       const Borders border = collect(place_[p], window, searched, found);
       const bool is_full = static_cast<int>(found.size()) >= k;
+      if (static_cast<int>(found.size()) + searched.cut < k) {  // pixels without a point
+        const bool is_whole = window.columns >= columns_ && window.rows >= rows_;
+        window = {2 * window.columns, 2 * window.rows};
+        if (is_whole || window.pixels() > pixels_per_point * most_pixels_per_neighbor * k) break;
+        windows = 0;
+        continue;
+      }
       const double last = is_full ? takeNearest(k, found) : std::numeric_limits<double>::infinity();
       // A border one pixel further out is that much further away where the surface is smooth.
       const double column_step = border.columns / static_cast<double>(window.columns);

@@ -21,6 +21,10 @@ double flatness(const PrincipalAxes& axes) {
 
 }  // namespace
 
+bool NeighborhoodFinder::splitsSheets() const {
+  return options_.steps.split_sheets && !source_.isFixed() && !source_.isGraded();
+}
+
 int NeighborhoodFinder::mostNeighbors() const {
   return most_growth * source_.k;
 }
@@ -45,6 +49,7 @@ void NeighborhoodFinder::find(int p, Neighborhood& hood) const {
 }
 
 bool NeighborhoodFinder::isUneven(const Neighborhood& hood) const {
+  if (hood.neighbors.size() < least_sheet) return true;
   if (liesOnOneLine(hood.axes)) return true;
   if (options_.steps.growth == Growth::line || source_.isGraded()) return false;
   const double half = hood.radius / 2;
@@ -60,13 +65,12 @@ void NeighborhoodFinder::fit(int p, Neighborhood& hood, SheetScratch& scratch) c
     hood.grown = true;
   }
   hood.reach = hood.radius;
-  if (options_.steps.split_sheets && !source_.isFixed()) splitSheets(p, hood, scratch);
+  if (splitsSheets()) splitSheets(p, hood, scratch);
 }
 
 bool NeighborhoodFinder::grow(int p, int most, Neighborhood& hood, SheetScratch& scratch) const {
   if (!query(p, std::min(2 * hood.k, most), hood)) return false;
-  if (options_.steps.split_sheets && (hood.split || (!hood.restored && !hood.grown)))
-    keepSheet(p, hood.axes.normal, hood, scratch);
+  if (splitsSheets() && (hood.split || (!hood.restored && !hood.grown))) keepSheet(p, hood.axes.normal, hood, scratch);
   return true;
 }
 

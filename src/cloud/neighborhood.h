@@ -52,6 +52,8 @@ class NeighborhoodFinder {
  private:
   void search(int p, int k, Neighborhood& hood) const;
   bool query(int p, int k, Neighborhood& hood) const;
+  /// Rings would be taken for sheets.
+  bool splitsSheets() const;
   bool isUneven(const Neighborhood& hood) const;
   /// Keeps the neighbours whose heights along `normal` are reached from p over gaps of at most a quarter of the reach.
   /// True if some were left out.

@@ -125,8 +125,9 @@ class RingSearch final : public ScanSearch {
   void addRing(int self, int foot, double radius, std::vector<Neighbor>& found) const {
     if (foot != self) found.push_back({squaredDistance(self, foot), rank_[foot]});
     const double most = radius * radius;
-    const int half = (ringSize(ring_[foot]) - 1) / 2;
+    const int size = ringSize(ring_[foot]);
     for (const int side : {1, -1}) {
+      const int half = (side > 0 ? size : size - 1) / 2;  // the point opposite comes once
       int misses = 0;
       for (int steps = 1; steps <= half; steps = nextStep(steps)) {
         const int place = stepped(foot, side * steps);

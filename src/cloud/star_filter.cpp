@@ -47,7 +47,7 @@ bool isTooLarge(const Stars& stars, int p, int i) {
 /// any of them, or for those around a point that sees further than they do.
 bool isImplausible(const Stars& stars, const Points& points, int p, int i) {
   const int a = stars.link[i], b = stars.link[stars.after(p, i)];
-  if (stars.isolated[a] != 0 || stars.isolated[b] != 0 || stars.radius[i] > 3 * stars.reach[p]) return true;
+  if (stars.radius[i] > 3 * stars.reach[p]) return true;
   const double smallest = std::min({stars.reach[p], stars.reach[a], stars.reach[b]});
   // In space the circle is no smaller than half the longest side; only then the stars of a and b are looked at.
   const double radius = circumradius(points, p, a, b);
@@ -83,6 +83,7 @@ std::int64_t dropTriangles(Stars& stars, const Workers& workers, const Test& tes
 void filterStars(Stars& stars, const Points& points, int k, Filter filter, const Workers& workers, Report& report) {
   if (stars.size() <= k + 1) return;
   report.dropped_triangles += dropTriangles(stars, workers, [&](int p, int i) {
+    if (stars.isolated[stars.link[i]] != 0 || stars.isolated[stars.link[stars.after(p, i)]] != 0) return true;
     return filter == Filter::radius ? isTooLarge(stars, p, i) : isImplausible(stars, points, p, i);
   });
 }

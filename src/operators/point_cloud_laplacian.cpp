@@ -145,8 +145,9 @@ Laplacian pointCloudLaplacian(const Points& points, const CloudOptions& options)
   clock.finish("tree", source.bytes());
 
   Stars stars = buildStars(cloud, source, options, workers, report);
-  if (options.steps.isolate_outliers) isolateOutliers(stars, cloud, source, workers, report);
   clock.restart();  // buildStars books its own stages
+  if (options.steps.isolate_outliers) isolateOutliers(stars, cloud, source, workers, report);
+  clock.finish("outliers", 0);
   filterStars(stars, cloud.points, source.k, options.steps.filter, workers, report);
   countVotes(stars, workers, report);
   clock.finish("filter", 0);

@@ -95,6 +95,8 @@ TEST(Scans, APointIsAnOutlierOverASurfaceButNotBesideIt) {
   const Laplacian over = pointCloudLaplacian(points, options);
   EXPECT_EQ(over.status[1600], PointStatus::isolated);
   EXPECT_EQ(over.report.outliers, 1);
+  options.steps.filter = Filter::radius;
+  EXPECT_EQ(pointCloudLaplacian(points, options).status[1600], PointStatus::isolated);
   points.row(1600) = corner + Eigen::RowVector3d(-6, 0, 0);
   EXPECT_EQ(pointCloudLaplacian(points, options).report.outliers, 0);
 }

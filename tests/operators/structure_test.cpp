@@ -110,6 +110,31 @@ TEST(RingStructure, ClosesACylinderAroundItsSensor) {
   }
 }
 
+TEST(ImageStructure, FindsNeighborsAcrossPixelsWithoutAPoint) {
+  // Every fourth pixel of every fourth row.
+  const int side = 40;
+  const Points points = shapes::squareLattice(side, 1).points;
+  ScanStructure sparse = imageStructure(side, side, {side / 2, side / 2, -side});
+  for (int& row : sparse.row) row *= 4;
+  for (double& column : sparse.position) column *= 4;
+  const Laplacian laplacian = build(points, sparse, Preset::scan);
+  EXPECT_EQ(laplacian.report.active, side * side);
+  EXPECT_EQ(countOpen(laplacian, 0, side * side), 4 * (side - 1));
+  EXPECT_NEAR(laplacian.report.area, (side - 1) * (side - 1), 1e-9 * side * side);
+}
+
+TEST(RingStructure, OfTwoPointsEachIsAStrip) {
+  Points points(2 * 40, 3);
+  std::vector<int> ring;
+  for (int i = 0; i < 80; ++i) {
+    points.row(i) << (i % 2 == 0 ? 0.5 : -0.5), 0, i / 2;
+    ring.push_back(i / 2);
+  }
+  const Laplacian laplacian = build(points, ringStructure(points, ring), Preset::lidar);
+  EXPECT_EQ(laplacian.report.active, 80);
+  EXPECT_EQ(laplacian.report.components, 1);
+}
+
 TEST(RingStructure, ClosesTheRoomThatTheTreeLeavesOpen) {
   const auto scan = shapes::lidar({.rings = 32, .azimuth_step = 0.4});
   const auto inner = shapes::scanTruth(scan, true).inner;
