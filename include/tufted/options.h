@@ -70,7 +70,8 @@ enum class Preset {
   lidar,  ///< the same from a spinning scanner, whose rings would be taken for sheets
 };
 
-/// What is done about clouds that are not exact samples of one surface. By default those of Preset::scan.
+/// What is done about clouds that are not exact samples of one surface. By default those of Preset::scan. With the
+/// caller's neighborhoods nothing is grown, split or searched again and outliers stay; with a structure outliers stay.
 struct CloudSteps {
   Growth growth = Growth::line;
   bool split_sheets = true;  ///< neighbours beyond a gap along the normal belong to another surface and are left out
