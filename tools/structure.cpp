@@ -2,8 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cstdint>
-#include <cstring>
 #include <utility>
 #include <vector>
 
@@ -11,42 +9,10 @@
 
 namespace {
 
-template <class T>
-int valueAt(const tufted::Field& field, std::size_t i) {
-  T value;
-  std::memcpy(&value, field.bytes.data() + i * sizeof(T), sizeof(T));
-  if constexpr (std::is_floating_point_v<T>) {
-    return value >= 0 && value < T(1 << 30) ? static_cast<int>(value) : -1;
-  } else {
-    return std::cmp_greater_equal(value, 0) && std::cmp_less(value, 1 << 30) ? static_cast<int>(value) : -1;
-  }
-}
-
 /// Negative where the value is no number of a ring.
 int ringAt(const tufted::Field& field, std::size_t i) {
-  switch (field.type) {
-    case tufted::FieldType::int8:
-      return valueAt<std::int8_t>(field, i);
-    case tufted::FieldType::uint8:
-      return valueAt<std::uint8_t>(field, i);
-    case tufted::FieldType::int16:
-      return valueAt<std::int16_t>(field, i);
-    case tufted::FieldType::uint16:
-      return valueAt<std::uint16_t>(field, i);
-    case tufted::FieldType::int32:
-      return valueAt<std::int32_t>(field, i);
-    case tufted::FieldType::uint32:
-      return valueAt<std::uint32_t>(field, i);
-    case tufted::FieldType::int64:
-      return valueAt<std::int64_t>(field, i);
-    case tufted::FieldType::uint64:
-      return valueAt<std::uint64_t>(field, i);
-    case tufted::FieldType::float32:
-      return valueAt<float>(field, i);
-    case tufted::FieldType::float64:
-      return valueAt<double>(field, i);
-  }
-  return -1;
+  const double value = tufted::valueOf(field, i);
+  return value >= 0 && value < (1 << 30) ? static_cast<int>(value) : -1;
 }
 
 tufted::ScanStructure ringsOf(const tufted::Geometry& geometry, const std::string& name) {

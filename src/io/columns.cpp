@@ -97,3 +97,7 @@ std::int64_t checkedRows(const std::filesystem::path& path, std::int64_t rows) {
 }
 
 }  // namespace tufted::io
+
+double tufted::valueOf(const Field& field, std::size_t i) {
+  return io::valueOf(field.type, field.bytes.data() + i * io::sizeOf(field.type));
+}

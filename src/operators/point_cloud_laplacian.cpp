@@ -6,9 +6,7 @@
 #include "cloud/boundary.h"
 #include "cloud/morton.h"
 #include "cloud/neighbor_source.h"
-#include "cloud/outliers.h"
-#include "cloud/star_filter.h"
-#include "cloud/stars.h"
+#include "cloud/surface_stars.h"
 #include "cloud/tangent_frame.h"
 #include "operators/pipeline.h"
 #include "operators/star_mass.h"
@@ -144,13 +142,8 @@ Laplacian pointCloudLaplacian(const Points& points, const CloudOptions& options)
   NeighborSource source = neighborSource(options, cloud, result.status, result.representative, workers, report);
   clock.finish("tree", source.bytes());
 
-  Stars stars = buildStars(cloud, source, options, workers, report);
-  clock.restart();  // buildStars books its own stages
-  if (options.steps.isolate_outliers) isolateOutliers(stars, cloud, source, workers, report);
-  clock.finish("outliers", 0);
-  filterStars(stars, cloud.points, source.k, options.steps.filter, workers, report);
-  countVotes(stars, workers, report);
-  clock.finish("filter", 0);
+  Stars stars = surfaceStars(cloud, source, options, workers, report);
+  clock.restart();  // surfaceStars books its own stages
 
   describePoints(stars, findBoundary(stars, cloud, source, viewpoint, workers), cloud, result);
   source = {};

@@ -124,16 +124,14 @@ ImageTags countImageTags(const Build& build, Boundary kind, const std::vector<st
   return tags;
 }
 
-ImageTags countRims(const Build& build) {
+/// @param kind rim or jump
+ImageTags countImageTags(const Build& build, Boundary kind) {
   const shapes::ImageEdges& edges = build.sample().edges;
+  if (kind == Boundary::jump) return countImageTags(build, kind, edges.jump, edges.other);
   std::vector<std::uint8_t> only_rim = edges.rim;
   const auto beside_other = shapes::widened(edges.other, build.cloud().width, 1);
   for (std::size_t i = 0; i < only_rim.size(); ++i) only_rim[i] = edges.rim[i] != 0 && beside_other[i] == 0 ? 1 : 0;
-  return countImageTags(build, Boundary::rim, only_rim, edges.rim);
-}
-
-ImageTags countJumps(const Build& build) {
-  return countImageTags(build, Boundary::jump, build.sample().edges.jump, build.sample().edges.other);
+  return countImageTags(build, kind, only_rim, edges.rim);
 }
 
 }  // namespace
@@ -270,23 +268,13 @@ double boundaryPrecision(const Build& build) {
   return static_cast<double>(tags.both) / tags.tagged;
 }
 
-double imageRimRecall(const Build& build) {
-  const ImageTags tags = countRims(build);
+double imageRecall(const Build& build, Boundary kind) {
+  const ImageTags tags = countImageTags(build, kind);
   return static_cast<double>(tags.found) / tags.truth;
 }
 
-double imageRimPrecision(const Build& build) {
-  const ImageTags tags = countRims(build);
-  return static_cast<double>(tags.right) / tags.tagged;
-}
-
-double imageJumpRecall(const Build& build) {
-  const ImageTags tags = countJumps(build);
-  return static_cast<double>(tags.found) / tags.truth;
-}
-
-double imageJumpPrecision(const Build& build) {
-  const ImageTags tags = countJumps(build);
+double imagePrecision(const Build& build, Boundary kind) {
+  const ImageTags tags = countImageTags(build, kind);
   return static_cast<double>(tags.right) / tags.tagged;
 }
 

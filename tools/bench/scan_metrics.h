@@ -40,10 +40,9 @@ double boundaryPrecision(const Build& build);  ///< share of tagged points that 
 /// The same for one kind of tag in a depth image. A pixel beside an edge is found where it or one around it has the
 /// tag: between the steps of a slanted edge the surface's triangles go on. A tag is right up to two pixels from an
 /// edge.
-double imageRimRecall(const Build& build);
-double imageRimPrecision(const Build& build);
-double imageJumpRecall(const Build& build);
-double imageJumpPrecision(const Build& build);
+/// @param kind rim or jump
+double imageRecall(const Build& build, Boundary kind);
+double imagePrecision(const Build& build, Boundary kind);
 
 /// Share of the points active in the core's build whose row of L is the same up to 1e-6 of its diagonal.
 double equalRows(const Build& build);

@@ -72,10 +72,15 @@ Sample depthImage(const shapes::DepthCameraOptions& camera, std::uint64_t seed) 
 
 std::vector<Metric> kindsOfTags() {
   const Mark tagged{.rule = Rule::at_least, .value = 0.95};
-  return {{"recall of rims", Format::percent, imageRimRecall, tagged, {}},
-          {"precision of rims", Format::percent, imageRimPrecision, tagged, {}},
-          {"recall of jumps", Format::percent, imageJumpRecall, tagged, {}},
-          {"precision of jumps", Format::percent, imageJumpPrecision, tagged, {}}};
+  std::vector<Metric> metrics;
+  for (const Boundary kind : {Boundary::rim, Boundary::jump}) {
+    const std::string name = kind == Boundary::rim ? "rims" : "jumps";
+    const auto recall = [kind](const Build& build) { return imageRecall(build, kind); };
+    const auto precision = [kind](const Build& build) { return imagePrecision(build, kind); };
+    metrics.push_back({"recall of " + name, Format::percent, recall, tagged, {}});
+    metrics.push_back({"precision of " + name, Format::percent, precision, tagged, {}});
+  }
+  return metrics;
 }
 
 std::vector<fs::path> filesIn(const fs::path& folder) {

@@ -6,9 +6,7 @@
 
 #include "cloud/morton.h"
 #include "cloud/neighbor_source.h"
-#include "cloud/outliers.h"
-#include "cloud/star_filter.h"
-#include "cloud/stars.h"
+#include "cloud/surface_stars.h"
 
 namespace tufted::bench {
 
@@ -19,9 +17,7 @@ Triangles unionOfStars(const Points& points, const CloudOptions& options, const 
   Report report;
   const RankedCloud cloud = rankPoints(points, status, representative);
   const NeighborSource source = neighborSource(options, cloud, status, representative, workers, report);
-  Stars stars = buildStars(cloud, source, options, workers, report);
-  if (options.steps.isolate_outliers) isolateOutliers(stars, cloud, source, workers, report);
-  filterStars(stars, cloud.points, source.k, options.steps.filter, workers, report);
+  const Stars stars = surfaceStars(cloud, source, options, workers, report);
 
   Triangles triangles(laplacian.report.triangles, 3);
   Eigen::Index count = 0;

@@ -24,6 +24,9 @@ struct Field {
   std::vector<std::byte> bytes;  ///< N * count values, native byte order
 };
 
+/// Value i of the N * count ones of a field. 64-bit integers beyond 2^53 are rounded.
+double valueOf(const Field& field, std::size_t i);
+
 /// What a file holds: a cloud, or a mesh.
 struct Geometry {
   std::string format;         ///< of the file, for people: "PCD, binary", "LAS 1.4, point format 6"

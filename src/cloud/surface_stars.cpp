@@ -1,0 +1,21 @@
+#include "cloud/surface_stars.h"
+
+#include "base/stage_clock.h"
+#include "cloud/outliers.h"
+#include "cloud/star_filter.h"
+
+namespace tufted {
+
+Stars surfaceStars(const RankedCloud& cloud, const NeighborSource& source, const CloudOptions& options,
+                   const Workers& workers, Report& report) {
+  Stars stars = buildStars(cloud, source, options, workers, report);  // books its own stages
+  StageClock clock(report);
+  if (options.steps.isolate_outliers) isolateOutliers(stars, cloud, source, workers, report);
+  clock.finish("outliers", 0);
+  filterStars(stars, cloud.points, source.k, options.steps.filter, workers, report);
+  countVotes(stars, workers, report);
+  clock.finish("filter", 0);
+  return stars;
+}
+
+}  // namespace tufted
