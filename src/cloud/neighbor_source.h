@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "cloud/group_search.h"
 #include "cloud/morton.h"
 #include "cloud/neighbors.h"
 #include "cloud/scan_search.h"
@@ -30,6 +31,13 @@ struct NeighborSource {
   /// NeighborSearch::nearest and ScanSearch::nearest.
   /// @returns the region that was searched
   ScanSearch::Searched nearest(const Points& points, int p, int count, std::vector<Neighbor>& found) const;
+
+  /// The k neighbours of every point of [first, first + count), row after row, by one search for many. Only with
+  /// `search`.
+  void nearestOfEach(const Points& points, int first, int count, GroupScratch& scratch,
+                     std::vector<Neighbor>& found) const {
+    tufted::nearestOfEach(*search, points, first, count, k, fastestKernels(), scratch, found);
+  }
 
   std::size_t bytes() const;
 };

@@ -43,9 +43,22 @@ void NeighborhoodFinder::search(int p, int k, Neighborhood& hood) const {
   hood.cut = searched.cut;
 }
 
-void NeighborhoodFinder::find(int p, Neighborhood& hood) const {
-  hood.grown = hood.split = hood.restored = hood.isolated = false;
-  search(p, source_.k, hood);
+void NeighborhoodFinder::find(int first, int count, GroupScratch& scratch, std::vector<Neighbor>& found,
+                              Neighborhood* hoods) const {
+  if (source_.search != nullptr) source_.nearestOfEach(points_, first, count, scratch, found);
+  for (int i = 0; i < count; ++i) {
+    Neighborhood& hood = hoods[i];
+    hood.grown = hood.split = hood.restored = hood.isolated = false;
+    if (source_.search == nullptr) {
+      search(first + i, source_.k, hood);
+      continue;
+    }
+    const auto row = found.begin() + static_cast<std::ptrdiff_t>(i) * source_.k;
+    hood.neighbors.assign(row, row + source_.k);
+    hood.k = source_.k;
+    hood.radius = source_.k > 0 ? std::sqrt(hood.neighbors.back().squared_distance) : 0;
+    hood.cut = 0;
+  }
 }
 
 bool NeighborhoodFinder::isUneven(const Neighborhood& hood) const {

@@ -36,8 +36,8 @@ class NeighborhoodFinder {
   NeighborhoodFinder(const Points& points, const NeighborSource& source, const CloudOptions& options)
       : points_(points), source_(source), options_(options) {}
 
-  /// The caller's k neighbours, or the caller's own list.
-  void find(int p, Neighborhood& hood) const;
+  /// For each of `count` points from `first` on the caller's k neighbours, or the caller's own list.
+  void find(int first, int count, GroupScratch& scratch, std::vector<Neighbor>& found, Neighborhood* hoods) const;
 
   /// Doubles the neighbourhood while it says too little about the surface, fits the plane, and leaves other sheets out.
   void fit(int p, Neighborhood& hood, SheetScratch& scratch) const;

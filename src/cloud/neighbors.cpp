@@ -4,6 +4,7 @@
 #include <flann/algorithms/kdtree_single_index.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace tufted {
@@ -46,6 +47,46 @@ class NearestSet final : public flann::ResultSet<double> {
   double worst_ = std::numeric_limits<double>::infinity();
 };
 
+/// All points in a ball whose radius shrinks to that of the k nearest of its centre plus a margin.
+class ShrinkingBall final : public flann::ResultSet<double> {
+ public:
+  /// @param nearest k squared distances of points from the centre, a heap with the largest in front
+  ShrinkingBall(double margin, std::vector<double>& nearest, std::vector<int>& found)
+      : margin_(margin), nearest_(nearest), found_(found) {
+    std::fill(nearest_.begin(), nearest_.end(), nearest_.front());  // a bound; the points come again
+    setWorst();
+  }
+
+  bool full() const override { return true; }
+  double worstDist() const override { return worst_; }
+  bool isTooFull() const { return found_.size() > most_candidates; }
+
+  void addPoint(double squared_distance, size_t index) override {
+    found_.push_back(static_cast<int>(index));
+    if (isTooFull()) {
+      worst_ = -1;  // nothing is nearer: the search ends
+    } else if (squared_distance < nearest_.front()) {
+      std::pop_heap(nearest_.begin(), nearest_.end());
+      nearest_.back() = squared_distance;
+      std::push_heap(nearest_.begin(), nearest_.end());
+      setWorst();
+    }
+  }
+
+ private:
+  static constexpr std::size_t most_candidates = 1024;
+
+  void setWorst() {
+    const double radius = std::sqrt(nearest_.front()) + margin_;
+    worst_ = radius * radius * (1 + 1e-12) + std::numeric_limits<double>::denorm_min();
+  }
+
+  double margin_;
+  std::vector<double>& nearest_;
+  std::vector<int>& found_;
+  double worst_ = 0;
+};
+
 }  // namespace
 
 struct NeighborSearch::Tree {
@@ -55,7 +96,7 @@ struct NeighborSearch::Tree {
   explicit Tree(const Points& points)
       // The points are in Morton order already, so FLANN's reordered copy would only cost memory.
       : index(flann::Matrix<double>(const_cast<double*>(points.data()), static_cast<size_t>(points.rows()), 3),
-              flann::KDTreeSingleIndexParams(10, false)) {
+              flann::KDTreeSingleIndexParams(16, false)) {
     index.buildIndex();
   }
 };
@@ -71,6 +112,32 @@ void NeighborSearch::nearest(int p, int k, std::vector<Neighbor>& found) const {
   NearestSet set(p, std::min(k, available), found);
   if (k <= 0 || available <= 0) return;
   tree_->index.findNeighbors(set, points_.row(p).data(), tree_->params);
+}
+
+bool NeighborSearch::candidates(int first, int count, int k, std::vector<int>& found, std::vector<double>& bounds,
+                                Eigen::RowVector3d& center, double& reach) const {
+  const int n = static_cast<int>(points_.rows());
+  const auto group = points_.middleRows(first, count);
+  const Eigen::RowVector3d lowest = group.colwise().minCoeff(), highest = group.colwise().maxCoeff();
+  center = lowest + (highest - lowest) / 2;
+  const double radius = std::sqrt((group.rowwise() - center).rowwise().squaredNorm().maxCoeff());
+
+  // A point of the group is not its own neighbour, so k + 1 nearest of the centre hold k neighbours of it. Points near
+  // on the curve bound their distance to begin with.
+  const int wanted = std::min(k, n - 1) + 1;
+  const int begin = std::max(0, std::min(first + count / 2 - wanted, n - 2 * wanted));
+  const int end = std::min(n, begin + 2 * wanted);
+  bounds.clear();
+  for (int q = begin; q < end; ++q) bounds.push_back((points_.row(q) - center).squaredNorm());
+  std::nth_element(bounds.begin(), bounds.begin() + (wanted - 1), bounds.end());
+  std::swap(bounds.front(), bounds[wanted - 1]);
+  bounds.resize(static_cast<std::size_t>(wanted));
+
+  found.clear();
+  ShrinkingBall ball(2 * radius, bounds, found);
+  tree_->index.findNeighbors(ball, center.data(), tree_->params);
+  reach = std::sqrt(bounds.front());
+  return !ball.isTooFull();
 }
 
 std::size_t NeighborSearch::bytes() const {

@@ -30,6 +30,15 @@ class NeighborSearch {
   /// `found` is overwritten and keeps its memory. Safe to call from several threads.
   void nearest(int p, int k, std::vector<Neighbor>& found) const;
 
+  /// All points that any of the points [first, first + count) has among its min(k, n - 1) nearest, and others near
+  /// them. False, and nothing of use, where these are so many that a common search does not pay.
+  /// @param[out] found ranks
+  /// @param bounds scratch
+  /// @param[out] center of the points' box
+  /// @param[out] reach a point q of them has at least k neighbours within reach + distance(q, center)
+  bool candidates(int first, int count, int k, std::vector<int>& found, std::vector<double>& bounds,
+                  Eigen::RowVector3d& center, double& reach) const;
+
   std::size_t bytes() const;
 
  private:

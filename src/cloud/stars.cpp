@@ -28,6 +28,8 @@ struct BlockOfStars {
 
 /// Memory, counts and times of one worker.
 struct WorkerState {
+  GroupScratch group;
+  std::vector<Neighbor> found;
   std::vector<Neighborhood> hoods;
   SheetScratch sheets;
   Neighborhood saved_hood;
@@ -55,7 +57,7 @@ class StarBuilder {
     const int first = static_cast<int>(begin);
     state.hoods.resize(std::max<std::size_t>(state.hoods.size(), count));
     Stopwatch watch;
-    for (int i = 0; i < count; ++i) finder_.find(first + i, state.hoods[i]);
+    finder_.find(first, count, state.group, state.found, state.hoods.data());
     state.seconds[0] += watch.restart();
     for (int i = 0; i < count; ++i) fitFrame(first + i, state.hoods[i], state, block);
     state.seconds[1] += watch.restart();

@@ -23,7 +23,9 @@ class Hoods {
 
   Neighborhood at(int p) {
     Neighborhood hood;
-    finder_.find(p, hood);
+    GroupScratch group;
+    std::vector<Neighbor> found;
+    finder_.find(p, 1, group, found, &hood);
     finder_.fit(p, hood, scratch_);
     return hood;
   }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "cloud/group_search.h"
 #include "cloud/morton.h"
 #include "shapes/shapes.h"
 
@@ -29,6 +30,34 @@ TEST(Neighbors, EqualBruteForceWithTiesToTheSmallerIndex) {
       for (int j = 0; j < 30; ++j) {
         ASSERT_EQ(found[j].index, expected[j].index) << cloud.name << " point " << p << " neighbour " << j;
         ASSERT_EQ(found[j].squared_distance, expected[j].squared_distance);
+      }
+    }
+  }
+}
+
+/// Clouds with ties, lines, jumps between groups, an outlier, more points in a ball than a group may have, few points.
+TEST(Neighbors, OfEachAreThoseOfOne) {
+  shapes::Cloud crowd = shapes::sphere(3000);
+  crowd.points.topRows(2000) *= 1e-9;
+  crowd.points.row(2999) *= 1e12;
+  shapes::Cloud few = shapes::sphere(9);
+  for (const auto& cloud : {shapes::sphere(5000), shapes::squareLattice(70), shapes::lidar({}), crowd, few}) {
+    std::vector<PointStatus> status;
+    std::vector<int> representative;
+    const RankedCloud ranked = rankPoints(cloud.points, status, representative);
+    const NeighborSearch search(ranked.points);
+    const int k = std::min(30, ranked.size() - 1);
+    GroupScratch scratch;
+    std::vector<Neighbor> each, one;
+    for (const SelectionKernels* kernels : {&portableKernels(), &fastestKernels()}) {
+      nearestOfEach(search, ranked.points, 0, ranked.size(), 30, *kernels, scratch, each);
+      ASSERT_EQ(std::ssize(each), static_cast<std::ptrdiff_t>(ranked.size()) * k);
+      for (int p = 0; p < ranked.size(); ++p) {
+        search.nearest(p, 30, one);
+        for (int j = 0; j < k; ++j) {
+          ASSERT_EQ(each[p * k + j].index, one[j].index) << cloud.name << " point " << p << " neighbour " << j;
+          ASSERT_EQ(each[p * k + j].squared_distance, one[j].squared_distance);
+        }
       }
     }
   }

@@ -1,0 +1,139 @@
+#include "cloud/group_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace tufted {
+namespace {
+
+constexpr int least_group = 4, most_group = 32;
+constexpr double widest_group = 2.5;  // diagonal of its box, in radii of a neighbourhood
+constexpr double likely = 1.08;       // times the squared radius of the point before: holds the k nearest most often
+constexpr double slack = 1 + 1e-12;   // bounds are rounded, what is selected must not be
+constexpr double nowhere = std::numeric_limits<double>::infinity();
+
+int padded(std::size_t count) {
+  return (static_cast<int>(count) + selection_lane - 1) / selection_lane * selection_lane;
+}
+
+class GroupSearch {
+ public:
+  GroupSearch(const NeighborSearch& search, const Points& points, int k, const SelectionKernels& kernels,
+              GroupScratch& scratch)
+      : search_(search), points_(points), k_(k), kernels_(kernels), scratch_(scratch) {}
+
+  /// How many points from `first` on, of `count`, lie close enough together.
+  int groupAt(int first, int count, double radius) const {
+    Eigen::RowVector3d lowest = points_.row(first), highest = lowest;
+    int size = 1;
+    for (; size < std::min(count, most_group); ++size) {
+      lowest = lowest.cwiseMin(points_.row(first + size));
+      highest = highest.cwiseMax(points_.row(first + size));
+      if (size >= least_group && (highest - lowest).norm() > widest_group * radius) break;
+    }
+    return size;
+  }
+
+  void find(int first, int count, Neighbor* found) {
+    if (count == 1) {
+      search_.nearest(first, k_, scratch_.sorted);
+      std::copy(scratch_.sorted.begin(), scratch_.sorted.end(), found);
+    } else if (!gather(first, count)) {
+      find(first, count / 2, found);
+      find(first + count / 2, count - count / 2, rowOf(found, count / 2));
+    } else {
+      for (int i = 0; i < count; ++i) select(first, i, found);
+    }
+  }
+
+  Neighbor* rowOf(Neighbor* found, int i) const { return found + static_cast<std::ptrdiff_t>(i) * k_; }
+  double radiusOf(const Neighbor* row) const { return std::sqrt(row[k_ - 1].squared_distance); }
+
+ private:
+  bool gather(int first, int count) {
+    Candidates& candidates = scratch_.candidates;
+    if (!search_.candidates(first, count, k_, candidates.index, scratch_.bounds, center_, reach_)) return false;
+    const std::size_t size = candidates.index.size(), room = static_cast<std::size_t>(padded(size));
+    candidates.index.resize(room);
+    for (auto* axis : {&candidates.x, &candidates.y, &candidates.z}) axis->resize(room);
+    for (std::size_t i = 0; i < size; ++i) {
+      const double* point = points_.row(candidates.index[i]).data();
+      candidates.x[i] = point[0];
+      candidates.y[i] = point[1];
+      candidates.z[i] = point[2];
+    }
+    for (std::size_t i = size; i < room; ++i) candidates.x[i] = candidates.y[i] = candidates.z[i] = nowhere;
+    scratch_.squared.resize(room + selection_lane);
+    scratch_.index.resize(room + selection_lane);
+    return true;
+  }
+
+  /// The k nearest of point i of the group, whose earlier points are done.
+  void select(int first, int i, Neighbor* found) {
+    const int p = first + i;
+    // By the neighbours of the centre or, most often nearer, by those of the point before.
+    double bound = reach_ + (points_.row(p) - center_).norm(), guess = nowhere;
+    if (i > 0) {
+      const double before = radiusOf(rowOf(found, i - 1));
+      bound = std::min(bound, before + (points_.row(p) - points_.row(p - 1)).norm());
+      guess = likely * before * before;
+    }
+    bound = bound * bound * slack + std::numeric_limits<double>::denorm_min();
+    int count = guess < bound ? takeWithin(p, guess) : 0;
+    if (count < k_) count = takeWithin(p, bound);
+    takeNearest(count, rowOf(found, i));
+  }
+
+  int takeWithin(int p, double bound) {
+    return kernels_.takeWithin(scratch_.candidates, points_.row(p).data(), p, bound, scratch_.squared.data(),
+                               scratch_.index.data());
+  }
+
+  /// The k least by (distance, index) of what was taken, in order. Where no two distances are equal, each goes to the
+  /// place that says how many are less.
+  void takeNearest(int count, Neighbor* row) {
+    const int room = padded(static_cast<std::size_t>(count));
+    std::fill(scratch_.squared.begin() + count, scratch_.squared.begin() + room, nowhere);
+    scratch_.place.resize(static_cast<std::size_t>(room));
+    kernels_.rankValues(scratch_.squared.data(), room, scratch_.place.data());
+    std::int64_t sum = 0;
+    for (int i = 0; i < count; ++i) {
+      sum += scratch_.place[i];
+      if (scratch_.place[i] < k_) row[scratch_.place[i]] = {scratch_.squared[i], scratch_.index[i]};
+    }
+    if (sum == static_cast<std::int64_t>(count) * (count - 1) / 2) return;
+    scratch_.sorted.clear();
+    for (int i = 0; i < count; ++i) scratch_.sorted.push_back({scratch_.squared[i], scratch_.index[i]});
+    std::partial_sort(scratch_.sorted.begin(), scratch_.sorted.begin() + k_, scratch_.sorted.end());
+    std::copy_n(scratch_.sorted.begin(), k_, row);
+  }
+
+  const NeighborSearch& search_;
+  const Points& points_;
+  const int k_;
+  const SelectionKernels& kernels_;
+  GroupScratch& scratch_;
+  Eigen::RowVector3d center_;
+  double reach_ = 0;  ///< see NeighborSearch::candidates
+};
+
+}  // namespace
+
+void nearestOfEach(const NeighborSearch& search, const Points& points, int first, int count, int k,
+                   const SelectionKernels& kernels, GroupScratch& scratch, std::vector<Neighbor>& found) {
+  k = std::max(0, std::min(k, static_cast<int>(points.rows()) - 1));
+  found.resize(static_cast<std::size_t>(count) * static_cast<std::size_t>(k));
+  if (k == 0) return;
+  GroupSearch search_group(search, points, k, kernels, scratch);
+  double radius = nowhere;
+  for (int i = 0; i < count;) {
+    Neighbor* rows = search_group.rowOf(found.data(), i);
+    const int size = search_group.groupAt(first + i, count - i, radius);
+    search_group.find(first + i, size, rows);
+    radius = search_group.radiusOf(search_group.rowOf(rows, size - 1));
+    i += size;
+  }
+}
+
+}  // namespace tufted
