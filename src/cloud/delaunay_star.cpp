@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "base/pseudo_angle.h"
+#include "cloud/inverted_star.h"
 
 namespace tufted {
 namespace {
@@ -68,9 +69,7 @@ bool isCutOff(int p, const PlanarPoint& a, const PlanarPoint& b, const PlanarPoi
 
 }  // namespace
 
-double DelaunayStar::circumradius(int i) const {
-  const PlanarPoint& a = link[i];
-  const PlanarPoint& b = after(i);
+double circumradius(const PlanarPoint& a, const PlanarPoint& b) {
   const double cross = a.u * b.v - a.v * b.u;
   if (!(cross > 0)) return std::numeric_limits<double>::infinity();
   // Root by root: the product of the squares could leave the range of a double.
@@ -79,9 +78,7 @@ double DelaunayStar::circumradius(int i) const {
 }
 
 double DelaunayStar::largestCircumradius() const {
-  double largest = 0;
-  for (int i = 0; i < triangles(); ++i) largest = std::max(largest, circumradius(i));
-  return largest;
+  return radius.empty() ? 0 : *std::max_element(radius.begin(), radius.end());
 }
 
 void wrapChosen(int p, StarScratch& scratch, DelaunayStar& star) {
@@ -89,6 +86,7 @@ void wrapChosen(int p, StarScratch& scratch, DelaunayStar& star) {
   sortByDirection(ring, scratch.directed);
   const int m = static_cast<int>(ring.size());
   star.link.clear();
+  star.radius.clear();
   star.closed = false;
   if (m < 2) {
     star.link = ring;
@@ -131,9 +129,14 @@ void wrapChosen(int p, StarScratch& scratch, DelaunayStar& star) {
     b = a;
   }
   for (int i = 0, at = first; i < left; ++i, at = scratch.next[at]) star.link.push_back(ring[at]);
+  for (int i = 0; i < star.triangles(); ++i) star.radius.push_back(circumradius(star.link[i], star.after(i)));
 }
 
 void delaunayStar(const std::vector<PlanarPoint>& candidates, int p, StarScratch& scratch, DelaunayStar& star) {
+  if (!wrapInverted(candidates, star)) delaunayStarExact(candidates, p, scratch, star);
+}
+
+void delaunayStarExact(const std::vector<PlanarPoint>& candidates, int p, StarScratch& scratch, DelaunayStar& star) {
   std::vector<PlanarPoint>& chosen = scratch.chosen;
   const auto hasDirection = [](const PlanarPoint& q) { return q.u != 0 || q.v != 0; };
   const std::size_t near = std::min(near_part, candidates.size());

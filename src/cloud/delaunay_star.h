@@ -11,12 +11,16 @@ struct DelaunayStar {
   std::vector<PlanarPoint> link;  ///< counterclockwise; triangle i is (p, link[i], link[i + 1])
   bool closed = false;            ///< the last link vertex is joined to the first; else p is a boundary point
 
+  /// Circumradius of each triangle; infinite where it is too flat for a double.
+  std::vector<double> radius;
+
   int triangles() const { return static_cast<int>(link.size()) - (closed || link.empty() ? 0 : 1); }
   const PlanarPoint& after(int i) const { return link[i + 1 == static_cast<int>(link.size()) ? 0 : i + 1]; }
-  /// Circumradius of triangle i; infinite where it is too flat for a double.
-  double circumradius(int i) const;
   double largestCircumradius() const;
 };
+
+/// Of the triangle (origin, a, b), counterclockwise; infinite where it is too flat for a double.
+double circumradius(const PlanarPoint& a, const PlanarPoint& b);
 
 /// A planar point with a number that grows with the angle of its direction.
 struct Directed {
@@ -41,6 +45,9 @@ void delaunayStar(const std::vector<PlanarPoint>& candidates, int p, StarScratch
 
 /// Same triangles by CGAL::Delaunay_triangulation_2. Only with TUFTED_WITH_GPL.
 void delaunayStarCgal(const std::vector<PlanarPoint>& candidates, int p, StarScratch& scratch, DelaunayStar& star);
+
+/// delaunayStar() without its short cut, wrapInverted().
+void delaunayStarExact(const std::vector<PlanarPoint>& candidates, int p, StarScratch& scratch, DelaunayStar& star);
 
 /// The star among `scratch.chosen` alone (reordered here): sort by angle, then remove link vertices by the in-circle
 /// test until stable.

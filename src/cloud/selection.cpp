@@ -3,6 +3,8 @@
 #include <bit>
 #include <cstring>
 
+#include "base/pair.h"
+
 #if defined(__x86_64__) && defined(__GNUC__)
 #include <immintrin.h>
 #define TUFTED_AVX512 __attribute__((target("avx512f,avx512vl")))
@@ -11,15 +13,6 @@
 namespace tufted {
 namespace {
 
-using Pair = double __attribute__((vector_size(16)));
-using Counts = std::int64_t __attribute__((vector_size(16)));
-
-Pair load(const double* values) {
-  Pair result;
-  std::memcpy(&result, values, sizeof(Pair));
-  return result;
-}
-
 int takeWithinPortable(const Candidates& candidates, const double* point, int p, double bound, double* squared_distance,
                        int* index) {
   const double *x = candidates.x.data(), *y = candidates.y.data(), *z = candidates.z.data();
@@ -27,7 +20,7 @@ int takeWithinPortable(const Candidates& candidates, const double* point, int p,
   const auto count = candidates.index.size();
   int found = 0;
   for (std::size_t i = 0; i < count; i += 2) {
-    const Pair dx = point[0] - load(x + i), dy = point[1] - load(y + i), dz = point[2] - load(z + i);
+    const Pair dx = point[0] - loadPair(x + i), dy = point[1] - loadPair(y + i), dz = point[2] - loadPair(z + i);
     const Pair squares = dx * dx + dy * dy + dz * dz;
     for (int j = 0; j < 2; ++j) {  // without a branch: which are near cannot be foreseen
       squared_distance[found] = squares[j];
@@ -41,8 +34,9 @@ int takeWithinPortable(const Candidates& candidates, const double* point, int p,
 void rankValuesPortable(const double* values, int count, std::int64_t* rank) {
   constexpr int pairs = selection_lane / 2;
   for (int i = 0; i < count; i += selection_lane) {
-    const Pair a = load(values + i), b = load(values + i + 2), c = load(values + i + 4), d = load(values + i + 6);
-    Counts less[pairs] = {};
+    const Pair a = loadPair(values + i), b = loadPair(values + i + 2), c = loadPair(values + i + 4),
+               d = loadPair(values + i + 6);
+    PairCounts less[pairs] = {};
     for (int j = 0; j < count; ++j) {
       const Pair value = {values[j], values[j]};
       less[0] -= value < a;  // true is -1

@@ -102,12 +102,15 @@ class StarBuilder {
 
   /// The star among the neighbours projected to the tangent plane of p, in units of `unit`.
   void project(int p, const Neighborhood& hood, double unit, WorkerState& state) const {
-    const Eigen::Vector3d tangent_x = tangentOf(hood.axes.normal);
-    const Eigen::Vector3d tangent_y = hood.axes.normal.cross(tangent_x);
+    const Eigen::Vector3d x = tangentOf(hood.axes.normal), y = hood.axes.normal.cross(x);
+    const double* points = cloud_.points.data();
+    const double* origin = points + 3 * std::ptrdiff_t{p};
     state.planar.clear();
     for (const Neighbor& q : hood.neighbors) {
-      const Eigen::Vector3d d = (cloud_.points.row(q.index) - cloud_.points.row(p)).transpose() * unit;
-      state.planar.push_back({d.dot(tangent_x), d.dot(tangent_y), q.index});
+      const double* point = points + 3 * std::ptrdiff_t{q.index};
+      const double dx = (point[0] - origin[0]) * unit, dy = (point[1] - origin[1]) * unit,
+                   dz = (point[2] - origin[2]) * unit;
+      state.planar.push_back({dx * x[0] + dy * x[1] + dz * x[2], dx * y[0] + dy * y[1] + dz * y[2], q.index});
     }
     wrap_(state.planar, p, state.scratch, state.star);
   }
@@ -162,7 +165,7 @@ class StarBuilder {
     stars_.offset[p + 1] = static_cast<int>(star.link.size());
     for (int i = 0; i < static_cast<int>(star.link.size()); ++i) {
       block.link.push_back(star.link[i].index);
-      block.radius.push_back(i < star.triangles() ? std::ldexp(star.circumradius(i), exponent) : no_triangle);
+      block.radius.push_back(i < star.triangles() ? std::ldexp(star.radius[i], exponent) : no_triangle);
       if (i < star.triangles() && block.radius.back() == no_triangle) {  // too flat for a double
         ++state.flat_triangles;
         stars_.ends[p] = 1;

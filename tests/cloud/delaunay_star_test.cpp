@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "cloud/inverted_star.h"
 #include "cloud/morton.h"
 #include "cloud/neighbors.h"
 #include "cloud/tangent_frame.h"
@@ -26,6 +27,39 @@ void expectStarsOfCloud(const std::string& name, const Points& points) {
 
 TEST(DelaunayStar, EqualsCgalOnEveryPointOfEveryGeneratedCloud) {
   for (const auto& cloud : shapes::allClouds(1500)) expectStarsOfCloud(cloud.name, cloud.points);
+}
+
+/// The short cut through the convex hull may decline, not differ.
+TEST(DelaunayStar, IsThatOfTheExactWayBitForBit) {
+  StarScratch scratch;
+  std::vector<Neighbor> neighbors;
+  int inverted = 0, all = 0;
+  for (const auto& shape : shapes::allClouds(1500)) {
+    std::vector<PointStatus> status;
+    std::vector<int> representative;
+    const RankedCloud cloud = rankPoints(shape.points, status, representative);
+    const NeighborSearch search(cloud.points);
+    for (int p = 0; p < cloud.size(); ++p) {
+      search.nearest(p, 30, neighbors);
+      const Eigen::Vector3d normal = principalAxes(cloud.points, p, neighbors).normal;
+      const Eigen::Vector3d x = tangentOf(normal), y = normal.cross(x);
+      std::vector<PlanarPoint> planar;
+      for (const Neighbor& q : neighbors) {
+        const Eigen::Vector3d d = cloud.points.row(q.index) - cloud.points.row(p);
+        planar.push_back({d.dot(x), d.dot(y), q.index});
+      }
+      DelaunayStar exact, star;
+      delaunayStarExact(planar, p, scratch, exact);
+      ++all;
+      if (!wrapInverted(planar, star)) continue;
+      ++inverted;
+      ASSERT_TRUE(exact.closed) << shape.name << " point " << p;
+      ASSERT_EQ(star.link.size(), exact.link.size()) << shape.name << " point " << p;
+      for (std::size_t i = 0; i < star.link.size(); ++i) ASSERT_EQ(star.link[i].index, exact.link[i].index);
+      ASSERT_EQ(star.radius, exact.radius);
+    }
+  }
+  EXPECT_GT(2 * inverted, all);  // worth its while
 }
 
 TEST(DelaunayStar, OfALatticeTakesTheDiagonalOfTheSmallestIndex) {
