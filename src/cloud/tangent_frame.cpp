@@ -7,32 +7,95 @@
 
 namespace tufted {
 
+namespace {
+
+constexpr double least_gap = 1e-3;  // between the two smallest eigenvalues over the largest, for the closed form
+constexpr int most_steps = 8;
+
+/// Upper triangle of a symmetric matrix.
+struct Symmetric {
+  double xx, xy, xz, yy, yz, zz;
+
+  Eigen::Vector3d times(const Eigen::Vector3d& v) const {
+    return {xx * v.x() + xy * v.y() + xz * v.z(), xy * v.x() + yy * v.y() + yz * v.z(),
+            xz * v.x() + yz * v.y() + zz * v.z()};
+  }
+};
+
+/// The smallest eigenvalue of a covariance by Newton's method on the characteristic polynomial, which from 0 rises to
+/// its first root, and the eigenvector as a cross product. False where two eigenvalues lie too close for that.
+bool findSmallest(const Symmetric& a, PrincipalAxes& axes) {
+  const double yz_minor = a.yy * a.zz - a.yz * a.yz;
+  const double trace = a.xx + a.yy + a.zz;
+  const double minors = yz_minor + (a.xx * a.zz - a.xz * a.xz) + (a.xx * a.yy - a.xy * a.xy);
+  const double determinant = a.xx * yz_minor - a.xy * (a.xy * a.zz - a.yz * a.xz) + a.xz * (a.xy * a.yz - a.yy * a.xz);
+  double smallest = 0;
+  for (int step = 0; step < most_steps; ++step) {
+    const double value = ((smallest - trace) * smallest + minors) * smallest - determinant;
+    const double slope = (3 * smallest - 2 * trace) * smallest + minors;
+    const double change = value / slope;
+    smallest -= change;
+    if (!(std::abs(change) > 1e-9 * trace)) break;  // convergence is quadratic
+  }
+  const double rest = trace - smallest;  // sum and product of the other two
+  const double product = minors - smallest * rest;
+  const double root = std::sqrt(std::max(0.0, rest * rest - 4 * product));
+  const double middle = (rest - root) / 2, largest = (rest + root) / 2;
+  if (!(middle - smallest > least_gap * largest)) return false;
+
+  const Eigen::Vector3d x(a.xx - smallest, a.xy, a.xz), y(a.xy, a.yy - smallest, a.yz), z(a.xz, a.yz, a.zz - smallest);
+  const Eigen::Vector3d xy = x.cross(y), yz = y.cross(z), zx = z.cross(x);
+  const double xy_square = xy.squaredNorm(), yz_square = yz.squaredNorm(), zx_square = zx.squaredNorm();
+  const bool first = xy_square >= yz_square && xy_square >= zx_square;
+  const Eigen::Vector3d& longest = first ? xy : yz_square >= zx_square ? yz : zx;
+  axes.normal = longest / std::sqrt(first ? xy_square : std::max(yz_square, zx_square));
+  axes.variance = {std::max(0.0, axes.normal.dot(a.times(axes.normal))), middle, largest};
+  return true;
+}
+
+}  // namespace
+
 PrincipalAxes principalAxes(const Points& points, int p, std::span<const Neighbor> neighbors) {
   // The extent as a power of two keeps squares in range at any scale, exactly.
+  const double* all = points.data();
+  const double px = all[3 * std::ptrdiff_t{p}], py = all[3 * std::ptrdiff_t{p} + 1],
+               pz = all[3 * std::ptrdiff_t{p} + 2];
   double extent = 0;
   for (const Neighbor& q : neighbors) {
-    extent = std::max(extent, (points.row(q.index) - points.row(p)).cwiseAbs().maxCoeff());
+    const double* point = all + 3 * std::ptrdiff_t{q.index};
+    extent = std::max({extent, std::abs(point[0] - px), std::abs(point[1] - py), std::abs(point[2] - pz)});
   }
   if (extent == 0) return {Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Zero()};
   const int exponent = std::max(std::ilogb(extent), -1022);
   const double unit = std::ldexp(1.0, -exponent);  // finite for any extent
 
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
+  double x = 0, y = 0, z = 0;
+  Symmetric moments{};
   for (const Neighbor& q : neighbors) {
-    const Eigen::Vector3d d = (points.row(q.index) - points.row(p)).transpose() * unit;
-    sum += d;
-    moments.noalias() += d * d.transpose();
+    const double* point = all + 3 * std::ptrdiff_t{q.index};
+    const double dx = (point[0] - px) * unit, dy = (point[1] - py) * unit, dz = (point[2] - pz) * unit;
+    x += dx;
+    y += dy;
+    z += dz;
+    moments.xx += dx * dx;
+    moments.xy += dx * dy;
+    moments.xz += dx * dz;
+    moments.yy += dy * dy;
+    moments.yz += dy * dz;
+    moments.zz += dz * dz;
   }
-  const double count = static_cast<double>(neighbors.size() + 1);  // p adds nothing but itself
-  const Eigen::Matrix3d covariance = moments / count - (sum / count) * (sum / count).transpose();
-
-  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver;
-  solver.computeDirect(covariance);
-  PrincipalAxes axes{solver.eigenvectors().col(0), solver.eigenvalues()};
-  // The closed form may fail where two eigenvalues meet; the iteration does not.
-  if (!(std::abs(axes.normal.squaredNorm() - 1) < 1e-12) || !axes.variance.allFinite()) {
-    solver.compute(covariance);
+  const double share = 1 / static_cast<double>(neighbors.size() + 1);  // p adds nothing but itself
+  x *= share;
+  y *= share;
+  z *= share;
+  const Symmetric covariance{moments.xx * share - x * x, moments.xy * share - x * y, moments.xz * share - x * z,
+                             moments.yy * share - y * y, moments.yz * share - y * z, moments.zz * share - z * z};
+  PrincipalAxes axes;
+  if (!findSmallest(covariance, axes)) {
+    Eigen::Matrix3d matrix;
+    matrix << covariance.xx, covariance.xy, covariance.xz, covariance.xy, covariance.yy, covariance.yz, covariance.xz,
+        covariance.yz, covariance.zz;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(matrix);
     axes = {solver.eigenvectors().col(0), solver.eigenvalues()};
   }
   axes.extent = std::ldexp(1.0, exponent);
