@@ -17,6 +17,13 @@ struct Frames {
   Points tangents;  ///< N x 3, unit length
 };
 
+/// What a cover is built from when it is asked for.
+class CoverSource {
+ public:
+  virtual ~CoverSource() = default;
+  virtual const IntrinsicTriangulation& cover() const = 0;
+};
+
 /// The Laplacian of a point cloud or a mesh, with what is known about each point.
 ///
 /// L is the weak (integrated) Laplacian: symmetric, positive semidefinite, off-diagonals <= 0, rows sum to 0.
@@ -33,11 +40,14 @@ struct Laplacian {
   Frames frames;                    ///< clouds only; 0 x 3 on meshes
   Report report;
 
-  /// The tufted cover after flips to intrinsic Delaunay, vertices numbered as the caller's points.
-  /// Throws InvalidInput after `keep_cover = false`.
+  /// The tufted cover after flips to intrinsic Delaunay, vertices numbered as the caller's points. On clouds the first
+  /// call builds it, which takes up to half as long as the build of L and M; any number of threads may call.
+  /// @throws InvalidInput after `keep_cover = false`
   const IntrinsicTriangulation& cover() const;
+  bool hasCover() const { return stored_cover != nullptr || cover_source != nullptr; }
 
   std::shared_ptr<const IntrinsicTriangulation> stored_cover;  ///< use cover()
+  std::shared_ptr<const CoverSource> cover_source;             ///< use cover()
 };
 
 /// The point cloud Laplacian of Section 5.7.

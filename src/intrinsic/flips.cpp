@@ -1,80 +1,25 @@
-#include <array>
-#include <cmath>
-#include <cstdint>
-#include <vector>
-
-#include "intrinsic/cover.h"
-#include "intrinsic/geometry.h"
+#include "intrinsic/flip_edges.h"
 
 namespace tufted {
 namespace {
 
 constexpr std::int64_t block_size = 16384;
-constexpr double flip_below = -1e-10;       // on cot + cot; ties of cocircular quadrilaterals stay
-constexpr std::uint8_t most_flips = 100;    // per edge
-constexpr std::uint8_t queued_flag = 0x80;  // flag beside the count
-constexpr std::int64_t report_every = 1 << 16;
 
-/// Equation 2. An edge with both sides in one triangle is Delaunay: its two opposite angles sum to less than pi.
-bool isDelaunay(const IntrinsicTriangulation& t, int side) {
-  const int mate = t.glue[side];
-  if (side / 3 == mate / 3) return true;
-  return !(oppositeCotan(t, side) + oppositeCotan(t, mate) < flip_below);
-}
+/// A cover that is all there.
+class WholeCover {
+ public:
+  explicit WholeCover(IntrinsicTriangulation& cover) : cover_(cover) {}
+  IntrinsicTriangulation& triangulation() { return cover_; }
+  void resolve(int) {}
+  void flipped(int, int) {}
+
+ private:
+  IntrinsicTriangulation& cover_;
+};
 
 /// Whether the angle opposite the side is obtuse; an edge that is not Delaunay has one on at least one side.
 bool isOppositeObtuse(const IntrinsicTriangulation& t, int side) {
   return cotanNumerator(t.length[side], t.length[nextSide(side)], t.length[previousSide(side)]) < 0;
-}
-
-/// Length of the other diagonal, from a layout of both triangles in the plane with the common edge on the x axis
-/// (Fisher et al. 2007): it stays accurate where the law of cosines cancels.
-double flippedLength(const IntrinsicTriangulation& t, int side, int mate) {
-  const double base = t.length[side];
-  // Apex of a triangle over the base from (0, 0), given the distances to its start and end.
-  const auto apex = [&](double from_start, double from_end) {
-    const double x = ((from_start - from_end) * (from_start + from_end) / base + base) / 2;
-    const double y = 2 * triangleArea(base, from_start, from_end) / base;
-    return std::array<double, 2>{x, y};
-  };
-  const auto above = apex(t.length[previousSide(side)], t.length[nextSide(side)]);
-  const auto below = apex(t.length[nextSide(mate)], t.length[previousSide(mate)]);
-  return std::hypot(above[0] - below[0], above[1] + below[1]);
-}
-
-/// Flips the edge i j between the faces (i, j, k) and (j, i, m) to k m (Figure 12). The flipped edge keeps its two side
-/// numbers; the faces become (m, k, i) and (k, m, j), counted from these sides.
-void flip(IntrinsicTriangulation& t, int side, int mate) {
-  const int jk = nextSide(side), ki = previousSide(side);
-  const int im = nextSide(mate), mj = previousSide(mate);
-  const int i = tail(t, side), j = head(t, side), k = head(t, jk), m = head(t, im);
-  const double flipped = flippedLength(t, side, mate);
-
-  // New places of the four outer sides: k i after `side`, then i m; m j after `mate`, then j k.
-  const std::array<int, 4> from = {ki, im, mj, jk};
-  const std::array<int, 4> to = {jk, ki, im, mj};
-  std::array<int, 4> outer_mate;
-  std::array<double, 4> outer_length;
-  for (int e = 0; e < 4; ++e) {
-    outer_mate[e] = t.glue[from[e]];
-    outer_length[e] = t.length[from[e]];
-    for (int o = 0; o < 4; ++o) {  // outer sides may be glued to each other
-      if (t.glue[from[e]] == from[o]) outer_mate[e] = to[o];
-    }
-  }
-  for (int e = 0; e < 4; ++e) {
-    t.length[to[e]] = outer_length[e];
-    glueSides(t, to[e], outer_mate[e]);
-  }
-  const auto setCorners = [&](int first, int a, int b, int c) {
-    auto& face = t.faces[first / 3];
-    face[first % 3] = a;
-    face[nextSide(first) % 3] = b;
-    face[previousSide(first) % 3] = c;
-  };
-  setCorners(side, m, k, i);
-  setCorners(mate, k, m, j);
-  t.length[side] = t.length[mate] = flipped;
 }
 
 /// The sides, one per edge, that are not Delaunay at the start, in order.
@@ -82,9 +27,9 @@ std::vector<int> findSeeds(const IntrinsicTriangulation& cover, const Workers& w
   std::vector<std::vector<int>> found((cover.size() + block_size - 1) / block_size);
   workers.forBlocks("flips", cover.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
     for (int side = static_cast<int>(3 * begin); side < 3 * end; ++side) {
-      if (isOppositeObtuse(cover, side) && !isDelaunay(cover, side)) {
-        found[begin / block_size].push_back(std::min(side, cover.glue[side]));
-      }
+      const int mate = cover.glue[side];
+      if (isOppositeObtuse(cover, side) && oppositeCotan(cover, side) + oppositeCotan(cover, mate) < flip_below)
+        found[begin / block_size].push_back(std::min(side, mate));
     }
   });
   std::vector<int> seeds;
@@ -95,40 +40,8 @@ std::vector<int> findSeeds(const IntrinsicTriangulation& cover, const Workers& w
 }  // namespace
 
 FlipCounts flipToDelaunay(IntrinsicTriangulation& cover, const Workers& workers) {
-  FlipCounts counts;
-  const std::vector<int> seeds = findSeeds(cover, workers);
-  if (seeds.empty()) return counts;
-
-  // Per place of a side: the flips done there and queued_flag. A flip moves its outer edges to other places and queues
-  // them anew, so no edge is missed, and the bound per place ends the loop whatever the lengths are.
-  std::vector<std::uint8_t> state(cover.glue.size());
-  std::vector<int> queue;  // depth first
-  const auto push = [&](int side) {
-    const int edge = std::min(side, cover.glue[side]);
-    if ((state[edge] & queued_flag) != 0) return;
-    state[edge] |= queued_flag;
-    queue.push_back(edge);
-  };
-  for (const int side : seeds) push(side);
-
-  while (!queue.empty()) {
-    const int side = queue.back();
-    queue.pop_back();
-    state[side] &= static_cast<std::uint8_t>(~queued_flag);
-    if (isDelaunay(cover, side)) continue;
-    if (state[side] >= most_flips) {
-      ++counts.failures;
-      continue;
-    }
-    const int mate = cover.glue[side];
-    flip(cover, side, mate);
-    ++state[side];
-    if (++counts.flips % report_every == 0) {
-      workers.report("flips", 1 - static_cast<double>(queue.size()) / static_cast<double>(cover.glue.size()));
-    }
-    for (const int outer : {nextSide(side), previousSide(side), nextSide(mate), previousSide(mate)}) push(outer);
-  }
-  return counts;
+  WholeCover whole(cover);
+  return flipEdges(whole, findSeeds(cover, workers), workers);
 }
 
 }  // namespace tufted

@@ -6,8 +6,8 @@
 #include <numeric>
 #include <vector>
 
-#include "base/pseudo_angle.h"
 #include "intrinsic/cover.h"
+#include "intrinsic/edge_order.h"
 #include "intrinsic/geometry.h"
 
 namespace tufted {
@@ -57,18 +57,9 @@ class EdgePool {
   }
 
  private:
-  /// Dihedral angle about the edge from low to high. The basis depends on the edge alone, so copies of one triangle
-  /// have equal keys.
   void setAngles(int low, int high) {
-    const Eigen::Vector3d axis = points_.row(high) - points_.row(low);
-    int smallest = 0;
-    axis.cwiseAbs().minCoeff(&smallest);
-    const Eigen::Vector3d x = axis.cross(Eigen::Vector3d::Unit(smallest));
-    const Eigen::Vector3d y = axis.stableNormalized().cross(x);
-    for (auto& [key, side] : keys_) {
-      const Eigen::Vector3d d = points_.row(cover_.faces[2 * (side / 3)][(side + 2) % 3]) - points_.row(low);
-      key = pseudoAngle(d.dot(x), d.dot(y));
-    }
+    const DihedralOrder dihedral(points_, low, high);
+    for (auto& [key, side] : keys_) key = dihedral.key(cover_.faces[2 * (side / 3)][(side + 2) % 3]);
   }
 
   void setAreas() {

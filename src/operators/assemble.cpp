@@ -15,7 +15,6 @@ namespace tufted {
 namespace {
 
 constexpr std::int64_t block_size = 8192;
-constexpr double rounding = 1e-9;  // of the larger diagonal
 
 struct Entry {
   int column;
@@ -115,7 +114,7 @@ void clampNegative(Rows& upper, const std::vector<double>& diagonal, Report& rep
       if (entry.weight >= 0) continue;
       const double larger = std::max(diagonal[v], diagonal[entry.column]);
       const double relative = larger > 0 ? -entry.weight / larger : INFINITY;
-      ++(relative <= rounding ? report.clamped_weights : report.clamped_large);
+      ++(relative <= weight_rounding ? report.clamped_weights : report.clamped_large);
       report.largest_clamped = std::max(report.largest_clamped, relative);
       entry.weight = 0;
     }

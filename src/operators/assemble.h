@@ -9,6 +9,9 @@
 
 namespace tufted {
 
+/// Negative weights up to this share of the larger diagonal are rounding.
+constexpr double weight_rounding = 1e-9;
+
 /// L and M in the caller's numbering.
 struct Matrices {
   SparseMatrix L;  ///< N x N, see Laplacian

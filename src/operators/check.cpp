@@ -189,7 +189,7 @@ void checkDefinite(const Laplacian& laplacian, const VectorXd& diagonal, Laplaci
 }
 
 void checkCover(const Laplacian& laplacian, LaplacianCheck& check) {
-  if (!laplacian.stored_cover) return;
+  if (!laplacian.hasCover()) return;
   const IntrinsicTriangulation& cover = laplacian.cover();
   Promise numbering("cover");
   if (cover.vertices != laplacian.L.cols())

@@ -39,25 +39,18 @@ inline void countBoundary(Boundary boundary, Report& report) {
   report.lost_points += boundary == Boundary::lost ? 1 : 0;
 }
 
-/// Algorithm 3 from the glued cover on: lengths, mollification, flips, matrices, and the cover in the caller's
-/// numbering and unit.
-/// @param points by vertex of the cover, in units of 2^exponent of the caller's
-/// @param move by vertex, from the points to where lengths are measured; 0 x 3: no vertex moves
-/// @param caller the caller's index of each vertex
-/// @param scale 1/2 for the two sheets, times 1/3 where every triangle comes thrice
-template <class Options>
-void finishLaplacian(std::shared_ptr<IntrinsicTriangulation> cover, const Points& points, const Points& move,
-                     const std::vector<int>& caller, int exponent, double scale, const Options& options,
-                     const Workers& workers, StageClock& clock, Laplacian& result) {
+/// What a build knows beside L and M, in units of the points that it worked on.
+struct BuildFigures {
+  MeanLengths mean = {};
+  double mollify_length = 0;
+  FlipCounts flips = {};
+  std::int64_t triangles = 0;
+};
+
+/// Completes the result in the caller's unit.
+/// @param exponent the build's unit is 2^exponent of the caller's
+inline void finishResult(Matrices matrices, const BuildFigures& figures, int exponent, Laplacian& result) {
   Report& report = result.report;
-  const MeanLengths mean = measureLengths(*cover, points, move, workers);
-  const double added = mollify(*cover, options.mollify * mean.length, workers);
-  clock.finish("lengths", 0);
-
-  const FlipCounts flips = flipToDelaunay(*cover, workers);
-  clock.finish("flips", 0);
-
-  Matrices matrices = assembleLaplacian(*cover, caller, static_cast<int>(result.status.size()), scale, workers, report);
   result.L.swap(matrices.L);
   result.M = std::move(matrices.M);
 
@@ -80,22 +73,53 @@ void finishLaplacian(std::shared_ptr<IntrinsicTriangulation> cover, const Points
     report.coincident += result.status[i] == PointStatus::coincident ? 1 : 0;
     report.isolated += result.status[i] == PointStatus::isolated ? 1 : 0;
   }
-  report.triangles = cover->size() / 2;
-  report.mean_edge = std::ldexp(mean.length, exponent);
-  report.mean_squared_edge = std::ldexp(mean.square, 2 * exponent);
-  report.mollify_length = std::ldexp(added, exponent);
-  report.flips = flips.flips;
-  report.flip_failures = flips.failures;
+  report.triangles = figures.triangles;
+  report.mean_edge = std::ldexp(figures.mean.length, exponent);
+  report.mean_squared_edge = std::ldexp(figures.mean.square, 2 * exponent);
+  report.mollify_length = std::ldexp(figures.mollify_length, exponent);
+  report.flips = figures.flips.flips;
+  report.flip_failures = figures.flips.failures;
+}
+
+/// Brings a cover into the caller's numbering and unit.
+inline void toCaller(IntrinsicTriangulation& cover, const std::vector<int>& caller, int size, int exponent) {
+  cover.vertices = size;
+  for (auto& face : cover.faces) {
+    for (int& corner : face) corner = caller[corner];
+  }
+  for (double& length : cover.length) length = std::ldexp(length, exponent);
+}
+
+inline std::size_t bytesOfMatrices(const Laplacian& result) {
+  return static_cast<std::size_t>(result.L.nonZeros()) * (sizeof(double) + sizeof(int)) +
+         result.status.size() * (sizeof(int) + sizeof(double));
+}
+
+/// Algorithm 3 from the glued cover on: lengths, mollification, flips, matrices, and the cover in the caller's
+/// numbering and unit.
+/// @param points by vertex of the cover, in units of 2^exponent of the caller's
+/// @param move by vertex, from the points to where lengths are measured; 0 x 3: no vertex moves
+/// @param caller the caller's index of each vertex
+/// @param scale 1/2 for the two sheets, times 1/3 where every triangle comes thrice
+template <class Options>
+void finishLaplacian(std::shared_ptr<IntrinsicTriangulation> cover, const Points& points, const Points& move,
+                     const std::vector<int>& caller, int exponent, double scale, const Options& options,
+                     const Workers& workers, StageClock& clock, Laplacian& result) {
+  BuildFigures figures{.mean = measureLengths(*cover, points, move, workers)};
+  figures.mollify_length = mollify(*cover, options.mollify * figures.mean.length, workers);
+  figures.triangles = cover->size() / 2;
+  clock.finish("lengths", 0);
+
+  figures.flips = flipToDelaunay(*cover, workers);
+  clock.finish("flips", 0);
+
+  const int size = static_cast<int>(result.status.size());
+  finishResult(assembleLaplacian(*cover, caller, size, scale, workers, result.report), figures, exponent, result);
   if (options.keep_cover) {
-    cover->vertices = static_cast<int>(result.status.size());
-    for (auto& face : cover->faces) {
-      for (int& corner : face) corner = caller[corner];
-    }
-    for (double& length : cover->length) length = std::ldexp(length, exponent);
+    toCaller(*cover, caller, size, exponent);
     result.stored_cover = std::move(cover);
   }
-  clock.finish("matrices", static_cast<std::size_t>(result.L.nonZeros()) * (sizeof(double) + sizeof(int)) +
-                               result.status.size() * (sizeof(int) + sizeof(double)));
+  clock.finish("matrices", bytesOfMatrices(result));
   workers.report("done", 1);
 }
 

@@ -8,7 +8,9 @@
 #include "cloud/neighbor_source.h"
 #include "cloud/surface_stars.h"
 #include "cloud/tangent_frame.h"
+#include "operators/cloud_build.h"
 #include "operators/pipeline.h"
+#include "operators/star_laplacian.h"
 #include "operators/star_mass.h"
 
 namespace tufted {
@@ -108,21 +110,38 @@ void describePoints(const Stars& stars, const std::vector<Boundary>& boundary, c
 }
 
 /// Makes the stars' own areas M where they are positive and the point has a row.
-void takeAreas(const VectorXd& areas, const RankedCloud& cloud, Laplacian& result) {
-  for (int p = 0; p < cloud.size(); ++p) {
-    const int i = cloud.caller[p];
+void takeAreas(const VectorXd& areas, const std::vector<int>& caller, int exponent, Laplacian& result) {
+  for (std::size_t p = 0; p < caller.size(); ++p) {
+    const int i = caller[p];
     if (result.status[i] != PointStatus::active) continue;
-    if (areas[p] > 0)
-      result.M[i] = std::ldexp(areas[p], 2 * cloud.exponent);
+    if (areas[static_cast<Eigen::Index>(p)] > 0)
+      result.M[i] = std::ldexp(areas[static_cast<Eigen::Index>(p)], 2 * exponent);
     else
       ++result.report.cover_masses;
   }
   result.report.area = result.M.sum();
 }
 
+/// Algorithm 3 by the whole cover.
+void finishFromCover(Stars stars, const RankedCloud& cloud, const CloudOptions& options, const Workers& workers,
+                     StageClock& clock, Laplacian& result) {
+  const Points move = std::move(stars.move);
+  auto cover = std::make_shared<IntrinsicTriangulation>();
+  addStars(stars, options.gluing, *cover, workers);
+  stars = {};
+  glueEdges(*cover, cloud.points, {options.order, options.seed}, workers);
+  clock.finish("cover", bytesOf(*cover));
+  finishLaplacian(std::move(cover), cloud.points, move, cloud.caller, cloud.exponent, 1.0 / 2 / 3, options, workers,
+                  clock, result);
+}
+
 }  // namespace
 
 Laplacian pointCloudLaplacian(const Points& points, const CloudOptions& options) {
+  return buildCloudLaplacian(points, options, CloudBuild::automatic);
+}
+
+Laplacian buildCloudLaplacian(const Points& points, const CloudOptions& options, CloudBuild build) {
   checkOptions(points, options);
   if (points.rows() > INT32_MAX) tooMany(points.rows(), 6 * points.rows());
   const Workers workers(options.threads, options.progress);
@@ -135,7 +154,7 @@ Laplacian pointCloudLaplacian(const Points& points, const CloudOptions& options)
   report.threads = workers.count();
 
   workers.report("order", 0);
-  const RankedCloud cloud = rankPoints(points, result.status, result.representative);
+  RankedCloud cloud = rankPoints(points, result.status, result.representative);
   if (cloud.size() > most_triangles / 6) tooMany(cloud.size(), 6 * static_cast<std::int64_t>(cloud.size()));
   clock.finish("order", static_cast<std::size_t>(cloud.size()) * (3 * sizeof(double) + sizeof(int)));
 
@@ -151,18 +170,16 @@ Laplacian pointCloudLaplacian(const Points& points, const CloudOptions& options)
 
   VectorXd areas;
   if (options.steps.mass == Mass::star) areas = starAreas(stars, cloud.points, workers);
-  const Points move = std::move(stars.move);
+  const std::vector<int> caller = cloud.caller;
+  const int exponent = cloud.exponent;
   clock.finish("mass", 0);
 
-  auto cover = std::make_shared<IntrinsicTriangulation>();
-  addStars(stars, options.gluing, *cover, workers);
-  stars = {};
-  glueEdges(*cover, cloud.points, {options.order, options.seed}, workers);
-  clock.finish("cover", bytesOf(*cover));
-
-  finishLaplacian(std::move(cover), cloud.points, move, cloud.caller, cloud.exponent, 1.0 / 2 / 3, options, workers,
-                  clock, result);
-  if (options.steps.mass == Mass::star) takeAreas(areas, cloud, result);
+  const bool stars_agree = options.gluing == Gluing::star && options.order == FaceOrder::angle;
+  if (stars_agree && build == CloudBuild::automatic)
+    finishFromStars(std::move(stars), std::move(cloud), options, workers, clock, result);
+  else
+    finishFromCover(std::move(stars), cloud, options, workers, clock, result);
+  if (options.steps.mass == Mass::star) takeAreas(areas, caller, exponent, result);
   return result;
 }
 
@@ -188,8 +205,9 @@ CloudOptions cloudOptions(Preset preset) {
 }
 
 const IntrinsicTriangulation& Laplacian::cover() const {
-  if (!stored_cover) throw InvalidInput("Laplacian::cover: keep_cover = false, must be true to ask for the cover");
-  return *stored_cover;
+  if (stored_cover) return *stored_cover;
+  if (cover_source) return cover_source->cover();
+  throw InvalidInput("Laplacian::cover: keep_cover = false, must be true to ask for the cover");
 }
 
 }  // namespace tufted

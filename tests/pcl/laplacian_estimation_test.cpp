@@ -29,7 +29,7 @@ Laplacian computed(Estimation& estimation) {
 
 bool isEmpty(const Laplacian& laplacian) {
   return laplacian.L.rows() == 0 && laplacian.M.size() == 0 && laplacian.status.empty() &&
-         laplacian.report.points == 0 && !laplacian.stored_cover;
+         laplacian.report.points == 0 && !laplacian.hasCover();
 }
 
 pcl::IndicesPtr indicesOf(const std::vector<int>& list) {

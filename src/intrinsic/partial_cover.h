@@ -1,0 +1,61 @@
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "base/parallel.h"
+#include "intrinsic/agreement.h"
+#include "intrinsic/cover.h"
+#include "intrinsic/edge_lengths.h"
+#include "intrinsic/star_metric.h"
+#include "intrinsic/star_pools.h"
+
+namespace tufted {
+
+/// The tufted cover of a union of stars, with only those stars present as faces whose edges were flipped or looked at.
+/// What is absent is as the stars say: the sides of a star that leave it are glued as soon as somebody asks.
+class PartialCover {
+ public:
+  /// All borrowed for the life of the cover.
+  PartialCover(const Stars& stars, const EdgeLengths& length, const StarPools& pools);
+
+  /// Algorithm 2.
+  FlipCounts flipToDelaunay(const StarMetric& metric, const Workers& workers);
+
+  /// The faces of the stars that are present; 2 t and 2 t + 1 are front and back of a triangle until they are flipped.
+  const IntrinsicTriangulation& faces() const { return cover_; }
+  bool isPresent(int p) const { return first_[p] >= 0; }
+  /// The corners of all faces that were flipped, before and after, with repetitions.
+  const std::vector<int>& flippedCorners() const { return flipped_corners_; }
+
+  /// The whole cover: vertices by rank, lengths in the unit of the points.
+  IntrinsicTriangulation complete(const Workers& workers) const;
+
+ private:
+  friend class Flipping;
+  void add(int p);
+  void resolve(int side);
+  StarSide starSide(int side) const;
+  /// The side whose minus copy the plus copy of this one is glued to, or the other way round. The plus copy runs from
+  /// the smaller to the larger vertex.
+  StarSide mateOf(const StarSide& side, bool is_plus) const;
+  std::vector<int> findSeeds(const StarMetric& metric, const Workers& workers);
+  double cotanAt(const StarSide& side) const;
+  int sideNumber(const StarSide& side, bool is_front, const std::vector<int>& first) const;
+  bool runsUp(const StarSide& side) const { return tail(stars_, side) < head(stars_, side); }
+  /// Writes the star of p into the whole cover as the stars have it, then as flips have left it.
+  /// @param first the first triangle of each star in the whole
+  void fillStar(int p, const std::vector<int>& first, IntrinsicTriangulation& whole) const;
+  void copyStar(int p, const std::vector<int>& first, const std::vector<int>& triangle,
+                IntrinsicTriangulation& whole) const;
+
+  const Stars& stars_;
+  const EdgeLengths& length_;
+  const StarPools& pools_;
+  IntrinsicTriangulation cover_;
+  std::vector<int> first_;     ///< n, the first triangle of a star, -1 where absent
+  std::vector<int> entry_of_;  ///< link entry of each triangle that is present
+  std::vector<int> flipped_corners_;
+};
+
+}  // namespace tufted

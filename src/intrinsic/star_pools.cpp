@@ -1,0 +1,105 @@
+#include "intrinsic/star_pools.h"
+
+#include <algorithm>
+#include <numeric>
+#include <utility>
+
+#include "intrinsic/agreement.h"
+#include "intrinsic/edge_order.h"
+
+namespace tufted {
+namespace {
+
+constexpr std::int64_t block_size = 8192;
+
+/// Visits the sides of the star of p that are not glued within it.
+template <class Visit>
+void forEachOpenSide(const Stars& stars, int p, const Visit& visit) {
+  for (int i = stars.offset[p]; i < stars.offset[p + 1]; ++i) {
+    if (!stars.hasTriangle(i)) continue;
+    if (!stars.hasTriangle(before(stars, p, i))) visit(StarSide{p, i, 0});
+    visit(StarSide{p, i, 1});
+    if (!stars.hasTriangle(stars.after(p, i))) visit(StarSide{p, i, 2});
+  }
+}
+
+}  // namespace
+
+StarPools::StarPools(const Stars& stars, const Points& points, const std::vector<std::uint8_t>& disagrees,
+                     const Workers& workers)
+    : stars_(stars), disagrees_(disagrees) {
+  collect(workers);
+  sort(points, workers);
+}
+
+void StarPools::collect(const Workers& workers) {
+  const int n = stars_.size();
+  const auto forEachPooled = [&](const auto& visit) {
+    for (int p = 0; p < n; ++p) {
+      forEachOpenSide(stars_, p, [&](const StarSide& side) {
+        if (isPooled(side)) visit(side, std::minmax({tail(stars_, side), head(stars_, side)}));
+      });
+    }
+  };
+  workers.report("glue", 0);
+  offset_.assign(static_cast<std::size_t>(n) + 1, 0);
+  forEachPooled([&](const StarSide&, const auto& ends) { ++offset_[ends.first + 1]; });
+  std::partial_sum(offset_.begin(), offset_.end(), offset_.begin());
+  pooled_.resize(static_cast<std::size_t>(offset_.back()));
+  std::vector<int> fill(offset_.begin(), offset_.end() - 1);
+  forEachPooled([&](const StarSide& side, const auto& ends) { pooled_[fill[ends.first]++] = {ends.second, side}; });
+}
+
+void StarPools::sort(const Points& points, const Workers& workers) {
+  workers.forBlocks("glue", stars_.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    std::vector<std::pair<double, Pooled>> keys;
+    for (int low = static_cast<int>(begin); low < end; ++low) {
+      const auto first = pooled_.begin() + offset_[low], last = pooled_.begin() + offset_[low + 1];
+      // They came in the order of stars and entries, which decides ties.
+      std::stable_sort(first, last, [](const Pooled& a, const Pooled& b) { return a.high < b.high; });
+      for (int i = offset_[low]; i < offset_[low + 1];) {
+        const int stop = endOfPool(i);
+        if (stop - i > 2) {  // any order of two is the same one
+          const DihedralOrder order(points, low, pooled_[i].high);
+          keys.clear();
+          for (int j = i; j < stop; ++j) keys.emplace_back(order.key(apex(stars_, pooled_[j].side)), pooled_[j]);
+          std::stable_sort(keys.begin(), keys.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+          for (int j = i; j < stop; ++j) pooled_[j] = keys[j - i].second;
+        }
+        i = stop;
+      }
+    }
+  });
+}
+
+int StarPools::endOfPool(int i) const {
+  int stop = i + 1;
+  const StarSide& side = pooled_[i].side;
+  const int last = offset_[std::min(tail(stars_, side), head(stars_, side)) + 1];
+  while (stop < last && pooled_[stop].high == pooled_[i].high) ++stop;
+  return stop;
+}
+
+StarSide StarPools::neighbor(const StarSide& side, int step) const {
+  const int from = tail(stars_, side), to = head(stars_, side);
+  if (disagrees_[from] == 0) return acrossAgreeing(side, from, to);
+  if (disagrees_[to] == 0) return acrossAgreeing(side, to, from);
+  const int low = std::min(from, to);
+  int at = offset_[low];
+  while (pooled_[at].side != side) ++at;
+  int begin = at, end = at + 1;
+  while (begin > offset_[low] && pooled_[begin - 1].high == pooled_[at].high) --begin;
+  while (end < offset_[low + 1] && pooled_[end].high == pooled_[at].high) ++end;
+  const int count = end - begin;
+  return pooled_[begin + (at - begin + step + count) % count].side;
+}
+
+StarSide StarPools::acrossAgreeing(const StarSide& side, int agreeing, int other) const {
+  const int j = entryOf(stars_, agreeing, other);
+  const int left = stars_.link[before(stars_, agreeing, j)];
+  const int star = left == side.star ? stars_.link[stars_.after(agreeing, j)] : left;
+  const int i = entryOf(stars_, star, agreeing);
+  return {star, stars_.link[stars_.after(star, i)] == other ? i : before(stars_, star, i), 1};
+}
+
+}  // namespace tufted

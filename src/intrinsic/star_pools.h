@@ -1,0 +1,80 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "base/parallel.h"
+#include "cloud/stars.h"
+
+namespace tufted {
+
+/// A side of a triangle (p, a, b) of the star of p: 0 runs from p to a, 1 from a to b, 2 from b to p.
+struct StarSide {
+  int star;
+  int entry;  ///< link entry of a
+  int side;
+
+  friend bool operator==(const StarSide&, const StarSide&) = default;
+};
+
+inline int tail(const Stars& stars, const StarSide& s) {
+  return s.side == 0 ? s.star : stars.link[s.side == 1 ? s.entry : stars.after(s.star, s.entry)];
+}
+inline int head(const Stars& stars, const StarSide& s) {
+  return s.side == 2 ? s.star : stars.link[s.side == 0 ? s.entry : stars.after(s.star, s.entry)];
+}
+/// The corner that is not on the side.
+inline int apex(const Stars& stars, const StarSide& s) {
+  return s.side == 1 ? s.star : stars.link[s.side == 2 ? s.entry : stars.after(s.star, s.entry)];
+}
+
+/// The circular order of the faces around each edge of the union of stars with Gluing::star and FaceOrder::angle: link
+/// sides, and spokes where a star ends. (All other spokes are glued within their star.)
+///
+/// Only edges between points that both disagree need a pool; any other has two faces, which the link of its agreeing
+/// end names.
+class StarPools {
+ public:
+  /// @param stars,disagrees borrowed, see findDisagreement()
+  StarPools(const Stars& stars, const Points& points, const std::vector<std::uint8_t>& disagrees,
+            const Workers& workers);
+
+  /// The sides after and before this one around its edge; itself where there is no other.
+  StarSide next(const StarSide& side) const { return neighbor(side, 1); }
+  StarSide previous(const StarSide& side) const { return neighbor(side, -1); }
+
+  /// Whether the side lies in a pool.
+  bool isPooled(const StarSide& side) const {
+    return disagrees_[tail(stars_, side)] != 0 && disagrees_[head(stars_, side)] != 0;
+  }
+
+  /// Calls visit(sides) for each pool whose smaller vertex lies in [begin, end), its sides in order.
+  template <class Visit>
+  void forEachPool(int begin, int end, const Visit& visit) const {
+    for (int i = offset_[begin]; i < offset_[end];) {
+      const int stop = endOfPool(i);
+      visit(std::span<const Pooled>(pooled_).subspan(i, stop - i));
+      i = stop;
+    }
+  }
+
+  struct Pooled {
+    int high;  ///< larger vertex
+    StarSide side;
+  };
+
+ private:
+  StarSide neighbor(const StarSide& side, int step) const;
+  StarSide acrossAgreeing(const StarSide& side, int agreeing, int other) const;
+  void collect(const Workers& workers);
+  void sort(const Points& points, const Workers& workers);
+  int endOfPool(int i) const;
+
+  const Stars& stars_;
+  const std::vector<std::uint8_t>& disagrees_;
+  std::vector<int> offset_;  ///< n + 1, by smaller vertex
+  std::vector<Pooled> pooled_;
+};
+
+}  // namespace tufted

@@ -1,0 +1,92 @@
+#include "operators/star_laplacian.h"
+
+#include <mutex>
+
+#include "intrinsic/agreement.h"
+#include "intrinsic/partial_cover.h"
+#include "operators/star_rows.h"
+
+namespace tufted {
+namespace {
+
+/// The stars and all that was found out about them.
+class StarUnion final : public CoverSource {
+ public:
+  StarUnion(Stars stars, RankedCloud cloud, int size, const Workers& workers)
+      : stars_(std::move(stars)),
+        cloud_(std::move(cloud)),
+        size_(size),
+        threads_(workers.count()),
+        disagrees_(findDisagreement(stars_, workers)),
+        pools_(stars_, cloud_.points, disagrees_, workers),
+        cover_(stars_, length_, pools_) {}
+
+  /// Lengths, mollified (Section 4.5).
+  StarMetric measure(double delta, const Workers& workers) {
+    StarMetric metric = measureStars(stars_, length_, workers);
+    const double missing = delta * metric.mean.length - metric.least_slack;
+    if (!(missing > 0)) return metric;
+    length_.added = missing;
+    const MeanLengths mean = metric.mean;
+    metric = measureStars(stars_, length_, workers);
+    metric.mean = mean;
+    return metric;
+  }
+
+  FlipCounts flip(const StarMetric& metric, const Workers& workers) { return cover_.flipToDelaunay(metric, workers); }
+
+  Matrices assemble(StarMetric& metric, const Workers& workers, Report& report) const {
+    return assembleStars(stars_, disagrees_, metric, cover_, length_, cloud_.caller, size_, 1.0 / 2 / 3, workers,
+                         report);
+  }
+
+  const IntrinsicTriangulation& cover() const override {
+    std::call_once(once_, [this] {
+      const Progress silent;
+      whole_ = cover_.complete(Workers(threads_, silent));
+      toCaller(whole_, cloud_.caller, size_, cloud_.exponent);
+    });
+    return whole_;
+  }
+
+  double mollifyLength() const { return length_.added; }
+  std::size_t bytes() const { return bytesOf(cover_.faces()); }
+
+ private:
+  const Stars stars_;
+  const RankedCloud cloud_;
+  const int size_, threads_;
+  EdgeLengths length_{cloud_.points, stars_.move};
+  const std::vector<std::uint8_t> disagrees_;
+  const StarPools pools_;
+  PartialCover cover_;
+  mutable std::once_flag once_;
+  mutable IntrinsicTriangulation whole_;
+};
+
+}  // namespace
+
+void finishFromStars(Stars stars, RankedCloud cloud, const CloudOptions& options, const Workers& workers,
+                     StageClock& clock, Laplacian& result) {
+  const int exponent = cloud.exponent;
+  BuildFigures figures{.triangles = std::count_if(stars.radius.begin(), stars.radius.end(),
+                                                  [](double radius) { return radius != no_triangle; })};
+  const auto stars_and_cover =
+      std::make_shared<StarUnion>(std::move(stars), std::move(cloud), static_cast<int>(result.status.size()), workers);
+  clock.finish("cover", 0);
+
+  StarMetric metric = stars_and_cover->measure(options.mollify, workers);
+  figures.mean = metric.mean;
+  figures.mollify_length = stars_and_cover->mollifyLength();
+  clock.finish("lengths", bytesOf(metric.cotan_sum) + bytesOf(metric.area));
+
+  figures.flips = stars_and_cover->flip(metric, workers);
+  clock.finish("flips", stars_and_cover->bytes());
+
+  finishResult(stars_and_cover->assemble(metric, workers, result.report), figures, exponent, result);
+  if (options.keep_cover) result.cover_source = stars_and_cover;
+  clock.finish("matrices", bytesOfMatrices(result));
+  workers.report("done", 1);
+}
+
+}  // namespace tufted

@@ -1,0 +1,313 @@
+#include "operators/star_rows.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include "base/disjoint_sets.h"
+#include "intrinsic/geometry.h"
+#include "tufted/errors.h"
+
+namespace tufted {
+namespace {
+
+constexpr std::int64_t block_size = 8192;
+
+struct Entry {
+  int column;
+  double weight;
+};
+
+/// Rows of entries by rank, one after the other.
+struct Rows {
+  std::vector<int> offset;  ///< n + 1
+  std::vector<Entry> entries;
+};
+
+double finite(double cotan) {
+  return std::isfinite(cotan) ? cotan : 0;  // a face of no area has no cotangents and adds nothing
+}
+
+class StarAssembler {
+ public:
+  StarAssembler(const Stars& stars, StarMetric& metric, const PartialCover& cover, const EdgeLengths& length,
+                double scale, const Workers& workers)
+      : stars_(stars),
+        weight_(metric.cotan_sum),
+        metric_(metric),
+        cover_(cover),
+        length_(length),
+        scale_(scale),
+        workers_(workers) {}
+
+  /// Points whose edges among each other are summed over faces.
+  void setMixed(const std::vector<std::uint8_t>& disagrees) {
+    mixed_ = disagrees;
+    for (int p = 0; p < stars_.size(); ++p) mixed_[p] |= metric_.is_flat[p];
+    for (const int p : cover_.flippedCorners()) mixed_[p] = 1;
+  }
+
+  /// The weights of edges with an unmixed end, in the entries of unmixed stars. Where both ends are unmixed, that of
+  /// the smaller one.
+  void weighSpokes() {
+    workers_.forBlocks("assemble", stars_.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+      for (int p = static_cast<int>(begin); p < end; ++p) {
+        if (mixed_[p] != 0) continue;
+        for (int i = stars_.offset[p]; i < stars_.offset[p + 1]; ++i)
+          weight_[i] *= 3 * scale_;  // 2 sheets, 3 stars, 1/2
+      }
+    });
+    workers_.forBlocks("assemble", stars_.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+      for (int p = static_cast<int>(begin); p < end; ++p) {
+        if (mixed_[p] != 0) continue;
+        for (int i = stars_.offset[p]; i < stars_.offset[p + 1]; ++i) {
+          const int q = stars_.link[i];
+          if (q < p && mixed_[q] == 0) weight_[i] = weight_[entryOf(stars_, q, p)];
+        }
+      }
+    });
+  }
+
+  /// The weights of edges between mixed points.
+  void weighFaces() {
+    Rows terms = collectTerms();
+    Rows upper = mergeTerms(terms);
+    terms = {};
+    mixed_rows_.offset.assign(upper.offset.size(), 0);
+    const auto forBoth = [&](const auto& visit) {
+      for (int p = 0; p < stars_.size(); ++p) {
+        for (int i = upper.offset[p]; i < upper.offset[p + 1]; ++i) {
+          visit(p, upper.entries[i].column, upper.entries[i].weight);
+          visit(upper.entries[i].column, p, upper.entries[i].weight);
+        }
+      }
+    };
+    forBoth([&](int p, int, double) { ++mixed_rows_.offset[p + 1]; });
+    std::partial_sum(mixed_rows_.offset.begin(), mixed_rows_.offset.end(), mixed_rows_.offset.begin());
+    mixed_rows_.entries.resize(static_cast<std::size_t>(mixed_rows_.offset.back()));
+    std::vector<int> fill(mixed_rows_.offset.begin(), mixed_rows_.offset.end() - 1);
+    forBoth([&](int p, int q, double weight) { mixed_rows_.entries[fill[p]++] = {q, weight}; });
+  }
+
+  /// Calls visit(q, weight) for every edge of p.
+  template <class Visit>
+  void forEachInRow(int p, const Visit& visit) const {
+    const bool is_mixed = mixed_[p] != 0;
+    for (int i = stars_.offset[p]; i < stars_.offset[p + 1]; ++i) {
+      const int q = stars_.link[i];
+      if (!is_mixed) {
+        visit(q, weight_[i]);
+      } else if (mixed_[q] == 0) {
+        visit(q, weight_[entryOf(stars_, q, p)]);
+      }
+    }
+    if (!is_mixed) return;
+    for (int i = mixed_rows_.offset[p]; i < mixed_rows_.offset[p + 1]; ++i)
+      visit(mixed_rows_.entries[i].column, mixed_rows_.entries[i].weight);
+  }
+
+  /// A third of each face's area to each corner (Section 3.3), by rank.
+  std::vector<double> lumpAreas(Report& report) const {
+    std::vector<double> mass(stars_.reach.size());
+    for (int p = 0; p < stars_.size(); ++p)
+      if (mixed_[p] == 0) mass[p] = 2 * scale_ * metric_.area[p];  // 2 sheets, 3 stars, a third
+    const auto add = [&](int p, double share) {
+      if (mixed_[p] != 0) mass[p] += share;
+    };
+    forEachAbsentTriangle([&](int p, int a, int b) {
+      const double area = triangleArea(length_(p, a), length_(p, b), length_(a, b));
+      report.degenerate_faces += area > 0 ? 0 : 2;
+      for (const int corner : {p, a, b}) add(corner, 2 * scale_ * area / 3);
+    });
+    const IntrinsicTriangulation& faces = cover_.faces();
+    for (int f = 0; f < static_cast<int>(faces.size()); ++f) {
+      const double area = faceArea(faces, f);
+      report.degenerate_faces += area > 0 ? 0 : 1;
+      for (const int corner : faces.faces[f]) add(corner, scale_ * area / 3);
+    }
+    return mass;
+  }
+
+ private:
+  /// Visits the triangles that have a mixed corner, in stars that are absent from the cover.
+  template <class Visit>
+  void forEachAbsentTriangle(const Visit& visit) const {
+    for (int p = 0; p < stars_.size(); ++p) {
+      if (cover_.isPresent(p)) continue;
+      for (int i = stars_.offset[p]; i < stars_.offset[p + 1]; ++i) {
+        if (!stars_.hasTriangle(i)) continue;
+        const int a = stars_.link[i], b = stars_.link[stars_.after(p, i)];
+        if ((mixed_[p] | mixed_[a] | mixed_[b]) != 0) visit(p, a, b);
+      }
+    }
+  }
+
+  /// Calls visit(low, high, weight) for each copy of an edge between mixed points, in the order of the faces.
+  template <class Visit>
+  void forEachTerm(const Visit& visit) const {
+    const auto term = [&](int a, int b, double cotans) {
+      if (a != b && mixed_[a] != 0 && mixed_[b] != 0) visit(std::min(a, b), std::max(a, b), scale_ * cotans / 2);
+    };
+    forEachAbsentTriangle([&](int p, int a, int b) {
+      if (mixed_[p] + mixed_[a] + mixed_[b] < 2) return;
+      const double pa = length_(p, a), pb = length_(p, b), ab = length_(a, b);
+      const double quarter = 2 / (4 * triangleArea(pa, pb, ab));  // front and back
+      term(p, a, finite(cotanNumerator(pa, pb, ab) * quarter));
+      term(p, b, finite(cotanNumerator(pb, pa, ab) * quarter));
+      term(a, b, finite(cotanNumerator(ab, pa, pb) * quarter));
+    });
+    const IntrinsicTriangulation& faces = cover_.faces();
+    for (int side = 0; side < static_cast<int>(3 * faces.size()); ++side) {
+      const int mate = faces.glue[side];
+      if (mate != unglued && mate < side) continue;
+      const double there = mate == unglued ? 0 : finite(oppositeCotan(faces, mate));
+      term(tail(faces, side), head(faces, side), finite(oppositeCotan(faces, side)) + there);
+    }
+  }
+
+  /// All terms, filed under the smaller vertex.
+  Rows collectTerms() const {
+    Rows terms;
+    terms.offset.assign(stars_.reach.size() + 1, 0);
+    forEachTerm([&](int low, int, double) { ++terms.offset[low + 1]; });
+    std::partial_sum(terms.offset.begin(), terms.offset.end(), terms.offset.begin());
+    terms.entries.resize(static_cast<std::size_t>(terms.offset.back()));
+    std::vector<int> fill(terms.offset.begin(), terms.offset.end() - 1);
+    forEachTerm([&](int low, int high, double weight) { terms.entries[fill[low]++] = {high, weight}; });
+    return terms;
+  }
+
+  /// Sums the terms of each edge, in their order.
+  Rows mergeTerms(Rows& terms) const {
+    Rows upper;
+    upper.offset.assign(terms.offset.size(), 0);
+    workers_.forBlocks("assemble", stars_.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+      for (int p = static_cast<int>(begin); p < end; ++p) {
+        const auto first = terms.entries.begin() + terms.offset[p], last = terms.entries.begin() + terms.offset[p + 1];
+        std::stable_sort(first, last, [](const Entry& a, const Entry& b) { return a.column < b.column; });
+        auto kept = first;
+        for (auto at = first; at != last; ++at) {
+          if (kept != first && (kept - 1)->column == at->column)
+            (kept - 1)->weight += at->weight;
+          else
+            *kept++ = *at;
+        }
+        upper.offset[p + 1] = static_cast<int>(kept - first);
+      }
+    });
+    std::partial_sum(upper.offset.begin(), upper.offset.end(), upper.offset.begin());
+    upper.entries.reserve(static_cast<std::size_t>(upper.offset.back()));
+    for (int p = 0; p < stars_.size(); ++p) {
+      const auto first = terms.entries.begin() + terms.offset[p];
+      upper.entries.insert(upper.entries.end(), first, first + (upper.offset[p + 1] - upper.offset[p]));
+    }
+    return upper;
+  }
+
+  const Stars& stars_;
+  std::vector<double>& weight_;  ///< per link entry, of unmixed stars
+  const StarMetric& metric_;
+  const PartialCover& cover_;
+  const EdgeLengths& length_;
+  const double scale_;
+  const Workers& workers_;
+  std::vector<std::uint8_t> mixed_;
+  Rows mixed_rows_;  ///< edges between mixed points, from both ends
+};
+
+/// What clamping did to one block of rows.
+struct Clamped {
+  std::int64_t small = 0, large = 0;
+  double largest = 0;
+};
+
+}  // namespace
+
+Matrices assembleStars(const Stars& stars, const std::vector<std::uint8_t>& disagrees, StarMetric& metric,
+                       const PartialCover& cover, const EdgeLengths& length, const std::vector<int>& caller, int size,
+                       double scale, const Workers& workers, Report& report) {
+  const int n = stars.size();
+  StarAssembler assembler(stars, metric, cover, length, scale, workers);
+  assembler.setMixed(disagrees);
+  assembler.weighSpokes();
+  assembler.weighFaces();
+
+  // Columns of L in the caller's numbering: their sizes, then what is in them.
+  std::vector<double> diagonal(static_cast<std::size_t>(n));
+  std::vector<int> count(static_cast<std::size_t>(size));
+  std::vector<Clamped> clamped((n + block_size - 1) / block_size);
+  workers.forBlocks("assemble", n, block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    for (int p = static_cast<int>(begin); p < end; ++p) {
+      int positive = 0;
+      assembler.forEachInRow(p, [&](int, double weight) {
+        diagonal[p] += weight;
+        positive += weight > 0 ? 1 : 0;
+      });
+      count[caller[p]] = positive > 0 ? positive + 1 : 0;
+    }
+  });
+  const std::int64_t entries = std::accumulate(count.begin(), count.end(), std::int64_t{0});
+  if (entries > INT32_MAX) {
+    throw InvalidInput("assembleStars: " + std::to_string(entries) + " entries of L, must be at most " +
+                       std::to_string(INT32_MAX) + ", what an int can number");
+  }
+  Matrices matrices;
+  SparseMatrix& L = matrices.L;
+  L.resize(size, size);
+  L.resizeNonZeros(entries);
+  L.outerIndexPtr()[0] = 0;
+  std::partial_sum(count.begin(), count.end(), L.outerIndexPtr() + 1);
+  count = {};
+  workers.forBlocks("assemble", n, block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    std::vector<std::pair<int, double>> column;
+    for (int p = static_cast<int>(begin); p < end; ++p) {
+      column.clear();
+      double sum = 0;
+      assembler.forEachInRow(p, [&](int q, double weight) {
+        if (weight > 0) {
+          sum += weight;
+          column.emplace_back(caller[q], -weight);
+        } else if (weight < 0 && p < q) {
+          // Negative weights within 1e-9 of the larger diagonal are rounding; all are left out.
+          const double larger = std::max(diagonal[p], diagonal[q]), relative = larger > 0 ? -weight / larger : INFINITY;
+          Clamped& block = clamped[begin / block_size];
+          ++(relative <= weight_rounding ? block.small : block.large);
+          block.largest = std::max(block.largest, relative);
+        }
+      });
+      if (column.empty()) continue;
+      column.emplace_back(caller[p], sum);
+      std::sort(column.begin(), column.end());
+      int place = L.outerIndexPtr()[caller[p]];
+      for (const auto& [row, value] : column) {
+        L.innerIndexPtr()[place] = row;
+        L.valuePtr()[place++] = value;
+      }
+    }
+  });
+
+  matrices.M = VectorXd::Zero(size);
+  const std::vector<double> mass = assembler.lumpAreas(report);
+  DisjointSets sets(n);
+  for (int p = 0; p < n; ++p) {
+    const int i = caller[p];
+    if (L.outerIndexPtr()[i] == L.outerIndexPtr()[i + 1]) continue;  // no row, no mass: the point takes no part
+    matrices.M[i] = mass[p];
+    ++report.components;
+    assembler.forEachInRow(p, [&](int q, double weight) {
+      if (weight > 0 && q < p && sets.unite(p, q)) --report.components;
+    });
+  }
+  for (const Clamped& block : clamped) {
+    report.clamped_weights += block.small;
+    report.clamped_large += block.large;
+    report.largest_clamped = std::max(report.largest_clamped, block.largest);
+  }
+  report.nonzeros = entries;
+  return matrices;
+}
+
+}  // namespace tufted
