@@ -48,7 +48,9 @@ Presets of clouds:
 Structures of scans:
   image  the neighbours are pixels around the point, none behind a depth jump; the cloud must be organized (PCD)
   rings  they lie on the rings beside the point, however far apart those are: by the field `ring`, or else by the
-         elevations seen from the file's viewpoint, which must show rings
+         elevations seen from the file's viewpoint, which must show rings; and by the field `azimuth` in radians,
+         degrees or hundredths of degrees (the first whose turn, 6.28, 360 or 36000, holds all values), or else by the
+         directions seen from there
 
 Reads PCD, PLY, LAS and text in columns (clouds), PLY, OBJ, OFF and STL (meshes; OBJ and OFF without faces are clouds).
 The format goes by the extension, .pcd .ply .las .xyz .xyzn .pwn .txt .csv .asc .pts .obj .off .coff .noff .stl, and

@@ -14,9 +14,9 @@ enum class Structure { none, image, rings };
 inline const std::map<std::string, Structure> structures = {
     {"none", Structure::none}, {"image", Structure::image}, {"rings", Structure::rings}};
 
-/// The structure of a file's scan: its width and height, or its field `ring`, or rings by the elevations seen from its
-/// viewpoint.
+/// The structure of a file's scan: its width and height; or its fields `ring` and `azimuth`, and for either one that it
+/// lacks the elevations or azimuths seen from its viewpoint.
 /// @param name of the input, for messages
-/// @throws IoError where the file has no such structure
+/// @throws IoError where the file has no such structure, or azimuths of an unknown unit
 std::optional<tufted::ScanStructure> structureOf(const tufted::Geometry& geometry, Structure structure,
                                                  const std::string& name);

@@ -86,35 +86,6 @@ TEST_F(Command, LooksForJumpsFromWhereTheFileSaysTheSensorStood) {
   EXPECT_GE(jumps(1296, 1, "0 0 1"), 48);
 }
 
-TEST_F(Command, FindsNeighborsByTheStructureItIsTold) {
-  std::string pixels, rings;
-  for (int i = 0; i < 600; ++i) {
-    const double angle = 2 * M_PI * (i % 60) / 60;
-    pixels += std::to_string(i % 60 * 0.01) + ' ' + std::to_string(i / 60 * 0.01) + " 1\n";
-    rings += std::to_string(std::cos(angle)) + ' ' + std::to_string(std::sin(angle)) + ' ' +
-             std::to_string(i / 60 * 0.1) + ' ' + std::to_string(i / 60) + '\n';
-  }
-  const auto image = dir_.write("image.pcd",
-                                "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 60\n"
-                                "HEIGHT 10\nPOINTS 600\nDATA ascii\n" +
-                                    pixels);
-  const auto scan = dir_.write("rings.pcd",
-                               "VERSION .7\nFIELDS x y z ring\nSIZE 4 4 4 2\nTYPE F F F U\nCOUNT 1 1 1 1\n"
-                               "WIDTH 600\nHEIGHT 1\nPOINTS 600\nDATA ascii\n" +
-                                   rings);
-  ASSERT_EQ(runTufted({"laplacian", image, "--out", out(), "--structure", "image"}).code, 0);
-  EXPECT_NE(readAll(dir_ / "out/report.json").find("\"structure\": \"image\""), std::string::npos);
-  ASSERT_EQ(runTufted({"laplacian", scan, "--out", out(), "--structure", "rings"}).code, 0);
-  EXPECT_NE(readAll(dir_ / "out/report.json").find("\"unplaced\": 0"), std::string::npos);
-  const auto loose = dir_.write("loose.xyz", sphere(500));
-  for (const char* structure : {"image", "rings"}) {
-    const Result result = runTufted({"laplacian", loose, "--out", out(), "--structure", structure});
-    EXPECT_EQ(result.code, 1);
-    EXPECT_TRUE(isOneLine(result.err)) << result.err;
-    EXPECT_NE(result.err.find("--structure"), std::string::npos);
-  }
-}
-
 TEST_F(Command, TakesAMeshAsACloudWhenAsked) {
   const auto file = dir_.write("tetrahedron.off", tetrahedron);
   const Result result = runTufted({"laplacian", file, "--out", out(), "--as", "cloud", "--neighbors", "3"});

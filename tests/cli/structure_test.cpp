@@ -1,0 +1,105 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "../io/temporary_dir.h"
+#include "command.h"
+#include "samples.h"
+
+namespace {
+
+class Structures : public testing::Test {
+ protected:
+  std::string out() const { return (dir_ / "out").string(); }
+
+  TemporaryDir dir_;
+};
+
+TEST_F(Structures, FindsNeighborsByTheStructureItIsTold) {
+  std::string pixels, rings;
+  for (int i = 0; i < 600; ++i) {
+    const double angle = 2 * M_PI * (i % 60) / 60;
+    pixels += std::to_string(i % 60 * 0.01) + ' ' + std::to_string(i / 60 * 0.01) + " 1\n";
+    rings += std::to_string(std::cos(angle)) + ' ' + std::to_string(std::sin(angle)) + ' ' +
+             std::to_string(i / 60 * 0.1) + ' ' + std::to_string(i / 60) + '\n';
+  }
+  const auto image = dir_.write("image.pcd",
+                                "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 60\n"
+                                "HEIGHT 10\nPOINTS 600\nDATA ascii\n" +
+                                    pixels);
+  const auto scan = dir_.write("rings.pcd",
+                               "VERSION .7\nFIELDS x y z ring\nSIZE 4 4 4 2\nTYPE F F F U\nCOUNT 1 1 1 1\n"
+                               "WIDTH 600\nHEIGHT 1\nPOINTS 600\nDATA ascii\n" +
+                                   rings);
+  ASSERT_EQ(runTufted({"laplacian", image, "--out", out(), "--structure", "image"}).code, 0);
+  EXPECT_NE(readAll(dir_ / "out/report.json").find("\"structure\": \"image\""), std::string::npos);
+  ASSERT_EQ(runTufted({"laplacian", scan, "--out", out(), "--structure", "rings"}).code, 0);
+  EXPECT_NE(readAll(dir_ / "out/report.json").find("\"unplaced\": 0"), std::string::npos);
+  const auto loose = dir_.write("loose.xyz", sphere(500));
+  for (const char* structure : {"image", "rings"}) {
+    const Result result = runTufted({"laplacian", loose, "--out", out(), "--structure", structure});
+    EXPECT_EQ(result.code, 1);
+    EXPECT_TRUE(isOneLine(result.err)) << result.err;
+    EXPECT_NE(result.err.find("--structure"), std::string::npos);
+  }
+}
+
+/// Ten rings of 60 points around (shift, 0, 0), with the fields `ring` and, in units of `turn` per turn, `azimuth`.
+std::string ringScan(double shift, double turn) {
+  std::string text =
+      "VERSION .7\nFIELDS x y z ring azimuth\nSIZE 4 4 4 2 4\nTYPE F F F U F\nCOUNT 1 1 1 1 1\n"
+      "WIDTH 600\nHEIGHT 1\nPOINTS 600\nDATA ascii\n";
+  for (int i = 0; i < 600; ++i) {
+    const double angle = 2 * M_PI * (i % 60) / 60;
+    text += std::to_string(shift + std::cos(angle)) + ' ' + std::to_string(std::sin(angle)) + ' ' +
+            std::to_string(i / 60 * 0.1) + ' ' + std::to_string(i / 60) + ' ' + std::to_string(i % 60 / 60.0 * turn) +
+            '\n';
+  }
+  return text;
+}
+
+TEST_F(Structures, TakesTheAzimuthsOfAFileInAnyUnit) {
+  const auto matrix = [&](double shift, double turn) {
+    const auto file = dir_.write("rings.pcd", ringScan(shift, turn));
+    const Result result = runTufted({"laplacian", file, "--out", out(), "--structure", "rings"});
+    EXPECT_EQ(result.code, 0) << result.err;
+    return readAll(dir_ / "out/L.npz");
+  };
+  const auto boundaryPoints = [&] {
+    const auto report = nlohmann::json::parse(readAll(dir_ / "out/report.json")).at("report");
+    return report.at("rim_points").get<int>() + report.at("jump_points").get<int>() +
+           report.at("lost_points").get<int>();
+  };
+  const std::string radians = matrix(0, 2 * M_PI);
+  EXPECT_EQ(boundaryPoints(), 120);  // of the first and the last ring
+  for (const double turn : {360.0, 36000.0, -360.0}) EXPECT_TRUE(matrix(0, turn) == radians) << turn;
+  // Seen from the origin, which is no place of this scanner, front and back of every ring lie in one direction.
+  matrix(4, 360);
+  EXPECT_EQ(boundaryPoints(), 120);
+  const Result result =
+      runTufted({"laplacian", dir_.write("odd.pcd", ringScan(0, 360000)), "--out", out(), "--structure", "rings"});
+  EXPECT_EQ(result.code, 1);
+  EXPECT_NE(result.err.find("azimuth"), std::string::npos) << result.err;
+}
+
+TEST_F(Structures, TakesTheAzimuthsOfAFileWhoseRingsItHasToFind) {
+  // The azimuths turn the other way and start elsewhere, which changes nothing, or are all one, which joins nothing.
+  const auto matrix = [&](const std::string& azimuth, double slope) {
+    std::string text = "VERSION .7\nFIELDS x y z " + azimuth + "\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 1\n" +
+                       "WIDTH 600\nHEIGHT 1\nPOINTS 600\nDATA ascii\n";
+    for (int i = 0; i < 600; ++i) {
+      const double angle = 2 * M_PI * (i % 60) / 60;
+      text += std::to_string(std::cos(angle)) + ' ' + std::to_string(std::sin(angle)) + ' ' +
+              std::to_string(i / 60 * 0.1) + ' ' + std::to_string(slope * (i % 60 * 6 - 100)) + '\n';
+    }
+    const Result result =
+        runTufted({"laplacian", dir_.write("scan.pcd", text), "--out", out(), "--structure", "rings"});
+    EXPECT_EQ(result.code, 0) << result.err;
+    return readAll(dir_ / "out/L.npz");
+  };
+  const std::string computed = matrix("intensity", -1);
+  EXPECT_TRUE(matrix("azimuth", -1) == computed);
+  EXPECT_FALSE(matrix("azimuth", 0) == computed);
+}
+
+}  // namespace
