@@ -164,6 +164,27 @@ TEST(Scanners, AJumpIsWhereTheScannerSeesPastAnEdge) {
   EXPECT_TRUE(crossesJump(east_wall, box_front));
 }
 
+TEST(Scanners, AnImageJumpsWhereNoSlantExplainsIt) {
+  // One row of pixels; the depths of all, 0: sees nothing.
+  const auto jumps = [](const std::vector<double>& depths) {
+    Cloud image;
+    image.width = static_cast<int>(depths.size());
+    image.height = 1;
+    image.points.resize(image.width, 3);
+    for (int i = 0; i < image.width; ++i)
+      image.points.row(i) = Eigen::RowVector3d(i / 525.0, 0, 1) * (depths[i] > 0 ? depths[i] : std::nan(""));
+    const bool there = jumpsBetween(image, 0, image.width - 1);
+    EXPECT_EQ(there, jumpsBetween(image, image.width - 1, 0));
+    return there;
+  };
+  EXPECT_FALSE(jumps({1, 1.02, 1.04, 1.06, 1.08}));  // a slant of 5.5 degrees
+  EXPECT_TRUE(jumps({1, 1, 1, 1.08, 1.08}));
+  EXPECT_FALSE(jumps({1, 0, 0, 0, 1.08}));  // a slant may hide here
+  EXPECT_TRUE(jumps({1, 0, 0, 0, 1.1}));    // but not here
+  EXPECT_TRUE(jumps({1, 1, 0.5, 1, 1}));    // something in front
+  EXPECT_FALSE(jumps({1}));
+}
+
 TEST(Scanners, DepthCameraIsQuantisedAndOrganized) {
   const DepthCameraOptions options{.width = 160, .height = 120, .depth_step = 0.004};
   const Cloud cloud = depthCamera(options);

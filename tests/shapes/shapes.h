@@ -153,6 +153,13 @@ ScanTruth scanTruth(const Cloud& scan, bool goes_round);
 /// @param a,b points in the scanner's frame, less than 180 degrees apart
 bool crossesJump(const Eigen::Vector3d& a, const Eigen::Vector3d& b);
 
+/// Whether a depth image breaks off between two of its pixels and goes on at another depth: on the straight way from
+/// one to the other there is a step of more than a twentieth of the depth, from pixel to pixel or over pixels that see
+/// nothing, and steeper than a surface can be seen at: less than 5 degrees off the sight.
+/// @param image organized, seen from the origin along z
+/// @param a,b indices of finite points
+bool jumpsBetween(const Cloud& image, int a, int b);
+
 struct DepthCameraOptions {
   int width = 640, height = 480;
   double depth_step = 0.002;  ///< depth is rounded to multiples of this, m; 0: not rounded

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <Eigen/SparseCholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "base/disjoint_sets.h"
@@ -247,13 +248,17 @@ double bridges(const Build& build) {
 }
 
 double trianglesAcrossJumps(const Build& build) {
-  constexpr double jump = 1.05;
-  const Points& points = build.cloud().points;
+  constexpr double far_step = 1.05;
+  const shapes::Cloud& cloud = build.cloud();
   const Triangles& triangles = build.stars();
   int count = 0;
   for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
-    const Eigen::Vector3d depth(points(triangles(t, 0), 2), points(triangles(t, 1), 2), points(triangles(t, 2), 2));
-    if (depth.maxCoeff() > jump * depth.minCoeff()) ++count;
+    const auto [a, b, c] = std::array{triangles(t, 0), triangles(t, 1), triangles(t, 2)};
+    const auto [near, far] = std::minmax({cloud.points(a, 2), cloud.points(b, 2), cloud.points(c, 2)});
+    if (!(far > far_step * near)) continue;
+    const bool jumps =
+        shapes::jumpsBetween(cloud, a, b) || shapes::jumpsBetween(cloud, b, c) || shapes::jumpsBetween(cloud, c, a);
+    count += jumps ? 1 : 0;
   }
   return count;
 }

@@ -23,15 +23,17 @@ double componentsOfSurfaces(const Build& build);
 /// Share of the inner rays whose star is closed and has lost nothing.
 double closedInnerStars(const Build& build);
 /// Rooms of lidar(): share of the area of the union of stars in triangles between bodies that the scanner sees one
-/// behind the other, see shapes::crossesJump(). Where the box or the pole stands on the floor, such triangles are right.
+/// behind the other, see shapes::crossesJump(). Where the box or the pole stands on the floor, such triangles are
+/// right.
 double areaAcrossJumps(const Build& build);
 /// Share of the area of the union of stars in triangles whose corners do not all belong to the room's shell, to the box
 /// or to the pole.
 double mixedBodies(const Build& build);
 /// Triangles of the union of stars, all copies counted, whose corners do not all have one label.
 double bridges(const Build& build);
-/// Triangles of the union of stars, all copies counted, one of whose corners is at least a twentieth farther (along
-/// z) than another: across a depth jump, for a wall seen at 5 degrees grows by a fiftieth per pixel.
+/// Triangles of the union of stars, all copies counted, one of whose corners is more than a twentieth farther (along z)
+/// than another, and not because the surface is slanted: the pixels along one of its edges jump, see
+/// shapes::jumpsBetween().
 double trianglesAcrossJumps(const Build& build);
 
 double boundaryRecall(const Build& build);     ///< share of rim points that are tagged
