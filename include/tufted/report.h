@@ -44,7 +44,7 @@ struct Report {
   std::int64_t grown_stars = 0;            ///< times k was doubled because a closed star was not certified
   std::int64_t closed_stars = 0;           ///< open stars that closed with twice the neighbours
   std::int64_t open_stars = 0;             ///< points whose Voronoi cell is not compact
-  std::int64_t dropped_triangles = 0;      ///< star triangles removed: by the filter, with outliers, too flat
+  std::int64_t dropped_triangles = 0;      ///< star triangles removed: filtered, with outliers, too flat, across jumps
   std::array<std::int64_t, 3> votes = {};  ///< distinct triangles found by 1, 2, 3 of their corners
 
   // Meshes

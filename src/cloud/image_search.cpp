@@ -17,6 +17,7 @@ constexpr std::int64_t pixels_per_point = 64;
 constexpr int most_pixels_per_neighbor = 4;  // of the window
 constexpr int most_windows = 3;
 constexpr double grazing = 1.0 / 12;  // sine of 5 degrees: no camera sees a surface at a lower angle
+constexpr double far_step = 1.04;     // from the sensor; less may be the noise of a surface far away
 constexpr int far_from_jumps = 255;
 
 /// The nearest of the pixels around p, found in a window that is enlarged, in columns or in rows, while its border is
@@ -25,10 +26,11 @@ constexpr int far_from_jumps = 255;
 ///
 /// The surface jumps between two neighbouring pixels of a row or column where the step from one to the other goes
 /// along the line of sight. Pixels to be reached across a jump only, first along the row and then along the column or
-/// the other way round, are no neighbours.
+/// the other way round, are no neighbours. What still leads to another depth is looked at on its straight way.
 class ImageSearch final : public ScanSearch {
  public:
-  ImageSearch(const RankedScan& scan, const RankedCloud& cloud) : place_(scan.row.size(), -1) {
+  ImageSearch(const RankedScan& scan, const RankedCloud& cloud)
+      : origin_(scan.origin.transpose()), place_(scan.row.size(), -1) {
     for (int p = 0; p < cloud.size(); ++p) {
       if (scan.row[p] < 0) continue;
       ++places_;
@@ -60,7 +62,7 @@ class ImageSearch final : public ScanSearch {
     }
     row_.resize(rank_.size());
     for (int place = 0; place < static_cast<int>(places_); ++place) row_[place] = scan.row[rank_[place]];
-    findJumps(scan.origin.transpose());
+    findJumps();
   }
 
   Searched nearest(int p, int k, std::vector<Neighbor>& found) const override {
@@ -99,6 +101,13 @@ class ImageSearch final : public ScanSearch {
     std::sort(found.begin(), found.end());
     if (!found.empty()) searched.radius = std::sqrt(found.back().squared_distance);
     return searched;
+  }
+
+  bool spansJump(int a, int b, int c) const override {
+    const int i = place_[a], j = place_[b], k = place_[c];
+    if (i < 0 || j < 0 || k < 0 || !(isFarStep(i, j) || isFarStep(j, k) || isFarStep(k, i))) return false;
+    const auto jumpsEitherWay = [this](int from, int to) { return jumpsBetween(from, to) || jumpsBetween(to, from); };
+    return jumpsEitherWay(i, j) || jumpsEitherWay(j, k) || jumpsEitherWay(k, i);
   }
 
   bool isGraded() const override { return false; }
@@ -167,23 +176,53 @@ class ImageSearch final : public ScanSearch {
     return (inRow(row) || inColumn(to_column)) && (inColumn(column) || inRow(to_row));
   }
 
+  bool hasPoint(std::int64_t pixel) const { return begin_[pixel] < begin_[pixel + 1]; }
+
+  double squaredRange(int place) const { return (points_.row(place) - origin_).squaredNorm(); }
+
+  bool isFarStep(int a, int b) const {
+    const auto [near, far] = std::minmax({squaredRange(a), squaredRange(b)});
+    return far > far_step * far_step * near;
+  }
+
+  /// Whether the step from one place to the other goes along the sight.
+  bool isJump(int a, int b) const {
+    const Eigen::RowVector3d step = points_.row(b) - points_.row(a);
+    const double along = step.dot((points_.row(a) - origin_).stableNormalized());
+    return along * along > (1 - grazing * grazing) * step.squaredNorm();
+  }
+
+  /// Whether a far step on the straight way from one place to another is a jump. Pixels without a point are skipped;
+  /// the way back may round to other pixels.
+  bool jumpsBetween(int from, int to) const {
+    const std::int64_t columns = column_[to] - column_[from], rows = row_[to] - row_[from];
+    const std::int64_t steps = std::max(std::abs(columns), std::abs(rows));
+    const auto part = [steps](std::int64_t whole, std::int64_t i) {  // rounded to the nearest pixel
+      return (2 * whole * i + (whole < 0 ? -steps : steps)) / (2 * steps);
+    };
+    int last = from;
+    for (std::int64_t i = 1; i <= steps; ++i) {
+      const std::int64_t pixel = (row_[from] + part(rows, i)) * columns_ + column_[from] + part(columns, i);
+      if (!hasPoint(pixel)) continue;
+      const int next = i == steps ? to : begin_[pixel];
+      if (isFarStep(last, next) && isJump(last, next)) return true;
+      last = next;
+    }
+    return false;
+  }
+
   /// Counts the jumps along every row and column, and the pixels from each to the next jump.
-  void findJumps(const Eigen::RowVector3d& origin) {
+  void findJumps() {
     const auto pixels = static_cast<std::size_t>(rows_ * columns_);
     jumps_in_row_.assign(pixels, 0);
     jumps_in_column_.assign(pixels, 0);
     to_jump_.assign(pixels, far_from_jumps);
-    const auto isJump = [&](int a, int b) {
-      const Eigen::RowVector3d step = points_.row(b) - points_.row(a);
-      const double along = step.dot((points_.row(a) - origin).stableNormalized());
-      return along * along > (1 - grazing * grazing) * step.squaredNorm();
-    };
     // Pixels without a point are skipped: the step is that between the points on both sides.
     const auto walk = [&](std::int64_t first, std::int64_t step, std::int64_t count, std::vector<int>& jumps) {
       int seen = 0, last = -1;
       std::int64_t last_pixel = first;
       for (std::int64_t i = 0, pixel = first; i < count; ++i, pixel += step) {
-        if (begin_[pixel] < begin_[pixel + 1]) {
+        if (hasPoint(pixel)) {
           if (last >= 0 && isJump(last, begin_[pixel])) {
             ++seen;
             for (std::int64_t between = last_pixel; between <= pixel; between += step) to_jump_[between] = 0;
@@ -216,6 +255,7 @@ class ImageSearch final : public ScanSearch {
     for (std::int64_t i = rows_ * columns_ - 1; i >= 0; --i) relax(i / columns_, i % columns_, -1);
   }
 
+  Eigen::RowVector3d origin_;  ///< of the sensor
   std::int64_t rows_ = 0, columns_ = 0, places_ = 0;
   std::vector<int> begin_;                           ///< by pixel, the first place; one more at the end
   std::vector<int> place_;                           ///< of each rank in the order of pixels, -1: none

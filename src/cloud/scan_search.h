@@ -24,6 +24,9 @@ class ScanSearch {
   /// `found` is overwritten and keeps its memory. Safe to call from several threads.
   virtual Searched nearest(int p, int k, std::vector<Neighbor>& found) const = 0;
 
+  /// Whether a triangle of points leads across a jump of the surface that its corners may all be neighbours around.
+  virtual bool spansJump(int /*a*/, int /*b*/, int /*c*/) const { return false; }
+
   /// Whether the points that nearest() returns get sparser with their distance, so that they are crowded in the middle.
   virtual bool isGraded() const = 0;
 

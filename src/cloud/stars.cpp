@@ -38,7 +38,7 @@ struct WorkerState {
   StarScratch scratch;
   DelaunayStar star;
   std::int64_t cut_neighbors = 0, grown_neighborhoods = 0, split_neighborhoods = 0, isolated = 0, grown_stars = 0,
-               reopened_stars = 0, open_stars = 0, flat_triangles = 0;
+               reopened_stars = 0, open_stars = 0, unusable_triangles = 0;
   std::array<double, 3> seconds = {};  // neighbours, frames, stars
 };
 
@@ -166,8 +166,12 @@ class StarBuilder {
     for (int i = 0; i < static_cast<int>(star.link.size()); ++i) {
       block.link.push_back(star.link[i].index);
       block.radius.push_back(i < star.triangles() ? std::ldexp(star.radius[i], exponent) : no_triangle);
-      if (i < star.triangles() && block.radius.back() == no_triangle) {  // too flat for a double
-        ++state.flat_triangles;
+      if (i >= star.triangles()) continue;
+      const std::size_t after = i + 1 < static_cast<int>(star.link.size()) ? i + 1 : 0;
+      if (source_.scan != nullptr && source_.scan->spansJump(p, star.link[i].index, star.link[after].index))
+        block.radius.back() = no_triangle;
+      if (block.radius.back() == no_triangle) {  // this, or too flat for a double
+        ++state.unusable_triangles;
         stars_.ends[p] = 1;
       }
     }
@@ -260,7 +264,7 @@ Stars buildStars(const RankedCloud& cloud, const NeighborSource& source, const C
     report.grown_stars += state.grown_stars;
     report.closed_stars += state.reopened_stars;
     report.open_stars += state.open_stars;
-    report.dropped_triangles += state.flat_triangles;
+    report.dropped_triangles += state.unusable_triangles;
     for (int i = 0; i < 3; ++i) seconds[i] += state.seconds[i];
   }
   const double cpu = seconds[0] + seconds[1] + seconds[2];

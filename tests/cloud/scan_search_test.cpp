@@ -21,13 +21,16 @@ struct Scan {
 
   /// The caller's indices of the neighbours of a point of the caller.
   std::vector<int> around(int point, int k) const {
-    const auto rank = std::find(cloud.caller.begin(), cloud.caller.end(), point) - cloud.caller.begin();
     std::vector<Neighbor> found;
-    search->nearest(static_cast<int>(rank), k, found);
+    search->nearest(rank(point), k, found);
     EXPECT_TRUE(std::is_sorted(found.begin(), found.end()));
     std::vector<int> points;
     for (const Neighbor& q : found) points.push_back(cloud.caller[q.index]);
     return points;
+  }
+
+  int rank(int point) const {
+    return static_cast<int>(std::find(cloud.caller.begin(), cloud.caller.end(), point) - cloud.caller.begin());
   }
 
   Report report;
@@ -103,6 +106,32 @@ TEST(ImageSearch, PassesOverPixelsWithoutAPoint) {
     equal += found.size() == 30 && found.back().index == expected.back().index ? 1 : 0;
   }
   EXPECT_EQ(equal, inner);
+}
+
+TEST(ImageSearch, KnowsTrianglesThatSpanATearFromThoseOnASlant) {
+  // A sheet slanted to the right and torn from row 15 down between two columns, each lip bent further back or forth
+  // towards the bottom. A point above the tear is a neighbour of both lips.
+  Points points(width * height, 3);
+  for (int i = 0; i < points.rows(); ++i) {
+    const int column = i % width, row = i / width;
+    const double lip = std::max(0, row - 15) * (column < 30 ? -0.02 : 0.02);
+    const bool is_missing = row > 30 && column > 25 && column < 35;
+    const double depth = is_missing ? std::nan("") : 1 + lip + 0.01 * column;
+    points.row(i) = Eigen::RowVector3d((column - 30) / 525.0, (row - 20) / 525.0, 1) * depth;
+  }
+  const Scan scan(points, imageStructure(width, height));
+  const auto spansJump = [&](int row_a, int column_a, int row_b, int column_b, int row_c, int column_c) {
+    const int a = scan.rank(row_a * width + column_a), b = scan.rank(row_b * width + column_b),
+              c = scan.rank(row_c * width + column_c);
+    EXPECT_EQ(scan.search->spansJump(a, b, c), scan.search->spansJump(c, a, b));
+    EXPECT_EQ(scan.search->spansJump(a, b, c), scan.search->spansJump(b, a, c));
+    return scan.search->spansJump(a, b, c);
+  };
+  EXPECT_FALSE(spansJump(12, 26, 12, 34, 8, 30));   // above, where the slant alone reaches a twentieth
+  EXPECT_FALSE(spansJump(24, 20, 24, 29, 15, 25));  // on one lip
+  EXPECT_TRUE(spansJump(20, 29, 20, 30, 14, 30));
+  EXPECT_TRUE(spansJump(20, 28, 24, 31, 13, 29));
+  EXPECT_TRUE(spansJump(40, 25, 40, 35, 29, 20));  // over pixels without a point
 }
 
 TEST(RingSearch, ReachesTheRingsBesideHoweverFarApartTheyAre) {
