@@ -1,5 +1,6 @@
 #include "cloud/neighborhood.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <span>
@@ -14,9 +15,18 @@ constexpr double crowd = 0.4;       // of the neighbours within half the radius;
 constexpr double sheet_gap = 0.25;  // of the reach, between the heights of two sheets
 constexpr int most_splits = 3;
 constexpr std::size_t least_sheet = 3, least_plane = 9;  // points, p included
+constexpr double flat_sheet = 0.1, flat_few = 0.05;      // of the second variance; found by many, by two neighbours
+constexpr std::size_t most_corners = 4;                  // of the triangles at p whose planes a sheet is sought along
+constexpr double least_sine = 0.3;                       // of their angles at p
 
 double flatness(const PrincipalAxes& axes) {
   return axes.variance[1] > 0 ? axes.variance[0] / axes.variance[1] : 0;
+}
+
+/// Whether what is left of a neighbourhood is a plane, as flat as asked and far flatter than it was.
+bool isSheet(const Neighborhood& hood, const PrincipalAxes& before, double flat) {
+  return hood.neighbors.size() + 1 >= least_plane && !liesOnOneLine(hood.axes) && flatness(hood.axes) < flat &&
+         flatness(hood.axes) < 0.25 * flatness(before);
 }
 
 }  // namespace
@@ -128,18 +138,43 @@ void NeighborhoodFinder::splitSheets(int p, Neighborhood& hood, SheetScratch& sc
     if (!keepSheet(p, hood.axes.normal, hood, scratch)) break;
     hood.axes = principalAxes(points_, p, hood.neighbors);
   }
-  if (scratch.all.empty()) return;
-  const std::size_t kept = hood.neighbors.size() + 1;
-  if (kept <= least_sheet) {
+  if (scratch.all.empty()) {
+    hood.split = flatness(before) > flat_sheet && findSheet(p, before, hood, scratch);
+  } else if (hood.neighbors.size() + 1 <= least_sheet) {
     hood.isolated = true;
-  } else if (kept >= least_plane && !liesOnOneLine(hood.axes) && flatness(hood.axes) < 0.1 &&
-             flatness(hood.axes) < 0.25 * flatness(before)) {
+  } else if (isSheet(hood, before, flat_sheet) || findSheet(p, before, hood, scratch)) {
     hood.split = true;
   } else {
     hood.restored = true;
-    hood.neighbors = scratch.all;
-    hood.axes = before;
   }
+}
+
+bool NeighborhoodFinder::findSheet(int p, const PrincipalAxes& before, Neighborhood& hood,
+                                   SheetScratch& scratch) const {
+  if (scratch.all.empty()) scratch.all = hood.neighbors;
+  Neighborhood& tried = scratch.tried;
+  tried = hood;
+  hood.neighbors.clear();
+  const std::size_t corners = std::min(scratch.all.size(), most_corners);
+  for (std::size_t i = 1; i < corners; ++i) {
+    for (std::size_t j = 0; j < i; ++j) {
+      const Eigen::Vector3d u = points_.row(scratch.all[i].index) - points_.row(p);
+      const Eigen::Vector3d v = points_.row(scratch.all[j].index) - points_.row(p);
+      const Eigen::Vector3d normal = u.cross(v);
+      if (!(normal.norm() > least_sine * u.norm() * v.norm())) continue;
+      tried.neighbors = scratch.all;
+      if (!keepSheet(p, normal.normalized(), tried, scratch)) continue;
+      tried.axes = principalAxes(points_, p, tried.neighbors);
+      if (keepSheet(p, tried.axes.normal, tried, scratch)) tried.axes = principalAxes(points_, p, tried.neighbors);
+      if (!isSheet(tried, before, flat_few) || tried.neighbors.size() <= hood.neighbors.size()) continue;
+      hood.neighbors.swap(tried.neighbors);
+      hood.axes = tried.axes;
+    }
+  }
+  if (!hood.neighbors.empty()) return true;
+  hood.neighbors = scratch.all;
+  hood.axes = before;
+  return false;
 }
 
 }  // namespace tufted

@@ -27,6 +27,7 @@ struct Neighborhood {
 struct SheetScratch {
   std::vector<double> heights, sorted;
   std::vector<Neighbor> all;  ///< before any were left out; empty while none were
+  Neighborhood tried;
 };
 
 /// Finds the neighbourhoods of points and fits planes to them.
@@ -59,6 +60,9 @@ class NeighborhoodFinder {
   /// True if some were left out.
   bool keepSheet(int p, const Eigen::Vector3d& normal, Neighborhood& hood, SheetScratch& scratch) const;
   void splitSheets(int p, Neighborhood& hood, SheetScratch& scratch) const;
+  /// For where the planes of several neighbours stand across two sheets: the largest sheet along a plane through p and
+  /// two of the nearest four. False, and the neighbourhood as it was before any were left out, if there is none.
+  bool findSheet(int p, const PrincipalAxes& before, Neighborhood& hood, SheetScratch& scratch) const;
 
   const Points& points_;
   const NeighborSource& source_;

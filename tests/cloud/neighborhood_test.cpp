@@ -93,6 +93,23 @@ TEST(Neighborhood, LeavesTheOtherSheetOut) {
   EXPECT_EQ(own.reach, mixed.reach);  // what was searched does not depend on what was kept
 }
 
+TEST(Neighborhood, HoldsOneOfTwoSheetsAtTwoSpacings) {
+  // Random gaps leave some points, above all on the rim, with hardly more neighbours on their own sheet than across.
+  for (std::uint64_t seed = 1; seed <= 3; ++seed) {
+    const shapes::Cloud cloud = shapes::twoSheets(4000, 2 * std::sqrt(2.0 / 4000), seed);
+    Hoods hoods(cloud.points, {.steps = cloudSteps(Preset::scan)});
+    int mixed = 0;
+    for (int p = 0; p < 4000; ++p) {
+      const Neighborhood hood = hoods.at(p);
+      mixed += std::any_of(hood.neighbors.begin(), hood.neighbors.end(),
+                           [&](const Neighbor& q) { return cloud.labels[q.index] != cloud.labels[p]; })
+                   ? 1
+                   : 0;
+    }
+    EXPECT_LE(mixed, 10) << seed;
+  }
+}
+
 TEST(Neighborhood, OfANoisySheetIsNotSplit) {
   Points points = sheet(4000, 0, 3);
   shapes::Random random(4);
