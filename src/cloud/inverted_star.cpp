@@ -12,7 +12,7 @@ namespace tufted {
 namespace {
 
 constexpr int most_candidates = 66, most_links = 24;
-constexpr int near_part = 10, most_rounds = 3;
+constexpr int near_part = 12, most_rounds = 3;
 /// The sine of the angle between circles from which on they differ: far wider than the tie band of sideOfCircle().
 constexpr double distinct = 1e-7;
 constexpr double rounding = 1e-14;                          // of coordinates and products of them, a dozen roundings

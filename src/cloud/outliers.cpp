@@ -40,7 +40,7 @@ int isolate(Stars& stars, int p) {
   stars.isolated[p] = stars.ends[p] = 1;
   for (int i = stars.offset[p]; i < stars.offset[p + 1]; ++i) {
     dropped += stars.hasTriangle(i) ? 1 : 0;
-    stars.radius[i] = no_triangle;
+    stars.triangle[i] = 0;
   }
   return dropped;
 }

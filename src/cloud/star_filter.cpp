@@ -5,6 +5,7 @@
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <limits>
 
 namespace tufted {
 namespace {
@@ -32,7 +33,8 @@ int otherVotes(const Stars& stars, int p, int i) {
 double circumradius(const Points& points, int p, int a, int b) {
   const Eigen::Vector3d u = points.row(a) - points.row(p), v = points.row(b) - points.row(p);
   const double twice_area = u.cross(v).norm();
-  return twice_area > 0 ? u.norm() * v.norm() * (u - v).norm() / (2 * twice_area) : no_triangle;
+  return twice_area > 0 ? u.norm() * v.norm() * (u - v).norm() / (2 * twice_area)
+                        : std::numeric_limits<double>::infinity();
 }
 
 /// Filter::radius: circumradius R > r_k(p), which are slivers along a rim, or R > 4 times the smallest r_k of the three
@@ -71,7 +73,7 @@ std::int64_t dropTriangles(Stars& stars, const Workers& workers, const Test& tes
   forEachEntry([&](int p, int i) { condemned[i] = stars.hasTriangle(i) && test(p, i) ? 1 : 0; });
   forEachEntry([&](int p, int i) {
     if (condemned[i] == 0) return;
-    stars.radius[i] = no_triangle;
+    stars.triangle[i] = 0;
     stars.ends[p] = 1;
     dropped.fetch_add(1, std::memory_order_relaxed);
   });
@@ -88,13 +90,14 @@ void filterStars(Stars& stars, const Points& points, int k, Filter filter, const
   });
 }
 
-void countVotes(const Stars& stars, const Workers& workers, Report& report) {
+void countVotes(const Stars& stars, const std::vector<std::uint8_t>& disagrees, const Workers& workers,
+                Report& report) {
   std::array<std::atomic<std::int64_t>, 3> copies = {};
   workers.forBlocks("votes", stars.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
     std::array<std::int64_t, 3> found = {};
     for (int p = static_cast<int>(begin); p < end; ++p) {
       for (int i = stars.offset[p]; i < stars.offset[p + 1]; ++i)
-        if (stars.hasTriangle(i)) ++found[otherVotes(stars, p, i)];
+        if (stars.hasTriangle(i)) ++found[disagrees[p] != 0 ? otherVotes(stars, p, i) : 2];
     }
     for (int v = 0; v < 3; ++v) copies[v] += found[v];
   });

@@ -12,6 +12,7 @@ namespace tufted {
 void filterStars(Stars& stars, const Points& points, int k, Filter filter, const Workers& workers, Report& report);
 
 /// Counts the distinct triangles that 1, 2 and 3 of their corners' stars contain.
-void countVotes(const Stars& stars, const Workers& workers, Report& report);
+/// @param disagrees see findDisagreement(): all corners' stars contain the triangles of the others
+void countVotes(const Stars& stars, const std::vector<std::uint8_t>& disagrees, const Workers& workers, Report& report);
 
 }  // namespace tufted

@@ -20,6 +20,7 @@ constexpr double flat_share = 0.02;        // of the second variance, below whic
 /// What one block of points leaves behind.
 struct BlockOfStars {
   std::vector<int> link;
+  std::vector<std::uint8_t> triangle;
   std::vector<double> radius;
   std::vector<int> noisy;              ///< ranks
   std::vector<std::size_t> noisy_end;  ///< where the neighbours of each end in `noisy_neighbors`
@@ -151,6 +152,7 @@ class StarBuilder {
   void wrapStar(int p, Neighborhood& hood, WorkerState& state, BlockOfStars& block) const {
     // A power of two near the reach, so that the predicates meet numbers near 1 and scaling rounds nothing.
     const int exponent = hood.reach > 0 ? std::max(std::ilogb(hood.reach), -1022) : 0;
+    const double unit = std::ldexp(1.0, exponent);
     DelaunayStar& star = state.star;
     if (hood.isolated) {
       star.link.clear();
@@ -165,12 +167,13 @@ class StarBuilder {
     stars_.offset[p + 1] = static_cast<int>(star.link.size());
     for (int i = 0; i < static_cast<int>(star.link.size()); ++i) {
       block.link.push_back(star.link[i].index);
-      block.radius.push_back(i < star.triangles() ? std::ldexp(star.radius[i], exponent) : no_triangle);
-      if (i >= star.triangles()) continue;
-      const std::size_t after = i + 1 < static_cast<int>(star.link.size()) ? i + 1 : 0;
-      if (source_.scan != nullptr && source_.scan->spansJump(p, star.link[i].index, star.link[after].index))
-        block.radius.back() = no_triangle;
-      if (block.radius.back() == no_triangle) {  // this, or too flat for a double
+      const bool is_triangle = i < star.triangles();
+      const bool is_usable =
+          is_triangle && std::isfinite(star.radius[i]) &&
+          !(source_.scan != nullptr && source_.scan->spansJump(p, star.link[i].index, star.after(i).index));
+      block.radius.push_back(is_usable ? star.radius[i] * unit : 0);
+      block.triangle.push_back(is_usable ? 1 : 0);
+      if (is_triangle && !is_usable) {
         ++state.unusable_triangles;
         stars_.ends[p] = 1;
       }
@@ -218,9 +221,14 @@ void refineSurface(const Points& points, Stars& stars, const std::vector<BlockOf
 
 }  // namespace
 
+std::int64_t Stars::triangles() const {
+  return std::count(triangle.begin(), triangle.end(), 1);
+}
+
 std::size_t Stars::bytes() const {
-  return bytesOf(offset) + bytesOf(link) + bytesOf(radius) + bytesOf(reach) + bytesOf(ends) + bytesOf(isolated) +
-         bytesOf(flat) + static_cast<std::size_t>(normals.size() + move.size()) * sizeof(double);
+  return bytesOf(triangle) + bytesOf(offset) + bytesOf(link) + bytesOf(radius) + bytesOf(reach) + bytesOf(ends) +
+         bytesOf(isolated) + bytesOf(flat) + bytesOf(disagrees) +
+         static_cast<std::size_t>(normals.size() + move.size()) * sizeof(double);
 }
 
 Stars buildStars(const RankedCloud& cloud, const NeighborSource& source, const CloudOptions& options,
@@ -248,9 +256,11 @@ Stars buildStars(const RankedCloud& cloud, const NeighborSource& source, const C
 
   std::partial_sum(stars.offset.begin(), stars.offset.end(), stars.offset.begin());
   stars.link.reserve(stars.offset.back());
+  stars.triangle.reserve(stars.offset.back());
   stars.radius.reserve(stars.offset.back());
   for (BlockOfStars& block : blocks) {
     stars.link.insert(stars.link.end(), block.link.begin(), block.link.end());
+    stars.triangle.insert(stars.triangle.end(), block.triangle.begin(), block.triangle.end());
     stars.radius.insert(stars.radius.end(), block.radius.begin(), block.radius.end());
     block = {};
   }

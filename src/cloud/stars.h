@@ -1,7 +1,7 @@
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
-#include <limits>
 #include <vector>
 
 #include "base/parallel.h"
@@ -13,29 +13,30 @@
 
 namespace tufted {
 
-constexpr double no_triangle = std::numeric_limits<double>::infinity();
-
 /// The Delaunay stars of all points, one after the other, everything by rank.
 ///
 /// Star p has the link vertices link[offset[p] .. offset[p + 1]), counterclockwise in the tangent plane of p. Entry i
-/// stands for the triangle (p, link[i], successor of i); its `radius` is no_triangle where there is none: at the last
-/// link vertex of an open star, and where a filter dropped it.
+/// stands for the triangle (p, link[i], successor of i). There is none at the last link vertex of an open star, and
+/// where a filter dropped it.
 struct Stars {
-  std::vector<int> offset;         ///< n + 1
-  std::vector<int> link;           ///< ranks
-  std::vector<double> radius;      ///< circumradius in the tangent plane, per link entry
+  std::vector<int> offset;             ///< n + 1
+  std::vector<int> link;               ///< ranks
+  std::vector<std::uint8_t> triangle;  ///< per link entry, 0 where there is none
+  std::vector<double> radius;      ///< circumradius in the tangent plane, per link entry; empty once the filter has run
   std::vector<double> reach;       ///< n, r_k: distance to the last neighbour before a star grows
   std::vector<std::uint8_t> ends;  ///< n, 1 where the surface ends at p: an open star or a lost triangle
   std::vector<std::uint8_t>
       isolated;  ///< n, 1 for points without a star: outliers, and where all neighbours are of other sheets
-  std::vector<std::uint8_t> flat;  ///< n, 1 where the neighbourhood is next to a plane
-  Points normals;                  ///< n x 3
-  Points move;                     ///< n x 3, from each point to where lengths are measured; 0 x 3: no point moves
+  std::vector<std::uint8_t> disagrees;  ///< n, see findDisagreement(); empty before the filter has run
+  std::vector<std::uint8_t> flat;       ///< n, 1 where the neighbourhood is next to a plane
+  Points normals;                       ///< n x 3
+  Points move;                          ///< n x 3, from each point to where lengths are measured; 0 x 3: no point moves
 
-  int size() const { return static_cast<int>(reach.size()); }
+  int size() const { return std::max(0, static_cast<int>(offset.size()) - 1); }
   /// The link entry after i in star p, cyclically.
   int after(int p, int i) const { return i + 1 == offset[p + 1] ? offset[p] : i + 1; }
-  bool hasTriangle(int i) const { return radius[i] != no_triangle; }
+  bool hasTriangle(int i) const { return triangle[i] != 0; }
+  std::int64_t triangles() const;
   std::size_t bytes() const;
 };
 

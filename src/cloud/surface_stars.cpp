@@ -1,6 +1,7 @@
 #include "cloud/surface_stars.h"
 
 #include "base/stage_clock.h"
+#include "cloud/agreement.h"
 #include "cloud/outliers.h"
 #include "cloud/star_filter.h"
 
@@ -13,7 +14,9 @@ Stars surfaceStars(const RankedCloud& cloud, const NeighborSource& source, const
   if (options.steps.isolate_outliers) isolateOutliers(stars, cloud, source, workers, report);
   clock.finish("outliers", 0);
   filterStars(stars, cloud.points, source.k, options.steps.filter, workers, report);
-  countVotes(stars, workers, report);
+  stars.radius = {};
+  stars.disagrees = findDisagreement(stars, workers);
+  countVotes(stars, stars.disagrees, workers, report);
   clock.finish("filter", 0);
   return stars;
 }

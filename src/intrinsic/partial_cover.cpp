@@ -64,7 +64,7 @@ class Flipping {
 };
 
 PartialCover::PartialCover(const Stars& stars, const EdgeLengths& length, const StarPools& pools)
-    : stars_(stars), length_(length), pools_(pools), first_(stars.reach.size(), -1) {
+    : stars_(stars), length_(length), pools_(pools), first_(static_cast<std::size_t>(stars.size()), -1) {
   cover_.vertices = stars.size();
 }
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "base/parallel.h"
-#include "intrinsic/agreement.h"
+#include "cloud/agreement.h"
 #include "intrinsic/cover.h"
 #include "intrinsic/edge_lengths.h"
 #include "intrinsic/star_metric.h"

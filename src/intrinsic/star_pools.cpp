@@ -4,7 +4,7 @@
 #include <numeric>
 #include <utility>
 
-#include "intrinsic/agreement.h"
+#include "cloud/agreement.h"
 #include "intrinsic/edge_order.h"
 
 namespace tufted {
@@ -25,9 +25,7 @@ void forEachOpenSide(const Stars& stars, int p, const Visit& visit) {
 
 }  // namespace
 
-StarPools::StarPools(const Stars& stars, const Points& points, const std::vector<std::uint8_t>& disagrees,
-                     const Workers& workers)
-    : stars_(stars), disagrees_(disagrees) {
+StarPools::StarPools(const Stars& stars, const Points& points, const Workers& workers) : stars_(stars) {
   collect(workers);
   sort(points, workers);
 }
@@ -82,8 +80,8 @@ int StarPools::endOfPool(int i) const {
 
 StarSide StarPools::neighbor(const StarSide& side, int step) const {
   const int from = tail(stars_, side), to = head(stars_, side);
-  if (disagrees_[from] == 0) return acrossAgreeing(side, from, to);
-  if (disagrees_[to] == 0) return acrossAgreeing(side, to, from);
+  if (stars_.disagrees[from] == 0) return acrossAgreeing(side, from, to);
+  if (stars_.disagrees[to] == 0) return acrossAgreeing(side, to, from);
   const int low = std::min(from, to);
   int at = offset_[low];
   while (pooled_[at].side != side) ++at;

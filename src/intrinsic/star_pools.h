@@ -36,9 +36,8 @@ inline int apex(const Stars& stars, const StarSide& s) {
 /// end names.
 class StarPools {
  public:
-  /// @param stars,disagrees borrowed, see findDisagreement()
-  StarPools(const Stars& stars, const Points& points, const std::vector<std::uint8_t>& disagrees,
-            const Workers& workers);
+  /// @param stars borrowed
+  StarPools(const Stars& stars, const Points& points, const Workers& workers);
 
   /// The sides after and before this one around its edge; itself where there is no other.
   StarSide next(const StarSide& side) const { return neighbor(side, 1); }
@@ -46,7 +45,7 @@ class StarPools {
 
   /// Whether the side lies in a pool.
   bool isPooled(const StarSide& side) const {
-    return disagrees_[tail(stars_, side)] != 0 && disagrees_[head(stars_, side)] != 0;
+    return stars_.disagrees[tail(stars_, side)] != 0 && stars_.disagrees[head(stars_, side)] != 0;
   }
 
   /// Calls visit(sides) for each pool whose smaller vertex lies in [begin, end), its sides in order.
@@ -72,7 +71,6 @@ class StarPools {
   int endOfPool(int i) const;
 
   const Stars& stars_;
-  const std::vector<std::uint8_t>& disagrees_;
   std::vector<int> offset_;  ///< n + 1, by smaller vertex
   std::vector<Pooled> pooled_;
 };

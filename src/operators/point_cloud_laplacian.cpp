@@ -60,8 +60,8 @@ void addStars(const Stars& stars, Gluing gluing, IntrinsicTriangulation& cover, 
   const int n = stars.size();
   std::vector<std::int64_t> first(static_cast<std::size_t>(n) + 1);
   for (int p = 0; p < n; ++p) {
-    const auto begin = stars.radius.begin() + stars.offset[p], end = stars.radius.begin() + stars.offset[p + 1];
-    first[p + 1] = first[p] + std::count_if(begin, end, [](double radius) { return radius != no_triangle; });
+    first[p + 1] = first[p];
+    for (int i = stars.offset[p]; i < stars.offset[p + 1]; ++i) first[p + 1] += stars.hasTriangle(i) ? 1 : 0;
   }
   if (first[n] > most_triangles) tooMany(n, first[n]);
   resizeCover(cover, n, first[n]);
@@ -166,6 +166,8 @@ Laplacian buildCloudLaplacian(const Points& points, const CloudOptions& options,
 
   describePoints(stars, findBoundary(stars, cloud, source, viewpoint, workers), cloud, result);
   source = {};
+  stars.normals = {};
+  stars.reach = {};
   clock.finish("boundary", 0);
 
   VectorXd areas;

@@ -2,7 +2,6 @@
 
 #include <mutex>
 
-#include "intrinsic/agreement.h"
 #include "intrinsic/partial_cover.h"
 #include "operators/star_rows.h"
 
@@ -17,8 +16,7 @@ class StarUnion final : public CoverSource {
         cloud_(std::move(cloud)),
         size_(size),
         threads_(workers.count()),
-        disagrees_(findDisagreement(stars_, workers)),
-        pools_(stars_, cloud_.points, disagrees_, workers),
+        pools_(stars_, cloud_.points, workers),
         cover_(stars_, length_, pools_) {}
 
   /// Lengths, mollified (Section 4.5).
@@ -36,8 +34,7 @@ class StarUnion final : public CoverSource {
   FlipCounts flip(const StarMetric& metric, const Workers& workers) { return cover_.flipToDelaunay(metric, workers); }
 
   Matrices assemble(StarMetric& metric, const Workers& workers, Report& report) const {
-    return assembleStars(stars_, disagrees_, metric, cover_, length_, cloud_.caller, size_, 1.0 / 2 / 3, workers,
-                         report);
+    return assembleStars(stars_, metric, cover_, length_, cloud_.caller, size_, 1.0 / 2 / 3, workers, report);
   }
 
   const IntrinsicTriangulation& cover() const override {
@@ -57,7 +54,6 @@ class StarUnion final : public CoverSource {
   const RankedCloud cloud_;
   const int size_, threads_;
   EdgeLengths length_{cloud_.points, stars_.move};
-  const std::vector<std::uint8_t> disagrees_;
   const StarPools pools_;
   PartialCover cover_;
   mutable std::once_flag once_;
@@ -69,8 +65,7 @@ class StarUnion final : public CoverSource {
 void finishFromStars(Stars stars, RankedCloud cloud, const CloudOptions& options, const Workers& workers,
                      StageClock& clock, Laplacian& result) {
   const int exponent = cloud.exponent;
-  BuildFigures figures{.triangles = std::count_if(stars.radius.begin(), stars.radius.end(),
-                                                  [](double radius) { return radius != no_triangle; })};
+  BuildFigures figures{.triangles = stars.triangles()};
   const auto stars_and_cover =
       std::make_shared<StarUnion>(std::move(stars), std::move(cloud), static_cast<int>(result.status.size()), workers);
   clock.finish("cover", 0);

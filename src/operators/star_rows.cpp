@@ -44,8 +44,8 @@ class StarAssembler {
         workers_(workers) {}
 
   /// Points whose edges among each other are summed over faces.
-  void setMixed(const std::vector<std::uint8_t>& disagrees) {
-    mixed_ = disagrees;
+  void setMixed() {
+    mixed_ = stars_.disagrees;
     for (int p = 0; p < stars_.size(); ++p) mixed_[p] |= metric_.is_flat[p];
     for (const int p : cover_.flippedCorners()) mixed_[p] = 1;
   }
@@ -111,7 +111,7 @@ class StarAssembler {
 
   /// A third of each face's area to each corner (Section 3.3), by rank.
   std::vector<double> lumpAreas(Report& report) const {
-    std::vector<double> mass(stars_.reach.size());
+    std::vector<double> mass(static_cast<std::size_t>(stars_.size()));
     for (int p = 0; p < stars_.size(); ++p)
       if (mixed_[p] == 0) mass[p] = 2 * scale_ * metric_.area[p];  // 2 sheets, 3 stars, a third
     const auto add = [&](int p, double share) {
@@ -171,7 +171,7 @@ class StarAssembler {
   /// All terms, filed under the smaller vertex.
   Rows collectTerms() const {
     Rows terms;
-    terms.offset.assign(stars_.reach.size() + 1, 0);
+    terms.offset.assign(static_cast<std::size_t>(stars_.size()) + 1, 0);
     forEachTerm([&](int low, int, double) { ++terms.offset[low + 1]; });
     std::partial_sum(terms.offset.begin(), terms.offset.end(), terms.offset.begin());
     terms.entries.resize(static_cast<std::size_t>(terms.offset.back()));
@@ -226,12 +226,11 @@ struct Clamped {
 
 }  // namespace
 
-Matrices assembleStars(const Stars& stars, const std::vector<std::uint8_t>& disagrees, StarMetric& metric,
-                       const PartialCover& cover, const EdgeLengths& length, const std::vector<int>& caller, int size,
-                       double scale, const Workers& workers, Report& report) {
+Matrices assembleStars(const Stars& stars, StarMetric& metric, const PartialCover& cover, const EdgeLengths& length,
+                       const std::vector<int>& caller, int size, double scale, const Workers& workers, Report& report) {
   const int n = stars.size();
   StarAssembler assembler(stars, metric, cover, length, scale, workers);
-  assembler.setMixed(disagrees);
+  assembler.setMixed();
   assembler.weighSpokes();
   assembler.weighFaces();
 

@@ -14,11 +14,9 @@ namespace tufted {
 ///
 /// An edge with an agreeing end that no flip came near has the same two angles opposite it in all its six copies, so
 /// that its weight is read off one star. Only edges between two other points are summed over the faces of the cover.
-/// @param disagrees see findDisagreement()
 /// @param metric its sums of cotangents are overwritten
 /// @param scale of one face, see finishLaplacian()
-Matrices assembleStars(const Stars& stars, const std::vector<std::uint8_t>& disagrees, StarMetric& metric,
-                       const PartialCover& cover, const EdgeLengths& length, const std::vector<int>& caller, int size,
-                       double scale, const Workers& workers, Report& report);
+Matrices assembleStars(const Stars& stars, StarMetric& metric, const PartialCover& cover, const EdgeLengths& length,
+                       const std::vector<int>& caller, int size, double scale, const Workers& workers, Report& report);
 
 }  // namespace tufted

@@ -1,4 +1,4 @@
-#include "intrinsic/agreement.h"
+#include "cloud/agreement.h"
 
 #include <atomic>
 
