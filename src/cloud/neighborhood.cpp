@@ -104,6 +104,9 @@ bool NeighborhoodFinder::keepSheet(int p, const Eigen::Vector3d& normal, Neighbo
   scratch.heights.clear();
   for (const Neighbor& q : hood.neighbors)
     scratch.heights.push_back((points_.row(q.index) - points_.row(p)).dot(normal.transpose()));
+  // Heights within one gap of p are all reached from it.
+  const auto isNear = [gap](double height) { return std::abs(height) <= gap; };
+  if (std::all_of(scratch.heights.begin(), scratch.heights.end(), isNear)) return false;
   scratch.sorted = scratch.heights;
   std::sort(scratch.sorted.begin(), scratch.sorted.end());
   const auto above = std::lower_bound(scratch.sorted.begin(), scratch.sorted.end(), 0.0);
