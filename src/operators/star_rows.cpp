@@ -73,6 +73,10 @@ class StarAssembler {
 
   /// The weights of edges between mixed points.
   void weighFaces() {
+    face_area_.resize(cover_.faces().faces.size());
+    workers_.forBlocks("assemble", std::ssize(face_area_), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+      for (int f = static_cast<int>(begin); f < end; ++f) face_area_[f] = faceArea(cover_.faces(), f);
+    });
     Rows terms = collectTerms();
     Rows upper = mergeTerms(terms);
     terms = {};
@@ -124,7 +128,7 @@ class StarAssembler {
     });
     const IntrinsicTriangulation& faces = cover_.faces();
     for (int f = 0; f < static_cast<int>(faces.size()); ++f) {
-      const double area = faceArea(faces, f);
+      const double area = face_area_[f];
       report.degenerate_faces += area > 0 ? 0 : 1;
       for (const int corner : faces.faces[f]) add(corner, scale_ * area / 3);
     }
@@ -145,26 +149,34 @@ class StarAssembler {
     }
   }
 
-  /// Calls visit(low, high, weight) for each copy of an edge between mixed points, in the order of the faces.
+  /// Calls visit(low, high, weight) for each copy of an edge between mixed points, in the order of the faces; weight()
+  /// is what it adds to the edge's.
   template <class Visit>
   void forEachTerm(const Visit& visit) const {
-    const auto term = [&](int a, int b, double cotans) {
-      if (a != b && mixed_[a] != 0 && mixed_[b] != 0) visit(std::min(a, b), std::max(a, b), scale_ * cotans / 2);
+    const auto term = [&](int a, int b, const auto& cotans) {
+      if (a != b && mixed_[a] != 0 && mixed_[b] != 0)
+        visit(std::min(a, b), std::max(a, b), [&] { return scale_ * cotans() / 2; });
     };
     forEachAbsentTriangle([&](int p, int a, int b) {
       if (mixed_[p] + mixed_[a] + mixed_[b] < 2) return;
-      const double pa = length_(p, a), pb = length_(p, b), ab = length_(a, b);
-      const double quarter = 2 / (4 * triangleArea(pa, pb, ab));  // front and back
-      term(p, a, finite(cotanNumerator(pa, pb, ab) * quarter));
-      term(p, b, finite(cotanNumerator(pb, pa, ab) * quarter));
-      term(a, b, finite(cotanNumerator(ab, pa, pb) * quarter));
+      const auto onBothSheets = [&](int from, int to, int opposite) {
+        const double ab = length_(from, to), bc = length_(to, opposite), ca = length_(opposite, from);
+        return 2 * finite(cotanNumerator(ab, bc, ca) / (4 * triangleArea(ab, bc, ca)));
+      };
+      term(p, a, [&] { return onBothSheets(p, a, b); });
+      term(p, b, [&] { return onBothSheets(b, p, a); });
+      term(a, b, [&] { return onBothSheets(a, b, p); });
     });
     const IntrinsicTriangulation& faces = cover_.faces();
+    const auto cotan = [&](int side) {
+      const double numerator =
+          cotanNumerator(faces.length[side], faces.length[nextSide(side)], faces.length[previousSide(side)]);
+      return finite(numerator / (4 * face_area_[side / 3]));
+    };
     for (int side = 0; side < static_cast<int>(3 * faces.size()); ++side) {
       const int mate = faces.glue[side];
       if (mate != unglued && mate < side) continue;
-      const double there = mate == unglued ? 0 : finite(oppositeCotan(faces, mate));
-      term(tail(faces, side), head(faces, side), finite(oppositeCotan(faces, side)) + there);
+      term(tail(faces, side), head(faces, side), [&] { return cotan(side) + (mate == unglued ? 0 : cotan(mate)); });
     }
   }
 
@@ -172,11 +184,11 @@ class StarAssembler {
   Rows collectTerms() const {
     Rows terms;
     terms.offset.assign(static_cast<std::size_t>(stars_.size()) + 1, 0);
-    forEachTerm([&](int low, int, double) { ++terms.offset[low + 1]; });
+    forEachTerm([&](int low, int, const auto&) { ++terms.offset[low + 1]; });
     std::partial_sum(terms.offset.begin(), terms.offset.end(), terms.offset.begin());
     terms.entries.resize(static_cast<std::size_t>(terms.offset.back()));
     std::vector<int> fill(terms.offset.begin(), terms.offset.end() - 1);
-    forEachTerm([&](int low, int high, double weight) { terms.entries[fill[low]++] = {high, weight}; });
+    forEachTerm([&](int low, int high, const auto& weight) { terms.entries[fill[low]++] = {high, weight()}; });
     return terms;
   }
 
@@ -215,7 +227,8 @@ class StarAssembler {
   const double scale_;
   const Workers& workers_;
   std::vector<std::uint8_t> mixed_;
-  Rows mixed_rows_;  ///< edges between mixed points, from both ends
+  std::vector<double> face_area_;  ///< of the faces of the cover
+  Rows mixed_rows_;                ///< edges between mixed points, from both ends
 };
 
 /// What clamping did to one block of rows.
