@@ -11,7 +11,7 @@ packages=(
   g++ cmake ninja-build ccache pkg-config
   libeigen3-dev libflann-dev liblz4-dev libcgal-dev                 # the core
   libpcl-dev libzip-dev libmatio-dev nlohmann-json3-dev libcli11-dev  # files and the command
-  libgtest-dev libspectra-dev libbenchmark-dev python3 python3-scipy  # tests and benchmark
+  libgtest-dev libspectra-dev libbenchmark-dev libnanoflann-dev python3 python3-scipy  # tests and benchmark
 )
 
 fuzz=false

@@ -1,5 +1,6 @@
 #include "cloud/surface_stars.h"
 
+#include "base/release.h"
 #include "base/stage_clock.h"
 #include "cloud/agreement.h"
 #include "cloud/outliers.h"
@@ -14,7 +15,7 @@ Stars surfaceStars(const RankedCloud& cloud, const NeighborSource& source, const
   if (options.steps.isolate_outliers) isolateOutliers(stars, cloud, source, workers, report);
   clock.finish("outliers", 0);
   filterStars(stars, cloud.points, source.k, options.steps.filter, workers, report);
-  stars.radius = {};
+  release(stars.radius);
   stars.disagrees = findDisagreement(stars, workers);
   countVotes(stars, stars.disagrees, workers, report);
   clock.finish("filter", 0);

@@ -6,6 +6,7 @@
 #include <numeric>
 #include <vector>
 
+#include "base/release.h"
 #include "intrinsic/cover.h"
 #include "intrinsic/edge_order.h"
 #include "intrinsic/geometry.h"
@@ -118,7 +119,7 @@ EdgeCounts glueEdges(IntrinsicTriangulation& cover, const Points& points, const 
     const auto [low, high] = ends(side);
     pooled[fill[low]++] = {high, side};
   }
-  fill = {};
+  release(fill);
 
   std::array<std::atomic<std::int64_t>, 3> edges = {};
   workers.forBlocks("glue", cover.vertices, block_size, [&](std::int64_t begin, std::int64_t end, int) {

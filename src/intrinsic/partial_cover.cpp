@@ -1,5 +1,6 @@
 #include "intrinsic/partial_cover.h"
 
+#include <algorithm>
 #include <array>
 #include <numeric>
 
@@ -158,7 +159,21 @@ std::vector<int> PartialCover::findSeeds(const StarMetric& metric, const Workers
   return sides;
 }
 
+void PartialCover::reserve() {
+  // Flips stay near the points that disagree, and what is reserved but not used costs no memory. Growing by doubling
+  // would.
+  std::int64_t triangles = 0;
+  for (int p = 0; p < stars_.size(); ++p)
+    if (stars_.disagrees[p] != 0) triangles += stars_.offset[p + 1] - stars_.offset[p];
+  triangles = std::min(stars_.triangles(), 2 * triangles);
+  entry_of_.reserve(static_cast<std::size_t>(triangles));
+  cover_.faces.reserve(static_cast<std::size_t>(2 * triangles));
+  cover_.glue.reserve(static_cast<std::size_t>(6 * triangles));
+  cover_.length.reserve(static_cast<std::size_t>(6 * triangles));
+}
+
 FlipCounts PartialCover::flipToDelaunay(const StarMetric& metric, const Workers& workers) {
+  reserve();
   const std::vector<int> seeds = findSeeds(metric, workers);
   Flipping flipping(*this);
   return flipEdges(flipping, seeds, workers);

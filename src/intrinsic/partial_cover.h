@@ -33,6 +33,7 @@ class PartialCover {
 
  private:
   friend class Flipping;
+  void reserve();
   void add(int p);
   void resolve(int side);
   StarSide starSide(int side) const;

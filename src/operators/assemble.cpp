@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/disjoint_sets.h"
+#include "base/release.h"
 #include "intrinsic/geometry.h"
 #include "tufted/errors.h"
 
@@ -88,7 +89,7 @@ Rows sumWeights(const IntrinsicTriangulation& cover, double scale, const Workers
   upper.entries.reserve(upper.offset.back());
   for (auto& part : parts) {
     upper.entries.insert(upper.entries.end(), part.begin(), part.end());
-    part = {};
+    release(part);
   }
   return upper;
 }

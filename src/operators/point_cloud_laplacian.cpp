@@ -3,6 +3,7 @@
 #include <numeric>
 #include <optional>
 
+#include "base/release.h"
 #include "cloud/boundary.h"
 #include "cloud/morton.h"
 #include "cloud/neighbor_source.h"
@@ -167,7 +168,7 @@ Laplacian buildCloudLaplacian(const Points& points, const CloudOptions& options,
   describePoints(stars, findBoundary(stars, cloud, source, viewpoint, workers), cloud, result);
   source = {};
   stars.normals = {};
-  stars.reach = {};
+  release(stars.reach);
   clock.finish("boundary", 0);
 
   VectorXd areas;

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "base/disjoint_sets.h"
+#include "base/release.h"
 #include "intrinsic/geometry.h"
 #include "tufted/errors.h"
 
@@ -71,24 +72,20 @@ class StarAssembler {
     });
   }
 
-  /// The weights of edges between mixed points.
+  /// The weights of edges between mixed points. Forgets the areas of faces, which cotangents are made of.
   void weighFaces() {
-    face_area_.resize(cover_.faces().faces.size());
-    workers_.forBlocks("assemble", std::ssize(face_area_), block_size, [&](std::int64_t begin, std::int64_t end, int) {
-      for (int f = static_cast<int>(begin); f < end; ++f) face_area_[f] = faceArea(cover_.faces(), f);
-    });
     Rows terms = collectTerms();
-    Rows upper = mergeTerms(terms);
-    terms = {};
-    mixed_rows_.offset.assign(upper.offset.size(), 0);
+    release(face_area_);
+    const std::vector<int> edges = mergeTerms(terms);
     const auto forBoth = [&](const auto& visit) {
       for (int p = 0; p < stars_.size(); ++p) {
-        for (int i = upper.offset[p]; i < upper.offset[p + 1]; ++i) {
-          visit(p, upper.entries[i].column, upper.entries[i].weight);
-          visit(upper.entries[i].column, p, upper.entries[i].weight);
+        for (int i = terms.offset[p]; i < terms.offset[p] + edges[p]; ++i) {
+          visit(p, terms.entries[i].column, terms.entries[i].weight);
+          visit(terms.entries[i].column, p, terms.entries[i].weight);
         }
       }
     };
+    mixed_rows_.offset.assign(terms.offset.size(), 0);
     forBoth([&](int p, int, double) { ++mixed_rows_.offset[p + 1]; });
     std::partial_sum(mixed_rows_.offset.begin(), mixed_rows_.offset.end(), mixed_rows_.offset.begin());
     mixed_rows_.entries.resize(static_cast<std::size_t>(mixed_rows_.offset.back()));
@@ -114,7 +111,11 @@ class StarAssembler {
   }
 
   /// A third of each face's area to each corner (Section 3.3), by rank.
-  std::vector<double> lumpAreas(Report& report) const {
+  std::vector<double> lumpAreas(Report& report) {
+    face_area_.resize(cover_.faces().faces.size());
+    workers_.forBlocks("assemble", std::ssize(face_area_), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+      for (int f = static_cast<int>(begin); f < end; ++f) face_area_[f] = faceArea(cover_.faces(), f);
+    });
     std::vector<double> mass(static_cast<std::size_t>(stars_.size()));
     for (int p = 0; p < stars_.size(); ++p)
       if (mixed_[p] == 0) mass[p] = 2 * scale_ * metric_.area[p];  // 2 sheets, 3 stars, a third
@@ -192,10 +193,9 @@ class StarAssembler {
     return terms;
   }
 
-  /// Sums the terms of each edge, in their order.
-  Rows mergeTerms(Rows& terms) const {
-    Rows upper;
-    upper.offset.assign(terms.offset.size(), 0);
+  /// Sums the terms of each edge, in their order, to the front of the row. Returns the number of edges in each.
+  std::vector<int> mergeTerms(Rows& terms) const {
+    std::vector<int> edges(static_cast<std::size_t>(stars_.size()));
     workers_.forBlocks("assemble", stars_.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
       for (int p = static_cast<int>(begin); p < end; ++p) {
         const auto first = terms.entries.begin() + terms.offset[p], last = terms.entries.begin() + terms.offset[p + 1];
@@ -207,16 +207,10 @@ class StarAssembler {
           else
             *kept++ = *at;
         }
-        upper.offset[p + 1] = static_cast<int>(kept - first);
+        edges[p] = static_cast<int>(kept - first);
       }
     });
-    std::partial_sum(upper.offset.begin(), upper.offset.end(), upper.offset.begin());
-    upper.entries.reserve(static_cast<std::size_t>(upper.offset.back()));
-    for (int p = 0; p < stars_.size(); ++p) {
-      const auto first = terms.entries.begin() + terms.offset[p];
-      upper.entries.insert(upper.entries.end(), first, first + (upper.offset[p + 1] - upper.offset[p]));
-    }
-    return upper;
+    return edges;
   }
 
   const Stars& stars_;
@@ -244,6 +238,7 @@ Matrices assembleStars(const Stars& stars, StarMetric& metric, const PartialCove
   const int n = stars.size();
   StarAssembler assembler(stars, metric, cover, length, scale, workers);
   assembler.setMixed();
+  const std::vector<double> mass = assembler.lumpAreas(report);
   assembler.weighSpokes();
   assembler.weighFaces();
 
@@ -272,7 +267,7 @@ Matrices assembleStars(const Stars& stars, StarMetric& metric, const PartialCove
   L.resizeNonZeros(entries);
   L.outerIndexPtr()[0] = 0;
   std::partial_sum(count.begin(), count.end(), L.outerIndexPtr() + 1);
-  count = {};
+  release(count);
   workers.forBlocks("assemble", n, block_size, [&](std::int64_t begin, std::int64_t end, int) {
     std::vector<std::pair<int, double>> column;
     for (int p = static_cast<int>(begin); p < end; ++p) {
@@ -302,7 +297,6 @@ Matrices assembleStars(const Stars& stars, StarMetric& metric, const PartialCove
   });
 
   matrices.M = VectorXd::Zero(size);
-  const std::vector<double> mass = assembler.lumpAreas(report);
   DisjointSets sets(n);
   for (int p = 0; p < n; ++p) {
     const int i = caller[p];

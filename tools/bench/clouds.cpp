@@ -1,46 +1,49 @@
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <vector>
+
 #include "base/stage_clock.h"
 #include "bench/costs.h"
+#include "bench/search_stage.h"
 #include "cloud/morton.h"
-#include "cloud/neighbors.h"
 #include "shapes/shapes.h"
 #include "tufted/laplacian.h"
+#ifdef TUFTED_BENCH_IO
+#include "tufted/io/read.h"
+#endif
 
 namespace tufted::bench {
 namespace {
 
 constexpr int neighbor_count = 30;
+constexpr double noise = 0.005;  // of the radius of the sphere
 
 struct CloudCase {
-  int points;
-  Preset preset;
-  Gluing gluing;
-  Delaunay delaunay;
-  int threads;
+  std::string cloud;  ///< what the points are
+  std::function<Points()> make;
+  Preset preset = Preset::clean;
+  Gluing gluing = Gluing::star;
+  Delaunay delaunay = Delaunay::star;
+  int threads = 1;
 
   std::string name() const {
-    return std::string("cloud/") + (preset == Preset::clean ? "clean/" : "scan/") +
-           (delaunay == Delaunay::star ? "star" : "cgal") + "/" + (gluing == Gluing::star ? "star" : "vertex_pair") +
-           "/" + std::to_string(points) + "/" + threadsName(threads);
+    return "cloud/" + cloud + "/" +
+           (preset == Preset::clean  ? "clean"
+            : preset == Preset::scan ? "scan"
+                                     : "lidar") +
+           (delaunay == Delaunay::star ? "" : "/cgal") + (gluing == Gluing::star ? "" : "/vertex_pair") + "/" +
+           threadsName(threads);
   }
 };
 
-/// Independent random points on the unit sphere, in random order. Only the last size asked for is kept.
-const Points& sphere(int n) {
+/// Only the cloud of the last case is kept.
+const Points& pointsOf(const CloudCase& c) {
+  static std::string cloud;
   static Points points;
-  if (points.rows() != n) points = shapes::sphere(n).points;
+  if (cloud != c.cloud) points = c.make();
+  cloud = c.cloud;
   return points;
-}
-
-/// What any method based on k nearest neighbours pays: the tree and one query per point, in Morton order, one thread.
-double flannSeconds(const RankedCloud& cloud) {
-  Stopwatch watch;
-  const NeighborSearch search(cloud.points);
-  std::vector<Neighbor> found;
-  for (int p = 0; p < cloud.size(); ++p) {
-    search.nearest(p, neighbor_count, found);
-    benchmark::DoNotOptimize(found.data());
-  }
-  return watch.seconds();
 }
 
 RankedCloud ranked(const Points& points) {
@@ -50,51 +53,111 @@ RankedCloud ranked(const Points& points) {
 }
 
 /// One build per iteration. With one thread, every build is followed by the search alone (not timed), so that both
-/// medians come from the same minutes: `whole_per_flann`.
+/// medians come from the same minutes: `whole_per_flann`. Points are those that are finite and differ. The cover is not
+/// kept but built on demand from what one more build keeps: `cover_per_whole`.
 void runCloud(benchmark::State& state, const CloudCase& c) {
-  const Points& points = sphere(c.points);
-  Costs costs(c.points);
+  const Points& points = pointsOf(c);
+  CloudOptions options = cloudOptions(c.preset);
+  options.neighbors = neighbor_count;
+  options.gluing = c.gluing;
+  options.delaunay = c.delaunay;
+  options.threads = c.threads;
+  options.keep_cover = false;
+  pointCloudLaplacian(points, options);  // the first build finds the memory; only later ones count
+  const RankedCloud cloud = ranked(points);
+  Costs costs(cloud.size());
   for ([[maybe_unused]] auto _ : state) {
     {
       Stopwatch watch;
-      const Laplacian laplacian = pointCloudLaplacian(points, {.neighbors = neighbor_count,
-                                                               .steps = cloudSteps(c.preset),
-                                                               .gluing = c.gluing,
-                                                               .delaunay = c.delaunay,
-                                                               .threads = c.threads});
+      const Laplacian laplacian = pointCloudLaplacian(points, options);
       const double seconds = watch.seconds();
       state.SetIterationTime(seconds);
       costs.addBuild(seconds, laplacian.report);
     }
-    if (c.threads == 1) costs.addSeconds("flann", flannSeconds(ranked(points)));
+    if (c.threads != 1) continue;
+    const SearchSeconds search = searchSeconds(cloud.points, neighbor_count);
+    costs.addSeconds("flann", search.flann);
+    costs.addSeconds("nanoflann", search.nanoflann);
   }
   costs.publish(state);
-  if (c.threads == 1) {
-    state.counters["whole_per_flann"] = costs.medianSeconds("whole") / costs.medianSeconds("flann");
+  const double whole = costs.medianSeconds("whole");
+  state.counters["frames_per_second"] = 1 / whole;
+  if (c.threads != 1) return;
+  state.counters["whole_per_flann"] = whole / costs.medianSeconds("flann");
+  options.keep_cover = true;
+  const Laplacian laplacian = pointCloudLaplacian(points, options);
+  const Stopwatch watch;
+  benchmark::DoNotOptimize(laplacian.cover().length.data());
+  state.counters["cover_per_whole"] = watch.seconds() / whole;
+}
+
+void registerCloud(const CloudCase& c, std::int64_t points) {
+  benchmark::RegisterBenchmark(c.name().c_str(), [c](benchmark::State& state) { runCloud(state, c); })
+      ->UseManualTime()
+      ->Iterations(iterationsFor(points))
+      ->Unit(benchmark::kMillisecond);
+}
+
+/// One thread and all, clean and scan.
+void registerPresets(CloudCase c, std::int64_t points) {
+  for (const int threads : {1, 0}) {
+    for (const Preset preset : {Preset::clean, Preset::scan}) {
+      c.preset = preset;
+      c.threads = threads;
+      registerCloud(c, points);
+    }
   }
 }
 
-void registerCloud(const CloudCase& c) {
-  benchmark::RegisterBenchmark(c.name().c_str(), [c](benchmark::State& state) { runCloud(state, c); })
-      ->UseManualTime()
-      ->Iterations(iterationsFor(c.points))
-      ->Unit(benchmark::kMillisecond);
+std::string counted(const std::string& name, int points) {
+  return name + "/" + std::to_string(points);
+}
+
+void registerSpheres() {
+  for (const int n : {10'000, 30'000, 100'000, 1'000'000, 5'000'000}) {
+    // Independent random points in random order, and in that of a scan.
+    CloudCase sphere{.cloud = counted("sphere", n), .make = [n] { return shapes::sphere(n).points; }};
+    registerPresets(sphere, n);
+    if (n > 1'000'000) continue;
+    registerPresets(
+        {.cloud = counted("sphere_in_order", n), .make = [n] { return ranked(shapes::sphere(n).points).points; }}, n);
+    registerPresets({.cloud = counted("noisy_sphere", n),
+                     .make = [n] { return shapes::withNoise(shapes::sphere(n), noise).points; }},
+                    n);
+    sphere.gluing = Gluing::vertex_pair;
+    registerCloud(sphere, n);
+#ifdef TUFTED_WITH_GPL
+    sphere.gluing = Gluing::star;
+    sphere.delaunay = Delaunay::cgal;
+    registerCloud(sphere, n);
+#endif
+  }
+}
+
+void registerScans() {
+  registerPresets({.cloud = "depth_camera/640x480", .make = [] { return shapes::depthCamera().points; }}, 640 * 480);
+  for (const int rings : {16, 64}) {
+    CloudCase lidar{.cloud = counted("lidar_rings", rings),
+                    .make = [rings] { return shapes::lidar({.rings = rings, .azimuth_step = 0.2}).points; },
+                    .preset = Preset::lidar};
+    for (const int threads : {1, 0}) {
+      lidar.threads = threads;
+      registerCloud(lidar, rings * 1800);
+    }
+  }
+#ifdef TUFTED_BENCH_IO
+  if (!std::filesystem::is_directory(TUFTED_DATA_DIR "/clouds")) return;
+  for (const auto& file : std::filesystem::directory_iterator(TUFTED_DATA_DIR "/clouds"))
+    registerPresets(
+        {.cloud = "file/" + file.path().stem().string(), .make = [file] { return read(file.path()).points; }}, 200'000);
+#endif
 }
 
 }  // namespace
 
 void registerClouds() {
-  for (const int points : {10'000, 100'000, 1'000'000}) {
-    for (const int threads : {1, 0}) {
-      registerCloud({points, Preset::scan, Gluing::star, Delaunay::star, threads});
-      for (const Gluing gluing : {Gluing::star, Gluing::vertex_pair}) {
-        registerCloud({points, Preset::clean, gluing, Delaunay::star, threads});
-#ifdef TUFTED_WITH_GPL
-        registerCloud({points, Preset::clean, gluing, Delaunay::cgal, threads});
-#endif
-      }
-    }
-  }
+  registerSpheres();
+  registerScans();
 }
 
 }  // namespace tufted::bench

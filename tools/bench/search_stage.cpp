@@ -1,0 +1,93 @@
+#include "bench/search_stage.h"
+
+#include <benchmark/benchmark.h>
+#include <flann/algorithms/dist.h>
+#include <flann/algorithms/kdtree_single_index.h>
+
+#include <array>
+#include <limits>
+#include <nanoflann.hpp>
+#include <optional>
+#include <vector>
+
+#include "base/stage_clock.h"
+
+namespace tufted::bench {
+namespace {
+
+struct Setting {
+  int leaf;
+  bool reorder;
+};
+constexpr std::array<Setting, 6> settings = {
+    {{10, false}, {15, false}, {30, false}, {10, true}, {15, true}, {30, true}}};
+
+double flannSeconds(const Points& points, int k, const Setting& setting) {
+  using Index = flann::KDTreeSingleIndex<flann::L2_Simple<double>>;
+  const Stopwatch watch;
+  const flann::Matrix<double> rows(const_cast<double*>(points.data()), static_cast<std::size_t>(points.rows()), 3);
+  Index index(rows, flann::KDTreeSingleIndexParams(setting.leaf, setting.reorder));
+  index.buildIndex();
+  flann::KNNSimpleResultSet<double> nearest(static_cast<std::size_t>(k) + 1);  // the point finds itself
+  const flann::SearchParams exact(flann::FLANN_CHECKS_UNLIMITED);
+  std::vector<std::size_t> found(static_cast<std::size_t>(k) + 1);
+  std::vector<double> distance(found.size());
+  for (Eigen::Index p = 0; p < points.rows(); ++p) {
+    nearest.clear();
+    index.findNeighbors(nearest, points.row(p).data(), exact);
+    nearest.copy(found.data(), distance.data(), found.size());
+    benchmark::DoNotOptimize(found.data());
+  }
+  return watch.seconds();
+}
+
+struct Adaptor {
+  const Points& points;
+
+  std::size_t kdtree_get_point_count() const { return static_cast<std::size_t>(points.rows()); }
+  double kdtree_get_pt(std::size_t i, std::size_t axis) const {
+    return points(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(axis));
+  }
+  template <class Box>
+  bool kdtree_get_bbox(Box&) const {
+    return false;
+  }
+};
+
+double nanoflannSeconds(const Points& points, int k) {
+  using Index =
+      nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Adaptor>, Adaptor, 3, std::uint32_t>;
+  const Stopwatch watch;
+  const Adaptor adaptor{points};
+  Index index(3, adaptor, nanoflann::KDTreeSingleIndexAdaptorParams(10));
+  index.buildIndex();
+  std::vector<std::uint32_t> found(static_cast<std::size_t>(k) + 1);
+  std::vector<double> distance(found.size());
+  for (Eigen::Index p = 0; p < points.rows(); ++p) {
+    index.knnSearch(points.row(p).data(), found.size(), found.data(), distance.data());
+    benchmark::DoNotOptimize(found.data());
+  }
+  return watch.seconds();
+}
+
+}  // namespace
+
+SearchSeconds searchSeconds(const Points& points, int k) {
+  static Eigen::Index tried_size = -1;
+  static Setting fastest{};
+  SearchSeconds seconds{std::numeric_limits<double>::infinity(), nanoflannSeconds(points, k)};
+  if (tried_size == points.rows()) {
+    seconds.flann = flannSeconds(points, k, fastest);
+    return seconds;
+  }
+  for (const Setting& setting : settings) {
+    const double tried = flannSeconds(points, k, setting);
+    if (tried >= seconds.flann) continue;
+    seconds.flann = tried;
+    fastest = setting;
+  }
+  tried_size = points.rows();
+  return seconds;
+}
+
+}  // namespace tufted::bench
