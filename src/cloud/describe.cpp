@@ -104,7 +104,7 @@ CloudDescription describeCloud(const Points& points, const CloudOptions& options
   std::vector<PointStatus> status;
   std::vector<int> representative;
   workers.report("order", 0);
-  const RankedCloud cloud = rankPoints(points, status, representative);
+  const RankedCloud cloud = rankPoints(points, status, representative, workers);
   workers.report("tree", 0);
   const NeighborGraph graph = findNeighbors(cloud, options.neighbors, workers);
 

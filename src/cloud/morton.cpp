@@ -4,12 +4,14 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <parallel/algorithm>
 
 #include "base/scaling.h"
 
 namespace tufted {
 namespace {
 
+constexpr std::int64_t block_size = 4096;
 constexpr int axis_bits = 21;      // per axis
 constexpr int cell_exponent = 16;  // cells per median spread: 2^16; so 2^21 cells reach over 32 spreads
 
@@ -40,6 +42,12 @@ struct Key {
 }  // namespace
 
 RankedCloud rankPoints(const Points& points, std::vector<PointStatus>& status, std::vector<int>& representative) {
+  const Progress silent;
+  return rankPoints(points, status, representative, Workers(1, silent));
+}
+
+RankedCloud rankPoints(const Points& points, std::vector<PointStatus>& status, std::vector<int>& representative,
+                       const Workers& workers) {
   RankedCloud cloud;
   const Scaling scaling = measureScaling(points, status);
   cloud.exponent = scaling.exponent;
@@ -48,30 +56,38 @@ RankedCloud rankPoints(const Points& points, std::vector<PointStatus>& status, s
 
   Points scaled(points.rows(), 3);
   Eigen::Vector3d lowest = Eigen::Vector3d::Constant(INFINITY);
+  std::vector<Key> keys;
+  keys.reserve(static_cast<std::size_t>(points.rows()));
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
     if (status[i] == PointStatus::not_finite) continue;
     for (int axis = 0; axis < 3; ++axis) scaled(i, axis) = scaling.scaled(points(i, axis));
     lowest = lowest.cwiseMin(scaled.row(i).transpose());
+    keys.push_back({0, static_cast<int>(i)});
   }
   // The grid starts at a corner of the data, but not further than 16 spreads from its middle.
   Eigen::Vector3d corner;
   for (int axis = 0; axis < 3; ++axis) {
     corner[axis] = std::max(lowest[axis], scaling.scaled(scaling.center[axis]) - 16);
   }
+  workers.forBlocks("order", std::ssize(keys), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    for (std::int64_t i = begin; i < end; ++i)
+      keys[i].code = mortonCode(scaled.row(keys[i].index).transpose() - corner);
+  });
 
-  std::vector<Key> keys;
-  keys.reserve(static_cast<std::size_t>(points.rows()));
-  for (Eigen::Index i = 0; i < points.rows(); ++i) {
-    if (status[i] == PointStatus::not_finite) continue;
-    keys.push_back({mortonCode(scaled.row(i).transpose() - corner), static_cast<int>(i)});
-  }
-  std::sort(keys.begin(), keys.end(), [&](const Key& a, const Key& b) {
+  const auto comesBefore = [&](const Key& a, const Key& b) {
     if (a.code != b.code) return a.code < b.code;
     for (int axis = 0; axis < 3; ++axis) {
       if (scaled(a.index, axis) != scaled(b.index, axis)) return scaled(a.index, axis) < scaled(b.index, axis);
     }
     return a.index < b.index;
-  });
+  };
+  if (workers.count() > 1 &&
+      std::ssize(keys) > block_size) {  // keys differ, so any way of sorting gives the same order
+    const auto threads = static_cast<__gnu_parallel::_ThreadIndex>(workers.count());
+    __gnu_parallel::sort(keys.begin(), keys.end(), comesBefore, __gnu_parallel::multiway_mergesort_tag(threads));
+  } else {
+    std::sort(keys.begin(), keys.end(), comesBefore);
+  }
 
   cloud.caller.reserve(keys.size());
   for (const Key& key : keys) {
@@ -83,7 +99,9 @@ RankedCloud rankPoints(const Points& points, std::vector<PointStatus>& status, s
     }
   }
   cloud.points.resize(cloud.size(), 3);
-  for (int rank = 0; rank < cloud.size(); ++rank) cloud.points.row(rank) = scaled.row(cloud.caller[rank]);
+  workers.forBlocks("order", cloud.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    for (std::int64_t rank = begin; rank < end; ++rank) cloud.points.row(rank) = scaled.row(cloud.caller[rank]);
+  });
   return cloud;
 }
 

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "base/parallel.h"
 #include "tufted/types.h"
 
 namespace tufted {
@@ -18,6 +19,9 @@ struct RankedCloud {
 };
 
 /// Scales, sorts and merges. Fills `status` (not_finite, coincident, else active) and `representative` (N each).
+RankedCloud rankPoints(const Points& points, std::vector<PointStatus>& status, std::vector<int>& representative,
+                       const Workers& workers);
+/// The same on one thread.
 RankedCloud rankPoints(const Points& points, std::vector<PointStatus>& status, std::vector<int>& representative);
 
 }  // namespace tufted

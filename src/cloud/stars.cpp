@@ -255,15 +255,18 @@ Stars buildStars(const RankedCloud& cloud, const NeighborSource& source, const C
   if (report.denoised > 0) refineSurface(cloud.points, stars, blocks, workers);
 
   std::partial_sum(stars.offset.begin(), stars.offset.end(), stars.offset.begin());
-  stars.link.reserve(stars.offset.back());
-  stars.triangle.reserve(stars.offset.back());
-  stars.radius.reserve(stars.offset.back());
-  for (BlockOfStars& block : blocks) {
-    stars.link.insert(stars.link.end(), block.link.begin(), block.link.end());
-    stars.triangle.insert(stars.triangle.end(), block.triangle.begin(), block.triangle.end());
-    stars.radius.insert(stars.radius.end(), block.radius.begin(), block.radius.end());
-    block = {};
-  }
+  stars.link.resize(stars.offset.back());
+  stars.triangle.resize(stars.offset.back());
+  stars.radius.resize(stars.offset.back());
+  workers.forBlocks("stars", std::ssize(blocks), 1, [&](std::int64_t begin, std::int64_t end, int) {
+    for (std::int64_t b = begin; b < end; ++b) {
+      const int first = stars.offset[b * block_size];
+      std::copy(blocks[b].link.begin(), blocks[b].link.end(), stars.link.begin() + first);
+      std::copy(blocks[b].triangle.begin(), blocks[b].triangle.end(), stars.triangle.begin() + first);
+      std::copy(blocks[b].radius.begin(), blocks[b].radius.end(), stars.radius.begin() + first);
+      blocks[b] = {};
+    }
+  });
 
   std::array<double, 3> seconds = {};
   for (const WorkerState& state : states) {

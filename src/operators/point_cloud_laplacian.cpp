@@ -91,17 +91,19 @@ void addStars(const Stars& stars, Gluing gluing, IntrinsicTriangulation& cover, 
 
 /// Boundary tags and frames in the caller's order; coincident points take the frame of their representative.
 void describePoints(const Stars& stars, const std::vector<Boundary>& boundary, const RankedCloud& cloud,
-                    Laplacian& result) {
+                    const Workers& workers, Laplacian& result) {
   const auto n = static_cast<Eigen::Index>(result.status.size());
   result.boundary.assign(result.status.size(), Boundary::none);
   result.frames.normals.setZero(n, 3);
   result.frames.tangents.setZero(n, 3);
-  for (int p = 0; p < stars.size(); ++p) {
-    const int i = cloud.caller[p];
-    result.boundary[i] = boundary[p];
-    result.frames.normals.row(i) = stars.normals.row(p);
-    result.frames.tangents.row(i) = tangentOf(stars.normals.row(p));
-  }
+  workers.forBlocks("boundary", stars.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    for (std::int64_t p = begin; p < end; ++p) {
+      const int i = cloud.caller[p];
+      result.boundary[i] = boundary[p];
+      result.frames.normals.row(i) = stars.normals.row(p);
+      result.frames.tangents.row(i) = tangentOf(stars.normals.row(p));
+    }
+  });
   for (Eigen::Index i = 0; i < n; ++i) {
     if (result.status[i] != PointStatus::coincident) continue;
     const int same = result.representative[i];
@@ -155,7 +157,7 @@ Laplacian buildCloudLaplacian(const Points& points, const CloudOptions& options,
   report.threads = workers.count();
 
   workers.report("order", 0);
-  RankedCloud cloud = rankPoints(points, result.status, result.representative);
+  RankedCloud cloud = rankPoints(points, result.status, result.representative, workers);
   if (cloud.size() > most_triangles / 6) tooMany(cloud.size(), 6 * static_cast<std::int64_t>(cloud.size()));
   clock.finish("order", static_cast<std::size_t>(cloud.size()) * (3 * sizeof(double) + sizeof(int)));
 
@@ -165,7 +167,7 @@ Laplacian buildCloudLaplacian(const Points& points, const CloudOptions& options,
   Stars stars = surfaceStars(cloud, source, options, workers, report);
   clock.restart();  // surfaceStars books its own stages
 
-  describePoints(stars, findBoundary(stars, cloud, source, viewpoint, workers), cloud, result);
+  describePoints(stars, findBoundary(stars, cloud, source, viewpoint, workers), cloud, workers, result);
   source = {};
   stars.normals = {};
   release(stars.reach);
@@ -173,7 +175,7 @@ Laplacian buildCloudLaplacian(const Points& points, const CloudOptions& options,
 
   VectorXd areas;
   if (options.steps.mass == Mass::star) areas = starAreas(stars, cloud.points, workers);
-  const std::vector<int> caller = cloud.caller;
+  const std::vector<int> caller = options.steps.mass == Mass::star ? cloud.caller : std::vector<int>();
   const int exponent = cloud.exponent;
   clock.finish("mass", 0);
 
