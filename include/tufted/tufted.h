@@ -11,4 +11,5 @@
 #include "tufted/report.h"
 #include "tufted/scan_structure.h"
 #include "tufted/smoothing.h"
+#include "tufted/solver.h"
 #include "tufted/types.h"

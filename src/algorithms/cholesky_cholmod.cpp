@@ -1,0 +1,131 @@
+#include <suitesparse/cholmod.h>
+
+#include <algorithm>
+#include <new>
+#include <utility>
+
+#include "algorithms/linear_backend.h"
+#include "algorithms/serial_blas.h"
+#include "tufted/errors.h"
+
+namespace tufted {
+namespace {
+
+static_assert(sizeof(SuiteSparse_long) == sizeof(std::int64_t));
+
+/// From this size on nested dissection (METIS), below minimum degree (AMD).
+constexpr std::int64_t metis_from = 400000;
+
+/// CHOLMOD's parameters and workspace; a solve has its own.
+class Common {
+ public:
+  Common() {
+    cholmod_l_start(&common_);
+    common_.print = 0;
+    common_.supernodal = CHOLMOD_SUPERNODAL;
+    common_.nmethods = 1;
+    common_.postorder = 1;
+  }
+  ~Common() { cholmod_l_finish(&common_); }
+  Common(const Common&) = delete;
+  Common& operator=(const Common&) = delete;
+  cholmod_common* get() { return &common_; }
+  cholmod_common* operator->() { return &common_; }
+
+ private:
+  cholmod_common common_;
+};
+
+/// A view; CHOLMOD takes no pointers to const, but changes nothing.
+cholmod_sparse viewOf(const LongMatrix& lower) {
+  cholmod_sparse view = {};
+  view.nrow = view.ncol = static_cast<std::size_t>(lower.rows());
+  view.nzmax = static_cast<std::size_t>(lower.nonZeros());
+  view.p = const_cast<std::int64_t*>(lower.outerIndexPtr());
+  view.i = const_cast<std::int64_t*>(lower.innerIndexPtr());
+  view.x = const_cast<double*>(lower.valuePtr());
+  view.stype = -1;
+  view.itype = CHOLMOD_LONG;
+  view.xtype = CHOLMOD_REAL;
+  view.dtype = CHOLMOD_DOUBLE;
+  view.sorted = view.packed = 1;
+  return view;
+}
+
+struct FreeFactor {
+  void operator()(cholmod_factor* factor) const {
+    Common common;
+    cholmod_l_free_factor(&factor, common.get());
+  }
+};
+using Factor = std::unique_ptr<cholmod_factor, FreeFactor>;
+
+class CholmodBackend : public LinearBackend {
+ public:
+  explicit CholmodBackend(Factor factor) : factor_(std::move(factor)) {}
+
+  int solve(Eigen::Ref<Eigen::MatrixXd> x) const override {
+    const SerialBlas serial;
+    Common common;
+    cholmod_dense b = {};
+    b.nrow = static_cast<std::size_t>(x.rows());
+    b.ncol = static_cast<std::size_t>(x.cols());
+    b.d = static_cast<std::size_t>(x.outerStride());
+    b.nzmax = b.d * b.ncol;
+    b.x = x.data();
+    b.xtype = CHOLMOD_REAL;
+    b.dtype = CHOLMOD_DOUBLE;
+    cholmod_dense* solution = cholmod_l_solve(CHOLMOD_A, factor_.get(), &b, common.get());
+    if (solution == nullptr) throw std::bad_alloc();
+    x = Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(solution->x), x.rows(), x.cols());
+    cholmod_l_free_dense(&solution, common.get());
+    return 0;
+  }
+
+ private:
+  Factor factor_;
+};
+
+}  // namespace
+
+struct Cholesky::Analysis {
+  Common common;
+  cholmod_sparse matrix;
+  Factor factor;
+  bool metis = false;
+};
+
+Cholesky::Cholesky(const LongMatrix& lower) : analysis_(std::make_unique<Analysis>()) {
+  Analysis& a = *analysis_;
+  a.matrix = viewOf(lower);
+  a.metis = lower.rows() >= metis_from;
+  a.common->method[0].ordering = a.metis ? CHOLMOD_METIS : CHOLMOD_AMD;
+  a.factor.reset(cholmod_l_analyze(&a.matrix, a.common.get()));
+  if (!a.factor && a.metis) {  // SuiteSparse may be built without
+    a.metis = false;
+    a.common->method[0].ordering = CHOLMOD_AMD;
+    a.factor.reset(cholmod_l_analyze(&a.matrix, a.common.get()));
+  }
+  if (!a.factor) throw std::bad_alloc();
+}
+
+Cholesky::~Cholesky() = default;
+
+std::size_t Cholesky::bytes() const {
+  const cholmod_factor& factor = *analysis_->factor;
+  return factor.xsize * sizeof(double) + (factor.ssize + 2 * factor.n) * sizeof(std::int64_t);
+}
+
+std::unique_ptr<LinearBackend> Cholesky::factor() {
+  Analysis& a = *analysis_;
+  const SerialBlas serial;
+  cholmod_l_factorize(&a.matrix, a.factor.get(), a.common.get());
+  if (a.common->status == CHOLMOD_OUT_OF_MEMORY || a.common->status == CHOLMOD_TOO_LARGE) throw std::bad_alloc();
+  if (a.common->status != CHOLMOD_OK || a.factor->minor < a.factor->n) return nullptr;
+  auto backend = std::make_unique<CholmodBackend>(std::move(a.factor));
+  backend->name = a.metis ? "Cholesky (CHOLMOD, METIS)" : "Cholesky (CHOLMOD, AMD)";
+  backend->nonzeros = static_cast<std::int64_t>(a.common->lnz);
+  return backend;
+}
+
+}  // namespace tufted

@@ -1,0 +1,54 @@
+#include "algorithms/connected.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "base/disjoint_sets.h"
+
+namespace tufted {
+namespace {
+
+constexpr double least_weight = 1e-14;
+
+}  // namespace
+
+VectorXd Components::sums(const VectorXd& values) const {
+  VectorXd result = VectorXd::Zero(count);
+  for (const int i : points) result[of[i]] += values[i];
+  return result;
+}
+
+VectorXd Components::weights(const VectorXd& M) const {
+  const VectorXd mass = sums(M);
+  VectorXd result = VectorXd::Zero(M.size());
+  const VectorXd size = sums(VectorXd::Ones(M.size()));
+  for (const int i : points) {
+    const int c = of[i];
+    result[i] = mass[c] > 0 ? M[i] / mass[c] : 1 / size[c];
+  }
+  return result;
+}
+
+Components findComponents(const Laplacian& laplacian) {
+  const SparseMatrix& L = laplacian.L;
+  const VectorXd diagonal = L.diagonal();
+  DisjointSets sets(L.cols());
+  for (int j = 0; j < L.cols(); ++j) {
+    for (SparseMatrix::InnerIterator entry(L, j); entry; ++entry) {
+      const int i = static_cast<int>(entry.row());
+      if (i < j && std::abs(entry.value()) > least_weight * std::min(diagonal[i], diagonal[j])) sets.unite(i, j);
+    }
+  }
+  Components components;
+  components.of.assign(laplacian.status.size(), -1);
+  for (int i = 0; i < static_cast<int>(laplacian.status.size()); ++i) {
+    if (laplacian.status[i] != PointStatus::active) continue;
+    components.points.push_back(i);
+    const int root = sets.root(i);  // the first point of the set
+    components.of[i] = root == i ? components.count++ : components.of[root];
+  }
+  return components;
+}
+
+}  // namespace tufted

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <vector>
+
+#include "tufted/laplacian.h"
+
+namespace tufted {
+
+/// Connected components of the active points. Weights at most 1e-14 of the smaller diagonal join nothing: they are lost
+/// in the rounding of the rows, so a constant on either side costs no energy.
+struct Components {
+  int count = 0;
+  std::vector<int> of;      ///< N; which component, numbered by their first points; -1: not active
+  std::vector<int> points;  ///< the active points, ascending
+
+  /// The sum over each component, in ascending order of points.
+  VectorXd sums(const VectorXd& values) const;
+  /// M divided by its sum over the component; all equal where that sum is 0. 0 at points that are not active.
+  VectorXd weights(const VectorXd& M) const;
+};
+
+Components findComponents(const Laplacian& laplacian);
+
+}  // namespace tufted

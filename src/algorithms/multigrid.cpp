@@ -1,0 +1,219 @@
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "algorithms/linear_backend.h"
+#include "tufted/errors.h"
+
+// Of our own, because the multigrid libraries in Debian (hypre, PETSc, Trilinos) are built for MPI and would make every
+// program that uses tufted one of MPI's. Smoothed aggregation after P. Vanek, J. Mandel, M. Brezina, "Algebraic
+// multigrid by smoothed aggregation for second and fourth order elliptic problems" (1996).
+namespace tufted {
+namespace {
+
+constexpr int coarsest_size = 500;
+constexpr int most_levels = 25;
+/// Neighbours are strong whose weight exceeds this part of the mean of the two diagonals; halved per level.
+constexpr double strong = 0.08;
+constexpr int alone = -1;
+
+/// The matrix without weak off-diagonals, which are added to the diagonal: constants keep their image.
+SparseMatrix filtered(const SparseMatrix& A, double threshold) {
+  const VectorXd diagonal = A.diagonal();
+  SparseMatrix result(A.rows(), A.cols());
+  result.reserve(A.nonZeros());
+  for (int j = 0; j < A.cols(); ++j) {
+    result.startVec(j);
+    double lumped = diagonal[j];
+    for (SparseMatrix::InnerIterator entry(A, j); entry; ++entry) {
+      const int i = static_cast<int>(entry.row());
+      const bool keep = i != j && std::abs(entry.value()) > threshold * std::sqrt(diagonal[i] * diagonal[j]);
+      if (!keep && i != j) lumped += entry.value();
+      if (keep || i == j) result.insertBack(i, j) = entry.value();
+    }
+    // A row that weak neighbours dominate would turn negative: it keeps its own diagonal.
+    result.coeffRef(j, j) = lumped > 0.1 * diagonal[j] ? lumped : diagonal[j];
+  }
+  result.finalize();
+  return result;
+}
+
+/// A number for every row, equal within a group of strong neighbours; `alone` where a row has none.
+std::vector<int> aggregate(const SparseMatrix& A, int& count) {
+  const int n = static_cast<int>(A.cols());
+  constexpr int open = -2;
+  std::vector<int> group(n, open);
+  const auto forNeighbors = [&](int j, const auto& visit) {
+    for (SparseMatrix::InnerIterator entry(A, j); entry; ++entry)
+      if (entry.row() != j) visit(static_cast<int>(entry.row()), std::abs(entry.value()));
+  };
+  count = 0;
+  for (int j = 0; j < n; ++j) {  // whole neighbourhoods that nobody has touched
+    bool untouched = group[j] == open, neighbors = false;
+    forNeighbors(j, [&](int i, double) { neighbors = true, untouched = untouched && group[i] == open; });
+    if (!neighbors) group[j] = alone;
+    if (!neighbors || !untouched) continue;
+    group[j] = count;
+    forNeighbors(j, [&](int i, double) { group[i] = count; });
+    ++count;
+  }
+  const std::vector<int> before = group;
+  for (int j = 0; j < n; ++j) {  // the rest joins its strongest neighbour's
+    if (group[j] != open) continue;
+    double strongest = 0;
+    forNeighbors(j, [&](int i, double weight) {
+      if (before[i] >= 0 && weight > strongest) strongest = weight, group[j] = before[i];
+    });
+  }
+  for (int j = 0; j < n; ++j) {  // leftovers among themselves
+    if (group[j] != open) continue;
+    group[j] = count;
+    forNeighbors(j, [&](int i, double) {
+      if (group[i] == open) group[i] = count;
+    });
+    ++count;
+  }
+  return group;
+}
+
+/// Constants per group, smoothed by a step of Jacobi's: I - 4/3 / rho D^-1 A with Gershgorin's bound of rho.
+SparseMatrix prolongation(const SparseMatrix& A, const std::vector<int>& group, int count) {
+  SparseMatrix piecewise(A.rows(), count);
+  std::vector<Eigen::Triplet<double>> ones;
+  for (int i = 0; i < static_cast<int>(group.size()); ++i)
+    if (group[i] != alone) ones.emplace_back(i, group[i], 1.0);
+  piecewise.setFromTriplets(ones.begin(), ones.end());
+  const VectorXd inverse = A.diagonal().cwiseInverse();
+  double rho = 0;
+  for (int j = 0; j < A.cols(); ++j) {
+    double sum = 0;
+    for (SparseMatrix::InnerIterator entry(A, j); entry; ++entry) sum += std::abs(entry.value());
+    rho = std::max(rho, sum * inverse[j]);
+  }
+  SparseMatrix smoothed = A * piecewise;
+  smoothed = (inverse * (-4.0 / 3 / rho)).asDiagonal() * smoothed;
+  return piecewise + smoothed;
+}
+
+struct Level {
+  SparseMatrix A;
+  SparseMatrix P;  ///< from the next, coarser level; none on the coarsest
+};
+
+class Multigrid : public LinearBackend {
+ public:
+  Multigrid(const MultigridOptions& options) : options_(options) {}
+
+  /// False when a diagonal entry is not positive.
+  bool build(SparseMatrix A, const Workers& workers) {
+    while (true) {
+      workers.report("coarsen", static_cast<double>(levels_.size()) / most_levels);
+      if (!(A.diagonal().minCoeff() > 0)) return false;
+      Level& level = levels_.emplace_back();
+      level.A = std::move(A);
+      if (level.A.rows() <= coarsest_size || levels_.size() == most_levels) break;
+      const SparseMatrix strong_part = filtered(level.A, strong * std::pow(0.5, double(levels_.size() - 1)));
+      int count = 0;
+      const std::vector<int> group = aggregate(strong_part, count);
+      if (count == 0 || count > 0.9 * static_cast<double>(level.A.rows())) break;
+      level.P = prolongation(strong_part, group, count);
+      const SparseMatrix image = level.A * level.P, restriction = level.P.transpose();
+      A = restriction * image;
+    }
+    const SparseMatrix& last = levels_.back().A;
+    direct_ = last.rows() <= 20 * coarsest_size;
+    if (direct_) coarsest_.compute(last);
+    if (direct_ && coarsest_.info() != Eigen::Success) return false;
+    for (const Level& level : levels_) {
+      nonzeros += level.A.nonZeros() + level.P.nonZeros();
+      bytes += static_cast<std::size_t>(level.A.nonZeros() + level.P.nonZeros()) * (sizeof(double) + sizeof(int));
+    }
+    name = "multigrid (" + std::to_string(levels_.size()) + " levels)";
+    return true;
+  }
+
+  int solve(Eigen::Ref<Eigen::MatrixXd> x) const override {
+    int most = 0;
+    for (Eigen::Index c = 0; c < x.cols(); ++c) {
+      const double scale = x.col(c).cwiseAbs().maxCoeff();  // norms shall neither overflow nor vanish
+      if (scale == 0) continue;
+      const VectorXd b = x.col(c) / scale;
+      VectorXd solution = VectorXd::Zero(b.size());
+      most = std::max(most, iterate(b, solution));
+      x.col(c) = scale * solution;
+    }
+    return most;
+  }
+
+ private:
+  int iterate(const VectorXd& b, VectorXd& x) const {
+    const double goal = options_.tolerance * b.norm();
+    VectorXd r = b, p, image;
+    if (r.norm() <= goal) return 0;
+    VectorXd z = cycle(0, r);
+    p = z;
+    double rz = r.dot(z);
+    for (int step = 1; step <= options_.max_iterations; ++step) {
+      image.noalias() = levels_[0].A * p;
+      const double alpha = rz / p.dot(image);
+      x += alpha * p;
+      r -= alpha * image;
+      if (r.norm() <= goal) return step;
+      z = cycle(0, r);
+      const double next = r.dot(z);
+      p = z + (next / rz) * p;
+      rz = next;
+    }
+    throw SolverFailure("multigrid: |b - A x| / |b| is " + std::to_string(r.norm() / b.norm()) + " after " +
+                        std::to_string(options_.max_iterations) +
+                        " iterations; allow more, a larger tolerance, or the memory for a factor");
+  }
+
+  /// Gauss-Seidel forwards, the coarser levels, Gauss-Seidel backwards: symmetric, as conjugate gradients want it.
+  VectorXd cycle(std::size_t at, const VectorXd& b) const {
+    const SparseMatrix& A = levels_[at].A;
+    if (at + 1 == levels_.size() && direct_) return coarsest_.solve(b);
+    VectorXd x = VectorXd::Zero(b.size());
+    const int n = static_cast<int>(A.cols());
+    for (int j = 0; j < n; ++j) relax(A, j, b, x);
+    if (at + 1 < levels_.size()) {
+      const SparseMatrix& P = levels_[at].P;
+      const VectorXd residual = b - A * x;
+      x += P * cycle(at + 1, P.transpose() * residual);
+    }
+    for (int j = n - 1; j >= 0; --j) relax(A, j, b, x);
+    return x;
+  }
+
+  /// Column j is row j.
+  static void relax(const SparseMatrix& A, int j, const VectorXd& b, VectorXd& x) {
+    double sum = b[j], diagonal = 1;
+    for (SparseMatrix::InnerIterator entry(A, j); entry; ++entry) {
+      if (entry.row() == j)
+        diagonal = entry.value();
+      else
+        sum -= entry.value() * x[entry.row()];
+    }
+    x[j] = sum / diagonal;
+  }
+
+  MultigridOptions options_;
+  std::vector<Level> levels_;
+  Eigen::SimplicialLDLT<SparseMatrix> coarsest_;
+  bool direct_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<LinearBackend> makeMultigrid(const LongMatrix& lower, const MultigridOptions& options,
+                                             const Workers& workers) {
+  auto multigrid = std::make_unique<Multigrid>(options);
+  SparseMatrix A(LongMatrix(lower.selfadjointView<Eigen::Lower>()));
+  if (!multigrid->build(std::move(A), workers)) return nullptr;
+  return multigrid;
+}
+
+}  // namespace tufted

@@ -1,0 +1,243 @@
+// Linear systems: that what comes back solves them, what happens to constants, and what callers may ask for.
+#include "tufted/solver.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "shapes/shapes.h"
+#include "support/compare.h"
+#include "tufted/tufted.h"
+
+namespace tufted {
+namespace {
+
+using Eigen::MatrixXd;
+
+constexpr std::array methods = {SolverMethod::cholesky, SolverMethod::multigrid};
+
+/// Two spheres of 1000 points each, far apart, the second of the given radius.
+Points twoSpheres(double radius) {
+  Points points(2000, 3);
+  points.topRows(1000) = shapes::sphere(1000).points;
+  points.bottomRows(1000) = (radius * shapes::sphere(1000, shapes::Sampling::uniform, 2).points).array() + 3;
+  return points;
+}
+
+std::vector<std::pair<std::string, Points>> differentClouds() {
+  return {{"two spheres", twoSpheres(0.1)},
+          {"spheres of unlike size", twoSpheres(1e-7)},
+          {"depth camera", shapes::depthCamera({.width = 160, .height = 120}).points},
+          {"noisy torus", shapes::withNoise(shapes::torus(4000), 0.01).points},
+          {"disk", shapes::disk(2000).points}};
+}
+
+SparseMatrix heatMatrix(const Laplacian& laplacian) {
+  SparseMatrix A = laplacian.report.mean_squared_edge * laplacian.L;
+  for (Eigen::Index i = 0; i < A.cols(); ++i)
+    if (laplacian.M[i] > 0) A.coeffRef(i, i) += laplacian.M[i];
+  return A;
+}
+
+/// The same on every machine.
+MatrixXd someValues(Eigen::Index rows, Eigen::Index columns) {
+  return MatrixXd::NullaryExpr(rows, columns, [](Eigen::Index i, Eigen::Index c) {
+    return std::sin(1.7 * static_cast<double>(i) + 0.9 * static_cast<double>(c * c));
+  });
+}
+
+TEST(Solver, SolvesPositiveDefiniteSystems) {
+  for (const auto& [name, points] : differentClouds()) {
+    const Laplacian laplacian = pointCloudLaplacian(points);
+    const SparseMatrix A = heatMatrix(laplacian);
+    const MatrixXd b = A * someValues(points.rows(), 3);  // 0 in the rows that take no part
+    for (const SolverMethod method : methods) {
+      SolveReport report;
+      const MatrixXd x = Solver::positiveDefinite(A, {.method = method}).solve(b, &report);
+      for (int c = 0; c < 3; ++c) EXPECT_LE((b - A * x).col(c).norm(), 1e-11 * b.col(c).norm()) << name;
+      EXPECT_LE(report.residual, 1e-11) << name;
+      EXPECT_EQ(report.iterations > 0, method == SolverMethod::multigrid);
+      for (Eigen::Index i = 0; i < points.rows(); ++i) EXPECT_TRUE(A.coeff(i, i) != 0 || x.row(i).isZero(0)) << i;
+    }
+  }
+}
+
+TEST(Solver, SolvesWithALaplacianUpToAConstantPerComponent) {
+  for (const auto& [name, points] : differentClouds()) {
+    const Laplacian laplacian = pointCloudLaplacian(points);
+    VectorXd f = someValues(points.rows(), 1);  // with a mean, and not 0 where points are not active
+    for (const SolverMethod method : methods) {
+      const Solver solver = Solver::laplacian(laplacian, {.method = method});
+      EXPECT_EQ(solver.report().components, laplacian.report.components) << name;
+      SolveReport report;
+      const VectorXd x = solver.solve(f, &report);
+      EXPECT_LE(report.residual, 1e-9) << name;
+      // What is missing from L x = f is M times one number per component, and sum(M x) is 0 on each.
+      const VectorXd missing = f - laplacian.L * x;
+      double sum_of_x = 0, scale = 0;
+      for (Eigen::Index i = 0; i < points.rows(); ++i) {
+        if (laplacian.status[i] != PointStatus::active) {
+          EXPECT_EQ(x[i], 0) << name << ", " << i;
+          continue;
+        }
+        sum_of_x += laplacian.M[i] * x[i];
+        scale += laplacian.M[i] * std::abs(x[i]);
+        for (SparseMatrix::InnerIterator entry(laplacian.L, i); entry; ++entry) {
+          const auto j = entry.row();
+          EXPECT_NEAR(missing[i] * laplacian.M[j], missing[j] * laplacian.M[i],
+                      1e-8 * (laplacian.M[i] + laplacian.M[j]))
+              << name << ", " << i << ", " << j;
+        }
+      }
+      EXPECT_LE(std::abs(sum_of_x), 1e-12 * scale) << name;
+    }
+  }
+}
+
+TEST(Solver, InvertsOnWhatAConstantDoesNotTouch) {
+  // Poisson on the unit sphere: z is an eigenfunction of eigenvalue 2, so L z / 2 is nearly M z.
+  const Points points = shapes::sphere(16000).points;
+  const Laplacian laplacian = pointCloudLaplacian(points);
+  const Solver solver = Solver::laplacian(laplacian);
+  const VectorXd z = solver.solve(laplacian.M.cwiseProduct(points.col(2)));
+  EXPECT_LE((z - points.col(2) / 2).cwiseAbs().maxCoeff(), 0.02);
+  // Exact: L of any function solves back to it, but for its mean.
+  const VectorXd u = someValues(16000, 1), back = solver.solve(laplacian.L * u);
+  const double mean = laplacian.M.dot(u) / laplacian.M.sum();
+  EXPECT_LE((back.array() - (u.array() - mean)).abs().maxCoeff(), 1e-10);
+}
+
+TEST(Solver, IsSymmetricWithALaplacian) {
+  const Laplacian laplacian = pointCloudLaplacian(twoSpheres(0.5));
+  const Solver solver = Solver::laplacian(laplacian);
+  const MatrixXd b = someValues(2000, 2), x = solver.solve(b);
+  EXPECT_NEAR(b.col(0).dot(x.col(1)), b.col(1).dot(x.col(0)), 1e-10 * b.col(0).norm() * x.col(1).norm());
+}
+
+TEST(Solver, OnAnyNumberOfThreadsGivesTheSameBits) {
+  const Laplacian laplacian = pointCloudLaplacian(shapes::torus(4000).points);
+  const MatrixXd b = someValues(4000, 70);
+  for (const SolverMethod method : methods) {
+    const MatrixXd one = Solver::laplacian(laplacian, {.method = method, .threads = 1}).solve(b);
+    const MatrixXd three = Solver::laplacian(laplacian, {.method = method, .threads = 3}).solve(b);
+    EXPECT_TRUE(support::sameBits(one.data(), three.data(), one.size()));
+  }
+}
+
+TEST(Solver, SolvesManyRightSidesAsOneByOne) {
+  const Laplacian laplacian = pointCloudLaplacian(shapes::torus(4000).points);
+  const SparseMatrix A = heatMatrix(laplacian);
+  const Solver solver = Solver::positiveDefinite(A);
+  const MatrixXd b = someValues(4000, 37), x = solver.solve(b);
+  for (int c = 0; c < 37; ++c) EXPECT_LE((solver.solve(b.col(c)) - x.col(c)).norm(), 1e-13 * x.col(c).norm());
+  EXPECT_EQ(solver.solve(MatrixXd(4000, 0)).cols(), 0);
+}
+
+TEST(Solver, TakesMultigridWhereAFactorDoesNotFit) {
+  const Laplacian laplacian = pointCloudLaplacian(shapes::torus(4000).points);
+  const Solver large = Solver::laplacian(laplacian);
+  EXPECT_TRUE(large.report().method.starts_with("Cholesky")) << large.report().method;
+  EXPECT_GE(large.report().nonzeros, 10 * 4000);
+  EXPECT_GE(large.report().factor_bytes, 8 * static_cast<std::size_t>(large.report().nonzeros));
+  const std::size_t limit = large.report().factor_bytes - 1;
+  const Solver small = Solver::laplacian(laplacian, {.memory_limit = limit});
+  EXPECT_TRUE(small.report().method.starts_with("multigrid")) << small.report().method;
+  EXPECT_LT(small.report().bytes, limit);
+  EXPECT_EQ(small.report().unknowns, 3999);
+  const VectorXd b = someValues(4000, 1);
+  EXPECT_LE((large.solve(b) - small.solve(b)).norm(), 1e-9 * large.solve(b).norm());
+}
+
+TEST(Solver, KeepsUnknownsOfAnyScaleApartByCholesky) {
+  // Of diagonal entries from 1e-200 to 1e200 none disturbs the others.
+  SparseMatrix A(5, 5);
+  const VectorXd scale{{1e-200, 1, 0, 1e9, 1e200}};
+  for (int i = 0; i < 5; ++i)
+    if (scale[i] != 0) A.insert(i, i) = scale[i];
+  const VectorXd b{{1e-200, 2, NAN, 3e9, 4e200}};
+  const VectorXd x = Solver::positiveDefinite(A, {.method = SolverMethod::cholesky}).solve(b);
+  EXPECT_LE((x - VectorXd{{1, 2, 0, 3, 4}}).cwiseAbs().maxCoeff(), 1e-15);
+}
+
+TEST(Solver, TakesCloudsWithoutSurface) {
+  const Points line{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {3, 0, 0}, {NAN, 0, 0}};
+  for (const Points& points : {line, Points(0, 3)}) {
+    const Solver solver = Solver::laplacian(pointCloudLaplacian(points));
+    EXPECT_EQ(solver.report().components, 0);
+    EXPECT_TRUE(solver.solve(MatrixXd::Ones(points.rows(), 2)).isZero(0));
+  }
+}
+
+TEST(Solver, NamesWhatACallerGotWrong) {
+  const Laplacian laplacian = pointCloudLaplacian(shapes::sphere(500).points);
+  const auto refusal = [&](const SolverOptions& options, const MatrixXd& b) {
+    try {
+      Solver::laplacian(laplacian, options).solve(b);
+    } catch (const InvalidInput& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  const VectorXd good = VectorXd::Ones(500);
+  VectorXd odd = good;
+  odd[77] = INFINITY;
+  EXPECT_EQ(refusal({.tolerance = 0}, good), "Solver::laplacian: tolerance = 0.000000, must lie in (0, 1)");
+  EXPECT_NE(refusal({.tolerance = NAN}, good), "accepted");
+  EXPECT_EQ(refusal({.max_iterations = 0}, good), "Solver::laplacian: max_iterations = 0, must be at least 1");
+  EXPECT_EQ(refusal({.threads = -1}, good), "Solver::laplacian: threads = -1, must be >= 0");
+  EXPECT_EQ(refusal({}, good.head(499)), "Solver::solve: b has 499 rows, must have 500");
+  EXPECT_EQ(refusal({}, odd), "Solver::solve: b has values that are not finite, must have none");
+  EXPECT_THROW(Solver::positiveDefinite(SparseMatrix(3, 4)), InvalidInput);
+  Laplacian torn = laplacian;
+  torn.M.conservativeResize(499);
+  EXPECT_THROW(Solver::laplacian(torn), InvalidInput);
+}
+
+TEST(Solver, FailsTypedWhenTheMatrixIsNotPositiveDefinite) {
+  const Laplacian laplacian = pointCloudLaplacian(shapes::sphere(500).points);
+  for (const SolverMethod method : methods) {
+    for (const double factor : {-1.0, static_cast<double>(NAN), static_cast<double>(INFINITY)}) {
+      Laplacian wrong = laplacian;
+      wrong.L *= factor;
+      EXPECT_THROW(Solver::laplacian(wrong, {.method = method}), SolverFailure) << factor;
+      EXPECT_THROW(Solver::positiveDefinite(factor * heatMatrix(laplacian), {.method = method}), SolverFailure);
+    }
+  }
+  // One wrong entry, seen by elimination alone.
+  SparseMatrix saddle = heatMatrix(laplacian);
+  saddle.coeffRef(100, 100) *= 1e-6;
+  EXPECT_THROW(Solver::positiveDefinite(saddle, {.method = SolverMethod::cholesky}), SolverFailure);
+}
+
+TEST(Solver, FailsTypedWhenIterationsDoNotSuffice) {
+  const Laplacian laplacian = pointCloudLaplacian(shapes::sphere(4000).points);
+  const Solver solver = Solver::laplacian(laplacian, {.method = SolverMethod::multigrid, .max_iterations = 2});
+  try {
+    solver.solve(someValues(4000, 1));
+    FAIL() << "solved in two iterations";
+  } catch (const SolverFailure& error) {
+    EXPECT_NE(std::string(error.what()).find("after 2 iterations"), std::string::npos) << error.what();
+  }
+}
+
+TEST(Solver, CancelsAtEveryCall) {
+  const Laplacian laplacian = pointCloudLaplacian(shapes::sphere(4000).points);
+  for (const SolverMethod method : methods) {
+    int calls = 0;
+    const auto makeUntil = [&](int stop) {
+      calls = 0;
+      Solver::laplacian(laplacian,
+                        {.method = method, .progress = [&](std::string_view, double) { return ++calls < stop; }});
+    };
+    makeUntil(std::numeric_limits<int>::max());
+    const int all = calls;
+    EXPECT_GE(all, 2);
+    for (int stop = 1; stop <= all; ++stop) EXPECT_THROW(makeUntil(stop), Cancelled) << stop << " of " << all;
+  }
+}
+
+}  // namespace
+}  // namespace tufted
