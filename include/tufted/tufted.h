@@ -12,4 +12,5 @@
 #include "tufted/scan_structure.h"
 #include "tufted/smoothing.h"
 #include "tufted/solver.h"
+#include "tufted/spectrum.h"
 #include "tufted/types.h"

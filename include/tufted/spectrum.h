@@ -1,0 +1,55 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "tufted/laplacian.h"
+#include "tufted/options.h"
+#include "tufted/solver.h"
+#include "tufted/types.h"
+
+namespace tufted {
+
+struct SpectrumOptions {
+  /// Of |A x - theta x| / theta in the norm of M, A the inverse of L after M and theta = 1 / lambda; in (0, 1). The
+  /// error of an eigenvalue is about its square.
+  double tolerance = 1e-10;
+  int max_iterations = 1000;  ///< of six solves each, >= 1; beyond them SolverFailure
+  SolverOptions solver = {};  ///< its method, memory, tolerance and iterations; threads and progress are those below
+  int threads = 0;            ///< at most this many; 0: what OpenMP offers
+  Progress progress = {};
+};
+
+/// What finding a spectrum did.
+struct SpectrumReport {
+  int null_space = 0;        ///< eigenvalues that are exactly 0: one for each connected component that has an area
+  int iterations = 0;        ///< of block Lanczos, six solves each
+  double residual = 0;       ///< greatest |L x - lambda M x| / (lambda |M x|), Euclidean norms, of lambda > 0
+  double orthogonality = 0;  ///< greatest |entry| of the Gram matrix X^T M X minus the identity
+  double seconds = 0;        ///< wall-clock, with making the solver
+  SolverReport solver;
+};
+
+/// The k smallest eigenvalues of L x = lambda M x, which have the unit of 1 / area.
+struct Spectrum {
+  VectorXd values;          ///< k, ascending; 1 / length^2
+  Eigen::MatrixXd vectors;  ///< N x k, X^T M X = I; 1 / length
+  SpectrumReport report;
+};
+
+/// The first k eigenpairs of L x = lambda M x (Section 5.3), by Lanczos' method on the inverse with blocks of vectors.
+///
+/// The null space is exact: eigenvalue 0, and for each connected component the function that is constant there and 0
+/// elsewhere, components of larger area first. All other vectors have sum(M x) = 0 on each component. Of both signs of
+/// a vector, that is taken which makes its largest entry positive; of entries within a part in 10^6, the first decides.
+/// Multiple eigenvalues come as often as they occur, with some basis of their space. The same bits result for any
+/// number of threads.
+///
+/// Coincident points have the values of their representative; points that are not finite or isolated, and components
+/// whose areas all underflow, have 0.
+/// @param k >= 1, less than the number of active points of positive area
+/// @throws InvalidInput for k or options out of range, or arrays of the wrong size
+/// @throws SolverFailure when L cannot be factorised or the iterations do not suffice
+/// @throws Cancelled when `options.progress` returns false
+Spectrum spectrum(const Laplacian& laplacian, int k, const SpectrumOptions& options = {});
+
+}  // namespace tufted

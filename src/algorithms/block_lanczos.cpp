@@ -1,0 +1,229 @@
+#include "algorithms/block_lanczos.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "algorithms/tall_matrix.h"
+
+namespace tufted {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+using Eigen::VectorXd;
+
+constexpr Index block_size = 6;
+/// Steps that a random block gets to show a missed eigenvalue.
+constexpr int search_steps = 3;
+/// A column of which less is left by orthogonalisation is noise, compared with the largest eigenvalue.
+constexpr double least_part = 1e-12;
+
+class BlockLanczos {
+ public:
+  BlockLanczos(const LanczosProblem& problem, const LanczosOptions& options, const Workers& workers)
+      : problem_(problem), options_(options), workers_(workers), quiet_(workers.count(), silent_) {
+    // Room for half as many vectors again as are wanted, or for some steps.
+    const Index room = problem.wanted + std::max<Index>(problem.wanted / 2, 6 * block_size);
+    most_ = std::min(problem.dimension, (room + block_size - 1) / block_size * block_size);
+    basis_.resize(problem.mass.size(), most_ + block_size);
+    T_ = MatrixXd::Zero(most_ + block_size, most_ + block_size);
+  }
+
+  LanczosResult run() {
+    addRandom();
+    LanczosResult result;
+    int search_from = -1;  // iteration at which the search for missed eigenvalues began
+    VectorXd before;       // what had converged then
+    while (result.iterations < options_.max_iterations) {
+      workers_.report("eigenpairs", found_);
+      const bool exhausted = !step();
+      ++result.iterations;
+      const bool full = size_ + fresh_ > most_;
+      const bool searched = search_from >= 0 && result.iterations >= search_from + search_steps;
+      if (!exhausted && !full && !searched && result.iterations % 4 != 0) continue;
+      decompose();
+      const bool converged = exhausted || countConverged() == problem_.wanted;
+      if (exhausted) {
+        result.converged = true;
+        break;
+      }
+      if (converged && search_from < 0) {
+        before = values_.head(problem_.wanted);
+        search_from = result.iterations;
+        restart();
+        fresh_ = 0;
+        if (!addRandom()) {
+          result.converged = true;
+          break;
+        }
+        continue;
+      }
+      if (converged && searched) {
+        const VectorXd now = values_.head(problem_.wanted);
+        if (((now - before).cwiseAbs().array() <= 1e-8 * before.array()).all()) {
+          result.converged = true;
+          break;
+        }
+        search_from = -1;  // something was missed: search again
+      }
+      if (full) restart();
+    }
+    if (!result.converged) decompose();
+    result.values = values_.head(problem_.wanted);
+    multiplyInPlace(basis_.leftCols(size_), vectors_.leftCols(problem_.wanted), quiet_);
+    basis_.conservativeResize(Eigen::NoChange, problem_.wanted);
+    result.vectors = std::move(basis_);
+    return result;
+  }
+
+ private:
+  auto fresh() { return basis_.middleCols(size_, fresh_); }
+
+  /// Applies A to the fresh block, books its products, and makes the next block of what is new. False when nothing is.
+  bool step() {
+    MatrixXd image = problem_.apply(fresh());
+    const Index known = size_ + fresh_;
+    MatrixXd products = innerProducts(basis_.leftCols(known), problem_.mass, image, quiet_);
+    T_.block(0, size_, known, fresh_) = products;
+    T_.block(size_, 0, fresh_, known) = products.transpose();
+    subtractProduct(image, basis_.leftCols(known), products, quiet_);
+    size_ = known;
+    const MatrixXd rest = image;
+    const Index room = std::min<Index>(block_size, problem_.dimension - size_);
+    scale_ = std::max(scale_, T_.diagonal().maxCoeff());
+    fresh_ = orthonormalize(image, room, least_part * scale_);
+    if (fresh_ == 0) return addRandom();
+    coupling_ = innerProducts(fresh(), problem_.mass, rest, quiet_);
+    return true;
+  }
+
+  /// A block that nothing is known of. False when the space is used up.
+  bool addRandom() {
+    const Index room = std::min<Index>(block_size, problem_.dimension - size_);
+    fresh_ = 0;
+    coupling_.resize(0, 0);
+    if (room == 0) return false;
+    MatrixXd block(problem_.mass.size(), room);
+    for (Index c = 0; c < room; ++c) {
+      for (Index i = 0; i < block.rows(); ++i) {
+        const double uniform = static_cast<double>(random_() >> 11) * 0x1p-52 - 1;  // in [-1, 1)
+        block(i, c) = problem_.mass[i] > 0 ? uniform / std::sqrt(problem_.mass[i]) : 0;
+      }
+    }
+    problem_.deflate(block);
+    const double least = least_part * std::sqrt(innerProductsOfColumns(block).maxCoeff());
+    fresh_ = orthonormalize(block, room, least);
+    return fresh_ > 0;
+  }
+
+  /// Puts at most `room` orthonormal columns behind the basis that span what `block` has beside it. Columns of which no
+  /// more than `least` is left are noise.
+  Index orthonormalize(const MatrixXd& block, Index room, double least) {
+    if (block.cols() <= room) {
+      basis_.middleCols(size_, block.cols()) = block;
+      if (orthonormalizeTogether(block.cols(), least)) return block.cols();
+    }
+    return orthonormalizeOneByOne(block, room, least);
+  }
+
+  /// The columns behind the basis by Cholesky's factor of their Gram matrix, again where much was taken away. False
+  /// where they are too close to dependent for that.
+  bool orthonormalizeTogether(Index count, double least) {
+    auto all = basis_.leftCols(size_ + count);
+    for (int pass = 0; pass < 4; ++pass) {
+      const MatrixXd products = innerProducts(all, problem_.mass, all.rightCols(count), quiet_);
+      const auto known = products.topRows(size_), own = products.bottomRows(count);
+      const Eigen::LLT<MatrixXd> gram(own - known.transpose() * known);
+      if (gram.info() != Eigen::Success) return false;
+      const VectorXd left = gram.matrixLLT().diagonal();
+      const double least_share = (left.array() / own.diagonal().array().sqrt()).minCoeff();
+      if (!(left.minCoeff() > least) || !(least_share > 1e-5)) return false;
+      least = 0;  // the columns have length 1 from now on
+      MatrixXd combination(size_ + count, count);
+      combination.bottomRows(count) = gram.matrixU().solve(MatrixXd::Identity(count, count));
+      combination.topRows(size_) = -known * combination.bottomRows(count);
+      multiplyInto(all, combination, all.rightCols(count), quiet_);
+      if (least_share > 1e-2) return true;  // so little was taken away that rounding did not grow
+    }
+    return false;
+  }
+
+  Index orthonormalizeOneByOne(const MatrixXd& block, Index room, double least) {
+    Index count = 0;
+    for (Index c = 0; c < block.cols() && count < room; ++c) {
+      VectorXd column = block.col(c);
+      const auto known = basis_.leftCols(size_ + count);
+      double norm = 0;
+      for (int pass = 0; pass < 4; ++pass) {
+        subtractProduct(column, known, innerProducts(known, problem_.mass, column, quiet_), quiet_);
+        norm = std::sqrt(column.cwiseProduct(problem_.mass).dot(column));
+        if (!(norm > (pass == 0 ? least : 0.5))) break;
+        column /= norm;
+      }
+      // What shrinks again after it was made orthogonal was noise.
+      if (norm > 0.5) basis_.col(size_ + count++) = column;
+    }
+    return count;
+  }
+
+  VectorXd innerProductsOfColumns(const MatrixXd& block) const {
+    VectorXd result(block.cols());
+    for (Index c = 0; c < block.cols(); ++c) result[c] = block.col(c).cwiseProduct(problem_.mass).dot(block.col(c));
+    return result;
+  }
+
+  /// Eigenpairs of the projected operator, largest first.
+  void decompose() {
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(T_.topLeftCorner(size_, size_));
+    values_ = solver.eigenvalues().reverse();
+    vectors_ = solver.eigenvectors().rowwise().reverse();
+  }
+
+  /// How many of the wanted pairs have a small residual: the coupling times the last rows of their vectors.
+  Index countConverged() {
+    if (size_ < problem_.wanted) return 0;
+    Index count = 0;
+    const MatrixXd rest = coupling_ * vectors_.bottomRows(coupling_.cols()).leftCols(problem_.wanted);
+    for (Index i = 0; i < problem_.wanted; ++i) count += rest.col(i).norm() <= options_.tolerance * values_[i] ? 1 : 0;
+    found_ = static_cast<double>(count) / static_cast<double>(problem_.wanted);
+    return count;
+  }
+
+  /// Keeps the leading vectors, and the fresh block behind them.
+  void restart() {
+    const Index keep = std::min(size_, problem_.wanted + (most_ - problem_.wanted) / 3);
+    const MatrixXd next = fresh();
+    multiplyInPlace(basis_.leftCols(size_), vectors_.leftCols(keep), quiet_);
+    T_.setZero();
+    T_.diagonal().head(keep) = values_.head(keep);
+    size_ = keep;
+    fresh() = next;
+  }
+
+  const LanczosProblem& problem_;
+  const LanczosOptions& options_;
+  const Workers& workers_;
+  const Progress silent_;
+  const Workers quiet_;  ///< products are not reported one by one
+  std::mt19937_64 random_{1};
+  Index most_ = 0;  ///< columns that the basis may have
+  MatrixXd basis_;  ///< mass-orthonormal: `size_` columns that A has been applied to, then `fresh_` others
+  Index size_ = 0, fresh_ = 0;
+  MatrixXd T_;         ///< basis^T diag(mass) A basis
+  MatrixXd coupling_;  ///< what A leads from the last block to the fresh one
+  VectorXd values_;
+  MatrixXd vectors_;
+  double scale_ = 0;  ///< the largest eigenvalue so far
+  double found_ = 0;  ///< share of the wanted that has converged
+};
+
+}  // namespace
+
+LanczosResult largestEigenpairs(const LanczosProblem& problem, const LanczosOptions& options, const Workers& workers) {
+  return BlockLanczos(problem, options, workers).run();
+}
+
+}  // namespace tufted

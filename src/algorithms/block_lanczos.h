@@ -1,0 +1,36 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <functional>
+
+#include "base/parallel.h"
+
+namespace tufted {
+
+/// An operator A that is self-adjoint and positive in the inner product x^T diag(mass) y.
+struct LanczosProblem {
+  std::function<Eigen::MatrixXd(const Eigen::Ref<const Eigen::MatrixXd>&)> apply;  ///< A times several columns
+  /// Takes out the directions that A maps to 0 and that are not to be found.
+  std::function<void(Eigen::Ref<Eigen::MatrixXd>)> deflate;
+  Eigen::VectorXd mass;    ///< n, >= 0; rows of mass 0 do not matter to A
+  Eigen::Index dimension;  ///< of the space that is left, > `wanted`
+  Eigen::Index wanted;     ///< pairs, >= 1
+};
+
+struct LanczosOptions {
+  double tolerance;    ///< on |A x - theta x| / theta, in the norm of `mass`
+  int max_iterations;  ///< blocks that A is applied to
+};
+
+struct LanczosResult {
+  Eigen::VectorXd values;   ///< the `wanted` largest eigenvalues, descending
+  Eigen::MatrixXd vectors;  ///< n x wanted, mass-orthonormal
+  int iterations = 0;       ///< blocks that A was applied to
+  bool converged = false;
+};
+
+/// Largest eigenpairs by Lanczos' method with blocks of vectors, all kept orthogonal, and thick restarts. When all have
+/// converged, a random block looks for eigenvalues that were missed, as copies of multiple ones can be.
+LanczosResult largestEigenpairs(const LanczosProblem& problem, const LanczosOptions& options, const Workers& workers);
+
+}  // namespace tufted

@@ -1,0 +1,164 @@
+#include "tufted/spectrum.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "algorithms/block_lanczos.h"
+#include "algorithms/connected.h"
+#include "algorithms/tall_matrix.h"
+#include "base/parallel.h"
+#include "base/stage_clock.h"
+#include "tufted/errors.h"
+
+namespace tufted {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+void checkArguments(const Laplacian& laplacian, const SpectrumOptions& options) {
+  const auto n = static_cast<Index>(laplacian.status.size());
+  if (laplacian.L.rows() != n || laplacian.L.cols() != n || laplacian.M.size() != n)
+    throw InvalidInput("spectrum: L, M and status differ in their number of points, must be the same");
+  if (!laplacian.M.allFinite() || (laplacian.M.array() < 0).any())
+    throw InvalidInput("spectrum: M has values that are negative or not finite, must have none");
+  if (!(options.tolerance > 0 && options.tolerance < 1))
+    throw InvalidInput("spectrum: tolerance = " + std::to_string(options.tolerance) + ", must lie in (0, 1)");
+  if (options.max_iterations < 1)
+    throw InvalidInput("spectrum: max_iterations = " + std::to_string(options.max_iterations) + ", must be at least 1");
+  if (options.threads < 0)
+    throw InvalidInput("spectrum: threads = " + std::to_string(options.threads) + ", must be >= 0");
+}
+
+/// The problem without unit, so that tiny and huge clouds neither underflow nor overflow: areas are parts of `total`.
+struct Problem {
+  Components components;
+  double total;            ///< area of the active points
+  VectorXd mass;           ///< N
+  VectorXd area;           ///< of each component
+  std::vector<int> order;  ///< components of positive area, larger ones first
+  Index usable = 0;        ///< points of positive mass
+
+  explicit Problem(const Laplacian& laplacian) : components(findComponents(laplacian)) {
+    mass = VectorXd::Zero(laplacian.M.size());
+    const double largest = std::max(laplacian.M.size() > 0 ? laplacian.M.maxCoeff() : 0.0, 0.0);
+    for (const int i : components.points) mass[i] = largest > 0 ? laplacian.M[i] / largest : 0;
+    total = mass.sum();
+    if (total > 0) mass /= total;
+    total *= largest;
+    area = components.sums(mass);
+    for (int c = 0; c < components.count; ++c)
+      if (area[c] > 0) order.push_back(c);
+    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return area[a] > area[b]; });
+    usable = (mass.array() > 0).count();
+  }
+};
+
+/// Columns `first` to the end: the constants of the components.
+MatrixXd constants(const Problem& problem, Index count) {
+  MatrixXd result = MatrixXd::Zero(problem.mass.size(), count);
+  std::vector<Index> column(problem.components.count, count);
+  for (Index c = 0; c < count; ++c) column[problem.order[c]] = c;
+  for (const int i : problem.components.points) {
+    const int component = problem.components.of[i];
+    if (column[component] < count) result(i, column[component]) = 1 / std::sqrt(problem.area[component]);
+  }
+  return result;
+}
+
+void fixSign(Eigen::Ref<VectorXd> x) {
+  const double bound = (1 - 1e-6) * x.cwiseAbs().maxCoeff();
+  for (Index i = 0; i < x.size(); ++i) {
+    if (std::abs(x[i]) < bound) continue;
+    if (x[i] < 0) x = -x;
+    return;
+  }
+}
+
+/// The pairs of positive eigenvalue, M-orthonormal.
+void findVibrations(const Laplacian& laplacian, const Problem& problem, Index wanted, const SpectrumOptions& options,
+                    Spectrum& spectrum) {
+  SolverOptions solver_options = options.solver;
+  solver_options.threads = options.threads;
+  solver_options.progress = options.progress;
+  const Solver solver = Solver::laplacian(laplacian, solver_options);
+  spectrum.report.solver = solver.report();
+
+  const Workers workers(options.threads, options.progress);
+  const Progress silent;
+  const Workers quiet(options.threads, silent);
+  const auto apply = [&](const Eigen::Ref<const MatrixXd>& x) { return solver.solve(problem.mass.asDiagonal() * x); };
+  const auto deflate = [&](Eigen::Ref<MatrixXd> x) {
+    for (Index c = 0; c < x.cols(); ++c) {
+      const VectorXd sums = problem.components.sums(x.col(c).cwiseProduct(problem.mass));
+      for (const int i : problem.components.points) {
+        const int component = problem.components.of[i];
+        if (problem.area[component] > 0) x(i, c) -= sums[component] / problem.area[component];
+      }
+    }
+  };
+  const Index nulls = std::ssize(problem.order);
+  LanczosResult found = largestEigenpairs(
+      {.apply = apply, .deflate = deflate, .mass = problem.mass, .dimension = problem.usable - nulls, .wanted = wanted},
+      {.tolerance = options.tolerance, .max_iterations = options.max_iterations}, workers);
+  spectrum.report.iterations = found.iterations;
+  if (!found.converged)
+    throw SolverFailure("spectrum: " + std::to_string(options.max_iterations) + " iterations do not suffice for " +
+                        std::to_string(wanted) + " eigenvalues; allow more, or a larger tolerance");
+
+  // Another step of the inverse takes out what rounding left of high frequencies, and fills in points without mass.
+  MatrixXd x = apply(found.vectors) * found.values.cwiseInverse().asDiagonal();
+  const Eigen::LLT<MatrixXd> gram(innerProducts(x, problem.mass, x, quiet));
+  const MatrixXd inverse = gram.matrixU().solve(MatrixXd::Identity(wanted, wanted));
+  multiplyInPlace(x, inverse, quiet);
+  spectrum.values.tail(wanted) = found.values.cwiseInverse();
+  spectrum.vectors.rightCols(wanted) = x;
+}
+
+/// What was reached, in units without unit.
+void measure(const Laplacian& laplacian, const Problem& problem, Spectrum& spectrum) {
+  const Progress silent;
+  const Workers workers(1, silent);
+  const MatrixXd gram = innerProducts(spectrum.vectors, problem.mass, spectrum.vectors, workers);
+  spectrum.report.orthogonality = (gram - MatrixXd::Identity(gram.rows(), gram.cols())).cwiseAbs().maxCoeff();
+  for (Index c = 0; c < spectrum.values.size(); ++c) {
+    if (spectrum.values[c] == 0) continue;
+    const VectorXd weighted = spectrum.values[c] * problem.mass.cwiseProduct(spectrum.vectors.col(c));
+    const double residual = (laplacian.L * spectrum.vectors.col(c) - weighted).norm() / weighted.norm();
+    spectrum.report.residual = std::max(spectrum.report.residual, residual);
+  }
+}
+
+}  // namespace
+
+Spectrum spectrum(const Laplacian& laplacian, int k, const SpectrumOptions& options) {
+  checkArguments(laplacian, options);
+  const Stopwatch watch;
+  const Problem problem(laplacian);
+  if (k < 1 || k >= problem.usable)
+    throw InvalidInput("spectrum: k = " + std::to_string(k) + ", must be at least 1 and less than " +
+                       std::to_string(problem.usable) + ", the number of active points of positive area");
+  Spectrum result{VectorXd::Zero(k), MatrixXd(problem.mass.size(), k), {}};
+  const Index nulls = std::min<Index>(k, std::ssize(problem.order));
+  result.report.null_space = static_cast<int>(nulls);
+  result.vectors.leftCols(nulls) = constants(problem, nulls);
+  if (nulls < k) findVibrations(laplacian, problem, k - nulls, options, result);
+  measure(laplacian, problem, result);
+
+  for (Index c = 0; c < k; ++c) fixSign(result.vectors.col(c));
+  for (std::size_t i = 0; i < laplacian.status.size(); ++i) {
+    if (laplacian.status[i] != PointStatus::coincident) continue;
+    result.vectors.row(static_cast<Index>(i)) = result.vectors.row(laplacian.representative[i]);
+  }
+  result.values /= problem.total;
+  result.vectors /= std::sqrt(problem.total);
+  result.report.seconds = watch.seconds();
+  return result;
+}
+
+}  // namespace tufted

@@ -1,0 +1,210 @@
+// Eigenpairs of L x = lambda M x: exactness, order and signs, multiplicities, odd clouds, and what callers may ask for.
+#include "tufted/spectrum.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "oracles/oracles.h"
+#include "shapes/shapes.h"
+#include "shapes/spectra.h"
+#include "support/compare.h"
+#include "tufted/tufted.h"
+
+namespace tufted {
+namespace {
+
+using Eigen::MatrixXd;
+
+/// Copies of one cloud side by side, so that each eigenvalue is there as often, to the last bit.
+Points copies(const Points& points, int count) {
+  Points result(points.rows() * count, 3);
+  for (int c = 0; c < count; ++c)
+    result.middleRows(c * points.rows(), points.rows()) = points.rowwise() + Eigen::RowVector3d(8.0 * c, 0, 0);
+  return result;
+}
+
+/// What every spectrum promises.
+void expectEigenpairs(const Laplacian& laplacian, const Spectrum& spectrum, const std::string& name) {
+  const Eigen::Index k = spectrum.values.size();
+  const MatrixXd gram = spectrum.vectors.transpose() * laplacian.M.asDiagonal() * spectrum.vectors;
+  EXPECT_LE((gram - MatrixXd::Identity(k, k)).cwiseAbs().maxCoeff(), 1e-10) << name;
+  EXPECT_LE(spectrum.report.orthogonality, 1e-10) << name;
+  EXPECT_LE(spectrum.report.residual, 1e-8) << name;
+  for (Eigen::Index c = 0; c < k; ++c) {
+    const VectorXd x = spectrum.vectors.col(c);
+    const double lambda = spectrum.values[c];
+    EXPECT_GE(lambda, spectrum.values[std::max<Eigen::Index>(c - 1, 0)]) << name << ", " << c;
+    EXPECT_EQ(lambda == 0, c < spectrum.report.null_space) << name << ", " << c;
+    EXPECT_GE(x.maxCoeff(), (1 - 1e-5) * -x.minCoeff()) << name << ", " << c;  // the fixed sign
+    const VectorXd weighted = laplacian.M.cwiseProduct(x);
+    if (lambda == 0) {
+      EXPECT_LE((laplacian.L * x).cwiseAbs().maxCoeff(), 1e-12 * laplacian.L.diagonal().maxCoeff() * x.maxCoeff());
+      continue;
+    }
+    EXPECT_LE((laplacian.L * x - lambda * weighted).norm(), 1e-8 * lambda * weighted.norm()) << name << ", " << c;
+  }
+  for (Eigen::Index i = 0; i < spectrum.vectors.rows(); ++i) {
+    const PointStatus status = laplacian.status[i];
+    if (status == PointStatus::coincident) {
+      EXPECT_EQ(spectrum.vectors.row(i), spectrum.vectors.row(laplacian.representative[i]));
+    } else if (status != PointStatus::active) {
+      EXPECT_TRUE(spectrum.vectors.row(i).isZero(0)) << i;
+    }
+  }
+}
+
+TEST(Spectrum, IsThatOfTheOracle) {
+  const std::vector<std::pair<std::string, Points>> clouds = {
+      {"torus", shapes::torus(3000).points},
+      {"noisy sphere", shapes::withNoise(shapes::sphere(2000), 0.02).points},
+      {"disk", shapes::disk(2000).points},
+      {"density step", shapes::sphere(3000, shapes::Sampling::densityStep(100)).points}};
+  for (const auto& [name, points] : clouds) {
+    const Laplacian laplacian = pointCloudLaplacian(points);
+    for (const int k : {2, 30}) {
+      const Spectrum found = spectrum(laplacian, k);
+      expectEigenpairs(laplacian, found, name);
+      const VectorXd expected = oracles::smallestEigenvalues(laplacian.L, laplacian.M, k);
+      EXPECT_LE((found.values - expected).cwiseAbs().maxCoeff(), 1e-8 * expected[k - 1]) << name;
+    }
+  }
+}
+
+TEST(Spectrum, FindsCopiesOfMultipleEigenvalues) {
+  // The icosphere has eigenvalues five times over by its symmetry; side by side, each of them eleven times as often.
+  const shapes::Mesh ball = shapes::icosphere(3);
+  const Laplacian alone = meshLaplacian(ball.points, ball.triangles);
+  const VectorXd expected = oracles::smallestEigenvalues(alone.L, alone.M, 40);
+  EXPECT_LE((spectrum(alone, 40).values - expected).cwiseAbs().maxCoeff(), 1e-9 * expected[39]);
+
+  const Points points = shapes::torus(700).points;
+  const Laplacian one = pointCloudLaplacian(points), many = pointCloudLaplacian(copies(points, 11));
+  const Spectrum single = spectrum(one, 6), repeated = spectrum(many, 66);
+  EXPECT_EQ(repeated.report.null_space, 11);
+  expectEigenpairs(many, repeated, "copies");
+  for (int c = 0; c < 66; ++c) EXPECT_NEAR(repeated.values[c], single.values[c / 11], 1e-9 * single.values[5]) << c;
+}
+
+TEST(Spectrum, HasTheWholeSpaceButOne) {
+  const shapes::Mesh mesh = shapes::tetrahedron();
+  const Laplacian laplacian = meshLaplacian(mesh.points, mesh.triangles);
+  const Spectrum most = spectrum(laplacian, 3);  // of 4; the non-zero ones are equal, for the tetrahedron is regular
+  expectEigenpairs(laplacian, most, "tetrahedron");
+  EXPECT_NEAR(most.values[1], most.values[2], 1e-12 * most.values[2]);
+
+  const Laplacian cloud = pointCloudLaplacian(shapes::torus(150).points);
+  const Spectrum all = spectrum(cloud, 149);
+  expectEigenpairs(cloud, all, "150 points");
+  const MatrixXd scaled = cloud.M.cwiseSqrt().cwiseInverse().asDiagonal() * MatrixXd(cloud.L) *
+                          cloud.M.cwiseSqrt().cwiseInverse().asDiagonal();
+  const VectorXd dense = Eigen::SelfAdjointEigenSolver<MatrixXd>(scaled).eigenvalues();
+  EXPECT_LE((all.values - dense.head(149)).cwiseAbs().maxCoeff(), 1e-10 * dense[148]);
+}
+
+TEST(Spectrum, ScalesWithTheCloud) {
+  // Multiples of 2^-20: moving and doubling are exact.
+  const Points points = shapes::ellipsoid(2000).points;
+  const Spectrum reference = spectrum(pointCloudLaplacian(points), 12);
+  for (const int exponent : {-500, -60, 1, 60, 400}) {
+    const double scale = std::ldexp(1.0, exponent);
+    const Spectrum scaled = spectrum(pointCloudLaplacian(scale * points), 12);
+    EXPECT_LE((scaled.values * scale * scale - reference.values).cwiseAbs().maxCoeff(), 1e-12 * reference.values[11]);
+    EXPECT_LE((scaled.vectors * scale - reference.vectors).cwiseAbs().maxCoeff(), 1e-9) << exponent;
+  }
+}
+
+TEST(Spectrum, OnAnyNumberOfThreadsGivesTheSameBits) {
+  const Laplacian laplacian = pointCloudLaplacian(shapes::torus(30000).points);
+  const Spectrum one = spectrum(laplacian, 20, {.threads = 1}), three = spectrum(laplacian, 20, {.threads = 3});
+  EXPECT_TRUE(support::sameBits(one.values, three.values));
+  EXPECT_TRUE(support::sameBits(one.vectors.data(), three.vectors.data(), one.vectors.size()));
+}
+
+TEST(Spectrum, ByMultigridIsTheSame) {
+  const Laplacian laplacian = pointCloudLaplacian(shapes::torus(5000).points);
+  SpectrumOptions options;
+  options.solver.method = SolverMethod::multigrid;
+  const Spectrum found = spectrum(laplacian, 10, options);
+  EXPECT_TRUE(found.report.solver.method.starts_with("multigrid"));
+  expectEigenpairs(laplacian, found, "multigrid");
+  const VectorXd expected = spectrum(laplacian, 10).values;
+  EXPECT_LE((found.values - expected).cwiseAbs().maxCoeff(), 1e-10 * expected[9]);
+}
+
+TEST(Spectrum, HasAConstantPerComponentLargestAreaFirst) {
+  // Spheres of radius 1, 2, 1/2; a copy and points without surface among them.
+  Points points(3003, 3);
+  points.topRows(1000) = shapes::sphere(1000).points;
+  points.middleRows(1000, 1000) = (2 * shapes::sphere(1000).points).array() + 9;
+  points.middleRows(2000, 1000) = (0.5 * shapes::sphere(1000).points).array() - 9;
+  points.row(3000) = points.row(1500);
+  points.row(3001).setConstant(NAN);
+  points.row(3002) << 1e90, 0, 0;
+  const Laplacian laplacian = pointCloudLaplacian(points);
+  const Spectrum found = spectrum(laplacian, 6);
+  expectEigenpairs(laplacian, found, "three spheres");
+  ASSERT_EQ(found.report.null_space, 3);
+  for (const auto& [column, first] : {std::pair(0, 1000), std::pair(1, 0), std::pair(2, 2000)}) {
+    const double constant = 1 / std::sqrt(laplacian.M.segment(first, 1000).sum());
+    for (int i = 0; i < 3000; ++i)
+      EXPECT_NEAR(found.vectors(i, column), i >= first && i < first + 1000 ? constant : 0, 1e-12);
+  }
+  // Fewer than the constants are some of them.
+  const Spectrum two = spectrum(laplacian, 2);
+  EXPECT_EQ(two.vectors, found.vectors.leftCols(2));
+  EXPECT_EQ(two.report.iterations, 0);
+}
+
+TEST(Spectrum, NamesWhatACallerGotWrong) {
+  const Laplacian laplacian = pointCloudLaplacian(shapes::sphere(500).points);
+  const auto refusal = [](const Laplacian& of, int k, const SpectrumOptions& options = {}) {
+    try {
+      spectrum(of, k, options);
+    } catch (const InvalidInput& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  EXPECT_EQ(refusal(laplacian, 0),
+            "spectrum: k = 0, must be at least 1 and less than 500, the number of active points of positive area");
+  EXPECT_NE(refusal(laplacian, 500), "accepted");
+  EXPECT_NE(refusal(pointCloudLaplacian(Points(0, 3)), 1), "accepted");
+  EXPECT_EQ(refusal(laplacian, 5, {.tolerance = 1}), "spectrum: tolerance = 1.000000, must lie in (0, 1)");
+  EXPECT_EQ(refusal(laplacian, 5, {.max_iterations = 0}), "spectrum: max_iterations = 0, must be at least 1");
+  EXPECT_EQ(refusal(laplacian, 5, {.threads = -2}), "spectrum: threads = -2, must be >= 0");
+  EXPECT_EQ(refusal(laplacian, 5, {.solver = {.tolerance = 2}}),
+            "Solver::laplacian: tolerance = 2.000000, must lie in (0, 1)");
+  Laplacian wrong = laplacian;
+  wrong.M[3] = -1;
+  EXPECT_EQ(refusal(wrong, 5), "spectrum: M has values that are negative or not finite, must have none");
+  wrong.M.conservativeResize(499);
+  EXPECT_NE(refusal(wrong, 5), "accepted");
+}
+
+TEST(Spectrum, FailsTypedWhereItCannotBeFound) {
+  Laplacian laplacian = pointCloudLaplacian(shapes::sphere(3000).points);
+  EXPECT_THROW(spectrum(laplacian, 40, {.max_iterations = 2}), SolverFailure);
+  laplacian.L *= -1;
+  EXPECT_THROW(spectrum(laplacian, 40), SolverFailure);
+}
+
+TEST(Spectrum, CancelsAtEveryCall) {
+  const Laplacian laplacian = pointCloudLaplacian(shapes::sphere(500).points);
+  int calls = 0;
+  const auto findUntil = [&](int stop) {
+    calls = 0;
+    spectrum(laplacian, 10, {.progress = [&](std::string_view, double) { return ++calls < stop; }});
+  };
+  findUntil(std::numeric_limits<int>::max());
+  const int all = calls;
+  EXPECT_GE(all, 5);
+  for (int stop = 1; stop <= all; ++stop) EXPECT_THROW(findUntil(stop), Cancelled) << stop << " of " << all;
+}
+
+}  // namespace
+}  // namespace tufted
