@@ -1,22 +1,116 @@
 #include "io/npy.h"
 
 #include <bit>
+#include <cstring>
+#include <limits>
+#include <map>
+
+#include "io/columns.h"
+#include "io/errors.h"
 
 namespace tufted::io {
 
 static_assert(std::endian::native == std::endian::little, "arrays are written as they lie in memory");
 
-std::string npyHeader(std::string_view descr, std::int64_t length) {
+namespace {
+
+constexpr std::string_view magic = "\x93NUMPY";
+
+/// What follows `key` in the dictionary of a header, from the first character that is no space.
+std::string_view entry(std::string_view dictionary, const std::string& key, const std::filesystem::path& shown) {
+  const std::size_t at = dictionary.find("'" + key + "':");
+  if (at == std::string_view::npos) refuse(shown, "the header of the array has no " + quote(key));
+  std::string_view rest = dictionary.substr(at + key.size() + 3);
+  return rest.substr(std::min(rest.find_first_not_of(' '), rest.size()));
+}
+
+std::vector<std::int64_t> parseShape(std::string_view text, const std::filesystem::path& shown) {
+  std::vector<std::int64_t> shape;
+  const std::size_t end = text.find(')');
+  if (!text.starts_with('(') || end == std::string_view::npos) refuse(shown, "the array has no shape");
+  std::int64_t product = 1, number = -1;
+  for (const char c : std::string(text.substr(1, end - 1)) + ",") {
+    if (c >= '0' && c <= '9') {
+      number = std::max<std::int64_t>(number, 0) * 10 + (c - '0');
+      if (number > std::int64_t(1) << 48) refuse(shown, "the shape of the array is too large");
+    } else if (c == ',') {
+      if (number >= 0) shape.push_back(number);
+      number = -1;
+    } else if (c != ' ') {
+      refuse(shown, "the shape of the array is " + quote(text.substr(0, end + 1)));
+    }
+  }
+  for (const std::int64_t length : shape) {
+    if (length > 0 && product > (std::int64_t(1) << 48) / length) refuse(shown, "the shape of the array is too large");
+    product *= length;
+  }
+  return shape;
+}
+
+const std::map<std::string, FieldType, std::less<>> types = {
+    {"|i1", FieldType::int8},    {"|u1", FieldType::uint8},  {"<i2", FieldType::int16}, {"<u2", FieldType::uint16},
+    {"<i4", FieldType::int32},   {"<u4", FieldType::uint32}, {"<i8", FieldType::int64}, {"<u8", FieldType::uint64},
+    {"<f4", FieldType::float32}, {"<f8", FieldType::float64}};
+
+}  // namespace
+
+std::string npyHeader(std::string_view descr, const std::vector<std::int64_t>& shape) {
   constexpr std::size_t alignment = 64;
   constexpr std::size_t before = 10;  // magic, version and length of the dictionary
-  std::string dictionary = "{'descr': '" + std::string(descr) + "', 'fortran_order': False, 'shape': (" +
-                           (length < 0 ? "" : std::to_string(length) + ",") + "), }";
+  std::string lengths;
+  for (const std::int64_t length : shape)
+    lengths.append(lengths.empty() ? "" : " ").append(std::to_string(length)).append(",");
+  if (shape.size() > 1) lengths.pop_back();
+  std::string dictionary =
+      "{'descr': '" + std::string(descr) + "', 'fortran_order': False, 'shape': (" + lengths + "), }";
   dictionary.append(alignment - (before + dictionary.size() + 1) % alignment, ' ');
   dictionary += '\n';
   std::string header("\x93NUMPY\x01\x00", 8);
   header += static_cast<char>(dictionary.size() & 0xff);
   header += static_cast<char>(dictionary.size() >> 8);
   return header + dictionary;
+}
+
+std::int64_t NpyArray::size() const {
+  std::int64_t product = 1;
+  for (const std::int64_t length : shape) product *= length;
+  return product;
+}
+
+NpyArray parseNpy(std::string_view bytes, const std::filesystem::path& shown) {
+  if (!bytes.starts_with(magic) || bytes.size() < 12) refuse(shown, "is no array of numpy");
+  const int version = static_cast<unsigned char>(bytes[6]);
+  if (version < 1 || version > 3)
+    refuse(shown, "is an array of numpy in the unknown version " + std::to_string(version));
+  const std::size_t length_bytes = version == 1 ? 2 : 4;
+  std::size_t length = 0;
+  for (std::size_t i = 0; i < length_bytes; ++i)
+    length |= std::size_t(static_cast<unsigned char>(bytes[8 + i])) << 8 * i;
+  const std::size_t start = 8 + length_bytes;
+  if (length > bytes.size() - start) refuse(shown, "ends within the header of the array");
+  const std::string_view dictionary = bytes.substr(start, length);
+  if (!entry(dictionary, "fortran_order", shown).starts_with("False"))
+    refuse(shown, "is an array in Fortran's order, must be in C's");
+  NpyArray array;
+  const std::string_view descr = entry(dictionary, "descr", shown);
+  const std::size_t end = descr.find('\'', 1);
+  if (!descr.starts_with('\'') || end == std::string_view::npos) refuse(shown, "is an array of structures");
+  array.descr = descr.substr(1, end - 1);
+  array.shape = parseShape(entry(dictionary, "shape", shown), shown);
+  array.values = bytes.substr(start + length);
+  const auto type = types.find(array.descr);
+  if (type != types.end() && array.values.size() != static_cast<std::size_t>(array.size()) * sizeOf(type->second))
+    refuse(shown, "has " + std::to_string(array.values.size()) + " bytes of values, its shape says another number");
+  return array;
+}
+
+std::vector<double> numbersOf(const NpyArray& array, const std::filesystem::path& shown) {
+  const auto type = types.find(array.descr);
+  if (type == types.end()) refuse(shown, "is an array of " + quote(array.descr) + ", which are no numbers");
+  std::vector<double> numbers(static_cast<std::size_t>(array.size()));
+  const auto* const bytes = reinterpret_cast<const std::byte*>(array.values.data());
+  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = valueOf(type->second, bytes + i * sizeOf(type->second));
+  return numbers;
 }
 
 }  // namespace tufted::io

@@ -35,7 +35,7 @@ struct Results {
 template <class T>
 void writeNpy(const OutputPath& to, const char* descr, const T* values, std::size_t length) {
   io::OutputFile file(to);
-  file.write(io::npyHeader(descr, static_cast<std::int64_t>(length)));
+  file.write(io::npyHeader(descr, {static_cast<std::int64_t>(length)}));
   file.write(values, length * sizeof(T));
   file.close();
 }

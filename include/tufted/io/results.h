@@ -1,0 +1,47 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tufted/io/read.h"
+#include "tufted/io/write.h"
+#include "tufted/laplacian.h"
+
+namespace tufted {
+
+/// Values that an algorithm gave.
+struct ResultArray {
+  std::string name;        ///< of the file, without ending, and of the field; one word
+  Eigen::MatrixXd values;  ///< per point: N x c; otherwise of any shape
+  bool per_point = true;   ///< also a field of the copy of the points
+};
+
+struct ResultOptions {
+  std::vector<Format> copies = {Format::ply};  ///< copies of the points with the results as fields: ply, pcd, or none
+  std::string report = "{}\n";                 ///< the text of report.json
+  Progress progress = {};                      ///< called between files; returning false leaves no file
+};
+
+/// The names of the files that writeResults writes.
+std::vector<std::string> resultFiles(const std::vector<ResultArray>& arrays, const ResultOptions& options);
+
+/// Writes results into the directory `dir`, which is made if missing, in the way of writeLaplacian:
+///   NAME.npy               float64; one column: N values, else rows x columns in C order
+///   points.ply, points.pcd as writeLaplacian writes them, with each array per point as a field NAME of float32;
+///                          several columns: NAME_0, NAME_1, ... in PLY, COUNT values in PCD
+///   report.json            options.report
+/// @throws InvalidInput if arrays differ in length, a name is not one word or a format is neither ply nor pcd
+/// @throws IoError naming the path
+/// @throws Cancelled when `options.progress` returns false
+void writeResults(const std::filesystem::path& dir, const Laplacian& laplacian, const Geometry& geometry,
+                  const std::vector<ResultArray>& arrays, const ResultOptions& options = {});
+
+/// Reads what writeLaplacian wrote with Format::npz: L.npz, M.npy, status.npy, representative.npy, boundary.npy, and of
+/// report.json the counts, lengths and areas. Sign::igl and dummy values are undone. There is no cover, no frames, and
+/// `cover_areas` is M.
+/// @throws IoError naming the file that is missing, damaged or does not fit the others
+Laplacian readLaplacian(const std::filesystem::path& dir);
+
+}  // namespace tufted

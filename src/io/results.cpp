@@ -1,0 +1,110 @@
+#include "tufted/io/results.h"
+
+#include <algorithm>
+#include <cstring>
+
+#include "io/conventions.h"
+#include "io/npy.h"
+#include "io/output_file.h"
+#include "io/pcd_writer.h"
+#include "io/ply_writer.h"
+#include "io/staged_files.h"
+#include "tufted/errors.h"
+
+namespace tufted {
+namespace {
+
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+
+void check(const Laplacian& laplacian, const Geometry& geometry, const std::vector<ResultArray>& arrays,
+           const ResultOptions& options) {
+  const auto n = static_cast<Eigen::Index>(laplacian.status.size());
+  const auto require = [&](const std::string& name, Eigen::Index rows) {
+    if (rows != n)
+      throw InvalidInput("writeResults: " + name + " has " + std::to_string(rows) + " rows, must have " +
+                         std::to_string(n));
+  };
+  if (!options.copies.empty()) require("geometry", geometry.points.rows());
+  for (const ResultArray& array : arrays) {
+    if (array.per_point) require(array.name, array.values.rows());
+    if (array.name.empty() || array.name.find_first_of(" \t\r\n/") != std::string::npos)
+      throw InvalidInput("writeResults: the name '" + array.name + "' is not one word");
+  }
+  for (const Format format : options.copies)
+    if (format != Format::ply && format != Format::pcd)
+      throw InvalidInput("writeResults: copies of the points are ply or pcd");
+}
+
+void writeArray(const io::OutputPath& to, const Eigen::MatrixXd& values) {
+  const RowMajor rows = values;
+  io::OutputFile file(to);
+  file.write(io::npyHeader("<f8", values.cols() == 1 ? std::vector<std::int64_t>{values.rows()}
+                                                     : std::vector<std::int64_t>{values.rows(), values.cols()}));
+  file.write(rows.data(), static_cast<std::size_t>(rows.size()) * sizeof(double));
+  file.close();
+}
+
+/// Float32: what viewers and PCL take without conversion; the arrays keep all digits.
+Field fieldOf(const ResultArray& array) {
+  Field field = {array.name, FieldType::float32, static_cast<int>(array.values.cols()), {}};
+  const Eigen::Matrix<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rows = array.values.cast<float>();
+  field.bytes.resize(static_cast<std::size_t>(rows.size()) * sizeof(float));
+  if (rows.size() > 0) std::memcpy(field.bytes.data(), rows.data(), field.bytes.size());
+  return field;
+}
+
+/// The points with the results in place of fields of these names.
+Geometry copyWith(const Geometry& geometry, const std::vector<ResultArray>& arrays) {
+  Geometry copy = geometry;
+  for (const ResultArray& array : arrays) {
+    if (!array.per_point || array.values.cols() == 0) continue;
+    std::erase_if(copy.fields, [&](const Field& field) { return field.name == array.name; });
+    copy.fields.push_back(fieldOf(array));
+  }
+  return copy;
+}
+
+}  // namespace
+
+std::vector<std::string> resultFiles(const std::vector<ResultArray>& arrays, const ResultOptions& options) {
+  std::vector<std::string> names;
+  for (const ResultArray& array : arrays) names.push_back(array.name + ".npy");
+  for (const Format format : options.copies) names.emplace_back(format == Format::ply ? "points.ply" : "points.pcd");
+  names.emplace_back("report.json");
+  return names;
+}
+
+void writeResults(const std::filesystem::path& dir, const Laplacian& laplacian, const Geometry& geometry,
+                  const std::vector<ResultArray>& arrays, const ResultOptions& options) {
+  check(laplacian, geometry, arrays, options);
+  const std::size_t steps = arrays.size() + options.copies.size() + 1;
+  std::size_t done = 0;
+  const auto report = [&] {
+    if (options.progress && !options.progress("write", static_cast<double>(done++) / static_cast<double>(steps)))
+      throw Cancelled("writeResults: cancelled");
+  };
+  io::StagedFiles files(dir);
+  for (const ResultArray& array : arrays) {
+    report();
+    writeArray(files.stage(array.name + ".npy"), array.values);
+  }
+  if (!options.copies.empty()) {
+    const Geometry copy = copyWith(geometry, arrays);
+    const std::vector<io::Convention> conventions = io::conventions(laplacian, WriteOptions());
+    for (const Format format : options.copies) {
+      report();
+      if (format == Format::ply)
+        io::writePly(files.stage("points.ply"), laplacian, copy, laplacian.M, conventions);
+      else
+        io::writePcd(files.stage("points.pcd"), laplacian, copy, laplacian.M, conventions);
+    }
+  }
+  report();
+  io::OutputFile file(files.stage("report.json"));
+  file.write(options.report);
+  file.close();
+  report();
+  files.commit();
+}
+
+}  // namespace tufted
