@@ -18,6 +18,7 @@ enum ExitCode : int {
 using Run = std::function<int()>;
 
 void addLaplacian(CLI::App& app, Run& run);
+void addSpectrum(CLI::App& app, Run& run);
 void addInfo(CLI::App& app, Run& run);
 void addValidate(CLI::App& app, Run& run);
 

@@ -6,12 +6,14 @@
 #include "options.h"
 #include "tufted/errors.h"
 
-void addInput(CLI::App& command, Input& input) {
-  command.add_option("FILE", input.file, "Points or mesh; - reads standard input, its format told by its content")
-      ->required()
-      ->check(notEmpty);
+CLI::Option* addInput(CLI::App& command, Input& input) {
+  CLI::Option* const file =
+      command.add_option("FILE", input.file, "Points or mesh; - reads standard input, its format told by its content")
+          ->required()
+          ->check(notEmpty);
   addChoice(command, "--as", input.as, kinds, "Take a file that may be either as one of them");
   command.add_flag("--weld", input.weld, "Give the vertices of a mesh that coincide one number, meshes only");
+  return file;
 }
 
 tufted::Geometry readInput(const Input& input) {

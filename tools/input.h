@@ -1,6 +1,7 @@
 #pragma once
 
 #include <CLI/App.hpp>
+#include <CLI/Option.hpp>
 #include <filesystem>
 
 #include "tufted/io/read.h"
@@ -16,8 +17,8 @@ struct Input {
   std::string name() const { return isStandardInput() ? "standard input" : file.string(); }
 };
 
-/// Adds FILE, --as and --weld.
-void addInput(CLI::App& command, Input& input);
+/// Adds FILE, which is required, --as and --weld; gives FILE.
+CLI::Option* addInput(CLI::App& command, Input& input);
 
 /// @throws IoError as tufted::read does; InvalidInput for --weld on a cloud, whose equal points are merged anyway
 tufted::Geometry readInput(const Input& input);

@@ -12,13 +12,14 @@
 #include <system_error>
 #include <vector>
 
+#include "build.h"
 #include "command.h"
 #include "input.h"
 #include "interrupt.h"
 #include "options.h"
+#include "output.h"
 #include "peak_memory.h"
 #include "progress_bar.h"
-#include "structure.h"
 #include "tufted/errors.h"
 #include "tufted/io/read.h"
 #include "tufted/io/write.h"
@@ -81,22 +82,10 @@ Writes into DIR, renamed one after the other when all are complete; files of oth
 struct Settings {
   Input input;
   std::filesystem::path out;
-  bool normals = false;  ///< use those of the file
-  tufted::Preset preset = tufted::Preset::scan;
-  Structure structure = Structure::none;
-  tufted::CloudOptions cloud;
-  std::optional<double> mollify;  ///< the default of clouds or of meshes
+  Build build;
   tufted::WriteOptions write;
 };
 
-const std::map<std::string, tufted::Gluing> gluings = {{"star", tufted::Gluing::star},
-                                                       {"vertex-pair", tufted::Gluing::vertex_pair}};
-const std::map<std::string, tufted::FaceOrder> orders = {
-    {"angle", tufted::FaceOrder::angle}, {"area", tufted::FaceOrder::area}, {"random", tufted::FaceOrder::random}};
-const std::map<std::string, tufted::Preset> presets = {
-    {"clean", tufted::Preset::clean}, {"scan", tufted::Preset::scan}, {"lidar", tufted::Preset::lidar}};
-const std::map<std::string, tufted::Delaunay> backends = {{"star", tufted::Delaunay::star},
-                                                          {"cgal", tufted::Delaunay::cgal}};
 const std::map<std::string, tufted::Format> formats = {{"npz", tufted::Format::npz}, {"mtx", tufted::Format::mtx},
                                                        {"mat", tufted::Format::mat}, {"spmat", tufted::Format::spmat},
                                                        {"ply", tufted::Format::ply}, {"pcd", tufted::Format::pcd}};
@@ -120,32 +109,6 @@ void addWriteOptions(CLI::App& command, tufted::WriteOptions& options) {
       ->type_name("LIST");
   addChoice(command, "--sign", options.sign, signs, "Sign of L in the files, see below (psd)");
   command.add_flag("--dummy", options.dummy, "Dummy values for points that cannot take part, see below");
-}
-
-/// Refuses what no build can be written to.
-void checkOutput(const Settings& settings) {
-  std::error_code error;
-  for (const std::string& name : tufted::resultFiles(settings.write.formats))
-    if (!settings.input.isStandardInput() &&
-        std::filesystem::equivalent(settings.input.file, settings.out / name, error))
-      throw tufted::InvalidInput(settings.input.name() + ": is the input, and --out " + settings.out.string() +
-                                 " would overwrite it");
-  const auto status = std::filesystem::status(settings.out, error);
-  if (status.type() == std::filesystem::file_type::not_found) return;
-  if (error) throw tufted::IoError(settings.out.string() + ": " + error.message());
-  if (!std::filesystem::is_directory(status)) throw tufted::IoError(settings.out.string() + ": is not a directory");
-}
-
-/// Options that have no meaning for a mesh.
-void refuseCloudOptions(const Settings& settings, const std::vector<CLI::Option*>& options) {
-  for (const CLI::Option* option : options)
-    if (option->count() > 0)
-      throw tufted::InvalidInput(option->get_name() + " applies to point clouds, and " + settings.input.name() +
-                                 " holds a mesh (--as cloud takes its vertices alone)");
-}
-
-tufted::MeshOptions meshOptions(const tufted::CloudOptions& cloud) {
-  return {.order = cloud.order, .seed = cloud.seed, .threads = cloud.threads, .progress = cloud.progress};
 }
 
 void printSummary(const Settings& settings, const tufted::Geometry& geometry, const tufted::Laplacian& laplacian,
@@ -177,45 +140,22 @@ void printSummary(const Settings& settings, const tufted::Geometry& geometry, co
   if (std::fflush(stdout) != 0) throw tufted::IoError("standard output: cannot write the summary");
 }
 
-int runLaplacian(Settings settings, const std::vector<CLI::Option*>& cloud_only) {
+int runLaplacian(Settings& settings) {
   const auto start = std::chrono::steady_clock::now();
-  checkOutput(settings);
+  checkOutput(settings.input, settings.out, tufted::resultFiles(settings.write.formats));
   ProgressBar bar;
-  const tufted::Progress progress = [&bar](std::string_view stage, double fraction) {
-    bar.show(stage, fraction);
-    return !interrupted();
-  };
+  const tufted::Progress progress = showOn(bar);
   progress("read", 0);
   const tufted::Geometry geometry = readInput(settings.input);
   if (interrupted()) throw tufted::Cancelled("cancelled");
-  if (geometry.is_mesh) refuseCloudOptions(settings, cloud_only);
-
-  if (settings.normals) {
-    if (geometry.normals.rows() == 0)
-      throw tufted::IoError(settings.input.name() + ": has no normals, which --normals asks for");
-    settings.cloud.normals = &geometry.normals;
-  }
-  const std::optional<tufted::ScanStructure> structure =
-      structureOf(geometry, settings.structure, settings.input.name());
-  if (structure) settings.cloud.structure = &*structure;
-  settings.cloud.steps = tufted::cloudSteps(settings.preset);
-  // The position is at hand where a file states one, and where an image of depths leaves it at the origin.
-  const Eigen::Vector3d viewpoint(geometry.viewpoint[0], geometry.viewpoint[1], geometry.viewpoint[2]);
-  if ((geometry.height > 1 || !viewpoint.isZero(0)) && viewpoint.allFinite()) settings.cloud.viewpoint = &viewpoint;
-  settings.cloud.progress = progress;
-  settings.cloud.keep_cover = false;
-  tufted::MeshOptions mesh = meshOptions(settings.cloud);
-  if (settings.mollify) settings.cloud.mollify = mesh.mollify = *settings.mollify;
-  const tufted::Laplacian laplacian = geometry.is_mesh
-                                          ? tufted::meshLaplacian(geometry.points, geometry.triangles, mesh)
-                                          : tufted::pointCloudLaplacian(geometry.points, settings.cloud);
+  const tufted::Laplacian laplacian = buildLaplacian(geometry, settings.input, settings.build, false, progress);
   tufted::WriteOptions& write = settings.write;
   write.source = settings.input.name();
   write.progress = progress;
   if (geometry.is_mesh)
-    write.mesh = &mesh;
+    write.mesh = &settings.build.mesh;
   else
-    write.cloud = &settings.cloud;
+    write.cloud = &settings.build.cloud;
   tufted::writeLaplacian(settings.out, laplacian, geometry, write);
   bar.clear();
   printSummary(settings, geometry, laplacian,
@@ -229,36 +169,19 @@ void addLaplacian(CLI::App& app, Run& run) {
   CLI::App& command = *app.add_subcommand("laplacian", description);
   command.footer(footer);
   const auto settings = std::make_shared<Settings>();
-  tufted::CloudOptions& options = settings->cloud;
   addInput(command, settings->input);
-  command.add_option("--out", settings->out, "Directory for the results, made if missing")
-      ->required()
-      ->check(notEmpty)
-      ->type_name("DIR");
-  const std::vector<CLI::Option*> cloud_only = {
-      addNumber(command, "--neighbors", options.neighbors, 3, std::numeric_limits<int>::max(),
-                "Neighbours per point, clouds only (30)")
-          ->type_name("K"),
-      addChoice(command, "--preset", settings->preset, presets, "Kind of cloud, see below, clouds only (scan)"),
-      addChoice(command, "--structure", settings->structure, structures,
-                "Neighbours by the scan's own structure, see below, clouds only (none)"),
-      addChoice(command, "--gluing", options.gluing, gluings, "How the stars are glued, clouds only (star)"),
-      addChoice(command, "--delaunay", options.delaunay, backends, "Who finds the stars, clouds only (star)"),
-      command.add_flag("--normals", settings->normals,
-                       "Use the file's normals for the tangent planes, not those of the PCA; clouds only")};
-  addChoice(command, "--order", options.order, orders, "Order of the faces around an edge (angle)");
+  addOut(command, settings->out);
+  addBuildOptions(command, settings->build);
+  addRareBuildOptions(command, settings->build);
+  tufted::CloudOptions& options = settings->build.cloud;
   const CLI::Option* const seed =
       addNumber(command, "--seed", options.seed, std::uint64_t(0), std::numeric_limits<std::uint64_t>::max(),
                 "Seed, only with --order random (0)")
           ->type_name("S");
-  addNumber(command, "--mollify", settings->mollify, 0.0, 1.0,
-            "Mollification in mean edge lengths, at most 1 (1e-5 clouds, 1e-4 meshes)")
-      ->type_name("D");
-  addNumber(command, "--threads", options.threads, 1, 1 << 16, "At most this many threads (all)")->type_name("N");
   addWriteOptions(command, settings->write);
-  command.callback([&run, settings, cloud_only, seed] {
-    if (seed->count() > 0 && settings->cloud.order != tufted::FaceOrder::random)
+  command.callback([&run, settings, seed] {
+    if (seed->count() > 0 && settings->build.cloud.order != tufted::FaceOrder::random)
       throw CLI::RequiresError("--seed", "--order random");
-    run = [=] { return runLaplacian(*settings, cloud_only); };
+    run = [=] { return runLaplacian(*settings); };
   });
 }

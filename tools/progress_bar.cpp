@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "interrupt.h"
+
 ProgressBar::ProgressBar() : terminal_(isatty(STDERR_FILENO) != 0) {}
 
 void ProgressBar::show(std::string_view stage, double fraction) {
@@ -28,4 +30,11 @@ void ProgressBar::clear() {
   std::fputs("\r\033[K", stderr);
   std::fflush(stderr);
   shown_ = false;
+}
+
+tufted::Progress showOn(ProgressBar& bar) {
+  return [&bar](std::string_view stage, double fraction) {
+    bar.show(stage, fraction);
+    return !interrupted();
+  };
 }

@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "tufted/options.h"
+
 /// One line on stderr that is written over and over, and nothing at all when stderr is not a terminal.
 class ProgressBar {
  public:
@@ -25,3 +27,6 @@ class ProgressBar {
   std::string stage_;
   Clock::time_point last_ = {};
 };
+
+/// Shows progress on the bar, which is borrowed, and cancels after Ctrl-C.
+tufted::Progress showOn(ProgressBar& bar);

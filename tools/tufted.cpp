@@ -46,6 +46,7 @@ int main(int argc, char** argv) {
   app.footer("Exit codes: 0 done, 1 data or numerics, 2 usage, 130 cancelled.");
   Run run;
   addLaplacian(app, run);
+  addSpectrum(app, run);
   addInfo(app, run);
   addValidate(app, run);
   try {

@@ -1,0 +1,145 @@
+// The subcommands that use a Laplacian: where it comes from, and where results go.
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "../io/temporary_dir.h"
+#include "command.h"
+#include "samples.h"
+
+namespace {
+
+class SpectrumCommand : public testing::Test {
+ protected:
+  std::string in(const std::string& name) const { return (dir_ / name).string(); }
+  /// Runs the command and expects it to succeed.
+  Result run(const std::vector<std::string>& arguments) {
+    const Result result = runTufted(arguments);
+    EXPECT_EQ(result.code, 0) << result.err;
+    EXPECT_EQ(result.err, "");
+    return result;
+  }
+  void expectRefusal(const std::vector<std::string>& arguments, int code, const std::string& word) {
+    const Result result = runTufted(arguments);
+    EXPECT_EQ(result.code, code) << result.err;
+    EXPECT_TRUE(isOneLine(result.err)) << result.err;
+    EXPECT_NE(result.err.find(word), std::string::npos) << result.err;
+    EXPECT_FALSE(std::filesystem::exists(in("out")));
+  }
+  nlohmann::json report(const std::string& folder) const {
+    return nlohmann::json::parse(readAll(dir_ / folder / "report.json"));
+  }
+  /// The values of a .npy file of doubles.
+  std::vector<double> values(const std::string& file) const {
+    const std::string bytes = readAll(dir_ / file);
+    const std::size_t start = 10 + static_cast<unsigned char>(bytes[8]) + 256 * static_cast<unsigned char>(bytes[9]);
+    std::vector<double> result((bytes.size() - start) / sizeof(double));
+    std::memcpy(result.data(), bytes.data() + start, result.size() * sizeof(double));
+    return result;
+  }
+
+  TemporaryDir dir_;
+};
+
+TEST_F(SpectrumCommand, WritesEigenpairsAndACopyOfThePoints) {
+  const std::string file = dir_.write("sphere.xyz", sphere(500));
+  const Result result = run({"spectrum", file, "--out", in("out"), "--count", "5"});
+  EXPECT_NE(result.out.find("eigenvalues     5, from 0 to"), std::string::npos) << result.out;
+  const std::vector<double> evals = values("out/evals.npy");
+  ASSERT_EQ(evals.size(), 5u);
+  EXPECT_EQ(evals[0], 0);
+  for (int i = 1; i < 4; ++i) EXPECT_NEAR(evals[i], 2, 0.3);
+  EXPECT_NE(readAll(dir_ / "out/evecs.npy").find("'shape': (500, 5), }"), std::string::npos);
+  EXPECT_EQ(values("out/evecs.npy").size(), 2500u);
+  EXPECT_NE(readAll(dir_ / "out/points.ply").find("property float evecs_4\n"), std::string::npos);
+  const auto json = report("out");
+  EXPECT_EQ(json["command"], "spectrum");
+  EXPECT_EQ(json["source"], file);
+  EXPECT_EQ(json["report"]["null_space"], 1);
+  EXPECT_LE(json["report"]["residual"], 1e-8);
+  EXPECT_GT(json["report"]["iterations"], 0);
+}
+
+TEST_F(SpectrumCommand, TakesAFormerLaplacianAsItWouldBuildItself) {
+  std::string points = sphere(400);
+  points += points.substr(0, points.find('\n') + 1) + "nan 0 0\n";  // a copy of the first, and one that is nowhere
+  const std::string file = dir_.write("sphere.xyz", points);
+  run({"spectrum", file, "--out", in("built"), "--count", "6"});
+  const std::string evals = readAll(dir_ / "built/evals.npy"), evecs = readAll(dir_ / "built/evecs.npy");
+  for (const std::vector<std::string>& how :
+       {std::vector<std::string>{}, {"--sign", "igl", "--dummy"}, {"--format", "npz,pcd"}, {"--format", "npz"}}) {
+    std::vector<std::string> arguments = {"laplacian", file, "--out", in("laplacian")};
+    arguments.insert(arguments.end(), how.begin(), how.end());
+    std::filesystem::remove_all(in("laplacian"));
+    std::filesystem::remove_all(in("out"));
+    run(arguments);
+    run({"spectrum", "--operator", in("laplacian"), "--out", in("out"), "--count", "6"});
+    EXPECT_TRUE(readAll(dir_ / "out/evals.npy") == evals);
+    EXPECT_TRUE(readAll(dir_ / "out/evecs.npy") == evecs);
+    const bool has_points = how.size() != 2 || how[1] != "npz";
+    EXPECT_EQ(std::filesystem::exists(dir_ / "out/points.ply"), has_points);
+  }
+  const std::vector<double> vectors = values("out/evecs.npy");
+  for (int c = 0; c < 6; ++c) {
+    EXPECT_EQ(vectors[400 * 6 + c], vectors[c]);
+    EXPECT_EQ(vectors[401 * 6 + c], 0);
+  }
+}
+
+TEST_F(SpectrumCommand, WritesTheCopyInTheFormatAskedFor) {
+  const std::string file = dir_.write("tetrahedron.off", tetrahedron);
+  run({"spectrum", file, "--out", in("pcd"), "--count", "3", "--format", "pcd"});
+  EXPECT_NE(readAll(dir_ / "pcd/points.pcd").find(" evecs "), std::string::npos);
+  EXPECT_FALSE(std::filesystem::exists(in("pcd/points.ply")));
+  run({"spectrum", file, "--out", in("none"), "--count", "3", "--format", "none"});
+  EXPECT_FALSE(std::filesystem::exists(in("none/points.ply")));
+  EXPECT_TRUE(std::filesystem::exists(in("none/evals.npy")));
+}
+
+TEST_F(SpectrumCommand, MistakesAreOneLineAndTwo) {
+  const std::string file = dir_.write("sphere.xyz", sphere(100));
+  run({"laplacian", file, "--out", in("laplacian")});
+  expectRefusal({"spectrum", "--out", in("out")}, 2, "--operator");
+  expectRefusal({"spectrum", file, "--operator", in("laplacian"), "--out", in("out")}, 2, "--operator");
+  expectRefusal({"spectrum", "--operator", in("laplacian"), "--preset", "clean", "--out", in("out")}, 2, "--preset");
+  expectRefusal({"spectrum", file, "--out", in("out"), "--count", "0"}, 2, "--count");
+  expectRefusal({"spectrum", file, "--out", in("out"), "--count", "100"}, 2, "k = 100");
+  expectRefusal({"spectrum", file, "--out", in("out"), "--tolerance", "2"}, 2, "--tolerance");
+  expectRefusal({"spectrum", file, "--out", in("out"), "--format", "npz"}, 2, "--format");
+  const Result same = runTufted({"spectrum", "--operator", in("laplacian"), "--out", in("laplacian")});
+  EXPECT_EQ(same.code, 2);
+  EXPECT_NE(same.err.find("overwritten"), std::string::npos) << same.err;
+}
+
+TEST_F(SpectrumCommand, DamagedFoldersAreOneLineAndOne) {
+  const std::string file = dir_.write("sphere.xyz", sphere(100));
+  const auto withFile = [&](const std::string& name, const std::string& bytes) {
+    std::filesystem::remove_all(in("laplacian"));
+    run({"laplacian", file, "--out", in("laplacian")});
+    dir_.write("laplacian/" + name, bytes);
+    expectRefusal({"spectrum", "--operator", in("laplacian"), "--out", in("out")}, 1, name);
+  };
+  expectRefusal({"spectrum", "--operator", in("nowhere"), "--out", in("out")}, 1, "nowhere");
+  run({"laplacian", file, "--out", in("laplacian")});
+  const std::string L = readAll(dir_ / "laplacian/L.npz"), M = readAll(dir_ / "laplacian/M.npy");
+  withFile("L.npz", "no archive");
+  withFile("L.npz", L.substr(0, L.size() / 2));
+  withFile("M.npy", "no array");
+  withFile("M.npy", M.substr(0, M.size() - 8));
+  withFile("M.npy", M.substr(0, 40));
+  withFile("M.npy", readAll(dir_ / "laplacian/status.npy").substr(0, 128) + std::string(99, '\0'));
+  withFile("status.npy", readAll(dir_ / "laplacian/status.npy").substr(0, 128) + std::string(100, '\x09'));
+  withFile("representative.npy", M);
+  withFile("report.json", "[]");
+  withFile("points.ply", "ply");
+}
+
+TEST_F(SpectrumCommand, StopsAtCtrlC) {
+  const std::string file = dir_.write("sphere.xyz", sphere(20000));
+  const Result result = interruptTufted({"spectrum", file, "--out", in("out"), "--count", "200"});
+  EXPECT_EQ(result.code, 130);
+  EXPECT_FALSE(std::filesystem::exists(in("out")));
+}
+
+}  // namespace

@@ -1,0 +1,82 @@
+#include "build.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdint>
+#include <limits>
+#include <map>
+
+#include "options.h"
+#include "tufted/errors.h"
+
+namespace {
+
+const std::map<std::string, tufted::Gluing> gluings = {{"star", tufted::Gluing::star},
+                                                       {"vertex-pair", tufted::Gluing::vertex_pair}};
+const std::map<std::string, tufted::FaceOrder> orders = {
+    {"angle", tufted::FaceOrder::angle}, {"area", tufted::FaceOrder::area}, {"random", tufted::FaceOrder::random}};
+const std::map<std::string, tufted::Preset> presets = {
+    {"clean", tufted::Preset::clean}, {"scan", tufted::Preset::scan}, {"lidar", tufted::Preset::lidar}};
+const std::map<std::string, tufted::Delaunay> backends = {{"star", tufted::Delaunay::star},
+                                                          {"cgal", tufted::Delaunay::cgal}};
+
+/// Options that have no meaning for a mesh.
+void refuseCloudOptions(const Input& input, const std::vector<const CLI::Option*>& options) {
+  for (const CLI::Option* option : options)
+    if (option->count() > 0)
+      throw tufted::InvalidInput(option->get_name() + " applies to point clouds, and " + input.name() +
+                                 " holds a mesh (--as cloud takes its vertices alone)");
+}
+
+}  // namespace
+
+void addBuildOptions(CLI::App& command, Build& build) {
+  build.cloud_only.insert(
+      build.cloud_only.end(),
+      {addNumber(command, "--neighbors", build.cloud.neighbors, 3, std::numeric_limits<int>::max(),
+                 "Neighbours per point, clouds only (30)")
+           ->type_name("K"),
+       addChoice(command, "--preset", build.preset, presets, "Kind of cloud, clouds only (scan)"),
+       addChoice(command, "--structure", build.structure, structures,
+                 "Neighbours by the scan's own structure, clouds only (none)"),
+       command.add_flag("--normals", build.normals,
+                        "Use the file's normals for the tangent planes, not those of the PCA; clouds only")});
+  addNumber(command, "--threads", build.cloud.threads, 1, 1 << 16, "At most this many threads (all)")->type_name("N");
+}
+
+void addRareBuildOptions(CLI::App& command, Build& build) {
+  build.cloud_only.insert(
+      build.cloud_only.end(),
+      {addChoice(command, "--gluing", build.cloud.gluing, gluings, "How the stars are glued, clouds only (star)"),
+       addChoice(command, "--delaunay", build.cloud.delaunay, backends, "Who finds the stars, clouds only (star)")});
+  build.others = {addChoice(command, "--order", build.cloud.order, orders, "Order of the faces around an edge (angle)"),
+                  addNumber(command, "--mollify", build.mollify, 0.0, 1.0,
+                            "Mollification in mean edge lengths, at most 1 (1e-5 clouds, 1e-4 meshes)")
+                      ->type_name("D")};
+}
+
+tufted::Laplacian buildLaplacian(const tufted::Geometry& geometry, const Input& input, Build& build, bool keep_cover,
+                                 const tufted::Progress& progress) {
+  if (geometry.is_mesh) refuseCloudOptions(input, build.cloud_only);
+  if (build.normals) {
+    if (geometry.normals.rows() == 0)
+      throw tufted::IoError(input.name() + ": has no normals, which --normals asks for");
+    build.cloud.normals = &geometry.normals;
+  }
+  build.scan = structureOf(geometry, build.structure, input.name());
+  if (build.scan) build.cloud.structure = &*build.scan;
+  build.cloud.steps = tufted::cloudSteps(build.preset);
+  // The position is at hand where a file states one, and where an image of depths leaves it at the origin.
+  build.viewpoint = {geometry.viewpoint[0], geometry.viewpoint[1], geometry.viewpoint[2]};
+  if ((geometry.height > 1 || !build.viewpoint.isZero(0)) && build.viewpoint.allFinite())
+    build.cloud.viewpoint = &build.viewpoint;
+  build.cloud.progress = progress;
+  build.cloud.keep_cover = keep_cover;
+  build.mesh.order = build.cloud.order;
+  build.mesh.seed = build.cloud.seed;
+  build.mesh.threads = build.cloud.threads;
+  build.mesh.progress = progress;
+  build.mesh.keep_cover = keep_cover;
+  if (build.mollify) build.cloud.mollify = build.mesh.mollify = *build.mollify;
+  return geometry.is_mesh ? tufted::meshLaplacian(geometry.points, geometry.triangles, build.mesh)
+                          : tufted::pointCloudLaplacian(geometry.points, build.cloud);
+}

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <CLI/App.hpp>
+#include <CLI/Option.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "input.h"
+#include "structure.h"
+#include "tufted/io/read.h"
+#include "tufted/laplacian.h"
+
+/// How a Laplacian is built, as the options of a command say.
+struct Build {
+  bool normals = false;  ///< use those of the file
+  tufted::Preset preset = tufted::Preset::scan;
+  Structure structure = Structure::none;
+  std::optional<double> mollify;  ///< the default of clouds or of meshes
+
+  /// What was used in the end; borrows from the members below and from the geometry.
+  tufted::CloudOptions cloud;
+  tufted::MeshOptions mesh;
+  std::optional<tufted::ScanStructure> scan;
+  Eigen::Vector3d viewpoint = Eigen::Vector3d::Zero();
+
+  /// Options that have no meaning for a mesh, and all others.
+  std::vector<const CLI::Option*> cloud_only, others;
+};
+
+/// Adds --neighbors, --preset, --structure, --normals and --threads; they set `build`, which must outlive the command.
+void addBuildOptions(CLI::App& command, Build& build);
+
+/// Adds the rest of what is known of building: --gluing, --delaunay, --order, --seed, --mollify.
+void addRareBuildOptions(CLI::App& command, Build& build);
+
+/// Builds the Laplacian of what was read, with the options as `build` has them; fills in its members.
+/// @param keep_cover whether the result keeps its cover
+/// @throws InvalidInput for options of clouds where the input is a mesh, IoError for what the input does not have
+tufted::Laplacian buildLaplacian(const tufted::Geometry& geometry, const Input& input, Build& build, bool keep_cover,
+                                 const tufted::Progress& progress);
