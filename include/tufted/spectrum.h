@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 
 #include "tufted/laplacian.h"
 #include "tufted/options.h"
@@ -13,9 +14,10 @@ struct SpectrumOptions {
   /// Of |A x - theta x| / theta in the norm of M, A the inverse of L after M and theta = 1 / lambda; in (0, 1). The
   /// error of an eigenvalue is about its square.
   double tolerance = 1e-10;
-  int max_iterations = 1000;  ///< of six solves each, >= 1; beyond them SolverFailure
-  SolverOptions solver = {};  ///< its method, memory, tolerance and iterations; threads and progress are those below
-  int threads = 0;            ///< at most this many; 0: what OpenMP offers
+  int max_iterations = 1000;                      ///< of six solves each, >= 1; beyond them SolverFailure
+  SolverMethod method = SolverMethod::automatic;  ///< of the inverse
+  std::size_t memory_limit = 0;                   ///< bytes that a factor may take, as in SolverOptions
+  int threads = 0;                                ///< at most this many; 0: what OpenMP offers
   Progress progress = {};
 };
 

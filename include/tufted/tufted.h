@@ -12,5 +12,6 @@
 #include "tufted/scan_structure.h"
 #include "tufted/smoothing.h"
 #include "tufted/solver.h"
+#include "tufted/spectral.h"
 #include "tufted/spectrum.h"
 #include "tufted/types.h"

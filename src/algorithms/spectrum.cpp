@@ -83,10 +83,10 @@ void fixSign(Eigen::Ref<VectorXd> x) {
 /// The pairs of positive eigenvalue, M-orthonormal.
 void findVibrations(const Laplacian& laplacian, const Problem& problem, Index wanted, const SpectrumOptions& options,
                     Spectrum& spectrum) {
-  SolverOptions solver_options = options.solver;
-  solver_options.threads = options.threads;
-  solver_options.progress = options.progress;
-  const Solver solver = Solver::laplacian(laplacian, solver_options);
+  const Solver solver = Solver::laplacian(laplacian, {.method = options.method,
+                                                      .memory_limit = options.memory_limit,
+                                                      .threads = options.threads,
+                                                      .progress = options.progress});
   spectrum.report.solver = solver.report();
 
   const Workers workers(options.threads, options.progress);

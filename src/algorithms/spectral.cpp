@@ -1,0 +1,125 @@
+#include "tufted/spectral.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "tufted/errors.h"
+
+namespace tufted {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+/// Where positive eigenvalues begin.
+Index firstPositive(const Spectrum& spectrum, const char* function) {
+  const double* const begin = spectrum.values.data();
+  const Index first = std::upper_bound(begin, begin + spectrum.values.size(), 0.0) - begin;
+  if (first == spectrum.values.size())
+    throw InvalidInput(std::string(function) + ": spectrum has no positive eigenvalue, must have one");
+  return first;
+}
+
+/// phi_i(x)^2 summed with weights, one column of weights per result.
+MatrixXd sumSquares(const Eigen::Ref<const MatrixXd>& vectors, const MatrixXd& weights) {
+  constexpr Index rows_per_block = 1024;
+  MatrixXd result(vectors.rows(), weights.cols());
+  for (Index begin = 0; begin < vectors.rows(); begin += rows_per_block) {
+    const Index size = std::min(rows_per_block, vectors.rows() - begin);
+    result.middleRows(begin, size).noalias() = vectors.middleRows(begin, size).cwiseAbs2() * weights;
+  }
+  return result;
+}
+
+VectorXd logarithmic(double low, double high, int count) {
+  if (count == 1) return VectorXd::Constant(1, std::exp((std::log(low) + std::log(high)) / 2));
+  return VectorXd::LinSpaced(count, std::log(low), std::log(high)).array().exp();
+}
+
+}  // namespace
+
+VectorXd heatTimes(const Spectrum& spectrum, int count) {
+  if (count < 1) throw InvalidInput("heatTimes: count = " + std::to_string(count) + ", must be at least 1");
+  const Index first = firstPositive(spectrum, "heatTimes");
+  constexpr double decay = 4 * std::numbers::ln10;
+  return logarithmic(decay / spectrum.values[spectrum.values.size() - 1], decay / spectrum.values[first], count);
+}
+
+MatrixXd heatKernelSignature(const Spectrum& spectrum, const VectorXd& times) {
+  for (const double t : times)
+    if (!(t >= 0 && std::isfinite(t)))
+      throw InvalidInput("heatKernelSignature: a time is " + std::to_string(t) + ", must be finite and at least 0");
+  const MatrixXd weights = (-spectrum.values * times.transpose()).array().exp();
+  return sumSquares(spectrum.vectors, weights);
+}
+
+VectorXd waveEnergies(const Spectrum& spectrum, int count) {
+  if (count < 2) throw InvalidInput("waveEnergies: count = " + std::to_string(count) + ", must be at least 2");
+  const Index first = firstPositive(spectrum, "waveEnergies");
+  const double low = std::log(spectrum.values[first]), high = std::log(spectrum.values[spectrum.values.size() - 1]);
+  if (!(high > low))
+    throw InvalidInput("waveEnergies: spectrum has one positive eigenvalue alone, must have two that differ");
+  return VectorXd::LinSpaced(count, low, high);
+}
+
+MatrixXd waveKernelSignature(const Spectrum& spectrum, const VectorXd& energies, double width) {
+  if (!(width > 0 && std::isfinite(width)))
+    throw InvalidInput("waveKernelSignature: width = " + std::to_string(width) + ", must be finite and above 0");
+  if (!energies.allFinite()) throw InvalidInput("waveKernelSignature: an energy is not finite, must be");
+  const Index first = firstPositive(spectrum, "waveKernelSignature");
+  const Index count = spectrum.values.size() - first;
+  const VectorXd logarithms = spectrum.values.tail(count).array().log();
+  MatrixXd weights(count, energies.size());
+  for (Index e = 0; e < energies.size(); ++e) {
+    const VectorXd exponents = -((logarithms.array() - energies[e]) / width).square() / 2;
+    weights.col(e) = (exponents.array() - exponents.maxCoeff()).exp();  // far from all of them, the nearest one counts
+    weights.col(e) /= weights.col(e).sum();
+  }
+  return sumSquares(spectrum.vectors.rightCols(count), weights);
+}
+
+MatrixXd waveKernelSignature(const Spectrum& spectrum, int count) {
+  const VectorXd energies = waveEnergies(spectrum, count);
+  return waveKernelSignature(spectrum, energies, 7 * (energies[1] - energies[0]));
+}
+
+MatrixXd spectralEmbedding(const Spectrum& spectrum, Embedding embedding) {
+  const double* const begin = spectrum.values.data();
+  const Index first = std::upper_bound(begin, begin + spectrum.values.size(), 0.0) - begin;
+  const Index count = spectrum.values.size() - first;
+  VectorXd scale = spectrum.values.tail(count).cwiseInverse();
+  if (embedding == Embedding::commute) scale = scale.cwiseSqrt().eval();
+  return spectrum.vectors.rightCols(count) * scale.asDiagonal();
+}
+
+MatrixXd filterSignals(const Laplacian& laplacian, const Spectrum& spectrum, const Eigen::Ref<const MatrixXd>& signals,
+                       const std::function<double(double)>& gain) {
+  const auto n = static_cast<Index>(laplacian.status.size());
+  const auto require = [n](const char* what, Index rows) {
+    if (rows != n)
+      throw InvalidInput(std::string("filterSignals: ") + what + " has " + std::to_string(rows) + " rows, must have " +
+                         std::to_string(n) + ", one per point of the Laplacian");
+  };
+  require("spectrum", spectrum.vectors.rows());
+  require("signals", signals.rows());
+  MatrixXd weighted = MatrixXd::Zero(n, signals.cols());
+  for (Index i = 0; i < n; ++i) {
+    if (laplacian.status[i] != PointStatus::active) continue;
+    weighted.row(i) = laplacian.M[i] * signals.row(i);
+    if (!signals.row(i).allFinite())
+      throw InvalidInput("filterSignals: signals of point " + std::to_string(i) + " are not finite, must be");
+  }
+  MatrixXd coefficients = spectrum.vectors.transpose() * weighted;
+  for (Index k = 0; gain && k < coefficients.rows(); ++k) coefficients.row(k) *= gain(spectrum.values[k]);
+  MatrixXd result = spectrum.vectors * coefficients;
+  for (Index i = 0; i < n; ++i) {
+    const PointStatus status = laplacian.status[i];
+    if (status == PointStatus::not_finite || status == PointStatus::isolated) result.row(i) = signals.row(i);
+    if (status == PointStatus::coincident) result.row(i) = result.row(laplacian.representative[i]);
+  }
+  return result;
+}
+
+}  // namespace tufted
