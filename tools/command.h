@@ -19,6 +19,7 @@ using Run = std::function<int()>;
 
 void addLaplacian(CLI::App& app, Run& run);
 void addSpectrum(CLI::App& app, Run& run);
+void addHks(CLI::App& app, Run& run);
 void addInfo(CLI::App& app, Run& run);
 void addValidate(CLI::App& app, Run& run);
 

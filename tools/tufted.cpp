@@ -47,6 +47,7 @@ int main(int argc, char** argv) {
   Run run;
   addLaplacian(app, run);
   addSpectrum(app, run);
+  addHks(app, run);
   addInfo(app, run);
   addValidate(app, run);
   try {

@@ -135,6 +135,31 @@ TEST_F(SpectrumCommand, DamagedFoldersAreOneLineAndOne) {
   withFile("points.ply", "ply");
 }
 
+TEST_F(SpectrumCommand, HksWritesSignaturesOfHeatAndOfWaves) {
+  const std::string file = dir_.write("sphere.xyz", sphere(500));
+  run({"hks", file, "--out", in("heat"), "--count", "30", "--samples", "7"});
+  EXPECT_EQ(values("heat/hks.npy").size(), 3500u);
+  EXPECT_EQ(values("heat/times.npy").size(), 7u);
+  EXPECT_EQ(values("heat/evals.npy").size(), 30u);
+  EXPECT_NE(readAll(dir_ / "heat/points.ply").find("property float hks_6\n"), std::string::npos);
+  EXPECT_EQ(report("heat")["command"], "hks");
+  run({"hks", "--out", in("times"), "--count", "30", "--times", "0,0.5,1000", file});
+  const std::vector<double> heat = values("times/hks.npy");
+  ASSERT_EQ(heat.size(), 1500u);
+  for (std::size_t i = 0; i < 500; ++i) {
+    EXPECT_NEAR(heat[3 * i + 2], 1 / (4 * M_PI), 0.01);  // one over the area, everywhere, when all is even
+    EXPECT_GE(heat[3 * i], heat[3 * i + 1]);
+  }
+  run({"hks", file, "--out", in("wave"), "--count", "30", "--wave", "--format", "pcd"});
+  EXPECT_EQ(values("wave/wks.npy").size(), 50000u);
+  EXPECT_EQ(values("wave/energies.npy").size(), 100u);
+  EXPECT_NE(readAll(dir_ / "wave/points.pcd").find(" wks "), std::string::npos);
+  expectRefusal({"hks", file, "--out", in("out"), "--times", "1", "--samples", "3"}, 2, "--samples");
+  expectRefusal({"hks", file, "--out", in("out"), "--times", "1", "--wave"}, 2, "--wave");
+  expectRefusal({"hks", file, "--out", in("out"), "--times", "-1"}, 2, "--times");
+  expectRefusal({"hks", file, "--out", in("out"), "--count", "1"}, 2, "--count");
+}
+
 TEST_F(SpectrumCommand, StopsAtCtrlC) {
   const std::string file = dir_.write("sphere.xyz", sphere(20000));
   const Result result = interruptTufted({"spectrum", file, "--out", in("out"), "--count", "200"});

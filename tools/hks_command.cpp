@@ -1,0 +1,100 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <limits>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "command.h"
+#include "operator.h"
+#include "options.h"
+#include "progress_bar.h"
+#include "spectrum_report.h"
+#include "tufted/errors.h"
+#include "tufted/spectral.h"
+
+namespace {
+
+constexpr const char* description = "Heat kernel signatures, or wave kernel signatures with --wave, of every point.";
+
+constexpr const char* footer =
+    R"(Heat: sum of exp(-lambda_i t) phi_i(x)^2 at S times from 4 ln 10 / lambda_K to 4 ln 10 / lambda_1, or at those of
+--times. Wave: means of phi_i(x)^2 around S energies from log lambda_1 to log lambda_K. Both in 1 / length^2.
+
+Writes into DIR, renamed one after the other when all are complete:
+  hks.npy      N x S, float64 (wks.npy with --wave); 0 at points that take no part, coincident ones as their
+               representative
+  times.npy    S times, length^2 (energies.npy with --wave)
+  evals.npy    K eigenvalues that they were made of
+  points.ply   the points with hks_0, hks_1, ... as fields of float32; points.pcd with --format pcd: a field hks of S
+               values
+  report.json  iterations, residual, seconds
+FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written.)";
+
+struct Settings {
+  OperatorSettings source;
+  int count = 100;
+  int samples = 0;  ///< 0: 16 times, 100 energies
+  bool wave = false;
+  std::vector<double> times;
+};
+
+/// The signature, and what it was sampled at.
+std::vector<tufted::ResultArray> signatures(const Settings& settings, const tufted::Spectrum& spectrum) {
+  if (settings.wave) {
+    const tufted::VectorXd energies = tufted::waveEnergies(spectrum, settings.samples > 0 ? settings.samples : 100);
+    return {{.name = "wks", .values = tufted::waveKernelSignature(spectrum, static_cast<int>(energies.size()))},
+            {.name = "energies", .values = energies, .per_point = false}};
+  }
+  tufted::VectorXd times = Eigen::Map<const tufted::VectorXd>(settings.times.data(), std::ssize(settings.times));
+  if (settings.times.empty()) times = tufted::heatTimes(spectrum, settings.samples > 0 ? settings.samples : 16);
+  return {{.name = "hks", .values = tufted::heatKernelSignature(spectrum, times)},
+          {.name = "times", .values = times, .per_point = false}};
+}
+
+int runHks(Settings& settings) {
+  ProgressBar bar;
+  const tufted::Progress progress = showOn(bar);
+  const std::vector<std::string> files = {"points.ply", "points.pcd", "report.json"};  // no input is a .npy
+  const Operator source = loadOperator(settings.source, files, false, progress);
+  const tufted::Spectrum spectrum =
+      tufted::spectrum(source.laplacian, settings.count, {.threads = settings.source.threads(), .progress = progress});
+  std::vector<tufted::ResultArray> arrays = signatures(settings, spectrum);
+  const auto samples = static_cast<long>(arrays[0].values.cols());
+  arrays.push_back({.name = "evals", .values = spectrum.values, .per_point = false});
+  const nlohmann::ordered_json report = {{"report", reportOf(spectrum.report)}};
+  writeOperatorResults(settings.source, "hks", source, arrays, report.dump(), progress);
+  bar.clear();
+  std::printf("%-15s %ld per point, of %d eigenvalues up to %.6g\n", settings.wave ? "energies" : "times", samples,
+              settings.count, spectrum.values[settings.count - 1]);
+  printSpectrumReport(spectrum.report);
+  std::printf("%-15s %s\n", "written to", settings.source.out.c_str());
+  if (std::fflush(stdout) != 0) throw tufted::IoError("standard output: cannot write the summary");
+  return exit_done;
+}
+
+}  // namespace
+
+void addHks(CLI::App& app, Run& run) {
+  CLI::App& command = *app.add_subcommand("hks", description);
+  command.footer(footer);
+  const auto settings = std::make_shared<Settings>();
+  addOperatorOptions(command, settings->source);
+  addNumber(command, "--count", settings->count, 2, std::numeric_limits<int>::max(), "Number of eigenvalues (100)")
+      ->type_name("K");
+  CLI::Option* const samples =
+      addNumber(command, "--samples", settings->samples, 2, 1 << 16, "Times (16), or energies with --wave (100)")
+          ->type_name("S");
+  CLI::Option* const wave = command.add_flag("--wave", settings->wave, "Wave kernel signatures");
+  command
+      .add_option("--times", settings->times,
+                  "The times, separated by commas, in squares of the points' unit of length")
+      ->delimiter(',')
+      ->allow_extra_args(false)  // what follows may be FILE
+      ->check(CLI::NonNegativeNumber)
+      ->excludes(samples)
+      ->excludes(wave)
+      ->type_name("LIST");
+  command.callback([&run, settings] { run = [=] { return runHks(*settings); }; });
+}
