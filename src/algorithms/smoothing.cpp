@@ -1,13 +1,12 @@
 #include "tufted/smoothing.h"
 
-#include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
 #include <string>
 
 #include "base/parallel.h"
-#include "operators/lower_triangle.h"
 #include "tufted/errors.h"
+#include "tufted/solver.h"
 
 namespace tufted {
 namespace {
@@ -43,42 +42,48 @@ void checkArguments(const Laplacian& laplacian, const Points& points, const Smoo
   }
 }
 
-/// The points that move.
-Selection freePoints(const Laplacian& laplacian, const std::vector<std::uint8_t>* fixed) {
+/// Whether a point moves.
+std::vector<bool> freePoints(const Laplacian& laplacian, const std::vector<std::uint8_t>* fixed) {
   const int n = static_cast<int>(laplacian.status.size());
-  Selection free(laplacian.status.size());
-  std::vector<std::uint8_t> stays(laplacian.status.size(), 0);
-  for (int i = 0; fixed != nullptr && i < n; ++i) stays[laplacian.representative[i]] |= (*fixed)[i];
-  for (int i = 0; i < n; ++i) {
-    if (laplacian.status[i] == PointStatus::active && stays[i] == 0) free.add(i);
-  }
-  return free;
+  std::vector<bool> is_free(laplacian.status.size());
+  for (int i = 0; i < n; ++i) is_free[i] = laplacian.status[i] == PointStatus::active;
+  for (int i = 0; fixed != nullptr && i < n; ++i)
+    if ((*fixed)[i] != 0) is_free[laplacian.representative[i]] = false;
+  return is_free;
 }
 
-/// Lower triangle of M / t + L over the free points, t with its unit.
-LongMatrix systemMatrix(const Laplacian& laplacian, const Selection& free, double time_step) {
+/// Lower triangle of M / t + L over the free points, t with its unit; rows of all others are empty.
+SparseMatrix systemMatrix(const Laplacian& laplacian, const std::vector<bool>& is_free, double time_step) {
   const double unit = laplacian.report.mean_squared_edge;
-  return lowerTriangle(laplacian.L, free, [&](int i, int j, double value) {
-    if (i != j) return value;
-    // Divided one by one, as the product may not fit a double. Where unit and mass both underflow, the least mass wins
-    // over the NaN because it stands first.
-    return value + std::max(least_mass * value, laplacian.M[i] / unit / time_step);
-  });
+  const SparseMatrix& L = laplacian.L;
+  SparseMatrix lower(L.rows(), L.cols());
+  lower.reserve(L.nonZeros() / 2 + L.cols());
+  for (int j = 0; j < L.cols(); ++j) {
+    lower.startVec(j);
+    for (SparseMatrix::InnerIterator entry(L, j); entry; ++entry) {
+      const int i = static_cast<int>(entry.row());
+      if (i < j || !is_free[i] || !is_free[j]) continue;
+      // Divided one by one, as the product may not fit a double. Where unit and mass both underflow, the least mass
+      // wins over the NaN because it stands first.
+      const double mass = i == j ? std::max(least_mass * entry.value(), laplacian.M[i] / unit / time_step) : 0;
+      lower.insertBack(i, j) = entry.value() + mass;
+    }
+  }
+  lower.finalize();
+  return lower;
 }
 
-/// -L (x + moved) of one coordinate at the free points. From differences of neighbours alone, as the rows of L sum to
-/// 0, so distance from the origin costs no digits.
-VectorXd pull(const Laplacian& laplacian, const Selection& free, const Points& points, const Points& moved, int axis) {
-  VectorXd result(static_cast<Eigen::Index>(free.point.size()));
-  for (Eigen::Index k = 0; k < result.size(); ++k) {
-    const int i = free.point[k];
-    double sum = 0;
+/// -L (x + moved) at the free points. From differences of neighbours alone, as the rows of L sum to 0, so distance from
+/// the origin costs no digits.
+Eigen::MatrixXd pull(const Laplacian& laplacian, const std::vector<bool>& is_free, const Points& points,
+                     const Eigen::MatrixXd& moved) {
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(points.rows(), 3);
+  for (int i = 0; i < points.rows(); ++i) {
+    if (!is_free[i]) continue;
     for (SparseMatrix::InnerIterator entry(laplacian.L, i); entry; ++entry) {
       const auto j = entry.row();
-      if (j == i) continue;
-      sum -= entry.value() * ((points(j, axis) - points(i, axis)) + (moved(j, axis) - moved(i, axis)));
+      if (j != i) result.row(i) -= entry.value() * ((points.row(j) - points.row(i)) + (moved.row(j) - moved.row(i)));
     }
-    result[k] = sum;
   }
   return result;
 }
@@ -88,33 +93,28 @@ VectorXd pull(const Laplacian& laplacian, const Selection& free, const Points& p
 Points smooth(const Laplacian& laplacian, const Points& points, const SmoothingOptions& options) {
   checkArguments(laplacian, points, options);
   const Workers workers(options.threads, options.progress);
-  const Selection free = freePoints(laplacian, options.fixed);
+  const std::vector<bool> is_free = freePoints(laplacian, options.fixed);
   Points result = points;
-  if (free.point.empty() || options.time_step == 0) return result;
+  if (std::find(is_free.begin(), is_free.end(), true) == is_free.end() || options.time_step == 0) return result;
 
   workers.report("factor", 0);
-  const Eigen::SimplicialLDLT<LongMatrix> solver(systemMatrix(laplacian, free, options.time_step));
-  if (solver.info() != Eigen::Success || !(solver.vectorD().minCoeff() > 0)) {
-    throw SolverFailure("smooth: M + t L of " + std::to_string(free.point.size()) +
-                        " free points is not positive definite");
-  }
+  const Solver solver = [&] {
+    try {
+      return Solver::positiveDefinite(systemMatrix(laplacian, is_free, options.time_step),
+                                      {.threads = options.threads});
+    } catch (const SolverFailure& failure) {
+      throw SolverFailure(std::string("smooth: M + t L: ") + failure.what());
+    }
+  }();
 
   // Solved for the way each point goes: x' = x + d with (M + t L) d = -t L x.
-  Points moved = Points::Zero(points.rows(), 3);
-  const Progress silent;
-  const Workers axes(options.threads, silent);  // steps are reported, not coordinates
+  Eigen::MatrixXd moved = Eigen::MatrixXd::Zero(points.rows(), 3);
   for (int step = 0; step < options.iterations; ++step) {
     workers.report("smooth", static_cast<double>(step) / options.iterations);
-    axes.forBlocks("smooth", 3, 1, [&](std::int64_t begin, std::int64_t end, int) {
-      for (int axis = static_cast<int>(begin); axis < end; ++axis) {
-        const VectorXd way = solver.solve(pull(laplacian, free, points, moved, axis));
-        for (std::size_t k = 0; k < free.point.size(); ++k) {
-          moved(free.point[k], axis) += way[static_cast<Eigen::Index>(k)];
-        }
-      }
-    });
+    moved += solver.solve(pull(laplacian, is_free, points, moved));
   }
-  for (const int i : free.point) result.row(i) += moved.row(i);
+  for (int i = 0; i < points.rows(); ++i)
+    if (is_free[i]) result.row(i) += moved.row(i);
   for (std::size_t i = 0; i < laplacian.status.size(); ++i) {
     if (laplacian.status[i] != PointStatus::coincident) continue;
     result.row(static_cast<Eigen::Index>(i)) = result.row(laplacian.representative[i]);
