@@ -15,7 +15,7 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-constexpr Index block_size = 6;
+constexpr Index block_size = 8;
 /// Steps that a random block gets to show a missed eigenvalue.
 constexpr int search_steps = 3;
 /// A column of which less is left by orthogonalisation is noise, compared with the largest eigenvalue.
@@ -43,7 +43,8 @@ class BlockLanczos {
       ++result.iterations;
       const bool full = size_ + fresh_ > most_;
       const bool searched = search_from >= 0 && result.iterations >= search_from + search_steps;
-      if (!exhausted && !full && !searched && result.iterations % 4 != 0) continue;
+      const bool cheap = size_ * size_ < problem_.mass.size();  // to decompose, beside the products of a step
+      if (!exhausted && !full && !searched && !cheap && result.iterations % 8 != 0) continue;
       decompose();
       const bool converged = exhausted || countConverged() == problem_.wanted;
       if (exhausted) {

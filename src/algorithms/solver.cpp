@@ -89,37 +89,51 @@ struct Solver::State {
   SolverReport report;
   int threads = 0;
 
-  Eigen::MatrixXd gathered(const Eigen::Ref<const Eigen::MatrixXd>& b) const { return b(unknowns.point, Eigen::all); }
-  double residualOf(const Eigen::MatrixXd& b, const Eigen::MatrixXd& x) const;
-  /// Takes M times the mean out of each component.
-  void balance(Eigen::Ref<Eigen::MatrixXd> b) const;
-  /// Makes sum(M x) of each component 0.
-  void center(Eigen::Ref<Eigen::MatrixXd> x) const;
+  /// The right sides of the unknowns; of a Laplacian without their means.
+  Eigen::MatrixXd gathered(const Eigen::Ref<const Eigen::MatrixXd>& b) const;
+  /// Solutions into rows of points; of a Laplacian with sum(M x) = 0 on each component. Other rows are left as they
+  /// are.
+  void scatter(const Eigen::MatrixXd& solution, Eigen::Ref<Eigen::MatrixXd> x) const;
+  /// Greatest |b - A x| / |b|, of a Laplacian for b without its means.
+  double residualOf(const Eigen::Ref<const Eigen::MatrixXd>& b, const Eigen::Ref<const Eigen::MatrixXd>& x) const;
 };
 
-void Solver::State::balance(Eigen::Ref<Eigen::MatrixXd> b) const {
+// Column by column and in one pass each, for these take as long as some solves.
+
+Eigen::MatrixXd Solver::State::gathered(const Eigen::Ref<const Eigen::MatrixXd>& b) const {
+  const auto size = static_cast<Eigen::Index>(unknowns.point.size());
+  Eigen::MatrixXd right(size, b.cols());
   for (Eigen::Index c = 0; c < b.cols(); ++c) {
-    const VectorXd sums = components->sums(b.col(c));
-    for (const int i : components->points) b(i, c) -= weights[i] * sums[components->of[i]];
+    const VectorXd sums = components ? components->sums(b.col(c)) : VectorXd();
+    for (Eigen::Index k = 0; k < size; ++k) {
+      const int i = unknowns.point[k];
+      right(k, c) = components ? b(i, c) - weights[i] * sums[components->of[i]] : b(i, c);
+    }
   }
+  return right;
 }
 
-void Solver::State::center(Eigen::Ref<Eigen::MatrixXd> x) const {
+void Solver::State::scatter(const Eigen::MatrixXd& solution, Eigen::Ref<Eigen::MatrixXd> x) const {
   for (Eigen::Index c = 0; c < x.cols(); ++c) {
-    const VectorXd means = components->sums(x.col(c).cwiseProduct(weights));
+    for (Eigen::Index k = 0; k < solution.rows(); ++k) x(unknowns.point[k], c) = solution(k, c);
+    if (!components) continue;
+    VectorXd means = VectorXd::Zero(components->count);
+    for (const int i : components->points) means[components->of[i]] += weights[i] * x(i, c);
     for (const int i : components->points) x(i, c) -= means[components->of[i]];
   }
 }
 
-double Solver::State::residualOf(const Eigen::MatrixXd& b, const Eigen::MatrixXd& x) const {
-  Eigen::MatrixXd rest;
+double Solver::State::residualOf(const Eigen::Ref<const Eigen::MatrixXd>& b,
+                                 const Eigen::Ref<const Eigen::MatrixXd>& x) const {
+  const Eigen::MatrixXd right = gathered(b);
+  Eigen::MatrixXd rest = right;
   if (components)
-    rest = b - L * x;
+    rest -= Eigen::MatrixXd(L * x)(unknowns.point, Eigen::all);
   else
-    rest = b - Eigen::MatrixXd(lower.selfadjointView<Eigen::Lower>() * x);
+    rest -= lower.selfadjointView<Eigen::Lower>() * Eigen::MatrixXd(x(unknowns.point, Eigen::all));
   double greatest = 0;
   for (Eigen::Index c = 0; c < b.cols(); ++c) {
-    const double size = b.col(c).norm();
+    const double size = right.col(c).norm();
     if (size > 0) greatest = std::max(greatest, rest.col(c).norm() / size);
   }
   return greatest;
@@ -207,23 +221,13 @@ Eigen::MatrixXd Solver::solve(const Eigen::Ref<const Eigen::MatrixXd>& b, SolveR
   workers.forBlocks("solve", b.cols(), columns_per_block, [&](std::int64_t begin, std::int64_t end, int) {
     if (!state.backend) return;
     SolveReport& result = done[begin / columns_per_block];
-    const Eigen::Index count = end - begin;
-    Eigen::MatrixXd balanced;
-    if (state.components) {
-      balanced = Eigen::MatrixXd::Zero(n, count);
-      for (const int i : state.components->points) balanced.row(i) = b.block(i, begin, 1, count);
-      state.balance(balanced);
-    }
-    const Eigen::MatrixXd right =
-        state.components ? state.gathered(balanced) : state.gathered(b.middleCols(begin, count));
-    if (!right.allFinite()) throw InvalidInput("Solver::solve: b has values that are not finite, must have none");
-    Eigen::MatrixXd solution = right;
+    const auto right = b.middleCols(begin, end - begin);
+    auto left = x.middleCols(begin, end - begin);
+    Eigen::MatrixXd solution = state.gathered(right);
+    if (!solution.allFinite()) throw InvalidInput("Solver::solve: b has values that are not finite, must have none");
     result.iterations = state.backend->solve(solution);
-    x(state.unknowns.point, Eigen::seqN(begin, count)) = solution;
-    if (state.components) state.center(x.middleCols(begin, count));
-    if (report == nullptr) return;
-    result.residual =
-        state.components ? state.residualOf(balanced, x.middleCols(begin, count)) : state.residualOf(right, solution);
+    state.scatter(solution, left);
+    if (report != nullptr) result.residual = state.residualOf(right, left);
   });
   if (report != nullptr) {
     *report = {};

@@ -32,6 +32,15 @@ bool cloud() {
          check("cover", tufted::validate(laplacian.cover()).ok(), true, 0);
 }
 
+/// Links whatever the solver was built with.
+bool algorithms() {
+  const tufted::Laplacian laplacian = tufted::pointCloudLaplacian(spiral(2000));
+  const tufted::Spectrum spectrum = tufted::spectrum(laplacian, 4);
+  return check("first eigenvalue of a sphere", spectrum.values[0], 0, 0) &
+         check("second eigenvalue of a sphere", spectrum.values[1], 2, 0.02) &
+         check("residual", spectrum.report.residual, 0, 1e-8);
+}
+
 bool mesh() {
   const tufted::Points square{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}};
   const tufted::Triangles triangles{{0, 1, 2}, {0, 2, 3}};
@@ -53,5 +62,5 @@ bool errors() {
 }  // namespace
 
 int main() {
-  return cloud() & mesh() & errors() ? 0 : 1;
+  return cloud() & algorithms() & mesh() & errors() ? 0 : 1;
 }
