@@ -3,6 +3,7 @@
 // Everything in the core library. Files and the PCL filters have headers of their own (tufted/io, tufted/pcl).
 #include "tufted/check.h"
 #include "tufted/describe.h"
+#include "tufted/distance.h"
 #include "tufted/errors.h"
 #include "tufted/intrinsic_triangulation.h"
 #include "tufted/laplacian.h"

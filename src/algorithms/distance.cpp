@@ -1,0 +1,243 @@
+#include "tufted/distance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "algorithms/connected.h"
+#include "algorithms/heat_directions.h"
+#include "base/parallel.h"
+#include "base/stage_clock.h"
+#include "operators/surface_faces.h"
+#include "tufted/errors.h"
+
+namespace tufted {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+/// A mass below this part of its row of L is lost when the two are added, and the matrix may become singular.
+constexpr double least_mass = 1e-13;
+
+void checkOptions(const Laplacian& laplacian, const DistanceOptions& options) {
+  const std::string name = "DistanceSolver: ";
+  if (!(options.time_step > 0 && std::isfinite(options.time_step))) {
+    throw InvalidInput(name + "time_step = " + std::to_string(options.time_step) + ", must be finite and above 0");
+  }
+  const std::size_t n = laplacian.status.size();
+  if (static_cast<std::size_t>(laplacian.L.rows()) != n || laplacian.representative.size() != n ||
+      laplacian.boundary.size() != n) {
+    throw InvalidInput(name +
+                       "L, status, representative and boundary differ in their number of points, must be the same");
+  }
+}
+
+/// M / t + L, with the areas of the faces, over the points where `interior` is not 0.
+SparseMatrix heatMatrix(const Laplacian& laplacian, const SurfaceFaces& surface, double time,
+                        const VectorXd& interior) {
+  SparseMatrix A = laplacian.L;
+  const VectorXd areas = lumpedAreas(surface, static_cast<int>(A.rows()));
+  for (int i = 0; i < A.outerSize(); ++i) {
+    for (SparseMatrix::InnerIterator entry(A, i); entry; ++entry) {
+      if (entry.row() == i) entry.valueRef() += std::max(least_mass * entry.value(), areas[i] / time);
+    }
+  }
+  A.prune([&](Eigen::Index i, Eigen::Index j, double) { return interior[i] != 0 && interior[j] != 0; });
+  return A;
+}
+
+void checkSource(const SurfacePoint& source, int n) {
+  const std::string name = "DistanceSolver::query: ";
+  for (int k = 0; k < 3; ++k) {
+    if (source.corners[k] < 0 || source.corners[k] >= n) {
+      throw InvalidInput(name + "source " + std::to_string(source.corners[k]) + ", must lie in [0, " +
+                         std::to_string(n) + ")");
+    }
+    if (!(source.weights[k] >= 0 && source.weights[k] <= 1)) {
+      throw InvalidInput(name + "weight of a source = " + std::to_string(source.weights[k]) + ", must lie in [0, 1]");
+    }
+    if (!(source.distances[k] >= 0 && std::isfinite(source.distances[k]))) {
+      throw InvalidInput(name + "distance of a source from a corner = " + std::to_string(source.distances[k]) +
+                         ", must be finite and at least 0");
+    }
+  }
+}
+
+/// What is known of the sources, by active point.
+struct Sources {
+  VectorXd distance;  ///< in the solver's unit; infinite away from sources
+  VectorXd heat;
+};
+
+}  // namespace
+
+struct DistanceSolver::State {
+  SparseMatrix L;
+  SurfaceFaces surface;
+  Components components;
+  std::vector<int> representative;
+  VectorXd interior;  ///< N; 0 where the surface ends, 1 elsewhere
+  double time = 1;    ///< in units of 2^(2 exponent)
+  int threads = 0;
+  std::unique_ptr<const Solver> closed, open, poisson;
+
+  Sources locate(const std::vector<SurfacePoint>& sources) const;
+  std::vector<std::uint8_t> facesInside(const Sources& sources) const;
+  void shift(const Sources& sources, VectorXd& distance) const;
+};
+
+DistanceSolver::DistanceSolver(DistanceSolver&&) noexcept = default;
+DistanceSolver& DistanceSolver::operator=(DistanceSolver&&) noexcept = default;
+DistanceSolver::~DistanceSolver() = default;
+
+DistanceSolver::DistanceSolver(const Laplacian& laplacian, const DistanceOptions& options) {
+  checkOptions(laplacian, options);
+  auto state = std::make_unique<State>();
+  const Workers workers(options.solver.threads, options.solver.progress);
+  const double scale = laplacian.frames.normals.rows() > 0 ? 1.0 / 6 : 1.0 / 2;  // see Laplacian
+  state->L = laplacian.L;
+  state->surface = distinctFaces(laplacian.cover(), scale, workers);
+  state->components = findComponents(laplacian);
+  state->representative = laplacian.representative;
+  state->threads = options.solver.threads;
+  const SurfaceFaces& surface = state->surface;
+  const double unit = options.unit == TimeUnit::mean_edge ? surface.mean_square : surface.area_mean_square;
+  if (unit > 0) state->time = options.time_step * unit;
+
+  state->interior = VectorXd::Ones(laplacian.L.rows());
+  const auto factor = [&] {
+    const SparseMatrix A = heatMatrix(laplacian, surface, state->time, state->interior);
+    return std::make_unique<const Solver>(Solver::positiveDefinite(A, options.solver));
+  };
+  state->closed = factor();
+  if (options.open_boundary) {
+    for (Eigen::Index i = 0; i < state->interior.size(); ++i) {
+      if (laplacian.boundary[i] != Boundary::none) state->interior[i] = 0;
+    }
+    if (state->interior.size() > 0 && state->interior.minCoeff() == 0) state->open = factor();
+  }
+  state->poisson = std::make_unique<const Solver>(Solver::laplacian(laplacian, options.solver));
+  state_ = std::move(state);
+}
+
+double DistanceSolver::timeStep() const {
+  return std::ldexp(state_->time, 2 * state_->surface.exponent);
+}
+
+Sources DistanceSolver::State::locate(const std::vector<SurfacePoint>& sources) const {
+  const int n = static_cast<int>(representative.size());
+  if (sources.empty()) throw InvalidInput("DistanceSolver::query: sources is empty, must name at least one");
+  Sources found{VectorXd::Constant(n, infinity), VectorXd::Zero(n)};
+  for (const SurfacePoint& source : sources) {
+    checkSource(source, n);
+    for (int k = 0; k < 3; ++k) {
+      const int i = representative[source.corners[k]];
+      if (components.of[i] < 0) continue;
+      // The greater heat and not the sum, so that a source counts once.
+      found.distance[i] = std::min(found.distance[i], std::ldexp(source.distances[k], -surface.exponent));
+      found.heat[i] = std::max(found.heat[i], source.weights[k]);
+    }
+  }
+  if (!(found.heat.maxCoeff() > 0)) {
+    throw InvalidInput("DistanceSolver::query: no source lies on a component, must be at least one active point");
+  }
+  return found;
+}
+
+/// Faces between sources: inside a region of sources nothing points anywhere.
+std::vector<std::uint8_t> DistanceSolver::State::facesInside(const Sources& sources) const {
+  std::vector<std::uint8_t> inside(surface.faces.size(), 0);
+  for (std::size_t f = 0; f < inside.size(); ++f) {
+    const auto& [a, b, c] = surface.faces[f].corners;
+    const bool all = sources.distance[a] == 0 && sources.distance[b] == 0 && sources.distance[c] == 0;
+    inside[f] = all ? 1 : 0;
+  }
+  return inside;
+}
+
+/// From a function that is right up to a constant per component to distances, in the points' unit.
+void DistanceSolver::State::shift(const Sources& sources, VectorXd& distance) const {
+  VectorXd excess = VectorXd::Zero(distance.size()), count = VectorXd::Zero(distance.size());
+  for (const int i : components.points) {
+    if (sources.distance[i] == infinity) continue;
+    excess[i] = distance[i] - sources.distance[i];
+    count[i] = 1;
+  }
+  const VectorXd sums = components.sums(excess), counts = components.sums(count);
+  for (Eigen::Index i = 0; i < distance.size(); ++i) {
+    const int component = components.of[i];
+    if (component < 0 || counts[component] == 0) {
+      distance[i] = infinity;
+    } else {
+      const double here = std::max(0.0, distance[i] - sums[component] / counts[component]);
+      distance[i] = std::ldexp(std::isfinite(sources.distance[i]) ? sources.distance[i] : here, surface.exponent);
+    }
+  }
+  for (Eigen::Index i = 0; i < distance.size(); ++i) distance[i] = distance[representative[i]];
+}
+
+VectorXd DistanceSolver::query(const std::vector<int>& sources, DistanceReport* report) const {
+  std::vector<SurfacePoint> points;
+  points.reserve(sources.size());
+  for (const int source : sources) points.push_back(SurfacePoint::vertex(source));
+  return queryAt(points, report);
+}
+
+VectorXd DistanceSolver::queryAt(const std::vector<SurfacePoint>& sources, DistanceReport* report) const {
+  const Stopwatch watch;
+  const State& state = *state_;
+  const Sources known = state.locate(sources);
+  const HeatProblem problem{state.surface, state.L, state.components, *state.closed, state.open.get(), state.interior};
+  const Progress silent;
+  DistanceReport made;
+  VectorXd distance = divergenceOfHeat(problem, known.heat, state.facesInside(known), Workers(state.threads, silent),
+                                       report != nullptr, made);
+  SolveReport solved;
+  distance = state.poisson->solve(distance, report != nullptr ? &solved : nullptr);
+  state.shift(known, distance);
+  if (report != nullptr) {
+    made.iterations = std::max(made.iterations, solved.iterations);
+    made.residual = std::max(made.residual, solved.residual);
+    made.seconds = watch.seconds();
+    *report = made;
+  }
+  return distance;
+}
+
+SurfacePoint SurfacePoint::inFace(const Points& points, const Triangles& triangles, int face,
+                                  const std::array<double, 3>& barycentric) {
+  const std::string name = "SurfacePoint::inFace: ";
+  if (face < 0 || face >= triangles.rows()) {
+    throw InvalidInput(name + "face = " + std::to_string(face) + ", must lie in [0, " +
+                       std::to_string(triangles.rows()) + ")");
+  }
+  double sum = 0;
+  for (int k = 0; k < 3; ++k) {
+    const int corner = triangles(face, k);
+    if (corner < 0 || corner >= points.rows()) {
+      throw InvalidInput(name + "corner " + std::to_string(corner) + ", must lie in [0, " +
+                         std::to_string(points.rows()) + ")");
+    }
+    if (!points.row(corner).allFinite()) {
+      throw InvalidInput(name + "corner " + std::to_string(corner) + " is not finite, must be");
+    }
+    if (!(barycentric[k] >= 0 && std::isfinite(barycentric[k]))) {
+      throw InvalidInput(name + "barycentric = " + std::to_string(barycentric[k]) + ", must be finite and at least 0");
+    }
+    sum += barycentric[k];
+  }
+  if (!(sum > 0 && std::isfinite(sum)))
+    throw InvalidInput(name + "barycentric coordinates sum to " + std::to_string(sum) + ", must be above 0");
+  SurfacePoint result{{triangles(face, 0), triangles(face, 1), triangles(face, 2)}, {}, {}};
+  const Eigen::RowVector3d origin = points.row(result.corners[0]);
+  Eigen::RowVector3d place = Eigen::RowVector3d::Zero();  // from the first corner
+  for (int k = 0; k < 3; ++k) {
+    result.weights[k] = barycentric[k] / sum;
+    place += result.weights[k] * (points.row(result.corners[k]) - origin);
+  }
+  for (int k = 0; k < 3; ++k) result.distances[k] = (place - (points.row(result.corners[k]) - origin)).norm();
+  return result;
+}
+
+}  // namespace tufted

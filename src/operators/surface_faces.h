@@ -1,0 +1,58 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "base/parallel.h"
+#include "tufted/intrinsic_triangulation.h"
+#include "tufted/types.h"
+
+namespace tufted {
+
+/// A triangle laid out in its own plane: corner 0 at the origin, corner 1 at (base, 0), corner 2 at (foot, height). The
+/// base is the longest side, so the foot of the height lies on it and nothing cancels.
+struct SurfaceFace {
+  std::array<int, 3> corners;
+  double base, foot, height;
+  double sheets;  ///< how much of the surface this face stands for: copies in the cover times the scale of L
+};
+
+/// What gradient and divergence need of a cover: faces with the same corners and lengths (front and back, the copies
+/// that clouds find of each triangle) are one, faces without area are left out. The order does not depend on the number
+/// of threads.
+struct SurfaceFaces {
+  std::vector<SurfaceFace> faces;  ///< sorted by corners
+  int exponent = 0;                ///< lengths are in units of 2^exponent of the cover's
+  double mean_square = 0;          ///< mean squared side, in that unit squared
+  double area_mean_square = 0;     ///< the same, each face weighted by its area
+};
+
+/// @param scale of L: 1/2 for meshes, 1/6 for clouds
+SurfaceFaces distinctFaces(const IntrinsicTriangulation& cover, double scale, const Workers& workers);
+
+/// A third of the area per corner, in units of 2^(2 exponent). N values.
+VectorXd lumpedAreas(const SurfaceFaces& surface, int size);
+
+/// Direction of the gradient of the linear function with these values at the corners; zero where they are equal.
+inline Eigen::Vector2d gradientDirection(const SurfaceFace& face, double v0, double v1, double v2) {
+  const double first = v1 - v0, second = v2 - v0;
+  const double top = std::max(std::abs(first), std::abs(second));
+  if (!(top > 0)) return Eigen::Vector2d::Zero();
+  // Times base and height, which does not turn it.
+  const Eigen::Vector2d gradient(first / top * face.height, second / top * face.base - first / top * face.foot);
+  const double length = gradient.norm();
+  return length > 0 ? Eigen::Vector2d(gradient / length) : Eigen::Vector2d::Zero();
+}
+
+/// Integral over the face of X times the gradient of each corner's hat function, for a constant field X. They sum to 0.
+inline std::array<double, 3> divergence(const SurfaceFace& face, const Eigen::Vector2d& X) {
+  const double half = face.sheets / 2;
+  const double second = half * face.base * X.y();
+  const double first = half * (face.height * X.x() - face.foot * X.y());
+  return {-(first + second), first, second};
+}
+
+}  // namespace tufted
