@@ -7,6 +7,9 @@
 #include <cmath>
 #include <numbers>
 
+#include "oracles/classic_heat.h"
+#include "oracles/geodesics.h"
+#include "oracles/planar.h"
 #include "shapes/random.h"
 #include "shapes/shapes.h"
 
@@ -146,6 +149,51 @@ TEST(DelaunayStar, OfCollinearPointsIsEmpty) {
   Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> points(2, 2);
   points << 1, 1, 2, 2;
   EXPECT_TRUE(delaunayStarOracle(points).triangles.empty());
+}
+
+TEST(ExactDistances, AreStraightOnAPlane) {
+  const shapes::Mesh square = shapes::gridSquare(12);
+  // Three different weights, so that no corner can be mistaken for another.
+  const std::array<double, 3> weights = {0.7, 0.2, 0.1};
+  for (const int face : {0, 77}) {
+    Eigen::RowVector3d source = Eigen::RowVector3d::Zero();
+    for (int k = 0; k < 3; ++k) source += weights[k] * square.points.row(square.triangles(face, k));
+    const VectorXd distance = *exactDistances(square.points, square.triangles, face, weights);
+    const VectorXd straight = (square.points.rowwise() - source).rowwise().norm();
+    EXPECT_LE((distance - straight).cwiseAbs().maxCoeff(), 1e-12);
+  }
+  const shapes::Mesh book = shapes::book(3, 4);
+  EXPECT_FALSE(exactDistances(book.points, book.triangles, 0, weights).has_value());
+}
+
+TEST(StretchedDelaunay, CoversTheSquareWithAllPoints) {
+  for (const double stretch : {1.0, 8.0}) {
+    const PlanarMesh mesh = obtuseSquare(300, stretch, 5);
+    EXPECT_NEAR(surfaceArea(mesh.points, mesh.triangles), 1, 1e-12);
+    EXPECT_EQ(mesh.triangles.rows(), 2 * 304 - 2 - 4);  // Euler, 4 points on the boundary
+    EXPECT_EQ(topology(mesh.triangles).boundary_edges, 4);
+  }
+}
+
+TEST(BadBook, UnfoldsPageByPage) {
+  const Book book = badBook(3, 10, 4, 2);
+  EXPECT_NEAR(surfaceArea(book.points, book.triangles), 3, 1e-12);
+  EXPECT_EQ(topology(book.triangles).nonmanifold_edges, 10);
+  const VectorXd distance = bookDistances(book, 40);
+  for (Eigen::Index i = 0; i < distance.size(); ++i) {
+    const double straight = (book.points.row(i) - book.points.row(40)).norm();
+    EXPECT_GE(distance[i], straight * (1 - 1e-14));
+    if (book.page[i] < 0 || book.page[i] == book.page[40]) {
+      EXPECT_NEAR(distance[i], straight, 1e-14);
+    }
+  }
+}
+
+TEST(ClassicHeat, MeetsExactDistancesOnAGoodMesh) {
+  const shapes::Mesh ball = shapes::icosphere(4);
+  const VectorXd exact = *exactDistances(ball.points, ball.triangles, 0, {1, 0, 0});
+  const VectorXd heat = classicHeatDistances(ball.points, ball.triangles, ball.triangles(0, 0));
+  EXPECT_LE((heat - exact).cwiseAbs().sum() / exact.sum(), 0.03);
 }
 
 }  // namespace

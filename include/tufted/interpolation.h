@@ -1,0 +1,61 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "tufted/laplacian.h"
+#include "tufted/solver.h"
+#include "tufted/types.h"
+
+namespace tufted {
+
+/// Points whose values are given. A pin at a coincident point is one at its representative; several at one place give
+/// their mean.
+struct Pins {
+  std::vector<int> points;  ///< P
+  Eigen::MatrixXd values;   ///< P x c, finite
+};
+
+/// The smoothest function with given values: L u = 0 at all other points, for each of the c columns (Section 5.5).
+///
+/// Each value lies within the range of the pinned values of its component, and so it does at boundaries, as L is an
+/// M-matrix. Rounding takes it at most 1e-12 of that range outside; nothing is clamped. With a single pin the component
+/// is constant.
+/// @return N x c. NaN in components without a pin and, unless pinned, at points that are isolated or not finite; a
+///         coincident point has its representative's values
+/// @throws InvalidInput for an index out of range, arrays of different sizes, values that are not finite, or no pin on
+///         any component
+/// @throws SolverFailure when the system cannot be solved
+Eigen::MatrixXd harmonic(const Laplacian& laplacian, const Pins& pins, const SolverOptions& options = {},
+                         SolveReport* report = nullptr);
+
+/// The function of least bending with given values: the least sum over M of the squared Laplacian, so L M^-1 L u = 0 at
+/// all other points. Smooth at the pins, where harmonic functions have peaks, but not bounded by their values; at a
+/// boundary it meets the rim at a right angle, as L does not see beyond.
+/// @return, @throws as harmonic()
+Eigen::MatrixXd biharmonic(const Laplacian& laplacian, const Pins& pins, const SolverOptions& options = {},
+                           SolveReport* report = nullptr);
+
+/// Solves L u = M f: minus the Laplacian of u is f. On a component that is only possible where f has mean 0, so its
+/// mean (weighted by M) is taken out; and u is made to have mean 0.
+/// @param f N x c, finite at active points
+/// @return N x c, NaN at points that are isolated or not finite
+/// @throws InvalidInput for a wrong number of rows or values that are not finite
+/// @throws SolverFailure when the system cannot be solved
+Eigen::MatrixXd poisson(const Laplacian& laplacian, const Eigen::MatrixXd& f, const SolverOptions& options = {},
+                        SolveReport* report = nullptr);
+
+/// The same with given values: L u = M f at all points that are not pinned.
+/// @return, @throws as harmonic()
+Eigen::MatrixXd poisson(const Laplacian& laplacian, const Eigen::MatrixXd& f, const Pins& pins,
+                        const SolverOptions& options = {}, SolveReport* report = nullptr);
+
+/// Green's function of points (Figure 19), a column for each: L g = delta - M / area, with mean 0 over the component.
+/// On a sphere of radius 1 g approximates -(ln((1 - cos angle) / 2) + 1) / (4 pi).
+/// @return N x c; 0 in other components, NaN at points that are isolated or not finite
+/// @throws InvalidInput for no point, or an index out of range or of a point on no component
+/// @throws SolverFailure when the system cannot be solved
+Eigen::MatrixXd greensFunction(const Laplacian& laplacian, const std::vector<int>& points,
+                               const SolverOptions& options = {}, SolveReport* report = nullptr);
+
+}  // namespace tufted

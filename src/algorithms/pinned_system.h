@@ -1,0 +1,33 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "algorithms/connected.h"
+#include "tufted/interpolation.h"
+
+namespace tufted {
+
+/// Pins brought to the active points, and what they leave free.
+struct PinnedSystem {
+  Components components;
+  std::vector<std::uint8_t> pinned;  ///< N; 1 at points with a value, also those that are not active
+  std::vector<std::uint8_t> free;    ///< N; 1 at active points without one, in components that have pins
+  Eigen::MatrixXd values;            ///< N x c; the pins, elsewhere the mean of the component's, NaN without any
+};
+
+/// @param function to be named in errors
+/// @throws InvalidInput
+PinnedSystem pinnedSystem(const std::string& function, const Laplacian& laplacian, const Pins& pins);
+
+/// A u at point i, from differences of u alone: for matrices whose rows sum to 0 this loses no digits to a constant.
+inline Eigen::RowVectorXd rowOfDifferences(const SparseMatrix& A, const Eigen::MatrixXd& u, int i) {
+  Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(u.cols());
+  for (SparseMatrix::InnerIterator entry(A, i); entry; ++entry) {
+    if (entry.row() != i) sum += entry.value() * (u.row(entry.row()) - u.row(i));
+  }
+  return sum;
+}
+
+}  // namespace tufted

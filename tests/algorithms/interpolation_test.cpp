@@ -1,0 +1,234 @@
+// Harmonic, biharmonic and Poisson problems and Green's functions: bounds, analytic solutions, odd input.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <string>
+
+#include "oracles/oracles.h"
+#include "oracles/planar.h"
+#include "shapes/random.h"
+#include "shapes/shapes.h"
+#include "tufted/tufted.h"
+
+namespace tufted {
+namespace {
+
+Pins randomPins(const Laplacian& laplacian, int count, std::uint64_t seed) {
+  shapes::Random random(seed);
+  Pins pins{{}, Eigen::MatrixXd(count, 2)};
+  while (static_cast<int>(pins.points.size()) < count) {
+    const auto i = static_cast<int>(random.uniform(0, static_cast<double>(laplacian.status.size())));
+    if (laplacian.status[i] == PointStatus::active) pins.points.push_back(i);
+  }
+  for (double& value : pins.values.reshaped()) value = random.uniform(-1, 3);
+  return pins;
+}
+
+/// How far values lie outside the range of the pins, over that range; NaN counts as inside.
+double overshoot(const Eigen::MatrixXd& u, const Pins& pins) {
+  double worst = 0;
+  for (Eigen::Index c = 0; c < u.cols(); ++c) {
+    const double low = pins.values.col(c).minCoeff(), high = pins.values.col(c).maxCoeff();
+    for (const double value : u.col(c)) {
+      if (std::isnan(value)) continue;
+      worst = std::max({worst, (low - value) / (high - low), (value - high) / (high - low)});
+    }
+  }
+  return worst;
+}
+
+/// The cotan Laplacian of the triangles as they are, negative weights kept.
+Laplacian cotan(const Points& points, const Triangles& triangles) {
+  Laplacian laplacian = meshLaplacian(points, triangles);
+  const oracles::Operators operators = oracles::cotanLaplacian(points, triangles);
+  laplacian.L = operators.L;
+  laplacian.M = operators.M;
+  return laplacian;
+}
+
+TEST(Harmonic, StaysWithinItsPinsWhateverTheSurface) {
+  shapes::Cloud room = shapes::depthCamera({.width = 120, .height = 90});
+  for (const Points& points :
+       {shapes::withNoise(shapes::torus(4000), 0.02).points, room.points, shapes::disk(3000).points,
+        shapes::sphere(3000, shapes::Sampling::densityStep(100)).points}) {
+    const Laplacian laplacian = pointCloudLaplacian(points);
+    for (const int count : {2, 7, 300}) {
+      const Pins pins = randomPins(laplacian, count, static_cast<std::uint64_t>(count));
+      EXPECT_LE(overshoot(harmonic(laplacian, pins), pins), 1e-12) << count;
+    }
+  }
+  for (const shapes::Mesh& mesh : shapes::allMeshes()) {
+    const Laplacian laplacian = meshLaplacian(mesh.points, mesh.triangles);
+    const Pins pins = randomPins(laplacian, 5, 3);
+    EXPECT_LE(overshoot(harmonic(laplacian, pins), pins), 1e-12) << mesh.name;
+  }
+}
+
+TEST(Harmonic, StaysWithinItsPinsAtAnObtuseBoundaryWhereOthersDoNot) {
+  // Figure 15: no flip mends the angles opposite the long boundary edges.
+  int cotan_outside = 0, delaunay_outside = 0;
+  for (std::uint64_t seed = 1; seed <= 10; ++seed) {
+    const oracles::PlanarMesh given = oracles::obtuseSquare(200, 8, seed),
+                              delaunay = oracles::obtuseSquare(200, 1, seed);
+    const Laplacian ours = meshLaplacian(given.points, given.triangles);
+    const auto [pinned, values] = oracles::pinsAtObtuseCorners(given);
+    const Pins pins{pinned, values};
+    EXPECT_LE(overshoot(harmonic(ours, pins), pins), 1e-12) << seed;
+    cotan_outside += overshoot(harmonic(cotan(given.points, given.triangles), pins), pins) > 0.01 ? 1 : 0;
+    delaunay_outside += overshoot(harmonic(cotan(delaunay.points, delaunay.triangles), pins), pins) > 1e-3 ? 1 : 0;
+  }
+  EXPECT_GE(cotan_outside, 5);
+  EXPECT_GE(delaunay_outside, 5);
+}
+
+TEST(Harmonic, IsLinearOnAPlaneWithALinearRim) {
+  const shapes::Mesh square = shapes::gridSquare(40);
+  const Laplacian laplacian = meshLaplacian(square.points, square.triangles);
+  Pins pins;
+  for (int i = 0; i < square.points.rows(); ++i) {
+    if (laplacian.boundary[i] == Boundary::rim) pins.points.push_back(i);
+  }
+  pins.values = square.points(pins.points, Eigen::all);
+  EXPECT_LE((harmonic(laplacian, pins) - square.points).cwiseAbs().maxCoeff(), 1e-14);
+}
+
+TEST(Harmonic, WithOnePinIsConstant) {
+  const Laplacian laplacian = pointCloudLaplacian(shapes::torus(5000).points);
+  const Eigen::MatrixXd u = harmonic(laplacian, {{17}, Eigen::MatrixXd::Constant(1, 1, 0.1)});
+  EXPECT_EQ(u.minCoeff(), 0.1);
+  EXPECT_EQ(u.maxCoeff(), 0.1);
+}
+
+TEST(Interpolation, IsNotANumberWhereNoPinIsAndCopiesFollow) {
+  Points points(2004, 3);
+  points.topRows(1000) = shapes::sphere(1000).points;
+  points.middleRows(1000, 1000) = shapes::sphere(1000, shapes::Sampling::uniform, 2).points.array() + 10;
+  points.row(2000) = points.row(5);
+  points.row(2001) = points.row(8);
+  points.row(2002).setConstant(NAN);
+  points.row(2003) << 1e6, 0, 0;
+  const Laplacian laplacian = pointCloudLaplacian(points);
+  const Pins pins{{5, 2000, 700, 2002}, Eigen::VectorXd{{1, 3, 0, 7}}};
+  for (const Eigen::MatrixXd& u : {harmonic(laplacian, pins), biharmonic(laplacian, pins),
+                                   poisson(laplacian, Eigen::MatrixXd::Constant(2004, 1, 0.1), pins)}) {
+    EXPECT_TRUE(u.topRows(1000).allFinite());
+    EXPECT_TRUE(u.middleRows(1000, 1000).array().isNaN().all());
+    EXPECT_EQ(u(5, 0), 2);  // two pins at one place
+    EXPECT_EQ(u(2000, 0), 2);
+    EXPECT_EQ(u(700, 0), 0);
+    EXPECT_EQ(u(2001, 0), u(8, 0));
+    EXPECT_EQ(u(2002, 0), 7);
+    EXPECT_TRUE(std::isnan(u(2003, 0)));
+  }
+}
+
+TEST(Biharmonic, IsSmoothAtItsPinsAndSolvesItsEquation) {
+  const Points points = shapes::sphere(4000).points;
+  const Laplacian laplacian = pointCloudLaplacian(points);
+  const Pins pins{{0, 1000, 2000, 3000}, Eigen::VectorXd{{0, 1, 0, 2}}};
+  const VectorXd u = biharmonic(laplacian, pins);
+  VectorXd bending = laplacian.L * VectorXd((laplacian.L * u).cwiseQuotient(laplacian.M));
+  const double scale = (laplacian.L * u).cwiseQuotient(laplacian.M).cwiseAbs().maxCoeff();
+  for (const int i : pins.points) bending[i] = 0;
+  EXPECT_LE(bending.cwiseAbs().maxCoeff(), 1e-9 * scale);
+  for (int k = 0; k < 4; ++k) EXPECT_EQ(u[pins.points[k]], pins.values(k, 0));
+  // A harmonic function stands out at a pin from its neighbours, this one hardly.
+  const auto peak = [&](const VectorXd& v) {
+    return std::abs((laplacian.L * v)[3000]) / laplacian.L.coeff(3000, 3000);
+  };
+  EXPECT_LE(peak(u), peak(harmonic(laplacian, pins)) / 10);
+}
+
+TEST(Poisson, FindsAnEigenfunctionOfTheSphere) {
+  const Points points = shapes::sphere(8000).points;
+  const Laplacian laplacian = pointCloudLaplacian(points);
+  SolveReport report;
+  const Eigen::MatrixXd u = poisson(laplacian, points, {}, &report);  // coordinates have eigenvalue 2
+  EXPECT_LE(report.residual, 1e-12);
+  EXPECT_LE((2 * u - points).norm() / points.norm(), 5e-3);
+  EXPECT_LE((laplacian.M.transpose() * u).cwiseAbs().maxCoeff(), 1e-12);
+  // With pins of the truth the truth is found as well.
+  const Pins pins{{0, 50}, points({0, 50}, Eigen::all) / 2};
+  EXPECT_LE((2 * poisson(laplacian, points, pins) - points).norm() / points.norm(), 0.01);
+}
+
+TEST(GreensFunction, IsThatOfTheSphere) {
+  const int n = 16000;
+  const Points points = shapes::sphere(n).points;
+  const Laplacian laplacian = pointCloudLaplacian(points);
+  const double edge = std::sqrt(laplacian.report.mean_squared_edge);
+  const std::vector<int> sources = {0, 5000};
+  const Eigen::MatrixXd g = greensFunction(laplacian, sources);
+  for (int k = 0; k < 2; ++k) {
+    double square = 0;
+    for (int i = 0; i < n; ++i) {
+      const double chord = (points.row(i) - points.row(sources[k])).norm();
+      if (chord < 4 * edge) continue;
+      const double exact = -(std::log(chord * chord / 4) + 1) / (4 * M_PI);  // 1 - cos = chord^2 / 2
+      square += laplacian.M[i] * (g(i, k) - exact) * (g(i, k) - exact);
+    }
+    EXPECT_LE(std::sqrt(square), 2e-3);
+  }
+  EXPECT_NEAR(g(5000, 0), g(0, 1), 1e-12);  // symmetric
+  EXPECT_LE((laplacian.M.transpose() * g).cwiseAbs().maxCoeff(), 1e-12);
+}
+
+TEST(NearestPoint, IsTheFirstActiveOne) {
+  const Points points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.9, 0, 0}, {1, 0, 0}};
+  const Laplacian laplacian = meshLaplacian(points, Triangles{{0, 1, 2}, {0, 4, 2}});
+  EXPECT_EQ(nearestPoint(laplacian, points, {0.9, 0, 0}), 1);  // 3 is on no triangle
+  EXPECT_EQ(nearestPoint(laplacian, points, {1e10, 0, 0}), 1);
+  EXPECT_EQ(nearestPoint(laplacian, points, {1e300, 0, 0}), 0);  // all are as far
+  EXPECT_EQ(nearestPoint(laplacian, points, {-1, 2, 0}), 2);
+  EXPECT_THROW(nearestPoint(laplacian, points, {NAN, 0, 0}), InvalidInput);
+  EXPECT_THROW(nearestPoint(laplacian, points.topRows(3), {0, 0, 0}), InvalidInput);
+  EXPECT_THROW(nearestPoint(pointCloudLaplacian(Points(0, 3)), Points(0, 3), {0, 0, 0}), InvalidInput);
+}
+
+TEST(Interpolation, NamesWhatACallerGotWrong) {
+  Points points = shapes::sphere(500).points;
+  points.row(3).setConstant(NAN);
+  const Laplacian laplacian = pointCloudLaplacian(points);
+  const auto refusal = [](const auto& call) {
+    try {
+      call();
+    } catch (const InvalidInput& error) {
+      return std::string(error.what());
+    }
+    return std::string("accepted");
+  };
+  const auto pinned = [&](const Pins& pins) { return refusal([&] { harmonic(laplacian, pins); }); };
+  const Eigen::MatrixXd one = Eigen::MatrixXd::Ones(1, 1);
+  EXPECT_EQ(pinned({{500}, one}), "harmonic: pins.points has 500, must lie in [0, 500)");
+  EXPECT_EQ(pinned({{-1}, one}), "harmonic: pins.points has -1, must lie in [0, 500)");
+  EXPECT_EQ(pinned({{1, 2}, one}), "harmonic: pins.values has 1 rows, must have 2, one per point pinned");
+  EXPECT_EQ(pinned({{3}, one}),
+            "harmonic: pins.points has no point on a component, must have at least one active point");
+  EXPECT_EQ(pinned({{}, Eigen::MatrixXd(0, 1)}),
+            "harmonic: pins.points has no point on a component, must have at least one active point");
+  EXPECT_EQ(pinned({{1}, NAN * one}), "harmonic: pins.values of point 1 are not finite, must be");
+  EXPECT_EQ(pinned({{1}, Eigen::MatrixXd(1, 0)}), "harmonic: pins.values has no column, must have at least one");
+  EXPECT_EQ(refusal([&] { biharmonic(laplacian, {{500}, one}); }).find("biharmonic: pins.points"), 0);
+  EXPECT_EQ(refusal([&] { poisson(laplacian, one); }),
+            "poisson: f has 1 rows, must have 500, one per point of the Laplacian");
+  Eigen::MatrixXd f = Eigen::MatrixXd::Ones(500, 1);
+  f(3) = NAN;
+  EXPECT_EQ(refusal([&] { poisson(laplacian, f); }), "accepted");
+  f(4) = NAN;
+  EXPECT_EQ(refusal([&] { poisson(laplacian, f); }), "poisson: f of point 4 is not finite, must be");
+  EXPECT_EQ(refusal([&] { greensFunction(laplacian, {}); }), "greensFunction: points is empty, must name at least one");
+  EXPECT_EQ(refusal([&] { greensFunction(laplacian, {500}); }), "greensFunction: point 500, must lie in [0, 500)");
+  EXPECT_EQ(refusal([&] { greensFunction(laplacian, {3}); }),
+            "greensFunction: point 3 lies on no component, must be active");
+}
+
+TEST(Interpolation, FailsTypedWhenItCannotBeSolved) {
+  Laplacian laplacian = pointCloudLaplacian(shapes::sphere(500).points);
+  laplacian.L *= -1;
+  EXPECT_THROW(greensFunction(laplacian, {0}), SolverFailure);
+  EXPECT_THROW(harmonic(laplacian, {{0}, Eigen::MatrixXd::Ones(1, 1)}), SolverFailure);
+}
+
+}  // namespace
+}  // namespace tufted
