@@ -5,6 +5,7 @@
 #include "tufted/describe.h"
 #include "tufted/distance.h"
 #include "tufted/errors.h"
+#include "tufted/gradient.h"
 #include "tufted/interpolation.h"
 #include "tufted/intrinsic_triangulation.h"
 #include "tufted/laplacian.h"
