@@ -1,0 +1,32 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "tufted/gradient.h"
+#include "tufted/io/read.h"
+#include "tufted/laplacian.h"
+#include "tufted/options.h"
+#include "tufted/spectrum.h"
+
+namespace tufted {
+
+/// Writes operators.npz into the directory `dir`, which is made if missing, with the names and shapes of DiffusionNet's
+/// cache of operators (Sharp et al. 2022), and the text `report` as report.json:
+///   verts          N x 3, float64
+///   faces          F x 3, int64; 0 x 3 for clouds
+///   frames         N x 3 x 3, float64: of each point the x axis, the y axis and the normal
+///   k_eig          int64
+///   mass           N, float64
+///   L, gradX, gradY as _data (float64), _indices, _indptr (int32) and _shape (int64), N x N in csc; L positive
+///                  semidefinite
+///   evals, evecs   k and N x k, float64
+/// All numbers are those of the library bit for bit; the cache itself has float32.
+/// @throws InvalidInput for arrays that differ in their number of points
+/// @throws IoError naming the path
+/// @throws Cancelled when `progress` returns false
+void writeOperators(const std::filesystem::path& dir, const Laplacian& laplacian, const Geometry& geometry,
+                    const Gradients& gradients, const Spectrum& spectrum, const std::string& report = "{}\n",
+                    const Progress& progress = {});
+
+}  // namespace tufted

@@ -1,0 +1,94 @@
+#include "tufted/io/operators.h"
+
+#include <Eigen/Geometry>
+#include <cstdint>
+#include <vector>
+
+#include "io/npz_archive.h"
+#include "io/output_file.h"
+#include "io/staged_files.h"
+#include "tufted/errors.h"
+
+namespace tufted {
+namespace {
+
+using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using Faces = Eigen::Matrix<std::int64_t, Eigen::Dynamic, 3, Eigen::RowMajor>;
+
+void checkSizes(const Laplacian& laplacian, const Geometry& geometry, const Gradients& gradients,
+                const Spectrum& spectrum) {
+  const auto n = static_cast<Eigen::Index>(laplacian.status.size());
+  const auto check = [&](const char* name, Eigen::Index rows) {
+    if (rows != n)
+      throw InvalidInput("writeOperators: " + std::string(name) + " has " + std::to_string(rows) + " rows, must have " +
+                         std::to_string(n));
+  };
+  check("geometry", geometry.points.rows());
+  check("L", laplacian.L.rows());
+  check("M", laplacian.M.size());
+  check("gradients.X", gradients.X.rows());
+  check("gradients.Y", gradients.Y.rows());
+  check("gradients.frames", gradients.frames.normals.rows());
+  check("spectrum.vectors", spectrum.vectors.rows());
+}
+
+template <class T>
+void add(io::NpzArchive& archive, const std::string& name, const char* descr, const std::vector<std::int64_t>& shape,
+         const T* values) {
+  std::int64_t count = 1;
+  for (const std::int64_t size : shape) count *= size;
+  archive.add(name + ".npy", descr, shape, values, static_cast<std::size_t>(count) * sizeof(T));
+}
+
+/// @param shape borrowed until the archive is closed
+void addMatrix(io::NpzArchive& archive, const std::string& name, const SparseMatrix& matrix,
+               const std::int64_t (&shape)[2]) {
+  add(archive, name + "_data", "<f8", {matrix.nonZeros()}, matrix.valuePtr());
+  add(archive, name + "_indices", "<i4", {matrix.nonZeros()}, matrix.innerIndexPtr());
+  add(archive, name + "_indptr", "<i4", {matrix.cols() + 1}, matrix.outerIndexPtr());
+  add(archive, name + "_shape", "<i8", {2}, shape);
+}
+
+/// N x 9: of each point the x axis, the y axis and the normal.
+RowMajor axesOf(const Frames& frames) {
+  RowMajor axes(frames.normals.rows(), 9);
+  for (Eigen::Index i = 0; i < axes.rows(); ++i) {
+    const Eigen::RowVector3d normal = frames.normals.row(i), x = frames.tangents.row(i);
+    axes.row(i) << x, normal.cross(x), normal;
+  }
+  return axes;
+}
+
+}  // namespace
+
+void writeOperators(const std::filesystem::path& dir, const Laplacian& laplacian, const Geometry& geometry,
+                    const Gradients& gradients, const Spectrum& spectrum, const std::string& report,
+                    const Progress& progress) {
+  checkSizes(laplacian, geometry, gradients, spectrum);
+  if (progress && !progress("write", 0)) throw Cancelled("writeOperators: cancelled");
+  const std::int64_t n = geometry.points.rows(), k = spectrum.values.size();
+  const std::int64_t shape[2] = {n, n};
+  const Faces faces = geometry.triangles.cast<std::int64_t>();
+  const RowMajor axes = axesOf(gradients.frames), vectors = spectrum.vectors;
+
+  io::StagedFiles files(dir);
+  io::NpzArchive archive(files.stage("operators.npz"));
+  add(archive, "verts", "<f8", {n, 3}, geometry.points.data());
+  add(archive, "faces", "<i8", {faces.rows(), 3}, faces.data());
+  add(archive, "frames", "<f8", {n, 3, 3}, axes.data());
+  add(archive, "k_eig", "<i8", {}, &k);
+  add(archive, "mass", "<f8", {n}, laplacian.M.data());
+  addMatrix(archive, "L", laplacian.L, shape);
+  add(archive, "evals", "<f8", {k}, spectrum.values.data());
+  add(archive, "evecs", "<f8", {n, k}, vectors.data());
+  addMatrix(archive, "gradX", gradients.X, shape);
+  addMatrix(archive, "gradY", gradients.Y, shape);
+  archive.close();
+  io::OutputFile file(files.stage("report.json"));
+  file.write(report);
+  file.close();
+  if (progress && !progress("write", 1)) throw Cancelled("writeOperators: cancelled");
+  files.commit();
+}
+
+}  // namespace tufted
