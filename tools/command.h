@@ -20,6 +20,10 @@ using Run = std::function<int()>;
 void addLaplacian(CLI::App& app, Run& run);
 void addSpectrum(CLI::App& app, Run& run);
 void addHks(CLI::App& app, Run& run);
+void addDistance(CLI::App& app, Run& run);
+void addInterpolate(CLI::App& app, Run& run);
+void addGreen(CLI::App& app, Run& run);
+void addOperators(CLI::App& app, Run& run);
 void addInfo(CLI::App& app, Run& run);
 void addValidate(CLI::App& app, Run& run);
 

@@ -48,6 +48,10 @@ int main(int argc, char** argv) {
   addLaplacian(app, run);
   addSpectrum(app, run);
   addHks(app, run);
+  addDistance(app, run);
+  addInterpolate(app, run);
+  addGreen(app, run);
+  addOperators(app, run);
   addInfo(app, run);
   addValidate(app, run);
   try {

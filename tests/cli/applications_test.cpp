@@ -1,0 +1,113 @@
+// The subcommands distance, interpolate and green.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "../io/temporary_dir.h"
+#include "command.h"
+#include "samples.h"
+
+namespace {
+
+class ApplicationCommands : public testing::Test {
+ protected:
+  std::string in(const std::string& name) const { return (dir_ / name).string(); }
+  void run(const std::vector<std::string>& arguments) {
+    const Result result = runTufted(arguments);
+    ASSERT_EQ(result.code, 0) << result.err;
+    EXPECT_EQ(result.err, "");
+  }
+  void expectRefusal(std::vector<std::string> arguments, const std::string& word) {
+    arguments.insert(arguments.end(), {"--out", in("refused")});
+    const Result result = runTufted(arguments);
+    EXPECT_EQ(result.code, 2) << result.err;
+    EXPECT_TRUE(isOneLine(result.err)) << result.err;
+    EXPECT_NE(result.err.find(word), std::string::npos) << result.err;
+    EXPECT_FALSE(std::filesystem::exists(in("refused")));
+  }
+  nlohmann::json report(const std::string& folder) const {
+    return nlohmann::json::parse(readAll(dir_ / folder / "report.json"));
+  }
+  std::vector<double> values(const std::string& file) const {
+    const std::string bytes = readAll(dir_ / file);
+    const std::size_t start = 10 + static_cast<unsigned char>(bytes[8]) + 256 * static_cast<unsigned char>(bytes[9]);
+    std::vector<double> result((bytes.size() - start) / sizeof(double));
+    std::memcpy(result.data(), bytes.data() + start, result.size() * sizeof(double));
+    return result;
+  }
+
+  TemporaryDir dir_;
+};
+
+TEST_F(ApplicationCommands, DistanceComesFromIndicesPositionsAndFaces) {
+  const std::string cloud = dir_.write("sphere.xyz", sphere(500));
+  run({"distance", cloud, "--source", "3,7", "--near", "-1,0,0", "--out", in("out")});
+  const std::vector<double> distance = values("out/distance.npy");
+  ASSERT_EQ(distance.size(), 500u);
+  EXPECT_EQ(distance[3], 0);
+  EXPECT_EQ(distance[7], 0);
+  EXPECT_EQ(std::count(distance.begin(), distance.end(), 0), 3);
+  EXPECT_NE(readAll(dir_ / "out/points.ply").find("property float distance\n"), std::string::npos);
+  const auto json = report("out");
+  EXPECT_EQ(json["command"], "distance");
+  EXPECT_EQ(json["sources"].size(), 3u);
+  EXPECT_EQ(json["report"]["rounds"], 1);
+  EXPECT_LE(json["report"]["residual"], 1e-10);
+
+  const std::string square = dir_.write("square.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n");
+  run({"distance", square, "--face", "0,2,1,1", "--out", in("face")});
+  const std::vector<double> corners = values("face/distance.npy");
+  EXPECT_NEAR(corners[0], std::hypot(0.5, 0.25), 1e-15);  // of (1/2, 1/4)
+  EXPECT_NEAR(corners[2], std::hypot(0.5, 0.75), 1e-15);
+  expectRefusal({"distance", square, "--face", "2,1,1,1"}, "face = 2");
+  expectRefusal({"distance", square, "--face", "0,1,1"}, "FACE,A,B,C");
+  expectRefusal({"distance", cloud, "--face", "0,1,1,1"}, "applies to meshes");
+  expectRefusal({"distance", cloud}, "sources is empty");
+  expectRefusal({"distance", cloud, "--source", "500"}, "source 500");
+  expectRefusal({"distance", cloud, "--near", "1,2"}, "X,Y,Z");
+  expectRefusal({"distance", cloud, "--source", "0", "--time-step", "0"}, "--time-step");
+}
+
+TEST_F(ApplicationCommands, InterpolateTakesPinsByIndexPositionAndFile) {
+  const std::string cloud = dir_.write("sphere.xyz", sphere(500));
+  const std::string pins = dir_.write("pins.txt", "3 1 10\n\n7 2 20\n");
+  run({"laplacian", cloud, "--out", in("laplacian")});
+  for (const std::vector<std::string>& source : {std::vector<std::string>{cloud}, {"--operator", in("laplacian")}}) {
+    std::vector<std::string> arguments = {"interpolate", "--pins", pins, "--pin", "9=0,0", "--pin", "-1,0,0=3,30"};
+    arguments.insert(arguments.end(), source.begin(), source.end());
+    arguments.insert(arguments.end(), {"--out", in("out")});
+    run(arguments);
+    const std::vector<double> found = values("out/values.npy");
+    ASSERT_EQ(found.size(), 1000u);
+    EXPECT_EQ(found[2 * 3], 1);
+    EXPECT_EQ(found[2 * 7 + 1], 20);
+    EXPECT_EQ(found[2 * 9], 0);
+    for (int i = 0; i < 500; ++i) {
+      EXPECT_TRUE(found[2 * i] >= -1e-12 && found[2 * i] <= 3 + 1e-12) << i;
+      EXPECT_NEAR(found[2 * i + 1], 10 * found[2 * i], 1e-10);
+    }
+    EXPECT_EQ(report("out")["pins"], 4);
+  }
+  run({"interpolate", cloud, "--pin", "0=1", "--pin", "1=2", "--method", "biharmonic", "--out", in("smooth")});
+  EXPECT_EQ(report("smooth")["method"], "biharmonic");
+  expectRefusal({"interpolate", cloud}, "--pin");
+  expectRefusal({"interpolate", cloud, "--pin", "0"}, "INDEX=V");
+  expectRefusal({"interpolate", cloud, "--pin", "0.5=1"}, "pin 0");
+  expectRefusal({"interpolate", cloud, "--pin", "0=1", "--pin", "1=1,2"}, "pin 1");
+  expectRefusal({"interpolate", cloud, "--pin", "500=1"}, "500");
+}
+
+TEST_F(ApplicationCommands, GreenHasAColumnPerPoint) {
+  const std::string cloud = dir_.write("sphere.xyz", sphere(500));
+  run({"green", cloud, "--source", "3,7", "--out", in("out")});
+  const std::vector<double> green = values("out/green.npy");
+  ASSERT_EQ(green.size(), 1000u);
+  EXPECT_NEAR(green[2 * 7], green[2 * 3 + 1], 1e-12);
+  EXPECT_EQ(report("out")["sources"], nlohmann::json({3, 7}));
+  expectRefusal({"green", cloud}, "points is empty");
+  expectRefusal({"green", cloud, "--source", "-1"}, "-1");
+}
+
+}  // namespace
