@@ -1,0 +1,122 @@
+// What the algorithms reach on large clouds, on badly triangulated models and on real data.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "oracles/classic_heat.h"
+#include "oracles/oracles.h"
+#include "oracles/planar.h"
+#include "shapes/random.h"
+#include "shapes/shapes.h"
+#include "tufted/tufted.h"
+#ifdef TUFTED_DATA_DIR
+#include "tufted/io/read.h"
+#endif
+
+namespace tufted {
+namespace {
+
+double meanError(const VectorXd& distance, const VectorXd& exact) {
+  return (distance - exact).cwiseAbs().sum() / exact.sum();
+}
+
+VectorXd angles(const Points& points, int from) {
+  VectorXd result(points.rows());
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    const Eigen::Vector3d a = points.row(i), b = points.row(from);
+    result[i] = std::atan2(a.cross(b).norm(), a.dot(b));
+  }
+  return result;
+}
+
+TEST(Applications, DistanceOnASphereIsAsGoodAsThatOfTheHull) {
+  const Points points = shapes::sphere(16000).points;
+  const DistanceSolver cloud(pointCloudLaplacian(points));
+  const DistanceSolver hull(meshLaplacian(points, oracles::convexHullMesh(points)));
+  for (const int source : {0, 100, 5000}) {
+    const VectorXd exact = angles(points, source);
+    const double ours = meanError(cloud.query({source}), exact), theirs = meanError(hull.query({source}), exact);
+    EXPECT_LE(ours, 0.017) << source;
+    EXPECT_NEAR(ours, theirs, 0.02 * theirs) << source;
+  }
+}
+
+TEST(Applications, GreensFunctionOfALargeSphere) {
+  const int n = 64000;
+  const Points points = shapes::sphere(n).points;
+  const Laplacian laplacian = pointCloudLaplacian(points, {.keep_cover = false});
+  const double edge = std::sqrt(laplacian.report.mean_squared_edge);
+  const Eigen::MatrixXd g = greensFunction(laplacian, {0, 20000});
+  for (int k = 0; k < 2; ++k) {
+    const int source = k == 0 ? 0 : 20000;
+    double square = 0;
+    for (int i = 0; i < n; ++i) {
+      const double chord = (points.row(i) - points.row(source)).norm();
+      if (chord < 4 * edge) continue;
+      const double exact = -(std::log(chord * chord / 4) + 1) / (4 * M_PI);
+      square += laplacian.M[i] * (g(i, k) - exact) * (g(i, k) - exact);
+    }
+    EXPECT_LE(std::sqrt(square), 7e-4) << source;
+  }
+}
+
+TEST(Applications, DistanceOnABadNonmanifoldModelIsNearerThanByCotan) {
+  // Figure 16, on pages that meet at a spine, in slivers.
+  for (const double stretch : {4.0, 16.0}) {
+    const oracles::Book book = oracles::badBook(3, 40, stretch, 1);
+    const int source = 41 + 500;  // inside the first page
+    const VectorXd exact = oracles::bookDistances(book, source);
+    const VectorXd ours = DistanceSolver(meshLaplacian(book.points, book.triangles)).query({source});
+    const VectorXd cotan = oracles::classicHeatDistances(book.points, book.triangles, source);
+    EXPECT_LE(meanError(ours, exact), 0.03) << stretch;
+    EXPECT_LE(3 * meanError(ours, exact), meanError(cotan, exact)) << stretch;
+  }
+}
+
+#ifdef TUFTED_DATA_DIR
+/// Largest |value outside the range of its column's pins| over that range.
+double overshoot(const Eigen::MatrixXd& u, const Eigen::MatrixXd& pins) {
+  double worst = 0;
+  for (Eigen::Index c = 0; c < u.cols(); ++c) {
+    const double low = pins.col(c).minCoeff(), high = pins.col(c).maxCoeff();
+    for (const double value : u.col(c)) {
+      if (!std::isnan(value)) worst = std::max({worst, (low - value) / (high - low), (value - high) / (high - low)});
+    }
+  }
+  return worst;
+}
+
+TEST(Applications, HarmonicFunctionsStayWithinTheirPinsOnRealData) {
+  int files = 0;
+  for (const char* folder : {"/clouds", "/meshes"}) {
+    std::error_code error;
+    for (const auto& entry : std::filesystem::directory_iterator(TUFTED_DATA_DIR + std::string(folder), error)) {
+      const Geometry geometry = read(entry.path());
+      const Laplacian laplacian = geometry.is_mesh
+                                      ? meshLaplacian(geometry.points, geometry.triangles, {.keep_cover = false})
+                                      : pointCloudLaplacian(geometry.points, {.keep_cover = false});
+      std::vector<int> active;
+      for (std::size_t i = 0; i < laplacian.status.size(); ++i) {
+        if (laplacian.status[i] == PointStatus::active) active.push_back(static_cast<int>(i));
+      }
+      shapes::Random random(static_cast<std::uint64_t>(++files));
+      for (const int count : {3, 100}) {
+        Pins pins{{}, Eigen::MatrixXd(count, 2)};
+        for (int k = 0; k < count; ++k) {
+          pins.points.push_back(
+              active[static_cast<std::size_t>(random.uniform(0, static_cast<double>(active.size())))]);
+        }
+        for (double& value : pins.values.reshaped()) value = random.uniform(-1, 3);
+        EXPECT_LE(overshoot(harmonic(laplacian, pins), pins.values), 1e-12) << entry.path() << " " << count;
+      }
+    }
+  }
+  if (files == 0) GTEST_SKIP() << "no folder " << TUFTED_DATA_DIR;
+}
+#endif
+
+}  // namespace
+}  // namespace tufted

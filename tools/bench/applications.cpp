@@ -1,0 +1,227 @@
+#include <CLI/CLI.hpp>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "oracles/classic_heat.h"
+#include "oracles/geodesics.h"
+#include "oracles/oracles.h"
+#include "oracles/planar.h"
+#include "shapes/shapes.h"
+#include "tufted/distance.h"
+#include "tufted/errors.h"
+#include "tufted/interpolation.h"
+#include "tufted/io/read.h"
+
+// Tables of what distances, interpolation and Green's functions reach, in Markdown.
+
+namespace {
+
+using tufted::DistanceSolver;
+using tufted::Laplacian;
+using tufted::Points;
+using tufted::VectorXd;
+namespace oracles = tufted::oracles;
+namespace shapes = tufted::shapes;
+
+class Stopwatch {
+ public:
+  double milliseconds() const {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
+  }
+
+ private:
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+/// Of distances, where both are finite.
+struct Error {
+  double mean = 0;      ///< mean |d - exact| over mean exact
+  double greatest = 0;  ///< greatest |d - exact| over greatest exact
+};
+
+Error errorOf(const VectorXd& distance, const VectorXd& exact) {
+  double sum = 0, exact_sum = 0, worst = 0, farthest = 0;
+  for (Eigen::Index i = 0; i < exact.size(); ++i) {
+    if (!std::isfinite(distance[i]) || !std::isfinite(exact[i])) continue;
+    const double error = std::abs(distance[i] - exact[i]);
+    sum += error, exact_sum += exact[i];
+    worst = std::max(worst, error), farthest = std::max(farthest, exact[i]);
+  }
+  return {sum / exact_sum, worst / farthest};
+}
+
+VectorXd angles(const Points& points, int from) {
+  VectorXd result(points.rows());
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    const Eigen::Vector3d a = points.row(i), b = points.row(from);
+    result[i] = std::atan2(a.cross(b).norm(), a.dot(b));
+  }
+  return result;
+}
+
+/// CGAL's meshes that its exact search takes and is done with soon.
+void printMeshes() {
+  std::printf(
+      "| mesh | triangles | ours, mean | max | heat method by cotan, mean | max |\n|---|---|---|---|---|---|\n");
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(TUFTED_CGAL_DATA_DIR "/meshes")) files.push_back(entry);
+  std::sort(files.begin(), files.end());
+  std::vector<double> ours, theirs;
+  for (const auto& file : files) {
+    tufted::Geometry geometry;
+    try {
+      geometry = tufted::read(file);
+    } catch (const tufted::IoError&) {
+      continue;
+    }
+    const auto triangles = geometry.triangles.rows();
+    if (triangles < 100 || triangles > 6000) continue;
+    const auto exact = oracles::exactDistances(geometry.points, geometry.triangles, 0, {1, 0, 0});
+    if (!exact) continue;
+    const int source = geometry.triangles(0, 0);
+    const Laplacian laplacian = tufted::meshLaplacian(geometry.points, geometry.triangles);
+    const Error a = errorOf(DistanceSolver(laplacian).query({source}), *exact);
+    const Error b = errorOf(oracles::classicHeatDistances(geometry.points, geometry.triangles, source), *exact);
+    ours.push_back(a.mean), theirs.push_back(b.mean);
+    std::printf("| %s | %d | %.2f %% | %.1f %% | %.2f %% | %.1f %% |\n", file.filename().c_str(),
+                static_cast<int>(triangles), 100 * a.mean, 100 * a.greatest, 100 * b.mean, 100 * b.greatest);
+    std::fflush(stdout);
+  }
+  const auto median = [](std::vector<double> values) {
+    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+    return values[values.size() / 2];
+  };
+  if (!ours.empty())
+    std::printf("| median of %zu | | %.2f %% | | %.2f %% | |\n", ours.size(), 100 * median(ours), 100 * median(theirs));
+}
+
+/// Figure 15: how far harmonic functions leave the range of their pins, over that range.
+void printObtuse() {
+  std::printf("| square, obtuse boundary | cotan | intrinsic Delaunay | ours |\n|---|---|---|---|\n");
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    const oracles::PlanarMesh given = oracles::obtuseSquare(200, 8, seed),
+                              delaunay = oracles::obtuseSquare(200, 1, seed);
+    const auto [pinned, values] = oracles::pinsAtObtuseCorners(given);
+    const tufted::Pins pins{pinned, values};
+    const auto outside = [&](const oracles::PlanarMesh& mesh, bool cotan) {
+      Laplacian laplacian = tufted::meshLaplacian(mesh.points, mesh.triangles);
+      if (cotan) laplacian.L = oracles::cotanLaplacian(mesh.points, mesh.triangles).L;
+      const Eigen::MatrixXd u = tufted::harmonic(laplacian, pins);
+      return std::max({0.0, -u.minCoeff(), u.maxCoeff() - 1});
+    };
+    std::printf("| sample %d | %.3g | %.3g | %.3g |\n", static_cast<int>(seed), outside(given, true),
+                outside(delaunay, true), outside(given, false));
+  }
+}
+
+/// Figure 16: three pages at a spine, exact distances by unfolding.
+void printNonmanifold() {
+  std::printf(
+      "| three pages, slivers | vertices | cotan, mean | max | ours, mean | max |\n|---|---|---|---|---|---|\n");
+  for (const double stretch : {1.0, 4.0, 16.0}) {
+    const oracles::Book book = oracles::badBook(3, 40, stretch, 1);
+    const int source = 41 + 500;  // inside the first page
+    const VectorXd exact = oracles::bookDistances(book, source);
+    const Error a = errorOf(oracles::classicHeatDistances(book.points, book.triangles, source), exact);
+    const Laplacian laplacian = tufted::meshLaplacian(book.points, book.triangles);
+    const Error b = errorOf(DistanceSolver(laplacian).query({source}), exact);
+    std::printf("| stretched %g times | %d | %.1f %% | %.1f %% | %.1f %% | %.1f %% |\n", stretch,
+                static_cast<int>(exact.size()), 100 * a.mean, 100 * a.greatest, 100 * b.mean, 100 * b.greatest);
+  }
+}
+
+void printSphere() {
+  std::printf("| sphere, distance | cloud, mean | max | hull mesh, mean | max |\n|---|---|---|---|---|\n");
+  for (const int n : {1000, 4000, 16000, 64000}) {
+    const Points points = shapes::sphere(n).points;
+    const VectorXd exact = angles(points, 0);
+    const Error a = errorOf(DistanceSolver(tufted::pointCloudLaplacian(points)).query({0}), exact);
+    const Laplacian hull = tufted::meshLaplacian(points, oracles::convexHullMesh(points));
+    const Error b = errorOf(DistanceSolver(hull).query({0}), exact);
+    std::printf("| %d | %.3f %% | %.2f %% | %.3f %% | %.2f %% |\n", n, 100 * a.mean, 100 * a.greatest, 100 * b.mean,
+                100 * b.greatest);
+  }
+}
+
+/// L2 error beyond 4 edges of the source.
+double greenError(const Laplacian& laplacian, const Points& points, double edge) {
+  const Eigen::MatrixXd g = tufted::greensFunction(laplacian, {0});
+  double square = 0;
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    const double chord = (points.row(i) - points.row(0)).norm();
+    if (chord < 4 * edge) continue;
+    const double error = g(i, 0) + (std::log(chord * chord / 4) + 1) / (4 * M_PI);
+    square += laplacian.M[i] * error * error;
+  }
+  return std::sqrt(square);
+}
+
+void printGreen() {
+  std::printf("| sphere, Green's function | cloud, L2 | hull mesh |\n|---|---|---|\n");
+  for (const int n : {4000, 16000, 64000}) {
+    const Points points = shapes::sphere(n).points;
+    const Laplacian cloud = tufted::pointCloudLaplacian(points);
+    const Laplacian hull = tufted::meshLaplacian(points, oracles::convexHullMesh(points));
+    const double edge = std::sqrt(cloud.report.mean_squared_edge);
+    std::printf("| %d | %.2e | %.2e |\n", n, greenError(cloud, points, edge), greenError(hull, points, edge));
+  }
+}
+
+/// Best of ten, as the machine may be shared.
+double leastTime(const std::function<void()>& work) {
+  double least = HUGE_VAL;
+  for (int repetition = 0; repetition < 10; ++repetition) {
+    const Stopwatch watch;
+    work();
+    least = std::min(least, watch.milliseconds());
+  }
+  return least;
+}
+
+void printQuery() {
+  const Points points = shapes::sphere(100000).points;
+  const Laplacian laplacian = tufted::pointCloudLaplacian(points);
+  const tufted::SolverOptions one_thread = {.threads = 1};
+  const tufted::Solver poisson = tufted::Solver::laplacian(laplacian, one_thread);
+  const VectorXd right = laplacian.M.cwiseProduct(points.col(2));
+  const double solve = leastTime([&] { poisson.solve(right); });
+  const Stopwatch watch;
+  const DistanceSolver solver(laplacian, {.solver = one_thread});
+  const double prepare = watch.milliseconds();
+  const double query = leastTime([&] { solver.query({0}); });
+  std::printf("| 100,000 points, one thread | ms |\n|---|---|\n| one solve of L x = b | %.1f |\n", solve);
+  std::printf("| making the distance solver | %.0f |\n| a query | %.1f |\n| query / solve | %.2f |\n", prepare, query,
+              query / solve);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const std::map<std::string, void (*)()> tables = {
+      {"meshes", printMeshes}, {"obtuse", printObtuse}, {"nonmanifold", printNonmanifold},
+      {"sphere", printSphere}, {"green", printGreen},   {"query", printQuery}};
+  CLI::App app("Tables of distances, interpolation and Green's functions against what is exact.");
+  std::vector<std::string> names;
+  std::vector<std::string> known;
+  for (const auto& [name, print] : tables) known.push_back(name);
+  app.add_option("TABLE", names, "Which (all)")->check(CLI::IsMember(known));
+  CLI11_PARSE(app, argc, argv);
+  try {
+    for (const std::string& name : names.empty() ? known : names) {
+      tables.at(name)();
+      std::printf("\n");
+    }
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "tufted_applications: %s\n", error.what());
+    return 1;
+  }
+}
