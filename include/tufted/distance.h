@@ -35,8 +35,8 @@ enum class TimeUnit {
 };
 
 struct DistanceOptions {
-  /// t > 0, in `unit`. Larger ones smooth the distance and round off its creases. On CGAL's meshes the error is least
-  /// at 1/4 to 1/2, on random points of a sphere it falls up to 8.
+  /// t > 0, in `unit`. Larger ones smooth the distance and round off its creases. The mean error is least at 1/4 to
+  /// 1/2 on CGAL's meshes and near 1 from two points of a sphere; from one it falls up to 8.
   double time_step = 0.5;
   TimeUnit unit = TimeUnit::mean_edge;
   /// Where the surface ends, the mean of heat that cannot leave and heat that is lost, as if the surface went on

@@ -241,5 +241,13 @@ TEST(Distance, NamesWhatACallerGotWrong) {
   EXPECT_NE(refusal([&] { DistanceSolver(pointCloudLaplacian(points, {.keep_cover = false})); }), "accepted");
 }
 
+TEST(Distance, FailsTypedWhenItCannotBeSolved) {
+  Laplacian laplacian = pointCloudLaplacian(shapes::sphere(500).points);
+  laplacian.L *= -10;
+  EXPECT_THROW(DistanceSolver{laplacian}, SolverFailure);
+  laplacian.L *= NAN;
+  EXPECT_THROW(DistanceSolver{laplacian}, SolverFailure);
+}
+
 }  // namespace
 }  // namespace tufted
