@@ -116,4 +116,11 @@ VectorXd repeatedSpectrum(const VectorXd& spectrum, int copies) {
   return values;
 }
 
+PoissonProblem spherePoisson(const Points& points) {
+  const auto x = points.col(0).array(), z = points.col(2).array();
+  const Eigen::ArrayXd u = z * x.exp();
+  // Delta on the sphere is that of space without the radial derivatives: u_rr = (2 x + x^2) u, u_r = (1 + x) u.
+  return {u, -u * (1 - (2 * x + x.square()) - 2 * (1 + x))};
+}
+
 }  // namespace tufted::shapes

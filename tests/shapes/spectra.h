@@ -20,4 +20,10 @@ VectorXd bookSpectrum(int pages, double width, double height, int count);
 /// The same surface `copies` times, apart.
 VectorXd repeatedSpectrum(const VectorXd& spectrum, int copies);
 
+struct PoissonProblem {
+  VectorXd u, f;  ///< N; -Delta u = f on the surface; u has no particular mean
+};
+/// Radius 1: u = z exp(x), which no finite number of eigenfunctions adds up to.
+PoissonProblem spherePoisson(const Points& points);
+
 }  // namespace tufted::shapes
