@@ -1,11 +1,11 @@
 #!/usr/bin/env python3
-"""Times 64 eigenpairs by `tufted spectrum` and by scipy's eigsh, on the same matrices, on one thread, one after the other.
+"""Times eigenpairs by `tufted spectrum` and by scipy's eigsh on the same matrices, on one thread, one after the other.
 
     tools/compare_eigsh.py build/release/tufted [--points 100000] [--pairs 64]
 
-Needs python3-scipy. Prints the seconds of both by the clock and of CPU, which other programs on the machine disturb less,
-the ratio of the latter, and how far the eigenvalues are apart; ends with 1 if ours takes more than half as long, or they
-differ by more than a part in 10^8. The CPU of ours is that of the whole command, with reading and writing.
+Needs python3-scipy. Prints the seconds of both by the clock and of CPU, which other programs disturb less, the ratio of
+the latter, and how far the eigenvalues are apart; ends with 1 if ours takes more than half as long, or they differ by
+more than a part in 10^8. The CPU of ours is that of the whole command, with reading and writing.
 """
 import argparse
 import json

@@ -18,8 +18,9 @@ namespace {
 constexpr const char* description = "Eigenvalues and eigenvectors of L x = lambda M x, the smallest ones.";
 
 constexpr const char* footer =
-    R"(Eigenvalues are ascending, in 1 / length^2. Vectors are M-orthonormal, and of both signs that is taken which makes
-the largest entry positive. Each connected component has the eigenvalue 0 once, exactly, with a constant on it.
+    R"(Eigenvalues are ascending, in 1 / length^2. Vectors are M-orthonormal, and of both signs
+that is taken which makes the largest entry positive. Each connected component has the eigenvalue 0 once, exactly, with a
+constant on it.
 
 Writes into DIR, renamed one after the other when all are complete:
   evals.npy    K eigenvalues, float64

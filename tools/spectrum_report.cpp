@@ -6,6 +6,7 @@
 nlohmann::ordered_json reportOf(const tufted::SpectrumReport& report) {
   return {{"null_space", report.null_space},
           {"iterations", report.iterations},
+          {"counted", report.counted},
           {"residual", report.residual},
           {"orthogonality", report.orthogonality},
           {"seconds", report.seconds},
