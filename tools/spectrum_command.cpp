@@ -19,8 +19,8 @@ constexpr const char* description = "Eigenvalues and eigenvectors of L x = lambd
 
 constexpr const char* footer =
     R"(Eigenvalues are ascending, in 1 / length^2. Vectors are M-orthonormal, and of both signs
-that is taken which makes the largest entry positive. Each connected component has the eigenvalue 0 once, exactly, with a
-constant on it.
+that is taken which makes the largest entry positive. Each connected component has the eigenvalue 0 once, exactly, with
+a constant on it.
 
 Writes into DIR, renamed one after the other when all are complete:
   evals.npy    K eigenvalues, float64
