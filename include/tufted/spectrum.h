@@ -13,7 +13,7 @@ namespace tufted {
 struct SpectrumOptions {
   /// Of |A x - theta x| / theta in the norm of M, A the inverse of L after M and theta = 1 / lambda; in (0, 1). The
   /// error of an eigenvalue is about its square.
-  double tolerance = 1e-9;
+  double tolerance = 1e-10;
   int max_iterations = 1000;                      ///< of eight solves each, >= 1; beyond them SolverFailure
   SolverMethod method = SolverMethod::automatic;  ///< of the inverse
   std::size_t memory_limit = 0;                   ///< bytes that a factor may take, as in SolverOptions
@@ -25,6 +25,7 @@ struct SpectrumOptions {
 struct SpectrumReport {
   int null_space = 0;        ///< eigenvalues that are exactly 0: one for each connected component that has an area
   int iterations = 0;        ///< of block Lanczos, eight solves each
+  bool counted = false;      ///< that none is missing was counted (Sylvester's law of inertia), not only searched for
   double residual = 0;       ///< greatest |L x - lambda M x| / (lambda |M x|), Euclidean norms, of lambda > 0
   double orthogonality = 0;  ///< greatest |entry| of the Gram matrix X^T M X minus the identity
   double seconds = 0;        ///< wall-clock, with making the solver

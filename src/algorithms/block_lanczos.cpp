@@ -16,8 +16,9 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr Index block_size = 8;
-/// Steps that a random block gets to show a missed eigenvalue.
-constexpr int search_steps = 3;
+/// Steps that a random block gets to show a missed eigenvalue: where nobody can tell, and where one was missed.
+constexpr int search_steps = 8;
+constexpr int longest_search = 40;
 /// A column of which less is left by orthogonalisation is noise, compared with the largest eigenvalue.
 constexpr double least_part = 1e-12;
 
@@ -35,42 +36,17 @@ class BlockLanczos {
   LanczosResult run() {
     addRandom();
     LanczosResult result;
-    int search_from = -1;  // iteration at which the search for missed eigenvalues began
-    VectorXd before;       // what had converged then
     while (result.iterations < options_.max_iterations) {
       workers_.report("eigenpairs", found_);
       const bool exhausted = !step();
       ++result.iterations;
       const bool full = size_ + fresh_ > most_;
-      const bool searched = search_from >= 0 && result.iterations >= search_from + search_steps;
       const bool cheap = size_ * size_ < problem_.mass.size();  // to decompose, beside the products of a step
-      if (!exhausted && !full && !searched && !cheap && result.iterations % 8 != 0) continue;
+      if (!exhausted && !full && !cheap && result.iterations % 8 != 0) continue;
       decompose();
-      const bool converged = exhausted || countConverged() == problem_.wanted;
-      if (exhausted) {
-        result.converged = true;
-        break;
-      }
-      if (converged && search_from < 0) {
-        before = values_.head(problem_.wanted);
-        search_from = result.iterations;
-        restart();
-        fresh_ = 0;
-        if (!addRandom()) {
-          result.converged = true;
-          break;
-        }
-        continue;
-      }
-      if (converged && searched) {
-        const VectorXd now = values_.head(problem_.wanted);
-        if (((now - before).cwiseAbs().array() <= 1e-8 * before.array()).all()) {
-          result.converged = true;
-          break;
-        }
-        search_from = -1;  // something was missed: search again
-      }
-      if (full) restart();
+      result.converged = exhausted || (countConverged() == problem_.wanted && isComplete(result.iterations));
+      if (result.converged) break;
+      if (size_ + fresh_ > most_) restart();  // a search may have made room already
     }
     if (!result.converged) decompose();
     result.values = values_.head(problem_.wanted);
@@ -81,6 +57,19 @@ class BlockLanczos {
   }
 
  private:
+  /// Whether nothing was missed among what has converged; otherwise sets out to search.
+  bool isComplete(int iteration) {
+    const VectorXd now = values_.head(problem_.wanted);
+    const bool searching = before_.size() > 0;
+    const bool changed = !searching || ((now - before_).cwiseAbs().array() > 1e-8 * before_.array()).any();
+    if (!changed) return iteration - search_from_ >= (problem_.is_complete ? longest_search : search_steps);
+    if (problem_.is_complete && problem_.is_complete(now)) return true;
+    before_ = now;
+    search_from_ = iteration;
+    restart();
+    return !addRandom();
+  }
+
   auto fresh() { return basis_.middleCols(size_, fresh_); }
 
   /// Applies A to the fresh block, books its products, and makes the next block of what is new. False when nothing is.
@@ -217,8 +206,10 @@ class BlockLanczos {
   MatrixXd coupling_;  ///< what A leads from the last block to the fresh one
   VectorXd values_;
   MatrixXd vectors_;
-  double scale_ = 0;  ///< the largest eigenvalue so far
-  double found_ = 0;  ///< share of the wanted that has converged
+  VectorXd before_;      ///< what had converged when the search for missed eigenvalues began
+  int search_from_ = 0;  ///< iteration at which it did
+  double scale_ = 0;     ///< the largest eigenvalue so far
+  double found_ = 0;     ///< share of the wanted that has converged
 };
 
 }  // namespace

@@ -15,6 +15,8 @@ struct LanczosProblem {
   Eigen::VectorXd mass;    ///< n, >= 0; rows of mass 0 do not matter to A
   Eigen::Index dimension;  ///< of the space that is left, > `wanted`
   Eigen::Index wanted;     ///< pairs, >= 1
+  /// Whether these are the `wanted` largest eigenvalues, or some that are as large were missed. May be empty.
+  std::function<bool(const Eigen::VectorXd&)> is_complete;
 };
 
 struct LanczosOptions {
@@ -29,8 +31,9 @@ struct LanczosResult {
   bool converged = false;
 };
 
-/// Largest eigenpairs by Lanczos' method with blocks of vectors, all kept orthogonal, and thick restarts. When all have
-/// converged, a random block looks for eigenvalues that were missed, as copies of multiple ones can be.
+/// Largest eigenpairs by Lanczos' method with blocks of vectors, all kept orthogonal, and thick restarts. Copies of
+/// multiple eigenvalues can be missed: a random block looks for them when all others have converged and `is_complete`
+/// says no, or is empty.
 LanczosResult largestEigenpairs(const LanczosProblem& problem, const LanczosOptions& options, const Workers& workers);
 
 }  // namespace tufted

@@ -13,9 +13,6 @@ namespace {
 
 static_assert(sizeof(SuiteSparse_long) == sizeof(std::int64_t));
 
-/// From this size on nested dissection (METIS), below minimum degree (AMD).
-constexpr std::int64_t metis_from = 400000;
-
 /// CHOLMOD's parameters and workspace; a solve has its own.
 class Common {
  public:
@@ -93,20 +90,26 @@ struct Cholesky::Analysis {
   cholmod_sparse matrix;
   Factor factor;
   bool metis = false;
+  double nonzeros = 0;
 };
 
-Cholesky::Cholesky(const LongMatrix& lower) : analysis_(std::make_unique<Analysis>()) {
+Cholesky::Cholesky(const LongMatrix& lower, std::size_t limit) : analysis_(std::make_unique<Analysis>()) {
   Analysis& a = *analysis_;
   a.matrix = viewOf(lower);
-  a.metis = lower.rows() >= metis_from;
-  a.common->method[0].ordering = a.metis ? CHOLMOD_METIS : CHOLMOD_AMD;
-  a.factor.reset(cholmod_l_analyze(&a.matrix, a.common.get()));
-  if (!a.factor && a.metis) {  // SuiteSparse may be built without
-    a.metis = false;
-    a.common->method[0].ordering = CHOLMOD_AMD;
-    a.factor.reset(cholmod_l_analyze(&a.matrix, a.common.get()));
-  }
+  const auto analyze = [&a](int ordering) {
+    a.common->method[0].ordering = ordering;
+    return Factor(cholmod_l_analyze(&a.matrix, a.common.get()));
+  };
+  // Minimum degree; nested dissection takes a fifth less memory, but longer: 27 s instead of 17 s at 2 million points.
+  a.factor = analyze(CHOLMOD_AMD);
   if (!a.factor) throw std::bad_alloc();
+  a.nonzeros = a.common->lnz;
+  if (bytes() <= limit) return;
+  Factor other = analyze(CHOLMOD_METIS);  // null where SuiteSparse was built without
+  a.metis = other && other->xsize < a.factor->xsize;
+  if (!a.metis) return;
+  a.nonzeros = a.common->lnz;
+  a.factor = std::move(other);
 }
 
 Cholesky::~Cholesky() = default;
@@ -124,7 +127,7 @@ std::unique_ptr<LinearBackend> Cholesky::factor() {
   if (a.common->status != CHOLMOD_OK || a.factor->minor < a.factor->n) return nullptr;
   auto backend = std::make_unique<CholmodBackend>(std::move(a.factor));
   backend->name = a.metis ? "Cholesky (CHOLMOD, METIS)" : "Cholesky (CHOLMOD, AMD)";
-  backend->nonzeros = static_cast<std::int64_t>(a.common->lnz);
+  backend->nonzeros = static_cast<std::int64_t>(a.nonzeros);
   return backend;
 }
 

@@ -31,7 +31,7 @@ struct Cholesky::Analysis {
   std::unique_ptr<Factor> factor = std::make_unique<Factor>();
 };
 
-Cholesky::Cholesky(const LongMatrix& lower) : analysis_(std::make_unique<Analysis>(lower)) {
+Cholesky::Cholesky(const LongMatrix& lower, std::size_t /*limit*/) : analysis_(std::make_unique<Analysis>(lower)) {
   analysis_->factor->analyzePattern(lower);
 }
 

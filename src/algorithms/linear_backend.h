@@ -28,7 +28,8 @@ class LinearBackend {
 class Cholesky {
  public:
   /// Orders and analyses the lower triangle of a symmetric matrix, which is borrowed.
-  explicit Cholesky(const LongMatrix& lower);
+  /// @param limit bytes; where the first ordering leads beyond, another is tried, if there is one that saves memory
+  Cholesky(const LongMatrix& lower, std::size_t limit);
   ~Cholesky();
   Cholesky(const Cholesky&) = delete;
   Cholesky& operator=(const Cholesky&) = delete;

@@ -1,7 +1,5 @@
 #include "tufted/solver.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <new>
@@ -11,6 +9,7 @@
 
 #include "algorithms/connected.h"
 #include "algorithms/linear_backend.h"
+#include "algorithms/memory_limit.h"
 #include "base/stage_clock.h"
 #include "tufted/errors.h"
 
@@ -28,12 +27,6 @@ void checkOptions(const std::string& function, const SolverOptions& options) {
                        ", must be at least 1");
   if (options.threads < 0)
     throw InvalidInput(function + ": threads = " + std::to_string(options.threads) + ", must be >= 0");
-}
-
-std::size_t memoryLimit(const SolverOptions& options) {
-  if (options.memory_limit > 0) return options.memory_limit;
-  const long pages = sysconf(_SC_PHYS_PAGES), size = sysconf(_SC_PAGESIZE);
-  return pages > 0 && size > 0 ? static_cast<std::size_t>(pages) / 2 * static_cast<std::size_t>(size) : SIZE_MAX;
 }
 
 [[noreturn]] void failIndefinite(const std::string& function, const char* what) {
@@ -58,9 +51,10 @@ std::unique_ptr<LinearBackend> prepare(const std::string& function, const LongMa
     bool fits = options.method == SolverMethod::cholesky;
     if (options.method != SolverMethod::multigrid) {
       workers.report("analyse", 0);
-      Cholesky cholesky(lower);
+      const std::size_t limit = memoryLimit(options.memory_limit);
+      Cholesky cholesky(lower, limit);
       report.factor_bytes = cholesky.bytes();
-      fits = fits || report.factor_bytes <= memoryLimit(options);
+      fits = fits || report.factor_bytes <= limit;
       workers.report("factor", 0);
       if (fits) backend = cholesky.factor();
     }

@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "algorithms/block_lanczos.h"
 #include "algorithms/connected.h"
+#include "algorithms/inertia.h"
+#include "algorithms/memory_limit.h"
 #include "algorithms/tall_matrix.h"
 #include "base/parallel.h"
 #include "base/stage_clock.h"
@@ -80,6 +83,21 @@ void fixSign(Eigen::Ref<VectorXd> x) {
   }
 }
 
+/// Counts the eigenvalues below the last wide gap among those found (ascending): they must be as many. Values behind
+/// that gap are equal, so none between them can be missing.
+bool isComplete(const SparseMatrix& L, const Problem& problem, const VectorXd& values, std::size_t memory_limit,
+                bool& counted) {
+  Index below = values.size() - 1;
+  while (below > 0 && values[below] - values[below - 1] <= 1e-6 * values[below]) --below;
+  const double bound = ((below > 0 ? values[below - 1] : 0) + values[below]) / 2;
+  std::vector<int> points;
+  for (const int i : problem.components.points)
+    if (problem.area[problem.components.of[i]] > 0) points.push_back(i);
+  const std::optional<Index> count = eigenvaluesBelow(L, problem.mass, bound, points, memory_limit);
+  counted = count && *count == below + std::ssize(problem.order);
+  return counted || !count;
+}
+
 /// The pairs of positive eigenvalue, M-orthonormal.
 void findVibrations(const Laplacian& laplacian, const Problem& problem, Index wanted, const SpectrumOptions& options,
                     Spectrum& spectrum) {
@@ -103,9 +121,22 @@ void findVibrations(const Laplacian& laplacian, const Problem& problem, Index wa
     }
   };
   const Index nulls = std::ssize(problem.order);
-  LanczosResult found = largestEigenpairs(
-      {.apply = apply, .deflate = deflate, .mass = problem.mass, .dimension = problem.usable - nulls, .wanted = wanted},
-      {.tolerance = options.tolerance, .max_iterations = options.max_iterations}, workers);
+  LanczosProblem inverse = {.apply = apply,
+                            .deflate = deflate,
+                            .mass = problem.mass,
+                            .dimension = problem.usable - nulls,
+                            .wanted = wanted,
+                            .is_complete = {}};
+  // Where no factor fits, nothing can be counted.
+  const std::size_t limit = memoryLimit(options.memory_limit);
+  if (options.method != SolverMethod::multigrid && spectrum.report.solver.factor_bytes <= limit) {
+    inverse.is_complete = [&](const VectorXd& values) {
+      workers.report("count", 0);
+      return isComplete(laplacian.L, problem, values.cwiseInverse(), limit, spectrum.report.counted);
+    };
+  }
+  const LanczosResult found =
+      largestEigenpairs(inverse, {.tolerance = options.tolerance, .max_iterations = options.max_iterations}, workers);
   spectrum.report.iterations = found.iterations;
   if (!found.converged)
     throw SolverFailure("spectrum: " + std::to_string(options.max_iterations) + " iterations do not suffice for " +
@@ -114,8 +145,8 @@ void findVibrations(const Laplacian& laplacian, const Problem& problem, Index wa
   // Another step of the inverse takes out what rounding left of high frequencies, and fills in points without mass.
   MatrixXd x = apply(found.vectors) * found.values.cwiseInverse().asDiagonal();
   const Eigen::LLT<MatrixXd> gram(innerProducts(x, problem.mass, x, quiet));
-  const MatrixXd inverse = gram.matrixU().solve(MatrixXd::Identity(wanted, wanted));
-  multiplyInPlace(x, inverse, quiet);
+  const MatrixXd combination = gram.matrixU().solve(MatrixXd::Identity(wanted, wanted));
+  multiplyInPlace(x, combination, quiet);
   spectrum.values.tail(wanted) = found.values.cwiseInverse();
   spectrum.vectors.rightCols(wanted) = x;
 }

@@ -142,7 +142,7 @@ TEST(Solver, TakesMultigridWhereAFactorDoesNotFit) {
   EXPECT_TRUE(large.report().method.starts_with("Cholesky")) << large.report().method;
   EXPECT_GE(large.report().nonzeros, 10 * 4000);
   EXPECT_GE(large.report().factor_bytes, 8 * static_cast<std::size_t>(large.report().nonzeros));
-  const std::size_t limit = large.report().factor_bytes - 1;
+  const std::size_t limit = large.report().factor_bytes / 2;  // more than another ordering saves
   const Solver small = Solver::laplacian(laplacian, {.memory_limit = limit});
   EXPECT_TRUE(small.report().method.starts_with("multigrid")) << small.report().method;
   EXPECT_LT(small.report().bytes, limit);
