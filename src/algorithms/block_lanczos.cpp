@@ -44,11 +44,12 @@ class BlockLanczos {
       const bool cheap = size_ * size_ < problem_.mass.size();  // to decompose, beside the products of a step
       if (!exhausted && !full && !cheap && result.iterations % 8 != 0) continue;
       decompose();
-      result.converged = exhausted || (countConverged() == problem_.wanted && isComplete(result.iterations));
-      if (result.converged) break;
+      result.converged =
+          exhausted ? size_ >= problem_.wanted : countConverged() == problem_.wanted && isComplete(result.iterations);
+      if (result.converged || exhausted) break;
       if (size_ + fresh_ > most_) restart();  // a search may have made room already
     }
-    if (!result.converged) decompose();
+    if (!result.converged) return result;
     result.values = values_.head(problem_.wanted);
     multiplyInPlace(basis_.leftCols(size_), vectors_.leftCols(problem_.wanted), quiet_);
     basis_.conservativeResize(Eigen::NoChange, problem_.wanted);

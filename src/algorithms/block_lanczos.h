@@ -25,7 +25,7 @@ struct LanczosOptions {
 };
 
 struct LanczosResult {
-  Eigen::VectorXd values;   ///< the `wanted` largest eigenvalues, descending
+  Eigen::VectorXd values;   ///< the `wanted` largest eigenvalues, descending; none where it did not converge
   Eigen::MatrixXd vectors;  ///< n x wanted, mass-orthonormal
   int iterations = 0;       ///< blocks that A was applied to
   bool converged = false;
