@@ -10,23 +10,13 @@
 #include "base/disjoint_sets.h"
 #include "base/release.h"
 #include "intrinsic/geometry.h"
+#include "operators/rows.h"
 #include "tufted/errors.h"
 
 namespace tufted {
 namespace {
 
 constexpr std::int64_t block_size = 8192;
-
-struct Entry {
-  int column;
-  double weight;
-};
-
-/// Rows of entries, one after the other.
-struct Rows {
-  std::vector<int> offset;
-  std::vector<Entry> entries;
-};
 
 /// The weight of an edge, 1/2 (cot + cot). A face of no area has no cotangents and adds nothing.
 double edgeWeight(const IntrinsicTriangulation& cover, int side) {

@@ -10,23 +10,13 @@
 #include "base/disjoint_sets.h"
 #include "base/release.h"
 #include "intrinsic/geometry.h"
+#include "operators/rows.h"
 #include "tufted/errors.h"
 
 namespace tufted {
 namespace {
 
 constexpr std::int64_t block_size = 8192;
-
-struct Entry {
-  int column;
-  double weight;
-};
-
-/// Rows of entries by rank, one after the other.
-struct Rows {
-  std::vector<int> offset;  ///< n + 1
-  std::vector<Entry> entries;
-};
 
 double finite(double cotan) {
   return std::isfinite(cotan) ? cotan : 0;  // a face of no area has no cotangents and adds nothing

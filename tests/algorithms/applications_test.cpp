@@ -23,21 +23,12 @@ double meanError(const VectorXd& distance, const VectorXd& exact) {
   return (distance - exact).cwiseAbs().sum() / exact.sum();
 }
 
-VectorXd angles(const Points& points, int from) {
-  VectorXd result(points.rows());
-  for (Eigen::Index i = 0; i < points.rows(); ++i) {
-    const Eigen::Vector3d a = points.row(i), b = points.row(from);
-    result[i] = std::atan2(a.cross(b).norm(), a.dot(b));
-  }
-  return result;
-}
-
 TEST(Applications, DistanceOnASphereIsAsGoodAsThatOfTheHull) {
   const Points points = shapes::sphere(16000).points;
   const DistanceSolver cloud(pointCloudLaplacian(points));
   const DistanceSolver hull(meshLaplacian(points, oracles::convexHullMesh(points)));
   for (const int source : {0, 100, 5000}) {
-    const VectorXd exact = angles(points, source);
+    const VectorXd exact = shapes::sphereDistances(points, source);
     const double ours = meanError(cloud.query({source}), exact), theirs = meanError(hull.query({source}), exact);
     EXPECT_LE(ours, 0.017) << source;
     EXPECT_NEAR(ours, theirs, 0.02 * theirs) << source;

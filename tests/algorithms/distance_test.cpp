@@ -8,6 +8,7 @@
 #include "oracles/geodesics.h"
 #include "shapes/shapes.h"
 #include "support/compare.h"
+#include "support/refusal.h"
 #include "tufted/tufted.h"
 
 namespace tufted {
@@ -20,16 +21,6 @@ double meanError(const VectorXd& distance, const VectorXd& exact) {
 
 VectorXd straight(const Points& points, const Eigen::RowVector3d& from) {
   return (points.rowwise() - from).rowwise().norm();
-}
-
-/// Distance on the unit sphere.
-VectorXd angles(const Points& points, int from) {
-  VectorXd result(points.rows());
-  for (Eigen::Index i = 0; i < points.rows(); ++i) {
-    const Eigen::Vector3d a = points.row(i), b = points.row(from);
-    result[i] = std::atan2(a.cross(b).norm(), a.dot(b));
-  }
-  return result;
 }
 
 /// A strip of squares of side 1 in the plane, each of two triangles; vertices 2 i and 2 i + 1 lie at x = i.
@@ -80,8 +71,8 @@ TEST(Distance, FromSeveralSourcesIsThatFromTheNearest) {
   const Points points = shapes::sphere(8000).points;
   const DistanceSolver solver(pointCloudLaplacian(points));
   const std::vector<int> sources = {0, 100, 2000, 7999};
-  VectorXd exact = angles(points, sources[0]);
-  for (const int source : sources) exact = exact.cwiseMin(angles(points, source));
+  VectorXd exact = shapes::sphereDistances(points, sources[0]);
+  for (const int source : sources) exact = exact.cwiseMin(shapes::sphereDistances(points, source));
   const VectorXd distance = solver.query(sources);
   EXPECT_LE(meanError(distance, exact), 0.02);
   for (const int source : sources) EXPECT_EQ(distance[source], 0);
@@ -160,7 +151,7 @@ TEST(Distance, HardlyNoticesWhereTheSurfaceEnds) {
 TEST(Distance, AdaptsItsStepToTheGapsOfUnevenSamples) {
   const shapes::Cloud step = shapes::sphere(8000, shapes::Sampling::densityStep(100));
   const Laplacian laplacian = pointCloudLaplacian(step.points);
-  const VectorXd exact = angles(step.points, 0);
+  const VectorXd exact = shapes::sphereDistances(step.points, 0);
   const DistanceSolver plain(laplacian), adapted(laplacian, {.unit = TimeUnit::adapted_edge});
   EXPECT_GT(adapted.timeStep(), 2 * plain.timeStep());
   EXPECT_LT(meanError(adapted.query({0}), exact), meanError(plain.query({0}), exact));
@@ -208,14 +199,7 @@ TEST(Distance, NamesWhatACallerGotWrong) {
   Points points = shapes::sphere(500).points;
   points.row(3).setConstant(NAN);
   const Laplacian laplacian = pointCloudLaplacian(points);
-  const auto refusal = [](const auto& call) {
-    try {
-      call();
-    } catch (const InvalidInput& error) {
-      return std::string(error.what());
-    }
-    return std::string("accepted");
-  };
+  using support::refusal;
   for (const double step : {0.0, -1.0, std::nan(""), HUGE_VAL}) {
     EXPECT_EQ(refusal([&] { DistanceSolver(laplacian, {.time_step = step}); }).find("DistanceSolver: time_step = "), 0)
         << step;

@@ -9,6 +9,7 @@
 #include "oracles/planar.h"
 #include "shapes/random.h"
 #include "shapes/shapes.h"
+#include "support/refusal.h"
 #include "tufted/tufted.h"
 
 namespace tufted {
@@ -190,14 +191,7 @@ TEST(Interpolation, NamesWhatACallerGotWrong) {
   Points points = shapes::sphere(500).points;
   points.row(3).setConstant(NAN);
   const Laplacian laplacian = pointCloudLaplacian(points);
-  const auto refusal = [](const auto& call) {
-    try {
-      call();
-    } catch (const InvalidInput& error) {
-      return std::string(error.what());
-    }
-    return std::string("accepted");
-  };
+  using support::refusal;
   const auto pinned = [&](const Pins& pins) { return refusal([&] { harmonic(laplacian, pins); }); };
   const Eigen::MatrixXd one = Eigen::MatrixXd::Ones(1, 1);
   EXPECT_EQ(pinned({{500}, one}), "harmonic: pins.points has 500, must lie in [0, 500)");

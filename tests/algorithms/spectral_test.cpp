@@ -10,6 +10,7 @@
 
 #include "shapes/shapes.h"
 #include "support/compare.h"
+#include "support/refusal.h"
 #include "tufted/tufted.h"
 
 namespace tufted {
@@ -125,14 +126,7 @@ TEST(FilterSignals, LeavesOddPointsAndMovesCopiesTogether) {
 TEST(Spectral, NamesWhatACallerGotWrong) {
   const Laplacian laplacian = pointCloudLaplacian(shapes::sphere(500).points);
   const Spectrum found = spectrum(laplacian, 5), constant = spectrum(laplacian, 1);
-  const auto refusal = [](const auto& call) {
-    try {
-      call();
-    } catch (const InvalidInput& error) {
-      return std::string(error.what());
-    }
-    return std::string("accepted");
-  };
+  using support::refusal;
   EXPECT_EQ(refusal([&] { heatTimes(found, 0); }), "heatTimes: count = 0, must be at least 1");
   EXPECT_EQ(refusal([&] { heatTimes(constant); }), "heatTimes: spectrum has no positive eigenvalue, must have one");
   EXPECT_EQ(refusal([&] {

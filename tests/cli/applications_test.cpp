@@ -2,44 +2,12 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
-#include <nlohmann/json.hpp>
 
-#include "../io/temporary_dir.h"
-#include "command.h"
-#include "samples.h"
+#include "subcommands.h"
 
 namespace {
 
-class ApplicationCommands : public testing::Test {
- protected:
-  std::string in(const std::string& name) const { return (dir_ / name).string(); }
-  void run(const std::vector<std::string>& arguments) {
-    const Result result = runTufted(arguments);
-    ASSERT_EQ(result.code, 0) << result.err;
-    EXPECT_EQ(result.err, "");
-  }
-  void expectRefusal(std::vector<std::string> arguments, const std::string& word) {
-    arguments.insert(arguments.end(), {"--out", in("refused")});
-    const Result result = runTufted(arguments);
-    EXPECT_EQ(result.code, 2) << result.err;
-    EXPECT_TRUE(isOneLine(result.err)) << result.err;
-    EXPECT_NE(result.err.find(word), std::string::npos) << result.err;
-    EXPECT_FALSE(std::filesystem::exists(in("refused")));
-  }
-  nlohmann::json report(const std::string& folder) const {
-    return nlohmann::json::parse(readAll(dir_ / folder / "report.json"));
-  }
-  std::vector<double> values(const std::string& file) const {
-    const std::string bytes = readAll(dir_ / file);
-    const std::size_t start = 10 + static_cast<unsigned char>(bytes[8]) + 256 * static_cast<unsigned char>(bytes[9]);
-    std::vector<double> result((bytes.size() - start) / sizeof(double));
-    std::memcpy(result.data(), bytes.data() + start, result.size() * sizeof(double));
-    return result;
-  }
-
-  TemporaryDir dir_;
-};
+class ApplicationCommands : public Subcommands {};
 
 TEST_F(ApplicationCommands, DistanceComesFromIndicesPositionsAndFaces) {
   const std::string cloud = dir_.write("sphere.xyz", sphere(500));

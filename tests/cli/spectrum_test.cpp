@@ -1,46 +1,11 @@
 // The subcommands that use a Laplacian: where it comes from, and where results go.
 #include <gtest/gtest.h>
 
-#include <cstring>
-#include <nlohmann/json.hpp>
-
-#include "../io/temporary_dir.h"
-#include "command.h"
-#include "samples.h"
+#include "subcommands.h"
 
 namespace {
 
-class SpectrumCommand : public testing::Test {
- protected:
-  std::string in(const std::string& name) const { return (dir_ / name).string(); }
-  /// Runs the command and expects it to succeed.
-  Result run(const std::vector<std::string>& arguments) {
-    const Result result = runTufted(arguments);
-    EXPECT_EQ(result.code, 0) << result.err;
-    EXPECT_EQ(result.err, "");
-    return result;
-  }
-  void expectRefusal(const std::vector<std::string>& arguments, int code, const std::string& word) {
-    const Result result = runTufted(arguments);
-    EXPECT_EQ(result.code, code) << result.err;
-    EXPECT_TRUE(isOneLine(result.err)) << result.err;
-    EXPECT_NE(result.err.find(word), std::string::npos) << result.err;
-    EXPECT_FALSE(std::filesystem::exists(in("out")));
-  }
-  nlohmann::json report(const std::string& folder) const {
-    return nlohmann::json::parse(readAll(dir_ / folder / "report.json"));
-  }
-  /// The values of a .npy file of doubles.
-  std::vector<double> values(const std::string& file) const {
-    const std::string bytes = readAll(dir_ / file);
-    const std::size_t start = 10 + static_cast<unsigned char>(bytes[8]) + 256 * static_cast<unsigned char>(bytes[9]);
-    std::vector<double> result((bytes.size() - start) / sizeof(double));
-    std::memcpy(result.data(), bytes.data() + start, result.size() * sizeof(double));
-    return result;
-  }
-
-  TemporaryDir dir_;
-};
+class SpectrumCommand : public Subcommands {};
 
 TEST_F(SpectrumCommand, WritesEigenpairsAndACopyOfThePoints) {
   const std::string file = dir_.write("sphere.xyz", sphere(500));
@@ -100,13 +65,13 @@ TEST_F(SpectrumCommand, WritesTheCopyInTheFormatAskedFor) {
 TEST_F(SpectrumCommand, MistakesAreOneLineAndTwo) {
   const std::string file = dir_.write("sphere.xyz", sphere(100));
   run({"laplacian", file, "--out", in("laplacian")});
-  expectRefusal({"spectrum", "--out", in("out")}, 2, "--operator");
-  expectRefusal({"spectrum", file, "--operator", in("laplacian"), "--out", in("out")}, 2, "--operator");
-  expectRefusal({"spectrum", "--operator", in("laplacian"), "--preset", "clean", "--out", in("out")}, 2, "--preset");
-  expectRefusal({"spectrum", file, "--out", in("out"), "--count", "0"}, 2, "--count");
-  expectRefusal({"spectrum", file, "--out", in("out"), "--count", "100"}, 2, "k = 100");
-  expectRefusal({"spectrum", file, "--out", in("out"), "--tolerance", "2"}, 2, "--tolerance");
-  expectRefusal({"spectrum", file, "--out", in("out"), "--format", "npz"}, 2, "--format");
+  expectRefusal({"spectrum"}, "--operator");
+  expectRefusal({"spectrum", file, "--operator", in("laplacian")}, "--operator");
+  expectRefusal({"spectrum", "--operator", in("laplacian"), "--preset", "clean"}, "--preset");
+  expectRefusal({"spectrum", file, "--count", "0"}, "--count");
+  expectRefusal({"spectrum", file, "--count", "100"}, "k = 100");
+  expectRefusal({"spectrum", file, "--tolerance", "2"}, "--tolerance");
+  expectRefusal({"spectrum", file, "--format", "npz"}, "--format");
   const Result same = runTufted({"spectrum", "--operator", in("laplacian"), "--out", in("laplacian")});
   EXPECT_EQ(same.code, 2);
   EXPECT_NE(same.err.find("overwritten"), std::string::npos) << same.err;
@@ -118,9 +83,9 @@ TEST_F(SpectrumCommand, DamagedFoldersAreOneLineAndOne) {
     std::filesystem::remove_all(in("laplacian"));
     run({"laplacian", file, "--out", in("laplacian")});
     dir_.write("laplacian/" + name, bytes);
-    expectRefusal({"spectrum", "--operator", in("laplacian"), "--out", in("out")}, 1, name);
+    expectRefusal({"spectrum", "--operator", in("laplacian")}, name, 1);
   };
-  expectRefusal({"spectrum", "--operator", in("nowhere"), "--out", in("out")}, 1, "nowhere");
+  expectRefusal({"spectrum", "--operator", in("nowhere")}, "nowhere", 1);
   run({"laplacian", file, "--out", in("laplacian")});
   const std::string L = readAll(dir_ / "laplacian/L.npz"), M = readAll(dir_ / "laplacian/M.npy");
   withFile("L.npz", "no archive");
@@ -154,10 +119,10 @@ TEST_F(SpectrumCommand, HksWritesSignaturesOfHeatAndOfWaves) {
   EXPECT_EQ(values("wave/wks.npy").size(), 50000u);
   EXPECT_EQ(values("wave/energies.npy").size(), 100u);
   EXPECT_NE(readAll(dir_ / "wave/points.pcd").find(" wks "), std::string::npos);
-  expectRefusal({"hks", file, "--out", in("out"), "--times", "1", "--samples", "3"}, 2, "--samples");
-  expectRefusal({"hks", file, "--out", in("out"), "--times", "1", "--wave"}, 2, "--wave");
-  expectRefusal({"hks", file, "--out", in("out"), "--times", "-1"}, 2, "--times");
-  expectRefusal({"hks", file, "--out", in("out"), "--count", "1"}, 2, "--count");
+  expectRefusal({"hks", file, "--times", "1", "--samples", "3"}, "--samples");
+  expectRefusal({"hks", file, "--times", "1", "--wave"}, "--wave");
+  expectRefusal({"hks", file, "--times", "-1"}, "--times");
+  expectRefusal({"hks", file, "--count", "1"}, "--count");
 }
 
 TEST_F(SpectrumCommand, StopsAtCtrlC) {

@@ -144,6 +144,15 @@ Cloud prismSurface(int n, std::uint64_t seed) {
   return sampleSolid(prismMesh(1, Quality::good), "prism", n, {0, 1, 2, 2, 3, 3, 4, 4}, seed);
 }
 
+VectorXd sphereDistances(const Points& points, int from) {
+  VectorXd result(points.rows());
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    const Eigen::Vector3d a = points.row(i), b = points.row(from);
+    result[i] = std::atan2(a.cross(b).norm(), a.dot(b));
+  }
+  return result;
+}
+
 Cloud withNoise(Cloud cloud, double sigma, std::uint64_t seed) {
   Random random(seed);
   for (Eigen::Index i = 0; i < cloud.points.rows(); ++i) {

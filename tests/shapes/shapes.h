@@ -96,6 +96,9 @@ Cloud crossingPlanes(int n, std::uint64_t seed = 1);
 Cloud cubeSurface(int n, std::uint64_t seed = 1);   ///< [0, 1]^3; labels 0..5
 Cloud prismSurface(int n, std::uint64_t seed = 1);  ///< the solid of prismMesh; labels 0..4
 
+/// Distance on the unit sphere from one of its points to all, n.
+VectorXd sphereDistances(const Points& points, int from);
+
 /// Isotropic Gaussian noise of standard deviation sigma; 0.01 is 1 % of the radius of the unit shapes.
 Cloud withNoise(Cloud cloud, double sigma, std::uint64_t seed = 1);
 /// Where points go that do not belong to the surface.

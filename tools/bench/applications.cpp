@@ -59,15 +59,6 @@ Error errorOf(const VectorXd& distance, const VectorXd& exact) {
   return {sum / exact_sum, worst / farthest};
 }
 
-VectorXd angles(const Points& points, int from) {
-  VectorXd result(points.rows());
-  for (Eigen::Index i = 0; i < points.rows(); ++i) {
-    const Eigen::Vector3d a = points.row(i), b = points.row(from);
-    result[i] = std::atan2(a.cross(b).norm(), a.dot(b));
-  }
-  return result;
-}
-
 /// CGAL's meshes that its exact search takes and is done with soon.
 void printMeshes() {
   std::printf(
@@ -143,7 +134,7 @@ void printSphere() {
   std::printf("| sphere, distance | cloud, mean | max | hull mesh, mean | max |\n|---|---|---|---|---|\n");
   for (const int n : {1000, 4000, 16000, 64000}) {
     const Points points = shapes::sphere(n).points;
-    const VectorXd exact = angles(points, 0);
+    const VectorXd exact = shapes::sphereDistances(points, 0);
     const Error a = errorOf(DistanceSolver(tufted::pointCloudLaplacian(points)).query({0}), exact);
     const Laplacian hull = tufted::meshLaplacian(points, oracles::convexHullMesh(points));
     const Error b = errorOf(DistanceSolver(hull).query({0}), exact);
