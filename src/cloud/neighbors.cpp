@@ -12,6 +12,8 @@ namespace {
 
 using Distance = flann::L2_Simple<double>;
 
+constexpr double least_square = 1e-290;  // of a distance; below, squares have no digits left to bound others by
+
 /// The k smallest candidates by (distance, index), without the query point itself.
 ///
 /// FLANN's own sets keep whichever of two equally distant points comes first in the tree, and its pruning sums
@@ -137,7 +139,7 @@ bool NeighborSearch::candidates(int first, int count, int k, std::vector<int>& f
   ShrinkingBall ball(2 * radius, bounds, found);
   tree_->index.findNeighbors(ball, center.data(), tree_->params);
   reach = std::sqrt(bounds.front());
-  return !ball.isTooFull();
+  return !ball.isTooFull() && bounds.front() > least_square;
 }
 
 std::size_t NeighborSearch::bytes() const {

@@ -31,7 +31,8 @@ class NeighborSearch {
   void nearest(int p, int k, std::vector<Neighbor>& found) const;
 
   /// All points that any of the points [first, first + count) has among its min(k, n - 1) nearest, and others near
-  /// them. False, and nothing of use, where these are so many that a common search does not pay.
+  /// them. False, and nothing of use, where these are so many that a common search does not pay, or so close that squares of
+  /// their distances underflow.
   /// @param[out] found ranks
   /// @param bounds scratch
   /// @param[out] center of the points' box

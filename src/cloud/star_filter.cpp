@@ -51,7 +51,6 @@ bool isImplausible(const Stars& stars, const Points& points, int p, int i) {
   const int a = stars.link[i], b = stars.link[stars.after(p, i)];
   if (stars.radius[i] > 3 * stars.reach[p]) return true;
   const double smallest = std::min({stars.reach[p], stars.reach[a], stars.reach[b]});
-  // In space the circle is no smaller than half the longest side; only then the stars of a and b are looked at.
   const double radius = circumradius(points, p, a, b);
   if (radius <= smallest) return false;
   const bool sees_further = stars.reach[p] > further * std::max(stars.reach[a], stars.reach[b]);

@@ -30,13 +30,15 @@ bool findSmallest(const Symmetric& a, PrincipalAxes& axes) {
   const double minors = yz_minor + (a.xx * a.zz - a.xz * a.xz) + (a.xx * a.yy - a.xy * a.xy);
   const double determinant = a.xx * yz_minor - a.xy * (a.xy * a.zz - a.yz * a.xz) + a.xz * (a.xy * a.yz - a.yy * a.xz);
   double smallest = 0;
-  for (int step = 0; step < most_steps; ++step) {
+  bool converged = false;  // slowly towards a double root, or not at all
+  for (int step = 0; step < most_steps && !converged; ++step) {
     const double value = ((smallest - trace) * smallest + minors) * smallest - determinant;
     const double slope = (3 * smallest - 2 * trace) * smallest + minors;
     const double change = value / slope;
     smallest -= change;
-    if (!(std::abs(change) > 1e-9 * trace)) break;  // convergence is quadratic
+    converged = std::abs(change) <= 1e-9 * trace;  // and quadratic convergence has gone further
   }
+  if (!converged) return false;
   const double rest = trace - smallest;  // sum and product of the other two
   const double product = minors - smallest * rest;
   const double root = std::sqrt(std::max(0.0, rest * rest - 4 * product));

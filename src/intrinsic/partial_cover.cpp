@@ -57,7 +57,7 @@ class Flipping {
   void resolve(int side) { cover_.resolve(side); }
   void flipped(int side, int mate) {
     for (const int face : {side / 3, mate / 3})
-      for (const int corner : cover_.cover_.faces[face]) cover_.flipped_corners_.push_back(corner);
+      for (const int corner : cover_.cover_.faces[face]) cover_.flipped_[corner] = 1;
   }
 
  private:
@@ -65,7 +65,11 @@ class Flipping {
 };
 
 PartialCover::PartialCover(const Stars& stars, const EdgeLengths& length, const StarPools& pools)
-    : stars_(stars), length_(length), pools_(pools), first_(static_cast<std::size_t>(stars.size()), -1) {
+    : stars_(stars),
+      length_(length),
+      pools_(pools),
+      first_(static_cast<std::size_t>(stars.size()), -1),
+      flipped_(static_cast<std::size_t>(stars.size())) {
   cover_.vertices = stars.size();
 }
 

@@ -25,8 +25,8 @@ class PartialCover {
   /// The faces of the stars that are present; 2 t and 2 t + 1 are front and back of a triangle until they are flipped.
   const IntrinsicTriangulation& faces() const { return cover_; }
   bool isPresent(int p) const { return first_[p] >= 0; }
-  /// The corners of all faces that were flipped, before and after, with repetitions.
-  const std::vector<int>& flippedCorners() const { return flipped_corners_; }
+  /// Whether a face at p was flipped.
+  bool isFlipped(int p) const { return flipped_[p] != 0; }
 
   /// The whole cover: vertices by rank, lengths in the unit of the points.
   IntrinsicTriangulation complete(const Workers& workers) const;
@@ -54,9 +54,9 @@ class PartialCover {
   const EdgeLengths& length_;
   const StarPools& pools_;
   IntrinsicTriangulation cover_;
-  std::vector<int> first_;     ///< n, the first triangle of a star, -1 where absent
-  std::vector<int> entry_of_;  ///< link entry of each triangle that is present
-  std::vector<int> flipped_corners_;
+  std::vector<int> first_;             ///< n, the first triangle of a star, -1 where absent
+  std::vector<int> entry_of_;          ///< link entry of each triangle that is present
+  std::vector<std::uint8_t> flipped_;  ///< n
 };
 
 }  // namespace tufted

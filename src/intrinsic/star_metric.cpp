@@ -13,7 +13,7 @@ constexpr std::int64_t block_size = 8192;
 /// Sums over one block of stars, so that they have the same bits for any number of threads.
 struct BlockSums {
   double length = 0, square = 0, least_slack = std::numeric_limits<double>::infinity();
-  std::int64_t triangles = 0, flat_triangles = 0;
+  std::int64_t triangles = 0;
 };
 
 class StarMeasurer {
@@ -44,7 +44,6 @@ class StarMeasurer {
       before = cotanNumerator(pb, pa, ab) * inverse;
       area += own_area;
       is_flat |= !(own_area > 0);
-      sums.flat_triangles += own_area > 0 ? 0 : 1;
       sums.length += pa + pb + ab;
       sums.square += pa * pa + pb * pb + ab * ab;
       sums.least_slack = std::min(sums.least_slack, triangleSlack(pa, pb, ab));
@@ -79,10 +78,8 @@ StarMetric measureStars(const Stars& stars, const EdgeLengths& length, const Wor
     all.length += sum.length;
     all.square += sum.square;
     all.triangles += sum.triangles;
-    all.flat_triangles += sum.flat_triangles;
     all.least_slack = std::min(all.least_slack, sum.least_slack);
   }
-  metric.flat_triangles = all.flat_triangles;
   metric.least_slack = all.least_slack;
   if (all.triangles > 0) {
     const auto sides = static_cast<double>(3 * all.triangles);

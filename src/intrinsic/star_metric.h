@@ -15,7 +15,6 @@ struct StarMetric {
   std::vector<double> cotan_sum;  ///< per link entry: of the two angles opposite the spoke, NaN without two triangles
   std::vector<double> area;       ///< n, of the star's triangles
   std::vector<std::uint8_t> is_flat;  ///< n, 1 where a triangle of the star has no area
-  std::int64_t flat_triangles = 0;    ///< in all stars
   double least_slack = 0;             ///< of the triangle inequality, over all triangles
   MeanLengths mean;                   ///< over all sides of all triangles
 };

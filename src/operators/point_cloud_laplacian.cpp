@@ -59,12 +59,11 @@ void checkOptions(const Points& points, const CloudOptions& options) {
 /// share a spoke are glued to each other here, front to front and back to back.
 void addStars(const Stars& stars, Gluing gluing, IntrinsicTriangulation& cover, const Workers& workers) {
   const int n = stars.size();
-  std::vector<std::int64_t> first(static_cast<std::size_t>(n) + 1);
+  std::vector<int> first(static_cast<std::size_t>(n) + 1);
   for (int p = 0; p < n; ++p) {
     first[p + 1] = first[p];
     for (int i = stars.offset[p]; i < stars.offset[p + 1]; ++i) first[p + 1] += stars.hasTriangle(i) ? 1 : 0;
   }
-  if (first[n] > most_triangles) tooMany(n, first[n]);
   resizeCover(cover, n, first[n]);
   workers.forBlocks("union", n, block_size, [&](std::int64_t begin, std::int64_t end, int) {
     for (int p = static_cast<int>(begin); p < end; ++p) {
@@ -179,6 +178,7 @@ Laplacian buildCloudLaplacian(const Points& points, const CloudOptions& options,
   const int exponent = cloud.exponent;
   clock.finish("mass", 0);
 
+  if (stars.triangles() > most_triangles) tooMany(stars.size(), stars.triangles());
   const bool stars_agree = options.gluing == Gluing::star && options.order == FaceOrder::angle;
   if (stars_agree && build == CloudBuild::automatic)
     finishFromStars(std::move(stars), std::move(cloud), options, workers, clock, result);

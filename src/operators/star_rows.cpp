@@ -37,8 +37,8 @@ class StarAssembler {
   /// Points whose edges among each other are summed over faces.
   void setMixed() {
     mixed_ = stars_.disagrees;
-    for (int p = 0; p < stars_.size(); ++p) mixed_[p] |= metric_.is_flat[p];
-    for (const int p : cover_.flippedCorners()) mixed_[p] = 1;
+    for (int p = 0; p < stars_.size(); ++p)
+      mixed_[p] |= metric_.is_flat[p] | static_cast<std::uint8_t>(cover_.isFlipped(p));
   }
 
   /// The weights of edges with an unmixed end, in the entries of unmixed stars. Where both ends are unmixed, that of

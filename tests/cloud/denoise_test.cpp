@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "cloud/tangent_frame.h"
@@ -72,6 +74,30 @@ TEST(Noise, IsWhatNoCurvatureExplains) {
   EXPECT_FALSE(isNoisySurface([](int, double u, double v) { return std::sqrt(4 - u * u - v * v); }));
   shapes::Random random(3);
   EXPECT_TRUE(isNoisySurface([&](int, double, double) { return 1e-3 * random.normal(); }));
+}
+
+/// Against Eigen, on planes, lines, blobs and what lies between.
+TEST(PrincipalAxes, AreThoseOfEigenWhateverTheShape) {
+  shapes::Random random(3);
+  for (const double middle : {0.0, 1e-6, 0.3, 0.999, 1.0}) {
+    for (const double smallest : {0.0, 1e-7, 0.5, 0.97, 1.0}) {
+      const Eigen::Matrix3d turn = Eigen::Quaterniond(0.1, 0.5, -0.3, 0.8).normalized().toRotationMatrix();
+      Points points(31, 3);
+      for (Eigen::Index i = 0; i < points.rows(); ++i) {
+        const auto coordinate = [&] { return 2 * random.uniform() - 1; };
+        const Eigen::Vector3d local(coordinate(), middle * coordinate(), middle * smallest * coordinate());
+        points.row(i) = turn * local;
+      }
+      const PrincipalAxes axes = principalAxes(points, 0, allOthers(points));
+      const Points centered = points.rowwise() - points.colwise().mean();
+      const Eigen::Matrix3d covariance = centered.transpose() * centered / (31 * axes.extent * axes.extent);
+      const Eigen::Vector3d values = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvalues();
+      for (int k = 0; k < 3; ++k) EXPECT_NEAR(axes.variance[k], values[k], 1e-13) << middle << " " << smallest;
+      // The normal is an eigenvector of the smallest: nothing varies less.
+      EXPECT_NEAR(axes.normal.dot(covariance * axes.normal), values[0], 1e-13) << middle << " " << smallest;
+      EXPECT_NEAR(axes.normal.norm(), 1, 1e-14);
+    }
+  }
 }
 
 }  // namespace
