@@ -13,7 +13,9 @@
 #include <cmath>
 #include <csignal>
 #include <list>
+#include <string_view>
 #include <system_error>
+#include <vector>
 
 #include "../interrupt.h"
 #include "tufted/errors.h"
@@ -26,6 +28,18 @@ using Clock = std::chrono::steady_clock;
 
 constexpr int tick = 100;                    // ms between two looks at Ctrl-C and its like
 constexpr std::size_t longest_error = 4096;  // bytes of stderr that are kept
+
+/// The environment of this process, but OpenBLAS starts no threads: under a limit of memory they look for room for
+/// ever, and the process cannot end.
+std::vector<char*> withoutBlasThreads() {
+  static char one_thread[] = "OPENBLAS_NUM_THREADS=1";
+  constexpr std::string_view name = "OPENBLAS_NUM_THREADS=";
+  std::vector<char*> result = {one_thread};
+  for (char** variable = environ; *variable != nullptr; ++variable)
+    if (std::string_view(*variable).substr(0, name.size()) != name) result.push_back(*variable);
+  result.push_back(nullptr);
+  return result;
+}
 
 /// The two ends of a pipe. Neither is inherited by other children.
 class Pipe {
@@ -78,7 +92,8 @@ class Child {
     posix_spawn_file_actions_adddup2(&actions, out_.writeEnd(), STDOUT_FILENO);
     posix_spawn_file_actions_adddup2(&actions, err_.writeEnd(), STDERR_FILENO);
     // Not fork, which libgomp does not survive.
-    const int error = posix_spawn(&pid_, "/proc/self/exe", &actions, nullptr, argv.data(), environ);
+    std::vector<char*> environment = withoutBlasThreads();
+    const int error = posix_spawn(&pid_, "/proc/self/exe", &actions, nullptr, argv.data(), environment.data());
     posix_spawn_file_actions_destroy(&actions);
     if (error != 0) throw std::system_error(error, std::generic_category(), "cannot start a process");
     out_.closeWriteEnd();
