@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <cstdio>
 #include <fstream>
 #include <memory>
@@ -63,11 +64,15 @@ std::vector<Pin> readPins(const std::filesystem::path& path) {
   for (int number = 1; std::getline(file, line); ++number) {
     std::istringstream words(line);
     Pin pin;
-    double value = 0;
-    while (words >> value) (pin.place.empty() ? pin.place : pin.values).push_back(value);
-    const bool blank = pin.place.empty() && words.eof();
-    if (blank && line.find_first_not_of(" \t\r") == std::string::npos) continue;
-    if (!words.eof() || pin.values.empty())
+    bool are_numbers = true;
+    for (std::string word; words >> word;) {
+      double value = 0;
+      const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+      are_numbers &= error == std::errc() && end == word.data() + word.size();
+      (pin.place.empty() ? pin.place : pin.values).push_back(value);
+    }
+    if (pin.place.empty()) continue;  // a blank line
+    if (!are_numbers || pin.values.empty())
       throw tufted::IoError(path.string() + ":" + std::to_string(number) + ": is not INDEX V1 V2 ...");
     pins.push_back(std::move(pin));
   }

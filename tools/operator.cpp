@@ -2,6 +2,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <fstream>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
@@ -15,12 +16,14 @@ namespace {
 const std::map<std::string, std::vector<tufted::Format>> copies = {
     {"ply", {tufted::Format::ply}}, {"pcd", {tufted::Format::pcd}}, {"none", {}}};
 
-/// The points that a former `tufted laplacian` left in its folder; none where it was told not to.
+/// The points that a former `tufted laplacian` wrote into its folder; none where it was told not to, whatever an
+/// earlier one left there.
 tufted::Geometry pointsOf(const std::filesystem::path& folder) {
-  for (const char* name : {"points.ply", "points.pcd"}) {
-    std::error_code error;
-    if (std::filesystem::exists(folder / name, error)) return tufted::read(folder / name);
-  }
+  std::ifstream report(folder / "report.json");
+  const nlohmann::json json = nlohmann::json::parse(report, nullptr, false);
+  const auto files = json.value("/write_options/files"_json_pointer, nlohmann::json::array());
+  for (const char* name : {"points.ply", "points.pcd"})
+    if (std::find(files.begin(), files.end(), name) != files.end()) return tufted::read(folder / name);
   return {};
 }
 

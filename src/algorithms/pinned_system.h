@@ -25,7 +25,8 @@ PinnedSystem pinnedSystem(const std::string& function, const Laplacian& laplacia
 inline Eigen::RowVectorXd rowOfDifferences(const SparseMatrix& A, const Eigen::MatrixXd& u, int i) {
   Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(u.cols());
   for (SparseMatrix::InnerIterator entry(A, i); entry; ++entry) {
-    if (entry.row() != i) sum += entry.value() * (u.row(entry.row()) - u.row(i));
+    // A link of no weight may lead to where nothing is pinned and u is NaN.
+    if (entry.row() != i && !u.row(entry.row()).hasNaN()) sum += entry.value() * (u.row(entry.row()) - u.row(i));
   }
   return sum;
 }

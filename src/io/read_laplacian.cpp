@@ -138,6 +138,16 @@ void removeDummies(Laplacian& laplacian) {
     if (laplacian.status[i] != PointStatus::active) laplacian.M[static_cast<Eigen::Index>(i)] = 0;
 }
 
+/// A later run into the same folder with other formats leaves the matrices of the former.
+void checkWritten(const Json& written, const std::filesystem::path& report_path) {
+  if (!written.is_object() || !written.contains("files") || !written["files"].is_array()) return;
+  for (const char* name : {"L.npz", "M.npy", "status.npy", "representative.npy", "boundary.npy"}) {
+    const Json& files = written["files"];
+    if (std::find(files.begin(), files.end(), name) == files.end())
+      io::refuse(report_path, std::string("is of a run that did not write ") + name);
+  }
+}
+
 }  // namespace
 
 Laplacian readLaplacian(const std::filesystem::path& dir) {
@@ -145,6 +155,8 @@ Laplacian readLaplacian(const std::filesystem::path& dir) {
   const Json json = Json::parse(io::readBytes(report_path), nullptr, false);
   if (!json.is_object() || !json.contains("report") || !json["report"].is_object())
     io::refuse(report_path, "is no report of a Laplacian");
+  const Json written = json.value("write_options", Json::object());
+  checkWritten(written, report_path);
   Laplacian laplacian;
   laplacian.L = readMatrix(dir / "L.npz");
   const auto n = static_cast<std::size_t>(laplacian.L.rows());
@@ -157,7 +169,6 @@ Laplacian readLaplacian(const std::filesystem::path& dir) {
   for (const int code : integersOf(readArray(dir / "boundary.npy", n), 0, 3, dir / "boundary.npy"))
     laplacian.boundary.push_back(static_cast<Boundary>(code));
   readReport(json["report"], laplacian.report);
-  const Json written = json.value("write_options", Json::object());
   if (written.is_object() && written.value("sign", Json()) == "igl") laplacian.L = -laplacian.L;
   removeDummies(laplacian);
   laplacian.cover_areas = laplacian.M;

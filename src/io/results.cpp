@@ -53,12 +53,20 @@ Field fieldOf(const ResultArray& array) {
   return field;
 }
 
+/// Whether a field has the name, or that of one of its columns as copies in PLY have them: NAME_3.
+bool isNamed(const std::string& field, const std::string& name) {
+  if (field.rfind(name, 0) != 0) return false;
+  const std::string rest = field.substr(name.size());
+  return rest.empty() ||
+         (rest.size() > 1 && rest[0] == '_' && rest.find_first_not_of("0123456789", 1) == std::string::npos);
+}
+
 /// The points with the results in place of fields of these names.
 Geometry copyWith(const Geometry& geometry, const std::vector<ResultArray>& arrays) {
   Geometry copy = geometry;
   for (const ResultArray& array : arrays) {
     if (!array.per_point || array.values.cols() == 0) continue;
-    std::erase_if(copy.fields, [&](const Field& field) { return field.name == array.name; });
+    std::erase_if(copy.fields, [&](const Field& field) { return isNamed(field.name, array.name); });
     copy.fields.push_back(fieldOf(array));
   }
   return copy;

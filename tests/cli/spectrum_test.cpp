@@ -52,6 +52,26 @@ TEST_F(SpectrumCommand, TakesAFormerLaplacianAsItWouldBuildItself) {
   }
 }
 
+TEST_F(SpectrumCommand, AFolderOfTwoRunsIsNotMixed) {
+  const std::string first = dir_.write("first.xyz", sphere(100)), second = dir_.write("second.xyz", sphere(200));
+  run({"laplacian", first, "--out", in("both")});
+  run({"laplacian", second, "--out", in("both"), "--format", "mtx"});
+  expectRefusal({"spectrum", "--operator", in("both")}, "L.npz", 1);
+  run({"laplacian", second, "--out", in("both"), "--format", "npz"});
+  run({"spectrum", "--operator", in("both"), "--count", "3", "--out", in("out")});
+  EXPECT_FALSE(std::filesystem::exists(in("out/points.ply")));  // the points there are those of the first run
+}
+
+TEST_F(SpectrumCommand, ACopyOfACopyHasTheNewVectorsAlone) {
+  const std::string file = dir_.write("sphere.xyz", sphere(100));
+  run({"spectrum", file, "--count", "3", "--out", in("once")});
+  run({"spectrum", in("once/points.ply"), "--as", "cloud", "--count", "2", "--out", in("twice")});
+  const std::string copy = readAll(dir_ / "twice/points.ply");
+  EXPECT_NE(copy.find("property float evecs_1\n"), std::string::npos);
+  EXPECT_EQ(copy.find("evecs_2"), std::string::npos);
+  EXPECT_EQ(copy.find("evecs_0_"), std::string::npos);
+}
+
 TEST_F(SpectrumCommand, WritesTheCopyInTheFormatAskedFor) {
   const std::string file = dir_.write("tetrahedron.off", tetrahedron);
   run({"spectrum", file, "--out", in("pcd"), "--count", "3", "--format", "pcd"});
