@@ -82,7 +82,10 @@ class GroupSearch {
     bound = bound * bound * slack + std::numeric_limits<double>::denorm_min();
     int count = guess < bound ? takeWithin(p, guess) : 0;
     if (count < k_) count = takeWithin(p, bound);
-    takeNearest(count, rowOf(found, i));
+    if (count >= k_)
+      takeNearest(count, rowOf(found, i));
+    else
+      find(p, 1, rowOf(found, i));  // the squares of its distances underflow, and no bound on them holds
   }
 
   int takeWithin(int p, double bound) {

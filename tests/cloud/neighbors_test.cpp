@@ -41,9 +41,7 @@ TEST(Neighbors, OfEachAreThoseOfOne) {
   crowd.points.topRows(2000) *= 1e-9;
   crowd.points.row(2999) *= 1e12;
   shapes::Cloud few = shapes::sphere(9);
-  shapes::Cloud speck = shapes::sphere(500);  // squares of the distances of some underflow
-  speck.points.topRows(60) *= 1e-162;
-  for (const auto& cloud : {shapes::sphere(5000), shapes::squareLattice(70), shapes::lidar({}), crowd, few, speck}) {
+  for (const auto& cloud : {shapes::sphere(5000), shapes::squareLattice(70), shapes::lidar({}), crowd, few}) {
     std::vector<PointStatus> status;
     std::vector<int> representative;
     const RankedCloud ranked = rankPoints(cloud.points, status, representative);
