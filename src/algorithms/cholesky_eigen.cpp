@@ -27,6 +27,8 @@ class EigenBackend : public LinearBackend {
 }  // namespace
 
 struct Cholesky::Analysis {
+  explicit Analysis(const LongMatrix& matrix) : lower(matrix) {}
+
   const LongMatrix& lower;
   std::unique_ptr<Factor> factor = std::make_unique<Factor>();
 };
