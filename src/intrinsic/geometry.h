@@ -31,10 +31,14 @@ inline double cotanNumerator(double a, double b, double c) {
   return b * b + (c - a) * (c + a);
 }
 
-/// Cotangent of the angle opposite `side` in its face. Infinite or NaN in a face of no area.
-inline double oppositeCotan(const IntrinsicTriangulation& t, int side) {
-  const double a = t.length[side], b = t.length[nextSide(side)], c = t.length[previousSide(side)];
+/// Cotangent of the angle opposite a. Infinite or NaN in a triangle of no area.
+inline double oppositeCotan(double a, double b, double c) {
   return cotanNumerator(a, b, c) / (4 * triangleArea(a, b, c));
+}
+
+/// The same for `side` in its face.
+inline double oppositeCotan(const IntrinsicTriangulation& t, int side) {
+  return oppositeCotan(t.length[side], t.length[nextSide(side)], t.length[previousSide(side)]);
 }
 
 inline double faceArea(const IntrinsicTriangulation& t, int face) {

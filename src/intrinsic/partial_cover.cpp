@@ -117,8 +117,7 @@ void PartialCover::resolve(int side) {
 
 double PartialCover::cotanAt(const StarSide& side) const {
   const int a = tail(stars_, side), b = head(stars_, side), c = apex(stars_, side);
-  const double ab = length_(a, b), bc = length_(b, c), ca = length_(c, a);
-  return cotanNumerator(ab, bc, ca) / (4 * triangleArea(ab, bc, ca));
+  return oppositeCotan(length_(a, b), length_(b, c), length_(c, a));
 }
 
 std::vector<int> PartialCover::findSeeds(const StarMetric& metric, const Workers& workers) {

@@ -151,8 +151,7 @@ class StarAssembler {
     forEachAbsentTriangle([&](int p, int a, int b) {
       if (mixed_[p] + mixed_[a] + mixed_[b] < 2) return;
       const auto onBothSheets = [&](int from, int to, int opposite) {
-        const double ab = length_(from, to), bc = length_(to, opposite), ca = length_(opposite, from);
-        return 2 * finite(cotanNumerator(ab, bc, ca) / (4 * triangleArea(ab, bc, ca)));
+        return 2 * finite(oppositeCotan(length_(from, to), length_(to, opposite), length_(opposite, from)));
       };
       term(p, a, [&] { return onBothSheets(p, a, b); });
       term(p, b, [&] { return onBothSheets(b, p, a); });
