@@ -6,6 +6,7 @@
 #include "base/stage_clock.h"
 #include "bench/costs.h"
 #include "bench/search_stage.h"
+#include "cloud/kernels.h"
 #include "cloud/morton.h"
 #include "shapes/shapes.h"
 #include "tufted/laplacian.h"
@@ -26,14 +27,15 @@ struct CloudCase {
   Gluing gluing = Gluing::star;
   Delaunay delaunay = Delaunay::star;
   int threads = 1;
+  bool portable = false;  ///< without wide instructions
 
   std::string name() const {
     return "cloud/" + cloud + "/" +
            (preset == Preset::clean  ? "clean"
             : preset == Preset::scan ? "scan"
                                      : "lidar") +
-           (delaunay == Delaunay::star ? "" : "/cgal") + (gluing == Gluing::star ? "" : "/vertex_pair") + "/" +
-           threadsName(threads);
+           (delaunay == Delaunay::star ? "" : "/cgal") + (gluing == Gluing::star ? "" : "/vertex_pair") +
+           (portable ? "/portable" : "") + "/" + threadsName(threads);
   }
 };
 
@@ -52,9 +54,10 @@ RankedCloud ranked(const Points& points) {
   return rankPoints(points, status, representative);
 }
 
-/// One build per iteration. With one thread, every build is followed by the search alone (not timed), so that both
-/// medians come from the same minutes: `whole_per_flann`. Points are those that are finite and differ. The cover is not
-/// kept but built on demand from what one more build keeps: `cover_per_whole`.
+/// One build per iteration: seconds of the processor with one thread, else of the clock. With one thread, every build
+/// is followed by the search alone (not timed), so that both medians come from the same minutes: `whole_per_flann`.
+/// Points are those that are finite and differ. The cover is not kept but built on demand from what one more build
+/// keeps: `cover_per_whole`.
 void runCloud(benchmark::State& state, const CloudCase& c) {
   const Points& points = pointsOf(c);
   CloudOptions options = cloudOptions(c.preset);
@@ -63,14 +66,16 @@ void runCloud(benchmark::State& state, const CloudCase& c) {
   options.delaunay = c.delaunay;
   options.threads = c.threads;
   options.keep_cover = false;
+  chooseKernels(c.portable ? &portableKernels() : nullptr);
   pointCloudLaplacian(points, options);  // the first build finds the memory; only later ones count
   const RankedCloud cloud = ranked(points);
   Costs costs(cloud.size());
   for ([[maybe_unused]] auto _ : state) {
     {
-      Stopwatch watch;
+      const Stopwatch watch;
+      const CpuStopwatch cpu_watch;
       const Laplacian laplacian = pointCloudLaplacian(points, options);
-      const double seconds = watch.seconds();
+      const double seconds = c.threads == 1 ? cpu_watch.seconds() : watch.seconds();
       state.SetIterationTime(seconds);
       costs.addBuild(seconds, laplacian.report);
     }
@@ -86,7 +91,7 @@ void runCloud(benchmark::State& state, const CloudCase& c) {
   state.counters["whole_per_flann"] = whole / costs.medianSeconds("flann");
   options.keep_cover = true;
   const Laplacian laplacian = pointCloudLaplacian(points, options);
-  const Stopwatch watch;
+  const CpuStopwatch watch;
   benchmark::DoNotOptimize(laplacian.cover().length.data());
   state.counters["cover_per_whole"] = watch.seconds() / whole;
 }
@@ -126,8 +131,11 @@ void registerSpheres() {
                     n);
     sphere.gluing = Gluing::vertex_pair;
     registerCloud(sphere, n);
-#ifdef TUFTED_WITH_GPL
     sphere.gluing = Gluing::star;
+    sphere.portable = true;
+    registerCloud(sphere, n);
+    sphere.portable = false;
+#ifdef TUFTED_WITH_GPL
     sphere.delaunay = Delaunay::cgal;
     registerCloud(sphere, n);
 #endif

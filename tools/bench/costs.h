@@ -3,6 +3,7 @@
 #include <benchmark/benchmark.h>
 
 #include <cstdint>
+#include <ctime>
 #include <map>
 #include <string>
 #include <vector>
@@ -10,6 +11,15 @@
 #include "tufted/report.h"
 
 namespace tufted::bench {
+
+/// Seconds that this process has computed for, so that others on the machine count little. For one thread.
+class CpuStopwatch {
+ public:
+  double seconds() const { return static_cast<double>(std::clock() - start_) / CLOCKS_PER_SEC; }
+
+ private:
+  std::clock_t start_ = std::clock();
+};
 
 /// Collects what the builds of one case cost and writes medians as counters of the benchmark:
 ///   s:<stage>       seconds

@@ -10,7 +10,7 @@
 #include <optional>
 #include <vector>
 
-#include "base/stage_clock.h"
+#include "bench/costs.h"
 
 namespace tufted::bench {
 namespace {
@@ -24,7 +24,7 @@ constexpr std::array<Setting, 6> settings = {
 
 double flannSeconds(const Points& points, int k, const Setting& setting) {
   using Index = flann::KDTreeSingleIndex<flann::L2_Simple<double>>;
-  const Stopwatch watch;
+  const CpuStopwatch watch;
   const flann::Matrix<double> rows(const_cast<double*>(points.data()), static_cast<std::size_t>(points.rows()), 3);
   Index index(rows, flann::KDTreeSingleIndexParams(setting.leaf, setting.reorder));
   index.buildIndex();
@@ -57,7 +57,7 @@ struct Adaptor {
 double nanoflannSeconds(const Points& points, int k) {
   using Index =
       nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Adaptor>, Adaptor, 3, std::uint32_t>;
-  const Stopwatch watch;
+  const CpuStopwatch watch;
   const Adaptor adaptor{points};
   Index index(3, adaptor, nanoflann::KDTreeSingleIndexAdaptorParams(10));
   index.buildIndex();

@@ -5,7 +5,7 @@
 namespace tufted::bench {
 
 /// What any method based on k nearest neighbours pays at least: a tree over the points and one query per point, in
-/// their order, on one thread, in seconds.
+/// their order, on one thread, in seconds of the processor.
 struct SearchSeconds {
   double flann;      ///< KDTreeSingleIndex<L2_Simple<double>>, the fastest of six settings
   double nanoflann;  ///< KDTreeSingleIndexAdaptor, leaves of 10 points
