@@ -5,8 +5,8 @@
 
 namespace tufted {
 
-/// Two doubles that are worked on together, by every processor with the same bits as one after the other. For loops that
-/// the compiler leaves scalar.
+/// Two doubles that are worked on together, by every processor with the same bits as one after the other. For loops
+/// that the compiler leaves scalar.
 using Pair = double __attribute__((vector_size(16)));
 /// What comparing pairs gives: 0 or -1.
 using PairCounts = std::int64_t __attribute__((vector_size(16)));

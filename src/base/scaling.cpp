@@ -18,11 +18,6 @@ double median(std::vector<double>& values) {
 
 }  // namespace
 
-double Scaling::scaled(double x) const {
-  // Adding 0 turns -0 into 0, so that equal coordinates have equal bits.
-  return std::ldexp(x, -exponent) + 0.0;
-}
-
 Scaling measureScaling(const Points& points, std::vector<PointStatus>& status) {
   const Eigen::Index n = points.rows();
   status.assign(static_cast<std::size_t>(n), PointStatus::active);
@@ -51,12 +46,13 @@ Scaling measureScaling(const Points& points, std::vector<PointStatus>& status) {
   }
   const double spread = median(values);
   if (spread > 0 && std::isfinite(spread)) std::frexp(spread, &scaling.exponent);
+  const PowerOfTwo to_spreads(-scaling.exponent);
   double largest = 0;  // coordinate of a usable point
   for (Eigen::Index i = 0; i < n; ++i) {
     if (status[i] != PointStatus::active) continue;
     // Relative to 2^exponent, so that the bound itself cannot overflow.
     const double distance = deviation(i);
-    if (std::ldexp(distance, -scaling.exponent) <= farthest_spreads && distance <= largest_distance) {
+    if (to_spreads.times(distance) <= farthest_spreads && distance <= largest_distance) {
       largest = std::max(largest, points.row(i).cwiseAbs().maxCoeff());
     } else {
       status[i] = PointStatus::not_finite;

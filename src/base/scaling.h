@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "base/power_of_two.h"
 #include "tufted/types.h"
 
 namespace tufted {
@@ -13,8 +14,8 @@ struct Scaling {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< median of each coordinate
   int exponent = 0;                                  ///< 2^exponent is just above the median spread
 
-  /// x / 2^exponent, which is exact short of underflow.
-  double scaled(double x) const;
+  /// Multiplies by 2^-exponent.
+  PowerOfTwo toScaled() const { return PowerOfTwo(-exponent); }
 };
 
 /// Scaling of the finite rows. Rows that are not finite, or more than 1e70 median spreads or 1e152 from the centre,

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "base/pseudo_angle.h"
-#include "cloud/inverted_star.h"
 
 namespace tufted {
 namespace {
@@ -133,10 +132,6 @@ void wrapChosen(int p, StarScratch& scratch, DelaunayStar& star) {
 }
 
 void delaunayStar(const std::vector<PlanarPoint>& candidates, int p, StarScratch& scratch, DelaunayStar& star) {
-  if (!wrapInverted(candidates, star)) delaunayStarExact(candidates, p, scratch, star);
-}
-
-void delaunayStarExact(const std::vector<PlanarPoint>& candidates, int p, StarScratch& scratch, DelaunayStar& star) {
   std::vector<PlanarPoint>& chosen = scratch.chosen;
   const auto hasDirection = [](const PlanarPoint& q) { return q.u != 0 || q.v != 0; };
   const std::size_t near = std::min(near_part, candidates.size());

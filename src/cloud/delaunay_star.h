@@ -46,9 +46,6 @@ void delaunayStar(const std::vector<PlanarPoint>& candidates, int p, StarScratch
 /// Same triangles by CGAL::Delaunay_triangulation_2. Only with TUFTED_WITH_GPL.
 void delaunayStarCgal(const std::vector<PlanarPoint>& candidates, int p, StarScratch& scratch, DelaunayStar& star);
 
-/// delaunayStar() without its short cut, wrapInverted().
-void delaunayStarExact(const std::vector<PlanarPoint>& candidates, int p, StarScratch& scratch, DelaunayStar& star);
-
 /// The star among `scratch.chosen` alone (reordered here): sort by angle, then remove link vertices by the in-circle
 /// test until stable.
 void wrapChosen(int p, StarScratch& scratch, DelaunayStar& star);

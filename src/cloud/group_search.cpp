@@ -13,14 +13,9 @@ constexpr double likely = 1.08;       // times the squared radius of the point b
 constexpr double slack = 1 + 1e-12;   // bounds are rounded, what is selected must not be
 constexpr double nowhere = std::numeric_limits<double>::infinity();
 
-int padded(std::size_t count) {
-  return (static_cast<int>(count) + selection_lane - 1) / selection_lane * selection_lane;
-}
-
 class GroupSearch {
  public:
-  GroupSearch(const NeighborSearch& search, const Points& points, int k, const SelectionKernels& kernels,
-              GroupScratch& scratch)
+  GroupSearch(const NeighborSearch& search, const Points& points, int k, const Kernels& kernels, GroupScratch& scratch)
       : search_(search), points_(points), k_(k), kernels_(kernels), scratch_(scratch) {}
 
   /// How many points from `first` on, of `count`, lie close enough together.
@@ -52,20 +47,21 @@ class GroupSearch {
 
  private:
   bool gather(int first, int count) {
-    Candidates& candidates = scratch_.candidates;
-    if (!search_.candidates(first, count, k_, candidates.index, scratch_.bounds, center_, reach_)) return false;
-    const std::size_t size = candidates.index.size(), room = static_cast<std::size_t>(padded(size));
-    candidates.index.resize(room);
-    for (auto* axis : {&candidates.x, &candidates.y, &candidates.z}) axis->resize(room);
-    for (std::size_t i = 0; i < size; ++i) {
-      const double* point = points_.row(candidates.index[i]).data();
-      candidates.x[i] = point[0];
-      candidates.y[i] = point[1];
-      candidates.z[i] = point[2];
+    std::vector<int>& candidate = scratch_.candidate;
+    if (!search_.candidates(first, count, k_, candidate, scratch_.bounds, center_, reach_)) return false;
+    const int size = static_cast<int>(candidate.size()), room = toLanes(size);
+    candidate.resize(room);
+    for (auto* axis : {&scratch_.x, &scratch_.y, &scratch_.z}) axis->resize(room);
+    for (int i = 0; i < size; ++i) {
+      const double* point = points_.row(candidate[i]).data();
+      scratch_.x[i] = point[0];
+      scratch_.y[i] = point[1];
+      scratch_.z[i] = point[2];
     }
-    for (std::size_t i = size; i < room; ++i) candidates.x[i] = candidates.y[i] = candidates.z[i] = nowhere;
-    scratch_.squared.resize(room + selection_lane);
-    scratch_.index.resize(room + selection_lane);
+    for (int i = size; i < room; ++i) scratch_.x[i] = scratch_.y[i] = scratch_.z[i] = nowhere;
+    candidates_ = {room, candidate.data(), scratch_.x.data(), scratch_.y.data(), scratch_.z.data()};
+    scratch_.squared.resize(room + kernel_lane);
+    scratch_.index.resize(room + kernel_lane);
     return true;
   }
 
@@ -89,21 +85,23 @@ class GroupSearch {
   }
 
   int takeWithin(int p, double bound) {
-    return kernels_.takeWithin(scratch_.candidates, points_.row(p).data(), p, bound, scratch_.squared.data(),
+    return kernels_.takeWithin(candidates_, points_.row(p).data(), p, bound, scratch_.squared.data(),
                                scratch_.index.data());
   }
 
-  /// The k least by (distance, index) of what was taken, in order. Where no two distances are equal, each goes to the
-  /// place that says how many are less.
+  /// The k least by (distance, index) of what was taken, in order, and anything behind them, where the next row will be
+  /// or the end's spare room is. Where no two distances are one float, each goes to
+  /// the place that says how many are less.
   void takeNearest(int count, Neighbor* row) {
-    const int room = padded(static_cast<std::size_t>(count));
+    const int room = toLanes(count);
     std::fill(scratch_.squared.begin() + count, scratch_.squared.begin() + room, nowhere);
-    scratch_.place.resize(static_cast<std::size_t>(room));
-    kernels_.rankValues(scratch_.squared.data(), room, scratch_.place.data());
+    scratch_.rounded.resize(room + 2 * kernel_lane);
+    scratch_.place.resize(room + 2 * kernel_lane);
+    kernels_.rankValues(scratch_.squared.data(), room, scratch_.rounded.data(), scratch_.place.data());
     std::int64_t sum = 0;
-    for (int i = 0; i < count; ++i) {
+    for (int i = 0; i < count; ++i) {  // those behind the k-th as well: which they are cannot be foreseen
       sum += scratch_.place[i];
-      if (scratch_.place[i] < k_) row[scratch_.place[i]] = {scratch_.squared[i], scratch_.index[i]};
+      row[scratch_.place[i]] = {scratch_.squared[i], scratch_.index[i]};
     }
     if (sum == static_cast<std::int64_t>(count) * (count - 1) / 2) return;
     scratch_.sorted.clear();
@@ -115,8 +113,9 @@ class GroupSearch {
   const NeighborSearch& search_;
   const Points& points_;
   const int k_;
-  const SelectionKernels& kernels_;
+  const Kernels& kernels_;
   GroupScratch& scratch_;
+  Candidates candidates_{};  ///< of the group
   Eigen::RowVector3d center_;
   double reach_ = 0;  ///< see NeighborSearch::candidates
 };
@@ -124,10 +123,10 @@ class GroupSearch {
 }  // namespace
 
 void nearestOfEach(const NeighborSearch& search, const Points& points, int first, int count, int k,
-                   const SelectionKernels& kernels, GroupScratch& scratch, std::vector<Neighbor>& found) {
+                   const Kernels& kernels, GroupScratch& scratch, std::vector<Neighbor>& found) {
   k = std::max(0, std::min(k, static_cast<int>(points.rows()) - 1));
-  found.resize(static_cast<std::size_t>(count) * static_cast<std::size_t>(k));
-  if (k == 0) return;
+  if (k == 0) return found.clear();
+  found.resize(static_cast<std::size_t>(count) * static_cast<std::size_t>(k) + NeighborSearch::most_candidates);
   GroupSearch search_group(search, points, k, kernels, scratch);
   double radius = nowhere;
   for (int i = 0; i < count;) {
@@ -137,6 +136,7 @@ void nearestOfEach(const NeighborSearch& search, const Points& points, int first
     radius = search_group.radiusOf(search_group.rowOf(rows, size - 1));
     i += size;
   }
+  found.resize(found.size() - NeighborSearch::most_candidates);
 }
 
 }  // namespace tufted

@@ -1,21 +1,22 @@
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
+#include "cloud/kernels.h"
 #include "cloud/neighbors.h"
-#include "cloud/selection.h"
 #include "tufted/types.h"
 
 namespace tufted {
 
 /// Memory that one worker reuses from group to group.
 struct GroupScratch {
-  Candidates candidates;        ///< of the group
+  std::vector<int> candidate;   ///< ranks of those of the group, filled up to whole lanes
+  std::vector<double> x, y, z;  ///< where they are
   std::vector<double> bounds;   ///< see NeighborSearch::candidates
   std::vector<double> squared;  ///< squared distances of those near one point
   std::vector<int> index;       ///< their ranks
-  std::vector<std::int64_t> place;
+  std::vector<float> rounded;
+  std::vector<int> place;
   std::vector<Neighbor> sorted;
 };
 
@@ -27,6 +28,6 @@ struct GroupScratch {
 /// @param points what `search` was built from
 /// @param found count rows of min(k, n - 1), one after the other; overwritten
 void nearestOfEach(const NeighborSearch& search, const Points& points, int first, int count, int k,
-                   const SelectionKernels& kernels, GroupScratch& scratch, std::vector<Neighbor>& found);
+                   const Kernels& kernels, GroupScratch& scratch, std::vector<Neighbor>& found);
 
 }  // namespace tufted

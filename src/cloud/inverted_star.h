@@ -1,9 +1,10 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
 #include "cloud/delaunay_star.h"
+#include "cloud/kernels.h"
+#include "cloud/neighbors.h"
 
 namespace tufted {
 
@@ -11,9 +12,11 @@ namespace tufted {
 /// so that the link of the origin in the Delaunay triangulation is the hull of the inverted points.
 ///
 /// Plain doubles with bounds on their rounding, for closed stars in which no two triangles around p come near to having
-/// one circle. There the result is that of delaunayStar(), link and radii.
-/// @param candidates by ascending distance in space; most stars are settled by the first few
+/// one circle. There the result is that of delaunayStar(), the link exactly and the radii up to rounding.
+/// @param planar candidates by ascending distance in space; most stars are settled by the first few
+/// @param neighbors who they are
 /// @returns false, and nothing of use, where the star is open or too close to call
-bool wrapInverted(std::span<const PlanarPoint> candidates, DelaunayStar& star);
+bool wrapInverted(const Kernels& kernels, const PlanarOffsets& planar, std::span<const Neighbor> neighbors,
+                  DelaunayStar& star);
 
 }  // namespace tufted

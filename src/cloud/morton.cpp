@@ -12,8 +12,8 @@ namespace tufted {
 namespace {
 
 constexpr std::int64_t block_size = 4096;
-constexpr int axis_bits = 21;      // per axis
-constexpr int cell_exponent = 16;  // cells per median spread: 2^16; so 2^21 cells reach over 32 spreads
+constexpr double axis_cells = 1 << 21;
+constexpr double cells = 1 << 16;  // per median spread; so 2^21 cells reach over 32 spreads
 
 /// Spreads the low 21 bits of v to every third bit.
 std::uint64_t spreadBits(std::uint64_t v) {
@@ -27,8 +27,8 @@ std::uint64_t spreadBits(std::uint64_t v) {
 std::uint64_t mortonCode(const Eigen::Vector3d& from_corner) {
   std::uint64_t code = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    const double cell = std::ldexp(from_corner[axis], cell_exponent);
-    const double clamped = std::clamp(cell, 0.0, std::ldexp(1.0, axis_bits) - 1);  // outliers go to the border
+    const double cell = from_corner[axis] * cells;
+    const double clamped = std::clamp(cell, 0.0, axis_cells - 1);  // outliers go to the border
     code |= spreadBits(static_cast<std::uint64_t>(clamped)) << axis;
   }
   return code;
@@ -54,20 +54,22 @@ RankedCloud rankPoints(const Points& points, std::vector<PointStatus>& status, s
   representative.resize(static_cast<std::size_t>(points.rows()));
   std::iota(representative.begin(), representative.end(), 0);
 
+  const PowerOfTwo to_scaled = scaling.toScaled();
   Points scaled(points.rows(), 3);
   Eigen::Vector3d lowest = Eigen::Vector3d::Constant(INFINITY);
   std::vector<Key> keys;
   keys.reserve(static_cast<std::size_t>(points.rows()));
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
     if (status[i] == PointStatus::not_finite) continue;
-    for (int axis = 0; axis < 3; ++axis) scaled(i, axis) = scaling.scaled(points(i, axis));
+    for (int axis = 0; axis < 3; ++axis)
+      scaled(i, axis) = to_scaled.times(points(i, axis)) + 0.0;  // no -0: equal have equal bits
     lowest = lowest.cwiseMin(scaled.row(i).transpose());
     keys.push_back({0, static_cast<int>(i)});
   }
   // The grid starts at a corner of the data, but not further than 16 spreads from its middle.
   Eigen::Vector3d corner;
   for (int axis = 0; axis < 3; ++axis) {
-    corner[axis] = std::max(lowest[axis], scaling.scaled(scaling.center[axis]) - 16);
+    corner[axis] = std::max(lowest[axis], to_scaled.times(scaling.center[axis]) - 16);
   }
   workers.forBlocks("order", std::ssize(keys), block_size, [&](std::int64_t begin, std::int64_t end, int) {
     for (std::int64_t i = begin; i < end; ++i)

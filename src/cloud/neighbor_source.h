@@ -36,7 +36,7 @@ struct NeighborSource {
   /// `search`.
   void nearestOfEach(const Points& points, int first, int count, GroupScratch& scratch,
                      std::vector<Neighbor>& found) const {
-    tufted::nearestOfEach(*search, points, first, count, k, fastestKernels(), scratch, found);
+    tufted::nearestOfEach(*search, points, first, count, k, kernels(), scratch, found);
   }
 
   std::size_t bytes() const;

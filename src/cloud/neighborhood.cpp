@@ -81,8 +81,8 @@ bool NeighborhoodFinder::isUneven(const Neighborhood& hood) const {
   return static_cast<double>(far - hood.neighbors.begin()) > crowd * hood.k;
 }
 
-void NeighborhoodFinder::fit(int p, Neighborhood& hood, SheetScratch& scratch) const {
-  hood.axes = principalAxes(points_, p, hood.neighbors);
+void NeighborhoodFinder::fit(int p, Neighborhood& hood, Offsets& offsets, SheetScratch& scratch) const {
+  hood.axes = principalAxes(points_, p, hood.neighbors, offsets);
   while (isUneven(hood) && query(p, std::min(2 * hood.k, mostNeighbors()), hood)) {
     hood.axes = principalAxes(points_, p, hood.neighbors);
     hood.grown = true;

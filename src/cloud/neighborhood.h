@@ -41,7 +41,8 @@ class NeighborhoodFinder {
   void find(int first, int count, GroupScratch& scratch, std::vector<Neighbor>& found, Neighborhood* hoods) const;
 
   /// Doubles the neighbourhood while it says too little about the surface, fits the plane, and leaves other sheets out.
-  void fit(int p, Neighborhood& hood, SheetScratch& scratch) const;
+  /// @param[out] offsets of the neighbours unless the neighbourhood has grown or was split
+  void fit(int p, Neighborhood& hood, Offsets& offsets, SheetScratch& scratch) const;
 
   /// Asks for twice as many neighbours, at most `most`; other sheets are left out as before, the plane stays as it is.
   /// False when there are no more to be had.

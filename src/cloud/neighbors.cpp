@@ -61,22 +61,30 @@ class ShrinkingBall final : public flann::ResultSet<double> {
 
   bool full() const override { return true; }
   double worstDist() const override { return worst_; }
-  bool isTooFull() const { return found_.size() > most_candidates; }
+  bool isTooFull() const { return found_.size() > NeighborSearch::most_candidates; }
 
   void addPoint(double squared_distance, size_t index) override {
     found_.push_back(static_cast<int>(index));
     if (isTooFull()) {
       worst_ = -1;  // nothing is nearer: the search ends
     } else if (squared_distance < nearest_.front()) {
-      std::pop_heap(nearest_.begin(), nearest_.end());
-      nearest_.back() = squared_distance;
-      std::push_heap(nearest_.begin(), nearest_.end());
+      replaceLargest(squared_distance);
       setWorst();
     }
   }
 
  private:
-  static constexpr std::size_t most_candidates = 1024;
+  /// Half of what taking one from the heap and adding one costs.
+  void replaceLargest(double squared_distance) {
+    std::size_t hole = 0, child = 1;
+    for (; child < nearest_.size(); child = 2 * hole + 1) {
+      if (child + 1 < nearest_.size() && nearest_[child] < nearest_[child + 1]) ++child;
+      if (nearest_[child] <= squared_distance) break;
+      nearest_[hole] = nearest_[child];
+      hole = child;
+    }
+    nearest_[hole] = squared_distance;
+  }
 
   void setWorst() {
     const double radius = std::sqrt(nearest_.front()) + margin_;

@@ -20,6 +20,8 @@ struct Neighbor {
 /// Exact nearest neighbours by FLANN's KDTreeSingleIndex in double.
 class NeighborSearch {
  public:
+  static constexpr int most_candidates = 1024;
+
   /// @param points n x 3, distinct, finite, in Morton order; borrowed for the life of the search
   explicit NeighborSearch(const Points& points);
   ~NeighborSearch();
@@ -31,7 +33,7 @@ class NeighborSearch {
   void nearest(int p, int k, std::vector<Neighbor>& found) const;
 
   /// All points that any of the points [first, first + count) has among its min(k, n - 1) nearest, and others near
-  /// them. False, and nothing of use, where these are so many that a common search does not pay, or so close that squares of
+  /// them. False, and nothing of use, where these are more than most_candidates, or so close that squares of
   /// their distances underflow.
   /// @param[out] found ranks
   /// @param bounds scratch

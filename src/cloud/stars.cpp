@@ -6,8 +6,10 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/power_of_two.h"
 #include "cloud/delaunay_star.h"
 #include "cloud/denoise.h"
+#include "cloud/inverted_star.h"
 #include "cloud/neighborhood.h"
 #include "cloud/tangent_frame.h"
 
@@ -15,6 +17,7 @@ namespace tufted {
 namespace {
 
 constexpr std::int64_t block_size = 1024;  // points per block: its neighbour lists stay in the second-level cache
+constexpr int group_size = 16;             // points whose frames come first, then their stars, from the same offsets
 constexpr double flat_share = 0.02;        // of the second variance, below which a neighbourhood is a plane
 
 /// What one block of points leaves behind.
@@ -32,6 +35,7 @@ struct WorkerState {
   GroupScratch group;
   std::vector<Neighbor> found;
   std::vector<Neighborhood> hoods;
+  std::array<Offsets, group_size> offsets;
   SheetScratch sheets;
   Neighborhood saved_hood;
   DelaunayStar saved_star;
@@ -51,6 +55,7 @@ class StarBuilder {
         options_(options),
         finder_(cloud.points, source, options),
         wrap_(options.delaunay == Delaunay::star ? delaunayStar : cgalBackend()),
+        has_short_cut_(options.delaunay == Delaunay::star),
         stars_(stars) {}
 
   void build(std::int64_t begin, std::int64_t end, WorkerState& state, BlockOfStars& block) const {
@@ -60,10 +65,15 @@ class StarBuilder {
     Stopwatch watch;
     finder_.find(first, count, state.group, state.found, state.hoods.data());
     state.seconds[0] += watch.restart();
-    for (int i = 0; i < count; ++i) fitFrame(first + i, state.hoods[i], state, block);
-    state.seconds[1] += watch.restart();
-    for (int i = 0; i < count; ++i) wrapStar(first + i, state.hoods[i], state, block);
-    state.seconds[2] += watch.restart();
+    for (int group = 0; group < count; group += group_size) {
+      const int group_end = std::min(count, group + group_size);
+      for (int i = group; i < group_end; ++i)
+        fitFrame(first + i, state.hoods[i], state.offsets[i - group], state, block);
+      state.seconds[1] += watch.restart();
+      for (int i = group; i < group_end; ++i)
+        wrapStar(first + i, state.hoods[i], state.offsets[i - group], state, block);
+      state.seconds[2] += watch.restart();
+    }
   }
 
  private:
@@ -77,8 +87,8 @@ class StarBuilder {
 #endif
   }
 
-  void fitFrame(int p, Neighborhood& hood, WorkerState& state, BlockOfStars& block) const {
-    finder_.fit(p, hood, state.sheets);
+  void fitFrame(int p, Neighborhood& hood, Offsets& offsets, WorkerState& state, BlockOfStars& block) const {
+    finder_.fit(p, hood, offsets, state.sheets);
     state.grown_neighborhoods += hood.grown ? 1 : 0;
     state.split_neighborhoods += hood.split ? 1 : 0;
     state.isolated += hood.isolated ? 1 : 0;
@@ -101,35 +111,40 @@ class StarBuilder {
     block.noisy_end.push_back(block.noisy_neighbors.size());
   }
 
-  /// The star among the neighbours projected to the tangent plane of p, in units of `unit`.
-  void project(int p, const Neighborhood& hood, double unit, WorkerState& state) const {
+  /// The star among the neighbours projected to the tangent plane of p, times `unit`.
+  /// @param taken the offsets of just these neighbours, or null
+  void project(int p, const Neighborhood& hood, double unit, const Offsets* taken, WorkerState& state) const {
     const Eigen::Vector3d x = tangentOf(hood.axes.normal), y = hood.axes.normal.cross(x);
-    const double* points = cloud_.points.data();
-    const double* origin = points + 3 * std::ptrdiff_t{p};
+    const std::span<const Neighbor> neighbors = hood.neighbors;
+    Offsets part_of_them;
+    PlanarOffsets planar;
     state.planar.clear();
-    for (const Neighbor& q : hood.neighbors) {
-      const double* point = points + 3 * std::ptrdiff_t{q.index};
-      const double dx = (point[0] - origin[0]) * unit, dy = (point[1] - origin[1]) * unit,
-                   dz = (point[2] - origin[2]) * unit;
-      state.planar.push_back({dx * x[0] + dy * x[1] + dz * x[2], dx * y[0] + dy * y[1] + dz * y[2], q.index});
+    for (std::size_t first = 0; first < neighbors.size(); first += Offsets::most) {
+      const auto part = neighbors.subspan(first, std::min<std::size_t>(Offsets::most, neighbors.size() - first));
+      if (taken == nullptr) takeOffsets(cloud_.points, p, part, part_of_them);
+      kernels_.project(taken != nullptr ? *taken : part_of_them, unit, x.data(), y.data(), planar);
+      const bool is_whole = part.size() == neighbors.size();
+      if (is_whole && has_short_cut_ && wrapInverted(kernels_, planar, part, state.star)) return;
+      for (int i = 0; i < planar.count; ++i) state.planar.push_back({planar.u[i], planar.v[i], part[i].index});
     }
     wrap_(state.planar, p, state.scratch, state.star);
   }
 
   /// Wraps the star and looks further where what was found is no proof that the star is right: a circle of a closed
   /// star leaves the ball that was searched, or the star is open and might not be among more neighbours.
-  void wrapUntilCertain(int p, Neighborhood& hood, double unit, WorkerState& state) const {
+  void wrapUntilCertain(int p, Neighborhood& hood, double unit, const Offsets& offsets, WorkerState& state) const {
     const bool thorough = options_.steps.star_search == StarSearch::thorough;
     DelaunayStar& star = state.star;
     int most = 2 * hood.k;
     if (thorough) most = hood.k >= finder_.mostNeighbors() ? hood.k : std::max(2 * source_.k, most);
     int open_tries = thorough && !source_.isGraded() ? 2 : 0;  // graded neighbours reach past the star as it is
-    project(p, hood, unit, state);
+    const bool is_first = !hood.grown && !hood.split && hood.neighbors.size() <= Offsets::most;
+    project(p, hood, unit, is_first ? &offsets : nullptr, state);
     for (;;) {
       if (star.closed) {
         if (2 * star.largestCircumradius() <= hood.radius * unit || !finder_.grow(p, most, hood, state.sheets)) return;
         ++state.grown_stars;
-        project(p, hood, unit, state);
+        project(p, hood, unit, nullptr, state);
         if (!thorough) return;
         continue;
       }
@@ -137,7 +152,7 @@ class StarBuilder {
       state.saved_star = star;
       state.saved_hood = hood;
       while (!star.closed && open_tries-- > 0 && finder_.grow(p, 2 * hood.k, hood, state.sheets))
-        project(p, hood, unit, state);
+        project(p, hood, unit, nullptr, state);
       open_tries = 0;
       if (!star.closed) {
         star = state.saved_star;
@@ -149,16 +164,15 @@ class StarBuilder {
     }
   }
 
-  void wrapStar(int p, Neighborhood& hood, WorkerState& state, BlockOfStars& block) const {
+  void wrapStar(int p, Neighborhood& hood, const Offsets& offsets, WorkerState& state, BlockOfStars& block) const {
     // A power of two near the reach, so that the predicates meet numbers near 1 and scaling rounds nothing.
-    const int exponent = hood.reach > 0 ? std::max(std::ilogb(hood.reach), -1022) : 0;
-    const double unit = std::ldexp(1.0, exponent);
+    const double unit = magnitudeOf(hood.reach);
     DelaunayStar& star = state.star;
     if (hood.isolated) {
       star.link.clear();
       star.closed = false;
     } else {
-      wrapUntilCertain(p, hood, std::ldexp(1.0, -exponent), state);
+      wrapUntilCertain(p, hood, 1 / unit, offsets, state);
     }
 
     state.cut_neighbors += hood.cut;
@@ -184,7 +198,9 @@ class StarBuilder {
   const NeighborSource& source_;
   const CloudOptions& options_;
   NeighborhoodFinder finder_;
+  const Kernels& kernels_ = kernels();
   Wrap wrap_;
+  bool has_short_cut_;
   Stars& stars_;
 };
 

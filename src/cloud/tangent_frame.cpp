@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/power_of_two.h"
+
 namespace tufted {
 
 namespace {
@@ -57,41 +59,48 @@ bool findSmallest(const Symmetric& a, PrincipalAxes& axes) {
 
 }  // namespace
 
-PrincipalAxes principalAxes(const Points& points, int p, std::span<const Neighbor> neighbors) {
-  // The extent as a power of two keeps squares in range at any scale, exactly.
+void takeOffsets(const Points& points, int p, std::span<const Neighbor> neighbors, Offsets& offsets) {
   const double* all = points.data();
-  const double px = all[3 * std::ptrdiff_t{p}], py = all[3 * std::ptrdiff_t{p} + 1],
-               pz = all[3 * std::ptrdiff_t{p} + 2];
-  double extent = 0;
-  for (const Neighbor& q : neighbors) {
-    const double* point = all + 3 * std::ptrdiff_t{q.index};
-    extent = std::max({extent, std::abs(point[0] - px), std::abs(point[1] - py), std::abs(point[2] - pz)});
+  const double* origin = all + 3 * std::ptrdiff_t{p};
+  offsets.count = static_cast<int>(neighbors.size());
+  for (int i = 0; i < offsets.count; ++i) {
+    const double* point = all + 3 * std::ptrdiff_t{neighbors[i].index};
+    offsets.x[i] = point[0] - origin[0];
+    offsets.y[i] = point[1] - origin[1];
+    offsets.z[i] = point[2] - origin[2];
   }
-  if (extent == 0) return {Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Zero()};
-  const int exponent = std::max(std::ilogb(extent), -1022);
-  const double unit = std::ldexp(1.0, -exponent);  // finite for any extent
+  for (int i = offsets.count; i < toLanes(offsets.count); ++i) offsets.x[i] = offsets.y[i] = offsets.z[i] = 0;
+}
 
-  double x = 0, y = 0, z = 0;
-  Symmetric moments{};
-  for (const Neighbor& q : neighbors) {
-    const double* point = all + 3 * std::ptrdiff_t{q.index};
-    const double dx = (point[0] - px) * unit, dy = (point[1] - py) * unit, dz = (point[2] - pz) * unit;
-    x += dx;
-    y += dy;
-    z += dz;
-    moments.xx += dx * dx;
-    moments.xy += dx * dy;
-    moments.xz += dx * dz;
-    moments.yy += dy * dy;
-    moments.yz += dy * dz;
-    moments.zz += dz * dz;
-  }
+PrincipalAxes principalAxes(const Points& points, int p, std::span<const Neighbor> neighbors) {
+  Offsets offsets;
+  return principalAxes(points, p, neighbors, offsets);
+}
+
+PrincipalAxes principalAxes(const Points& points, int p, std::span<const Neighbor> neighbors, Offsets& offsets) {
+  const Kernels& kernel = kernels();
+  const bool is_one_part = neighbors.size() <= Offsets::most;
+  if (is_one_part) takeOffsets(points, p, neighbors, offsets);
+  const auto forEachPart = [&](const auto& visit) {
+    if (is_one_part) return visit();
+    for (std::size_t first = 0; first < neighbors.size(); first += Offsets::most) {
+      const std::size_t count = std::min<std::size_t>(Offsets::most, neighbors.size() - first);
+      takeOffsets(points, p, neighbors.subspan(first, count), offsets);
+      visit();
+    }
+  };
+  // The extent as a power of two keeps squares in range at any scale, exactly.
+  double extent = 0;
+  forEachPart([&] { extent = std::max(extent, kernel.extent(offsets)); });
+  if (extent == 0) return {Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Zero()};
+  const double power = magnitudeOf(extent), unit = 1 / power;
+  OffsetSums sums;
+  forEachPart([&] { kernel.addSums(offsets, unit, sums); });
+
   const double share = 1 / static_cast<double>(neighbors.size() + 1);  // p adds nothing but itself
-  x *= share;
-  y *= share;
-  z *= share;
-  const Symmetric covariance{moments.xx * share - x * x, moments.xy * share - x * y, moments.xz * share - x * z,
-                             moments.yy * share - y * y, moments.yz * share - y * z, moments.zz * share - z * z};
+  const double x = sums.sum(0) * share, y = sums.sum(1) * share, z = sums.sum(2) * share;
+  const Symmetric covariance{sums.sum(3) * share - x * x, sums.sum(4) * share - x * y, sums.sum(5) * share - x * z,
+                             sums.sum(6) * share - y * y, sums.sum(7) * share - y * z, sums.sum(8) * share - z * z};
   PrincipalAxes axes;
   if (!findSmallest(covariance, axes)) {
     Eigen::Matrix3d matrix;
@@ -100,7 +109,7 @@ PrincipalAxes principalAxes(const Points& points, int p, std::span<const Neighbo
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(matrix);
     axes = {solver.eigenvectors().col(0), solver.eigenvalues()};
   }
-  axes.extent = std::ldexp(1.0, exponent);
+  axes.extent = power;
   return axes;
 }
 

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <span>
 
+#include "cloud/kernels.h"
 #include "cloud/neighbors.h"
 #include "tufted/types.h"
 
@@ -15,8 +16,13 @@ struct PrincipalAxes {
   double extent = 1;         ///< a power of two near the neighbourhood's extent
 };
 
+/// Positions relative to p of at most Offsets::most points.
+void takeOffsets(const Points& points, int p, std::span<const Neighbor> neighbors, Offsets& offsets);
+
 /// PCA of p and its neighbours about their centroid, from coordinates relative to p, so that the distance from the
 /// origin does not matter.
+/// @param[out] offsets of the neighbours, if they are at most Offsets::most
+PrincipalAxes principalAxes(const Points& points, int p, std::span<const Neighbor> neighbors, Offsets& offsets);
 PrincipalAxes principalAxes(const Points& points, int p, std::span<const Neighbor> neighbors);
 
 /// One scan line only: the second axis has less than a tenth of the first one's variance.

@@ -52,9 +52,11 @@ Laplacian meshLaplacian(const Points& points, const Triangles& triangles, const 
 
   workers.report("scale", 0);
   const Scaling scaling = measureScaling(points, result.status);
+  const PowerOfTwo to_scaled = scaling.toScaled();
   Points scaled(n, 3);
   for (int i = 0; i < n; ++i) {
-    for (int axis = 0; axis < 3; ++axis) scaled(i, axis) = scaling.scaled(points(i, axis));
+    for (int axis = 0; axis < 3; ++axis)
+      scaled(i, axis) = to_scaled.times(points(i, axis)) + 0.0;  // no -0: equal have equal bits
   }
   result.representative.resize(n);
   std::iota(result.representative.begin(), result.representative.end(), 0);

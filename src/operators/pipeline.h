@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "base/power_of_two.h"
 #include "base/stage_clock.h"
 #include "intrinsic/cover.h"
 #include "operators/assemble.h"
@@ -55,7 +56,8 @@ inline void finishResult(Matrices matrices, const BuildFigures& figures, int exp
   result.M = std::move(matrices.M);
 
   // Back from units of 2^exponent, which is exact.
-  for (double& mass : result.M) mass = std::ldexp(mass, 2 * exponent);
+  const PowerOfTwo area_unit(2 * exponent);
+  for (double& mass : result.M) mass = area_unit.times(mass);
   result.cover_areas = result.M;
   report.area = report.cover_area = result.M.sum();
   for (std::size_t i = 0; i < result.status.size(); ++i) {
@@ -87,7 +89,8 @@ inline void toCaller(IntrinsicTriangulation& cover, const std::vector<int>& call
   for (auto& face : cover.faces) {
     for (int& corner : face) corner = caller[corner];
   }
-  for (double& length : cover.length) length = std::ldexp(length, exponent);
+  const PowerOfTwo unit(exponent);
+  for (double& length : cover.length) length = unit.times(length);
 }
 
 inline std::size_t bytesOfMatrices(const Laplacian& result) {

@@ -113,11 +113,12 @@ void describePoints(const Stars& stars, const std::vector<Boundary>& boundary, c
 
 /// Makes the stars' own areas M where they are positive and the point has a row.
 void takeAreas(const VectorXd& areas, const std::vector<int>& caller, int exponent, Laplacian& result) {
+  const PowerOfTwo area_unit(2 * exponent);
   for (std::size_t p = 0; p < caller.size(); ++p) {
     const int i = caller[p];
     if (result.status[i] != PointStatus::active) continue;
     if (areas[static_cast<Eigen::Index>(p)] > 0)
-      result.M[i] = std::ldexp(areas[static_cast<Eigen::Index>(p)], 2 * exponent);
+      result.M[i] = area_unit.times(areas[static_cast<Eigen::Index>(p)]);
     else
       ++result.report.cover_masses;
   }

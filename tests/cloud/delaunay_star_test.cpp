@@ -29,8 +29,8 @@ TEST(DelaunayStar, EqualsCgalOnEveryPointOfEveryGeneratedCloud) {
   for (const auto& cloud : shapes::allClouds(1500)) expectStarsOfCloud(cloud.name, cloud.points);
 }
 
-/// The short cut through the convex hull may decline, not differ.
-TEST(DelaunayStar, IsThatOfTheExactWayBitForBit) {
+/// The short cut through the convex hull may decline, not differ; and it is the same bits on any processor.
+TEST(DelaunayStar, OfTheShortCutIsThatOfTheExactWay) {
   StarScratch scratch;
   std::vector<Neighbor> neighbors;
   int inverted = 0, all = 0;
@@ -40,23 +40,30 @@ TEST(DelaunayStar, IsThatOfTheExactWayBitForBit) {
     const RankedCloud cloud = rankPoints(shape.points, status, representative);
     const NeighborSearch search(cloud.points);
     for (int p = 0; p < cloud.size(); ++p) {
-      search.nearest(p, 30, neighbors);
+      search.nearest(p, p % 2 == 0 ? 30 : 60, neighbors);
       const Eigen::Vector3d normal = principalAxes(cloud.points, p, neighbors).normal;
       const Eigen::Vector3d x = tangentOf(normal), y = normal.cross(x);
-      std::vector<PlanarPoint> planar;
-      for (const Neighbor& q : neighbors) {
-        const Eigen::Vector3d d = cloud.points.row(q.index) - cloud.points.row(p);
-        planar.push_back({d.dot(x), d.dot(y), q.index});
-      }
-      DelaunayStar exact, star;
-      delaunayStarExact(planar, p, scratch, exact);
+      Offsets offsets;
+      PlanarOffsets planar;
+      takeOffsets(cloud.points, p, neighbors, offsets);
+      kernels().project(offsets, 1, x.data(), y.data(), planar);
+      std::vector<PlanarPoint> candidates;
+      for (int i = 0; i < planar.count; ++i) candidates.push_back({planar.u[i], planar.v[i], neighbors[i].index});
+      DelaunayStar exact, star, portable;
+      delaunayStar(candidates, p, scratch, exact);
       ++all;
-      if (!wrapInverted(planar, star)) continue;
+      const bool is_certain = wrapInverted(kernels(), planar, neighbors, star);
+      ASSERT_EQ(wrapInverted(portableKernels(), planar, neighbors, portable), is_certain);
+      if (!is_certain) continue;
       ++inverted;
+      ASSERT_EQ(star.radius, portable.radius);
       ASSERT_TRUE(exact.closed) << shape.name << " point " << p;
       ASSERT_EQ(star.link.size(), exact.link.size()) << shape.name << " point " << p;
-      for (std::size_t i = 0; i < star.link.size(); ++i) ASSERT_EQ(star.link[i].index, exact.link[i].index);
-      ASSERT_EQ(star.radius, exact.radius);
+      for (std::size_t i = 0; i < star.link.size(); ++i) {
+        ASSERT_EQ(star.link[i].index, exact.link[i].index);
+        ASSERT_EQ(star.link[i].index, portable.link[i].index);
+        ASSERT_NEAR(star.radius[i], exact.radius[i], 1e-9 * exact.radius[i]);
+      }
     }
   }
   EXPECT_GT(2 * inverted, all);  // worth its while

@@ -26,7 +26,7 @@ class Hoods {
     GroupScratch group;
     std::vector<Neighbor> found;
     finder_.find(p, 1, group, found, &hood);
-    finder_.fit(p, hood, scratch_);
+    finder_.fit(p, hood, offsets_, scratch_);
     return hood;
   }
 
@@ -35,6 +35,7 @@ class Hoods {
   CloudOptions options_;
   NeighborSource source_;
   NeighborhoodFinder finder_;
+  Offsets offsets_;
   SheetScratch scratch_;
 };
 

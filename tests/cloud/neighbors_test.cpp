@@ -49,8 +49,8 @@ TEST(Neighbors, OfEachAreThoseOfOne) {
     const int k = std::min(30, ranked.size() - 1);
     GroupScratch scratch;
     std::vector<Neighbor> each, one;
-    for (const SelectionKernels* kernels : {&portableKernels(), &fastestKernels()}) {
-      nearestOfEach(search, ranked.points, 0, ranked.size(), 30, *kernels, scratch, each);
+    for (const Kernels* kernel : {&portableKernels(), &kernels()}) {
+      nearestOfEach(search, ranked.points, 0, ranked.size(), 30, *kernel, scratch, each);
       ASSERT_EQ(std::ssize(each), static_cast<std::ptrdiff_t>(ranked.size()) * k);
       for (int p = 0; p < ranked.size(); ++p) {
         search.nearest(p, 30, one);

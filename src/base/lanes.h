@@ -1,0 +1,267 @@
+#pragma once
+
+// Arithmetic on eight numbers at once, for the sources of kernels only. Includes no header with functions of others: a
+// copy of one that is compiled for one kind of processor could be linked into code for another.
+#include <cstdint>
+#ifdef __AVX512F__
+#include <immintrin.h>
+#endif
+
+#define TUFTED_INLINE static inline __attribute__((always_inline))
+
+namespace tufted {
+namespace {
+
+constexpr int lane_size = 8, float_lane_size = 16;
+
+#ifdef __AVX512F__
+
+using Lane = __m512d;
+using Mask = __mmask8;  // a bit for each number
+
+TUFTED_INLINE Lane all(double value) {
+  return _mm512_set1_pd(value);
+}
+TUFTED_INLINE Lane load(const double* values) {
+  return _mm512_loadu_pd(values);
+}
+TUFTED_INLINE void store(Lane a, double* values) {
+  _mm512_storeu_pd(values, a);
+}
+TUFTED_INLINE Lane select(Mask mask, Lane a, Lane b) {
+  return _mm512_mask_blend_pd(mask, b, a);
+}
+TUFTED_INLINE Lane absolute(Lane a) {
+  return _mm512_abs_pd(a);
+}
+TUFTED_INLINE Lane least(Lane a, Lane b) {
+  return _mm512_min_pd(a, b);
+}
+TUFTED_INLINE Lane most(Lane a, Lane b) {
+  return _mm512_max_pd(a, b);
+}
+TUFTED_INLINE double least(Lane a) {
+  return _mm512_reduce_min_pd(a);
+}
+TUFTED_INLINE double most(Lane a) {
+  return _mm512_reduce_max_pd(a);
+}
+TUFTED_INLINE Mask isLess(Lane a, Lane b) {
+  return _mm512_cmp_pd_mask(a, b, _CMP_LT_OQ);
+}
+TUFTED_INLINE Mask isAtMost(Lane a, Lane b) {
+  return _mm512_cmp_pd_mask(a, b, _CMP_LE_OQ);
+}
+TUFTED_INLINE Mask both(Mask a, Mask b) {
+  return static_cast<Mask>(a & b);
+}
+TUFTED_INLINE Mask either(Mask a, Mask b) {
+  return static_cast<Mask>(a | b);
+}
+TUFTED_INLINE bool any(Mask mask) {
+  return mask != 0;
+}
+TUFTED_INLINE Mask none() {
+  return 0;
+}
+/// The first `count` numbers, all of them for more.
+TUFTED_INLINE Mask firstOf(int count) {
+  return static_cast<Mask>(count < lane_size ? (1U << count) - 1 : 0xFF);
+}
+TUFTED_INLINE Mask differ(const int* values, int value) {
+  return _mm256_cmpneq_epi32_mask(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(values)),
+                                  _mm256_set1_epi32(value));
+}
+TUFTED_INLINE int countOf(Mask mask) {
+  return __builtin_popcount(mask);
+}
+
+/// Writes the chosen numbers to the front and anything behind them, a whole lane.
+TUFTED_INLINE void squeeze(Mask chosen, Lane a, double* to) {
+  // In the register: storing instructions that squeeze are slow on some processors.
+  _mm512_storeu_pd(to, _mm512_maskz_compress_pd(chosen, a));
+}
+TUFTED_INLINE void squeeze(Mask chosen, const int* a, int* to) {
+  const __m256i values = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(a));
+  _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm256_maskz_compress_epi32(chosen, values));
+}
+
+/// Each number to the nearest float.
+TUFTED_INLINE void storeFloats(Lane a, float* to) {
+  _mm256_storeu_ps(to, _mm512_cvtpd_ps(a));
+}
+
+/// How many of the values are less than each of `some`, which are `lanes` groups.
+template <int lanes>
+TUFTED_INLINE void rankFloats(const float* some, const float* values, int count, int* rank) {
+  __m512 mine[lanes];
+  __m512i less[lanes];
+  for (int l = 0; l < lanes; ++l) mine[l] = _mm512_loadu_ps(some + l * float_lane_size);
+  for (int l = 0; l < lanes; ++l) less[l] = _mm512_setzero_si512();
+  const __m512i one = _mm512_set1_epi32(1);
+  for (int j = 0; j < count; ++j) {
+    const __m512 value = _mm512_set1_ps(values[j]);
+    for (int l = 0; l < lanes; ++l)
+      less[l] = _mm512_mask_add_epi32(less[l], _mm512_cmp_ps_mask(value, mine[l], _CMP_LT_OQ), less[l], one);
+  }
+  for (int l = 0; l < lanes; ++l) _mm512_storeu_si512(rank + l * float_lane_size, less[l]);
+}
+
+#else
+
+// Pairs are what every processor has. Larger vectors are left to the compiler, which takes them apart badly.
+using Pair = double __attribute__((vector_size(16)));
+using PairMask = std::int64_t __attribute__((vector_size(16)));  // 0 or -1
+constexpr int pairs = lane_size / 2;
+
+struct Lane {
+  Pair of[pairs];
+};
+struct Mask {
+  PairMask of[pairs];
+};
+
+template <class Result, class A, class Each>
+TUFTED_INLINE Result forPairs(const A& a, const Each& each) {
+  Result result;
+  for (int i = 0; i < pairs; ++i) result.of[i] = each(a.of[i]);
+  return result;
+}
+template <class Result, class A, class B, class Each>
+TUFTED_INLINE Result forPairs(const A& a, const B& b, const Each& each) {
+  Result result;
+  for (int i = 0; i < pairs; ++i) result.of[i] = each(a.of[i], b.of[i]);
+  return result;
+}
+
+TUFTED_INLINE Lane operator+(Lane a, Lane b) {
+  return forPairs<Lane>(a, b, [](Pair x, Pair y) { return x + y; });
+}
+TUFTED_INLINE Lane operator-(Lane a, Lane b) {
+  return forPairs<Lane>(a, b, [](Pair x, Pair y) { return x - y; });
+}
+TUFTED_INLINE Lane operator*(Lane a, Lane b) {
+  return forPairs<Lane>(a, b, [](Pair x, Pair y) { return x * y; });
+}
+TUFTED_INLINE Lane operator/(Lane a, Lane b) {
+  return forPairs<Lane>(a, b, [](Pair x, Pair y) { return x / y; });
+}
+TUFTED_INLINE Lane operator-(Lane a) {
+  return forPairs<Lane>(a, [](Pair x) { return -x; });
+}
+
+TUFTED_INLINE Lane all(double value) {
+  Lane lane;
+  for (Pair& pair : lane.of) pair = Pair{value, value};
+  return lane;
+}
+TUFTED_INLINE Lane load(const double* values) {
+  Lane lane;
+  __builtin_memcpy(&lane, values, sizeof(lane));
+  return lane;
+}
+TUFTED_INLINE void store(const Lane& a, double* values) {
+  __builtin_memcpy(values, &a, sizeof(a));
+}
+TUFTED_INLINE Lane absolute(Lane a) {
+  return forPairs<Lane>(a, [](Pair x) { return x < -x ? -x : x; });
+}
+TUFTED_INLINE Lane least(Lane a, Lane b) {
+  return forPairs<Lane>(a, b, [](Pair x, Pair y) { return x < y ? x : y; });
+}
+TUFTED_INLINE Lane most(Lane a, Lane b) {
+  return forPairs<Lane>(a, b, [](Pair x, Pair y) { return x > y ? x : y; });
+}
+TUFTED_INLINE double least(Lane a) {
+  double value = a.of[0][0];
+  for (const Pair& pair : a.of)
+    for (int i = 0; i < 2; ++i) value = pair[i] < value ? pair[i] : value;
+  return value;
+}
+TUFTED_INLINE double most(Lane a) {
+  return -least(-a);
+}
+TUFTED_INLINE Mask isLess(Lane a, Lane b) {
+  return forPairs<Mask>(a, b, [](Pair x, Pair y) { return x < y; });
+}
+TUFTED_INLINE Mask isAtMost(Lane a, Lane b) {
+  return forPairs<Mask>(a, b, [](Pair x, Pair y) { return x <= y; });
+}
+TUFTED_INLINE Mask both(Mask a, Mask b) {
+  return forPairs<Mask>(a, b, [](PairMask x, PairMask y) { return x & y; });
+}
+TUFTED_INLINE Mask either(Mask a, Mask b) {
+  return forPairs<Mask>(a, b, [](PairMask x, PairMask y) { return x | y; });
+}
+TUFTED_INLINE Mask none() {
+  return {};
+}
+TUFTED_INLINE bool any(const Mask& mask) {
+  PairMask found = {};
+  for (const PairMask& pair : mask.of) found |= pair;
+  return (found[0] | found[1]) != 0;
+}
+TUFTED_INLINE Lane select(Mask mask, Lane a, Lane b) {
+  Lane result;
+  for (int i = 0; i < pairs; ++i) result.of[i] = mask.of[i] ? a.of[i] : b.of[i];
+  return result;
+}
+TUFTED_INLINE Mask firstOf(int count) {
+  Mask mask;
+  for (int i = 0; i < pairs; ++i) mask.of[i] = PairMask{2 * i, 2 * i + 1} < PairMask{count, count};
+  return mask;
+}
+TUFTED_INLINE Mask differ(const int* values, int value) {
+  Mask mask;
+  for (int i = 0; i < pairs; ++i) mask.of[i] = PairMask{values[2 * i], values[2 * i + 1]} != PairMask{value, value};
+  return mask;
+}
+TUFTED_INLINE int countOf(const Mask& mask) {
+  PairMask count = {};
+  for (const PairMask& pair : mask.of) count -= pair;
+  return static_cast<int>(count[0] + count[1]);
+}
+
+template <class Value>
+TUFTED_INLINE void squeezeEach(const Mask& chosen, const Value* values, Value* to) {
+  for (int i = 0; i < lane_size; ++i) {  // without a branch: which are chosen cannot be foreseen
+    *to = values[i];
+    to -= chosen.of[i / 2][i % 2];
+  }
+}
+TUFTED_INLINE void squeeze(const Mask& chosen, const Lane& a, double* to) {
+  double values[lane_size];
+  store(a, values);
+  squeezeEach(chosen, values, to);
+}
+TUFTED_INLINE void squeeze(const Mask& chosen, const int* a, int* to) {
+  squeezeEach(chosen, a, to);
+}
+
+TUFTED_INLINE void storeFloats(const Lane& a, float* to) {
+  double values[lane_size];
+  store(a, values);
+  for (int i = 0; i < lane_size; ++i) to[i] = static_cast<float>(values[i]);
+}
+
+template <int lanes>
+TUFTED_INLINE void rankFloats(const float* some, const float* values, int count, int* rank) {
+  using Four = float __attribute__((vector_size(16)));
+  using FourCounts = int __attribute__((vector_size(16)));
+  constexpr int fours = float_lane_size / 4;
+  for (int l = 0; l < lanes; ++l, rank += float_lane_size) {
+    Four mine[fours];
+    FourCounts less[fours] = {};
+    __builtin_memcpy(mine, some + l * float_lane_size, sizeof(mine));
+    for (int j = 0; j < count; ++j) {
+      const Four value = {values[j], values[j], values[j], values[j]};
+      for (int i = 0; i < fours; ++i) less[i] -= value < mine[i];  // true is -1
+    }
+    __builtin_memcpy(rank, less, sizeof(less));
+  }
+}
+
+#endif
+
+}  // namespace
+}  // namespace tufted

@@ -1,0 +1,211 @@
+#pragma once
+
+#include "base/lanes.h"
+#include "cloud/kernels.h"
+
+namespace tufted {
+namespace {
+
+constexpr int most_given = PlanarOffsets::most;
+constexpr int near_part = 16, most_rounds = 3;
+/// The sine of the angle between circles from which on they differ: far wider than the tie band of sideOfCircle().
+constexpr double distinct = 1e-7;
+constexpr double rounding = 1e-14;                          // of coordinates and products of them, a dozen roundings
+constexpr double least_square = 1e-60, most_square = 1e60;  // of distances, which keeps all products in range
+
+/// The inverted candidates, q / |q|^2.
+struct Inverted {
+  int count;
+  alignas(64) double x[most_given], y[most_given];
+};
+
+/// Some of the inverted candidates, and room for whole lanes behind them.
+struct Subset {
+  int size;
+  alignas(64) double x[most_given + lane_size], y[most_given + lane_size];
+  int of[most_given + lane_size];
+};
+
+/// Points by direction from the origin, as a ring: the first stands at 1, the last also at 0, and the first once more
+/// behind it.
+struct Ring {
+  int size;
+  double x[most_given + 3 * lane_size], y[most_given + 3 * lane_size];
+  int of[most_given + 3 * lane_size];
+
+  void close(int copies) {
+    x[0] = x[size];
+    y[0] = y[size];
+    for (int i = 1; i <= copies; ++i) {
+      x[size + i] = x[i];
+      y[size + i] = y[i];
+    }
+  }
+};
+
+/// False where a point lies too near or too far for the bounds to hold.
+TUFTED_INLINE bool invert(const PlanarOffsets& planar, Inverted& points) {
+  points.count = planar.count;
+  Lane nearest = all(most_square), furthest = all(least_square);
+  for (int i = 0; i < planar.count; i += lane_size) {
+    const Mask is_point = firstOf(planar.count - i);
+    const Lane u = load(planar.u + i), v = load(planar.v + i);
+    const Lane square = select(is_point, u * u + v * v, all(1));
+    nearest = least(nearest, square);
+    furthest = most(furthest, square);
+    const Lane inverse = all(1) / square;
+    store(select(is_point, u * inverse, all(0)), points.x + i);
+    store(select(is_point, v * inverse, all(0)), points.y + i);
+  }
+  return least(nearest) > least_square && most(furthest) < most_square;
+}
+
+/// Sorts by direction, counterclockwise from the u axis. Of points in one direction only the first is certain to be
+/// there.
+TUFTED_INLINE void sortByDirection(const Subset& given, Ring& ring) {
+  alignas(64) float key[most_given + float_lane_size];  // a pseudo-angle, 0 to 4
+  for (int i = 0; i < given.size; i += lane_size) {
+    const Lane x = load(given.x + i), y = load(given.y + i);
+    const Lane turn = x / (absolute(x) + absolute(y));
+    storeFloats(select(isLess(y, all(0)), all(3) + turn, all(1) - turn), key + i);
+  }
+  alignas(64) int rank[most_given + float_lane_size];
+  for (int i = 0; i < given.size; i += float_lane_size) rankFloats<1>(key + i, key, given.size, rank + i);
+  ring.size = given.size;
+  for (int i = 1; i <= given.size; ++i) {  // where one is missing stands a copy of another
+    ring.x[i] = given.x[0];
+    ring.y[i] = given.y[0];
+    ring.of[i] = given.of[0];
+  }
+  for (int i = given.size - 1; i >= 0; --i) {
+    const auto at = 1 + rank[i];
+    ring.x[at] = given.x[i];
+    ring.y[at] = given.y[i];
+    ring.of[at] = given.of[i];
+  }
+}
+
+/// Removes all at once the vertices where a ring does not turn left, until it turns left everywhere. Such a vertex lies
+/// within the triangle of the origin and its neighbours, removed or not, so it is none of the hull's.
+TUFTED_INLINE void removeReflex(Ring& first, Ring& second, Ring*& hull) {
+  Ring *ring = &first, *next = &second;
+  for (;;) {
+    ring->close(1);
+    int kept = 1;
+    for (int i = 0; i < ring->size; i += lane_size) {
+      const Lane ax = load(ring->x + i), ay = load(ring->y + i);
+      const Lane bx = load(ring->x + i + 1), by = load(ring->y + i + 1);
+      const Lane cx = load(ring->x + i + 2), cy = load(ring->y + i + 2);
+      const Mask turns_left = isLess((by - ay) * (cx - bx), (bx - ax) * (cy - by));
+      const Mask stays = both(turns_left, firstOf(ring->size - i));
+      squeeze(stays, bx, next->x + kept);
+      squeeze(stays, by, next->y + kept);
+      squeeze(stays, ring->of + i + 1, next->of + kept);
+      kept += countOf(stays);
+    }
+    next->size = kept - 1;
+    Ring* const before = ring;
+    ring = next;
+    next = before;
+    if (ring->size < 3 || ring->size == before->size) break;
+  }
+  hull = ring;
+}
+
+enum class Verdict { certain, incomplete, doubtful };
+
+/// Whether the hull is beyond doubt that of all points, with the origin inside and no tie among the circles. Where
+/// points that were not `given` are outside of it or too near, it is incomplete and `given` becomes what the hull must
+/// be made of.
+///
+/// Between two vertices of the hull, in direction, whatever link the careful routine is left with turns inwards at the
+/// one and comes back at the other. Where no point is seen from either of them at less than the angle `distinct` to
+/// their edge, one of the vertices between them turns the wrong way by far more than the tie band, so all are removed;
+/// and the vertices of the hull, which turn by more than that, are not.
+TUFTED_INLINE Verdict judge(const Inverted& points, Ring& hull, Subset& given, InvertedStar& star) {
+  if (hull.size < 3 || hull.size > InvertedStar::most) return Verdict::doubtful;
+  hull.close(toLanes(hull.size) - hull.size + 2);
+  // A point is left of the edge from a to b where across . point < 1.
+  alignas(64) double across_x[InvertedStar::most], across_y[InvertedStar::most], diameter[InvertedStar::most];
+  Mask is_doubtful = none();
+  Lane inner_square = all(most_square), least_cross = all(most_square), most_size = all(0);
+  for (int i = 0; i < hull.size; i += lane_size) {
+    const Lane ax = load(hull.x + i + 1), ay = load(hull.y + i + 1);
+    const Lane bx = load(hull.x + i + 2), by = load(hull.y + i + 2);
+    const Lane cx = load(hull.x + i + 3), cy = load(hull.y + i + 3);
+    const Lane ux = bx - ax, uy = by - ay, vx = cx - bx, vy = cy - by;
+    const Lane u = absolute(ux) + absolute(uy), v = absolute(vx) + absolute(vy);
+    const Lane a = absolute(ax) + absolute(ay), b = absolute(bx) + absolute(by), c = absolute(cx) + absolute(cy);
+    // A difference is off by the rounding of its ends, and counts times the length of the other.
+    const Lane doubt = all(distinct) * u * v + all(rounding) * ((a + b) * v + (b + c) * u);
+    const Lane cross = ax * by - ay * bx, edge_square = ux * ux + uy * uy;
+    is_doubtful = either(is_doubtful, either(isAtMost(cross, all(0)), isAtMost(ux * vy - uy * vx, doubt)));
+    store(uy / cross, across_x + i);
+    store(-ux / cross, across_y + i);
+    const Lane square = cross * cross / edge_square;  // of the distance from the origin to the edge
+    inner_square = least(inner_square, square);
+    least_cross = least(least_cross, cross);
+    most_size = most(most_size, a);
+    store(all(1) / square, diameter + i);  // squared
+  }
+  if (any(is_doubtful)) return Verdict::doubtful;
+  const double size = most(most_size);
+  const double limit =
+      1 - 2 * distinct * size / __builtin_sqrt(least(inner_square)) - rounding * size * size / least(least_cross);
+  if (!(limit > 0)) return Verdict::doubtful;
+
+  alignas(64) double gauge[most_given];  // the largest across . point
+  for (int i = 0; i < points.count; i += lane_size) {
+    const Lane x = load(points.x + i), y = load(points.y + i);
+    Lane largest = all(0);
+    for (int e = 0; e < hull.size; ++e) largest = most(largest, x * all(across_x[e]) + y * all(across_y[e]));
+    store(largest, gauge + i);
+  }
+  for (int i = 1; i <= hull.size; ++i) gauge[hull.of[i]] = 0;
+  Lane outermost = all(0);
+  for (int i = 0; i < points.count; i += lane_size) outermost = most(outermost, load(gauge + i));
+  if (most(outermost) < limit) {
+    star.size = hull.size;
+    for (int i = 0; i < hull.size; ++i) {
+      star.link[i] = hull.of[i + 1];
+      star.radius[i] = __builtin_sqrt(diameter[i]) / 2;
+    }
+    return Verdict::certain;
+  }
+  for (int i = 0; i < given.size; ++i)
+    if (!(gauge[given.of[i]] < limit)) return Verdict::doubtful;
+  given.size = 0;
+  const auto give = [&](int i) {
+    given.x[given.size] = points.x[i];
+    given.y[given.size] = points.y[i];
+    given.of[given.size++] = i;
+  };
+  for (int i = 1; i <= hull.size; ++i) give(hull.of[i]);
+  for (int i = 0; i < points.count; ++i)
+    if (!(gauge[i] < limit)) give(i);
+  return Verdict::incomplete;
+}
+
+bool wrapInvertedLanes(const PlanarOffsets& planar, InvertedStar& star) {
+  if (planar.count < 3) return false;
+  Inverted points;
+  if (!invert(planar, points)) return false;
+  Subset given;
+  given.size = points.count < near_part ? points.count : near_part;
+  for (int i = 0; i < given.size; i += lane_size) {
+    store(load(points.x + i), given.x + i);
+    store(load(points.y + i), given.y + i);
+    for (int j = i; j < i + lane_size; ++j) given.of[j] = j;
+  }
+  Verdict verdict = Verdict::incomplete;
+  for (int round = 0; round < most_rounds && verdict == Verdict::incomplete; ++round) {
+    Ring first, second, *hull = nullptr;
+    sortByDirection(given, first);
+    removeReflex(first, second, hull);
+    verdict = judge(points, *hull, given, star);
+  }
+  return verdict == Verdict::certain;
+}
+
+}  // namespace
+}  // namespace tufted

@@ -1,0 +1,87 @@
+#pragma once
+
+// Plain arrays and no functions of others: see kernels_source.h.
+#include <cstdint>
+
+namespace tufted {
+
+/// Numbers are worked on in groups of so many.
+constexpr int kernel_lane = 8;
+
+/// `count` filled up to whole lanes.
+constexpr int toLanes(int count) {
+  return (count + kernel_lane - 1) / kernel_lane * kernel_lane;
+}
+
+/// Points by coordinate, filled up to whole lanes with points that are nowhere near. Borrowed.
+struct Candidates {
+  int count;
+  const int* index;  ///< ranks
+  const double *x, *y, *z;
+};
+
+/// The neighbours of a point relative to it, or some of them, filled up to whole lanes with zeros.
+struct Offsets {
+  static constexpr int most = 64;
+  int count = 0;
+  alignas(64) double x[most], y[most], z[most];
+};
+
+/// Sums over neighbours, in lanes: x, y, z, and the products xx, xy, xz, yy, yz, zz.
+struct OffsetSums {
+  alignas(64) double lanes[9 * kernel_lane] = {};
+
+  /// The total of number i, added in a fixed order.
+  double sum(int i) const {
+    const double* v = &lanes[i * kernel_lane];
+    return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7]));
+  }
+};
+
+/// Neighbours in the tangent plane of a point, which lies at the origin.
+struct PlanarOffsets {
+  static constexpr int most = Offsets::most;
+  int count = 0;
+  alignas(64) double u[most], v[most];
+};
+
+/// A closed star: numbers of neighbours counterclockwise, and the circumradius of each and the next.
+struct InvertedStar {
+  static constexpr int most = 24;
+  int size = 0;
+  int link[most];
+  double radius[most];
+};
+
+/// The loops that a build spends its time in. They are compiled for every processor and once more for AVX-512; the
+/// operations are the same, and so are the bits.
+struct Kernels {
+  /// The candidates within the squared distance `bound` of a point, but for number p: squared distances, with the bits
+  /// of FLANN's L2_Simple, and ranks. Both arrays have room for all candidates and one lane.
+  /// @returns how many
+  int (*takeWithin)(const Candidates& candidates, const double* point, int p, double bound, double* squared_distance,
+                    int* index);
+  /// How many of the values, rounded to floats, are less than each.
+  /// @param count a multiple of the lane
+  /// @param rounded scratch; this and `rank` have room for two lanes more
+  void (*rankValues)(const double* values, int count, float* rounded, int* rank);
+  /// The largest absolute coordinate.
+  double (*extent)(const Offsets& offsets);
+  /// Adds those of the offsets times `unit`.
+  void (*addSums)(const Offsets& offsets, double unit, OffsetSums& sums);
+  /// The offsets times `unit` along the axes x and y.
+  void (*project)(const Offsets& offsets, double unit, const double* x, const double* y, PlanarOffsets& planar);
+  /// See wrapInverted().
+  bool (*wrapInverted)(const PlanarOffsets& planar, InvertedStar& star);
+};
+
+/// What every processor runs.
+const Kernels& portableKernels();
+
+/// What this processor runs fastest, or what was chosen below.
+const Kernels& kernels();
+
+/// Builds that begin after this use the given ones; for tests and benchmarks. Null: the fastest.
+void chooseKernels(const Kernels* chosen);
+
+}  // namespace tufted

@@ -1,0 +1,3 @@
+// Compiled with AVX-512 where the compiler can.
+#define TUFTED_KERNELS avx512_kernels
+#include "cloud/kernels_source.h"
