@@ -83,6 +83,12 @@ class StarAssembler {
     forBoth([&](int p, int q, double weight) { mixed_rows_.entries[fill[p]++] = {q, weight}; });
   }
 
+  /// No fewer than the edges of p.
+  int mostInRow(int p) const {
+    const int own = stars_.offset[p + 1] - stars_.offset[p];
+    return mixed_[p] == 0 ? own : own + mixed_rows_.offset[p + 1] - mixed_rows_.offset[p];
+  }
+
   /// Calls visit(q, weight) for every edge of p.
   template <class Visit>
   void forEachInRow(int p, const Visit& visit) const {
@@ -217,22 +223,24 @@ class StarAssembler {
 /// One column of L, in the order that its entries come in.
 class Column {
  public:
-  void clear() {
-    row_.clear();
-    value_.clear();
+  /// Empties it and makes room.
+  void start(int most) {
+    size_ = 0;
+    if (std::ssize(row_) >= most) return;
+    row_.resize(most);
+    value_.resize(most);
   }
   void add(int row, double value) {
-    row_.push_back(row);
-    value_.push_back(value);
+    row_[size_] = row;
+    value_[size_++] = value;
   }
-  bool isEmpty() const { return row_.empty(); }
+  bool isEmpty() const { return size_ == 0; }
 
   /// Writes all entries by ascending row.
   void sortInto(int* row, double* value) {
-    const std::size_t count = row_.size();
-    if (count <= 8)
+    if (size_ <= 8)
       place<8>(row, value);
-    else if (count <= 16)
+    else if (size_ <= 16)
       place<16>(row, value);
     else
       sort(row, value);
@@ -244,17 +252,17 @@ class Column {
   void place(int* row, double* value) const {
     std::array<int, most> rows, before{};
     rows.fill(INT32_MAX);
-    std::copy(row_.begin(), row_.end(), rows.begin());
+    std::copy_n(row_.begin(), size_, rows.begin());
     for (int j = 0; j < most; ++j)
       for (int i = 0; i < most; ++i) before[i] += rows[j] < rows[i] ? 1 : 0;
-    for (std::size_t i = 0; i < row_.size(); ++i) {
+    for (int i = 0; i < size_; ++i) {
       row[before[i]] = row_[i];
       value[before[i]] = value_[i];
     }
   }
 
   void sort(int* row, double* value) {
-    order_.resize(row_.size());
+    order_.resize(size_);
     std::iota(order_.begin(), order_.end(), 0);
     std::sort(order_.begin(), order_.end(), [this](int a, int b) { return row_[a] < row_[b]; });
     for (const int i : order_) {
@@ -263,14 +271,17 @@ class Column {
     }
   }
 
+  int size_ = 0;
   std::vector<int> row_, order_;
   std::vector<double> value_;
 };
 
-constexpr int ahead = 16;  // rows; columns in the caller's order lie anywhere, so they are fetched before their turn
+constexpr int ahead = 16;  // columns
 
-void prefetchColumn(SparseMatrix& L, int column) {
-  const int place = L.outerIndexPtr()[column];
+/// Columns in the caller's order lie anywhere in memory, so they are fetched before their turn: first where they are.
+void prefetchColumns(SparseMatrix& L, int soon, int next) {
+  __builtin_prefetch(L.outerIndexPtr() + soon);
+  const int place = L.outerIndexPtr()[next];
   __builtin_prefetch(L.innerIndexPtr() + place, 1);
   __builtin_prefetch(L.valuePtr() + place, 1);
   __builtin_prefetch(L.valuePtr() + place + 6, 1);
@@ -319,11 +330,12 @@ Matrices assembleStars(const Stars& stars, StarMetric& metric, const PartialCove
   L.outerIndexPtr()[0] = 0;
   std::partial_sum(count.begin(), count.end(), L.outerIndexPtr() + 1);
   release(count);
+  matrices.M = VectorXd::Zero(size);
   workers.forBlocks("assemble", n, block_size, [&](std::int64_t begin, std::int64_t end, int) {
     Column column;
     for (int p = static_cast<int>(begin); p < end; ++p) {
-      if (p + ahead < n) prefetchColumn(L, caller[p + ahead]);
-      column.clear();
+      if (p + 2 * ahead < n) prefetchColumns(L, caller[p + 2 * ahead], caller[p + ahead]);
+      column.start(assembler.mostInRow(p) + 1);
       double sum = 0;
       assembler.forEachInRow(p, [&](int q, double weight) {
         if (weight > 0) {
@@ -337,23 +349,22 @@ Matrices assembleStars(const Stars& stars, StarMetric& metric, const PartialCove
           block.largest = std::max(block.largest, relative);
         }
       });
-      if (column.isEmpty()) continue;
+      if (column.isEmpty()) continue;  // no row, no mass: the point takes no part
+      matrices.M[caller[p]] = mass[p];
       column.add(caller[p], sum);
       const int place = L.outerIndexPtr()[caller[p]];
       column.sortInto(L.innerIndexPtr() + place, L.valuePtr() + place);
     }
   });
 
-  matrices.M = VectorXd::Zero(size);
   DisjointSets sets(n);
   for (int p = 0; p < n; ++p) {
-    const int i = caller[p];
-    if (L.outerIndexPtr()[i] == L.outerIndexPtr()[i + 1]) continue;  // no row, no mass: the point takes no part
-    matrices.M[i] = mass[p];
-    ++report.components;
+    bool has_edges = false;
     assembler.forEachInRow(p, [&](int q, double weight) {
+      has_edges |= weight > 0;
       if (weight > 0 && q < p && sets.unite(p, q)) --report.components;
     });
+    report.components += has_edges ? 1 : 0;
   }
   for (const Clamped& block : clamped) {
     report.clamped_weights += block.small;
