@@ -62,17 +62,9 @@ Rows sumWeights(const IntrinsicTriangulation& cover, double scale, const Workers
         const int side = lists.sides[i];
         row.push_back({std::max(tail(cover, side), head(cover, side)), scale * edgeWeight(cover, side)});
       }
-      // Stable, so that equal columns are summed in the order of their sides.
-      std::stable_sort(row.begin(), row.end(), [](const Entry& a, const Entry& b) { return a.column < b.column; });
-      const std::size_t start = part.size();
-      for (const Entry& entry : row) {
-        if (part.size() > start && part.back().column == entry.column) {
-          part.back().weight += entry.weight;
-        } else {
-          part.push_back(entry);
-        }
-      }
-      upper.offset[v + 1] = static_cast<int>(part.size() - start);
+      const auto end_of_row = mergeColumns(row.begin(), row.end());
+      part.insert(part.end(), row.begin(), end_of_row);
+      upper.offset[v + 1] = static_cast<int>(end_of_row - row.begin());
     }
   });
   std::partial_sum(upper.offset.begin(), upper.offset.end(), upper.offset.begin());

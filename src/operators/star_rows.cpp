@@ -194,15 +194,7 @@ class StarAssembler {
     workers_.forBlocks("assemble", stars_.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
       for (int p = static_cast<int>(begin); p < end; ++p) {
         const auto first = terms.entries.begin() + terms.offset[p], last = terms.entries.begin() + terms.offset[p + 1];
-        std::stable_sort(first, last, [](const Entry& a, const Entry& b) { return a.column < b.column; });
-        auto kept = first;
-        for (auto at = first; at != last; ++at) {
-          if (kept != first && (kept - 1)->column == at->column)
-            (kept - 1)->weight += at->weight;
-          else
-            *kept++ = *at;
-        }
-        edges[p] = static_cast<int>(kept - first);
+        edges[p] = static_cast<int>(mergeColumns(first, last) - first);
       }
     });
     return edges;

@@ -35,17 +35,9 @@ std::vector<std::vector<int>> componentsOf(const Laplacian& laplacian) {
   return components;
 }
 
-/// Two spheres of 1000 points each, the second of the given radius.
-Points twoSpheres(double radius) {
-  Points points(2000, 3);
-  points.topRows(1000) = shapes::sphere(1000).points;
-  points.bottomRows(1000) = (radius * shapes::sphere(1000, shapes::Sampling::uniform, 2).points).array() + 3;
-  return points;
-}
-
 std::vector<std::pair<std::string, Points>> differentClouds() {
   shapes::Cloud room = shapes::depthCamera({.width = 160, .height = 120});
-  return {{"two spheres", twoSpheres(0.1)},
+  return {{"two spheres", shapes::twoSpheres(0.1)},
           {"depth camera", std::move(room.points)},
           {"noisy torus", shapes::withNoise(shapes::torus(4000), 0.01).points},
           {"disk", shapes::disk(2000).points}};
@@ -110,7 +102,7 @@ TEST(Smoothing, KeepsTheCentroidOfEachComponent) {
 TEST(Smoothing, HoldsForComponentsOfAnyTwoSizes) {
   // The small sphere's mass is lost beside its row of t L: without a least mass the matrix is singular.
   for (const double radius : {1e-6, 1e-9}) {
-    const Points points = twoSpheres(radius);
+    const Points points = shapes::twoSpheres(radius);
     const Points smoothed = smooth(pointCloudLaplacian(points), points, {.time_step = 1e6});
     const Points small = points.bottomRows(1000), after = smoothed.bottomRows(1000);
     for (int axis = 0; axis < 3; ++axis) {

@@ -19,17 +19,9 @@ using Eigen::MatrixXd;
 
 constexpr std::array methods = {SolverMethod::cholesky, SolverMethod::multigrid};
 
-/// Two spheres of 1000 points each, far apart, the second of the given radius.
-Points twoSpheres(double radius) {
-  Points points(2000, 3);
-  points.topRows(1000) = shapes::sphere(1000).points;
-  points.bottomRows(1000) = (radius * shapes::sphere(1000, shapes::Sampling::uniform, 2).points).array() + 3;
-  return points;
-}
-
 std::vector<std::pair<std::string, Points>> differentClouds() {
-  return {{"two spheres", twoSpheres(0.1)},
-          {"spheres of unlike size", twoSpheres(1e-7)},
+  return {{"two spheres", shapes::twoSpheres(0.1)},
+          {"spheres of unlike size", shapes::twoSpheres(1e-7)},
           {"depth camera", shapes::depthCamera({.width = 160, .height = 120}).points},
           {"noisy torus", shapes::withNoise(shapes::torus(4000), 0.01).points},
           {"disk", shapes::disk(2000).points}};
@@ -111,7 +103,7 @@ TEST(Solver, InvertsOnWhatAConstantDoesNotTouch) {
 }
 
 TEST(Solver, IsSymmetricWithALaplacian) {
-  const Laplacian laplacian = pointCloudLaplacian(twoSpheres(0.5));
+  const Laplacian laplacian = pointCloudLaplacian(shapes::twoSpheres(0.5));
   const Solver solver = Solver::laplacian(laplacian);
   const MatrixXd b = someValues(2000, 2), x = solver.solve(b);
   EXPECT_NEAR(b.col(0).dot(x.col(1)), b.col(1).dot(x.col(0)), 1e-10 * b.col(0).norm() * x.col(1).norm());

@@ -31,6 +31,13 @@ Cloud sphere(int n, Sampling sampling, std::uint64_t seed) {
   return sampleSurface(sphereSurface(), n, sampling, Rim::none, seed);
 }
 
+Points twoSpheres(double radius) {
+  Points points(2000, 3);
+  points.topRows(1000) = sphere(1000).points;
+  points.bottomRows(1000) = (radius * sphere(1000, Sampling::uniform, 2).points).array() + 3;
+  return points;
+}
+
 Cloud ellipsoid(int n, std::uint64_t seed) {
   if (n > 100000) throw std::invalid_argument("ellipsoid: n > 100,000 leaves too few distinct coordinates");
   const Surface surface = ellipsoidSurface(1.5, 1.25, 1);

@@ -96,6 +96,9 @@ Cloud crossingPlanes(int n, std::uint64_t seed = 1);
 Cloud cubeSurface(int n, std::uint64_t seed = 1);   ///< [0, 1]^3; labels 0..5
 Cloud prismSurface(int n, std::uint64_t seed = 1);  ///< the solid of prismMesh; labels 0..4
 
+/// Two spheres of 1000 points each, far apart: of radius 1, and of the given one.
+Points twoSpheres(double radius);
+
 /// Distance on the unit sphere from one of its points to all, n.
 VectorXd sphereDistances(const Points& points, int from);
 
