@@ -45,4 +45,11 @@ struct LaplacianCheck {
 /// of L are wrong.
 LaplacianCheck validate(const Laplacian& laplacian);
 
+/// What every function that takes a Laplacian asks for first, as its members may have been put together by hand: for N
+/// points L is N x N; M, status, representative and boundary have N entries, cover_areas and frames N or none; a cover
+/// has N vertices if it is stored; and every representative lies in [0, N) and is its own. O(N).
+/// @param function to be named
+/// @throws InvalidInput naming the member, its size or value, and the rule
+void checkSizes(const std::string& function, const Laplacian& laplacian);
+
 }  // namespace tufted

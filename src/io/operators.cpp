@@ -7,6 +7,7 @@
 #include "io/npz_archive.h"
 #include "io/output_file.h"
 #include "io/staged_files.h"
+#include "tufted/check.h"
 #include "tufted/errors.h"
 
 namespace tufted {
@@ -15,8 +16,9 @@ namespace {
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using Faces = Eigen::Matrix<std::int64_t, Eigen::Dynamic, 3, Eigen::RowMajor>;
 
-void checkSizes(const Laplacian& laplacian, const Geometry& geometry, const Gradients& gradients,
-                const Spectrum& spectrum) {
+void checkArguments(const Laplacian& laplacian, const Geometry& geometry, const Gradients& gradients,
+                    const Spectrum& spectrum) {
+  checkSizes("writeOperators", laplacian);
   const auto n = static_cast<Eigen::Index>(laplacian.status.size());
   const auto check = [&](const char* name, Eigen::Index rows) {
     if (rows != n)
@@ -24,8 +26,6 @@ void checkSizes(const Laplacian& laplacian, const Geometry& geometry, const Grad
                          std::to_string(n));
   };
   check("geometry", geometry.points.rows());
-  check("L", laplacian.L.rows());
-  check("M", laplacian.M.size());
   check("gradients.X", gradients.X.rows());
   check("gradients.Y", gradients.Y.rows());
   check("gradients.frames", gradients.frames.normals.rows());
@@ -64,7 +64,7 @@ RowMajor axesOf(const Frames& frames) {
 void writeOperators(const std::filesystem::path& dir, const Laplacian& laplacian, const Geometry& geometry,
                     const Gradients& gradients, const Spectrum& spectrum, const std::string& report,
                     const Progress& progress) {
-  checkSizes(laplacian, geometry, gradients, spectrum);
+  checkArguments(laplacian, geometry, gradients, spectrum);
   if (progress && !progress("write", 0)) throw Cancelled("writeOperators: cancelled");
   const std::int64_t n = geometry.points.rows(), k = spectrum.values.size();
   const std::int64_t shape[2] = {n, n};

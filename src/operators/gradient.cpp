@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "cloud/tangent_frame.h"
+#include "tufted/check.h"
 #include "tufted/errors.h"
 
 namespace tufted {
@@ -19,7 +20,8 @@ constexpr double flat = 1e-10;
 /// Below this part the neighbours hardly tell the slope across, and theirs are asked as well.
 constexpr double narrow = 1e-4;
 
-void checkSizes(const Laplacian& laplacian, const Points& points, const Frames& frames) {
+void checkArguments(const Laplacian& laplacian, const Points& points, const Frames& frames) {
+  checkSizes("gradients", laplacian);
   const auto n = static_cast<Eigen::Index>(laplacian.status.size());
   const auto check = [&](const char* name, Eigen::Index rows) {
     if (rows != n) {
@@ -28,7 +30,6 @@ void checkSizes(const Laplacian& laplacian, const Points& points, const Frames& 
     }
   };
   check("points", points.rows());
-  check("L", laplacian.L.rows());
   check("frames.normals", frames.normals.rows());
   check("frames.tangents", frames.tangents.rows());
 }
@@ -122,6 +123,7 @@ Frames meshFrames(const Points& points, const Triangles& triangles) {
 }
 
 Gradients gradients(const Laplacian& laplacian, const Points& points) {
+  checkSizes("gradients", laplacian);
   if (laplacian.frames.normals.rows() == 0 && !laplacian.status.empty()) {
     throw InvalidInput("gradients: the Laplacian has no frames, must be that of a cloud; meshes have meshFrames()");
   }
@@ -129,7 +131,7 @@ Gradients gradients(const Laplacian& laplacian, const Points& points) {
 }
 
 Gradients gradients(const Laplacian& laplacian, const Points& points, const Frames& frames) {
-  checkSizes(laplacian, points, frames);
+  checkArguments(laplacian, points, frames);
   const auto n = static_cast<int>(laplacian.status.size());
   std::vector<Eigen::Triplet<double>> x, y;
   Gradients result{SparseMatrix(n, n), SparseMatrix(n, n), frames};
