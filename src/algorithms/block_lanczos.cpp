@@ -47,7 +47,8 @@ class BlockLanczos {
       result.converged =
           exhausted ? size_ >= problem_.wanted : countConverged() == problem_.wanted && isComplete(result.iterations);
       if (result.converged || exhausted) break;
-      if (size_ + fresh_ > most_) restart();  // a search may have made room already
+      // A search may have made room already.
+      if (size_ + fresh_ > most_) restart(problem_.wanted + (most_ - problem_.wanted) / 3);
     }
     if (!result.converged) return result;
     result.values = values_.head(problem_.wanted);
@@ -63,11 +64,14 @@ class BlockLanczos {
     const VectorXd now = values_.head(problem_.wanted);
     const bool searching = before_.size() > 0;
     const bool changed = !searching || ((now - before_).cwiseAbs().array() > 1e-8 * before_.array()).any();
-    if (!changed) return iteration - search_from_ >= (problem_.is_complete ? longest_search : search_steps);
-    if (problem_.is_complete && problem_.is_complete(now)) return true;
+    if (!changed) return iteration - search_from_ >= (is_missing_ ? longest_search : search_steps);
+    const std::optional<bool> complete = problem_.is_complete ? problem_.is_complete(now) : std::nullopt;
+    if (complete == true) return true;
+    is_missing_ = complete == false;
     before_ = now;
     search_from_ = iteration;
-    restart();
+    // The random block takes the place of the fresh one, which only pairs that have converged do not miss.
+    restart(problem_.wanted);
     return !addRandom();
   }
 
@@ -183,13 +187,13 @@ class BlockLanczos {
     return count;
   }
 
-  /// Keeps the leading vectors, and the fresh block behind them.
-  void restart() {
-    const Index keep = std::min(size_, problem_.wanted + (most_ - problem_.wanted) / 3);
+  /// Keeps so many leading vectors, and the fresh block behind them.
+  void restart(Index keep) {
     const MatrixXd next = fresh();
     multiplyInPlace(basis_.leftCols(size_), vectors_.leftCols(keep), quiet_);
     T_.setZero();
     T_.diagonal().head(keep) = values_.head(keep);
+    vectors_ = MatrixXd::Identity(keep, keep);  // the basis is made of them now
     size_ = keep;
     fresh() = next;
   }
@@ -207,10 +211,11 @@ class BlockLanczos {
   MatrixXd coupling_;  ///< what A leads from the last block to the fresh one
   VectorXd values_;
   MatrixXd vectors_;
-  VectorXd before_;      ///< what had converged when the search for missed eigenvalues began
-  int search_from_ = 0;  ///< iteration at which it did
-  double scale_ = 0;     ///< the largest eigenvalue so far
-  double found_ = 0;     ///< share of the wanted that has converged
+  VectorXd before_;          ///< what had converged when the search for missed eigenvalues began
+  int search_from_ = 0;      ///< iteration at which it did
+  bool is_missing_ = false;  ///< whether it looks for what is known to be missing
+  double scale_ = 0;         ///< the largest eigenvalue so far
+  double found_ = 0;         ///< share of the wanted that has converged
 };
 
 }  // namespace

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <functional>
+#include <optional>
 
 #include "base/parallel.h"
 
@@ -15,8 +16,9 @@ struct LanczosProblem {
   Eigen::VectorXd mass;    ///< n, >= 0; rows of mass 0 do not matter to A
   Eigen::Index dimension;  ///< of the space that is left, > `wanted`
   Eigen::Index wanted;     ///< pairs, >= 1
-  /// Whether these are the `wanted` largest eigenvalues, or some that are as large were missed. May be empty.
-  std::function<bool(const Eigen::VectorXd&)> is_complete;
+  /// Whether these are the `wanted` largest eigenvalues, or some that are as large were missed; nothing where that
+  /// cannot be told. May be empty.
+  std::function<std::optional<bool>(const Eigen::VectorXd&)> is_complete;
 };
 
 struct LanczosOptions {
@@ -32,8 +34,8 @@ struct LanczosResult {
 };
 
 /// Largest eigenpairs by Lanczos' method with blocks of vectors, all kept orthogonal, and thick restarts. Copies of
-/// multiple eigenvalues can be missed: a random block looks for them when all others have converged and `is_complete`
-/// says no, or is empty.
+/// multiple eigenvalues can be missed: a random block looks for them when all others have converged, unless
+/// `is_complete` says that there are none.
 LanczosResult largestEigenpairs(const LanczosProblem& problem, const LanczosOptions& options, const Workers& workers);
 
 }  // namespace tufted

@@ -25,6 +25,10 @@ void multiply(bool transpose, double alpha, const ConstBlock& A, const ConstBloc
   const int m = static_cast<int>(C.rows()), n = static_cast<int>(C.cols());
   const int k = static_cast<int>(B.rows());
   if (m == 0 || n == 0) return;
+  if (k == 0) {  // an empty matrix has no leading dimension that BLAS would take
+    if (beta == 0) C.setZero();
+    return;
+  }
   const int lda = static_cast<int>(A.outerStride()), ldb = static_cast<int>(B.outerStride()),
             ldc = static_cast<int>(C.outerStride());
   dgemm_(transpose ? "T" : "N", "N", &m, &n, &k, &alpha, A.data(), &lda, B.data(), &ldb, &beta, C.data(), &ldc);
