@@ -7,6 +7,7 @@
 #include <string>
 #include <tuple>
 
+#include "base/number_text.h"
 #include "tufted/errors.h"
 
 namespace tufted {
@@ -25,8 +26,8 @@ double positionOf(const ScanStructure& structure, std::size_t i) {
   const double position = structure.position[i];
   if (!structure.has_rings) {
     if (position >= 0 && position < INT32_MAX && position == std::floor(position)) return position;
-    throw InvalidInput(std::string(function_name) + "position[" + std::to_string(i) +
-                       "] = " + std::to_string(position) + ", must be a whole column >= 0 in an image");
+    throw InvalidInput(std::string(function_name) + "position[" + std::to_string(i) + "] = " + numberText(position) +
+                       ", must be a whole column >= 0 in an image");
   }
   constexpr double turn = 2 * std::numbers::pi;
   const double within = std::fmod(position, turn);

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <string>
 
+#include "base/number_text.h"
 #include "tufted/errors.h"
 
 namespace tufted {
@@ -39,7 +40,7 @@ double widestInnerGap(std::vector<double> gaps) {
     if (here > contrast) contrast = here, inner = gaps[i];
   }
   if (!(contrast >= least_contrast)) {
-    throw InvalidInput("findRings: the gaps between elevations fall by a factor of " + std::to_string(contrast) +
+    throw InvalidInput("findRings: the gaps between elevations fall by a factor of " + numberText(contrast) +
                        " at most, must be at least 4 for rings to show (is `origin` the sensor's?)");
   }
   return inner;
@@ -109,8 +110,8 @@ ScanStructure findRings(const Points& points, const Eigen::Vector3d& origin) {
       ring[rays[i].index] = number;
     }
     if (widest > narrowest || number + 1 < least_rings) {
-      throw InvalidInput("findRings: " + std::to_string(number + 1) + " rings of up to " + std::to_string(widest) +
-                         " rad with gaps down to " + std::to_string(narrowest) +
+      throw InvalidInput("findRings: " + std::to_string(number + 1) + " rings of up to " + numberText(widest) +
+                         " rad with gaps down to " + numberText(narrowest) +
                          " rad, must be at least 4 and narrower than the gaps (is `origin` the sensor's?)");
     }
   }

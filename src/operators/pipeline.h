@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "base/number_text.h"
 #include "base/parallel.h"
 #include "base/power_of_two.h"
 #include "base/stage_clock.h"
@@ -27,7 +28,7 @@ template <class Options>
 void checkCommon(const char* function, const Options& options) {
   const std::string name = function;
   if (!(options.mollify >= 0 && options.mollify <= 1)) {
-    throw InvalidInput(name + ": mollify = " + std::to_string(options.mollify) + ", must lie in [0, 1]");
+    throw InvalidInput(name + ": mollify = " + numberText(options.mollify) + ", must lie in [0, 1]");
   }
   if (options.threads < 0) {
     throw InvalidInput(name + ": threads = " + std::to_string(options.threads) + ", must be >= 0");

@@ -3,6 +3,7 @@
 #include <numeric>
 #include <optional>
 
+#include "base/number_text.h"
 #include "base/release.h"
 #include "cloud/boundary.h"
 #include "cloud/morton.h"
@@ -34,8 +35,8 @@ void checkOptions(const Points& points, const CloudOptions& options) {
   };
   if (options.viewpoint != nullptr && !options.viewpoint->allFinite()) {
     const Eigen::Vector3d& v = *options.viewpoint;
-    throw InvalidInput(name + ": viewpoint = " + std::to_string(v.x()) + " " + std::to_string(v.y()) + " " +
-                       std::to_string(v.z()) + ", must be finite");
+    throw InvalidInput(name + ": viewpoint = " + numberText(v.x()) + " " + numberText(v.y()) + " " + numberText(v.z()) +
+                       ", must be finite");
   }
   if (options.normals != nullptr) checkRows("normals", options.normals->rows());
   if (options.structure != nullptr && options.neighborhoods != nullptr) {
