@@ -42,7 +42,9 @@ struct DistanceOptions {
   /// Where the surface ends, the mean of heat that cannot leave and heat that is lost, as if the surface went on
   /// (Section 3.2 of the paper on the heat method); otherwise heat that cannot leave, for one factorisation less.
   bool open_boundary = true;
-  SolverOptions solver = {};  ///< of all factorisations
+  /// Of all factorisations, three where the surface ends and two elsewhere. By multigrid `tolerance` is that of
+  /// L d = div X, so d is right to about as much; heat is solved to 1e-12 at least, whatever it says.
+  SolverOptions solver = {};
 };
 
 /// What a query did.
@@ -76,9 +78,13 @@ class DistanceSolver {
   /// are not finite. Coincident points have the value of their representative. A source given twice counts once. Where
   /// sources fill a region, distances are those from its boundary. Sources that are isolated or not finite say nothing.
   /// @throws InvalidInput for no source, an index out of range, or no source on any component
-  VectorXd query(const std::vector<int>& sources, DistanceReport* report = nullptr) const;
+  /// @throws SolverFailure when multigrid does not reach its tolerance
+  /// @throws Cancelled when `progress` returns false
+  VectorXd query(const std::vector<int>& sources, DistanceReport* report = nullptr,
+                 const Progress& progress = {}) const;
   /// The same from any points of the surface. The corners around one have their distance along the triangle.
-  VectorXd queryAt(const std::vector<SurfacePoint>& sources, DistanceReport* report = nullptr) const;
+  VectorXd queryAt(const std::vector<SurfacePoint>& sources, DistanceReport* report = nullptr,
+                   const Progress& progress = {}) const;
 
   /// The time step t in use, in the points' unit squared.
   double timeStep() const;

@@ -19,19 +19,26 @@ struct Pins {
 /// The smoothest function with given values: L u = 0 at all other points, for each of the c columns (Section 5.5).
 ///
 /// Each value lies within the range of the pinned values of its component, and so it does at boundaries, as L is an
-/// M-matrix. Rounding takes it at most 1e-12 of that range outside; nothing is clamped. With a single pin the component
-/// is constant.
+/// M-matrix. Rounding takes it at most 1e-12 of that range outside, or by the last digit of values that are large
+/// beside it; nothing is clamped. With a single pin the component is constant.
+///
+/// What a first solve leaves is solved for again until rounding is all that is left, whatever `options.tolerance`. The
+/// report's iterations are those of all these solves, and its residual is what is missing in the end, over what was
+/// missing of the constant that is the mean of the pins.
 /// @return N x c. NaN in components without a pin and, unless pinned, at points that are isolated or not finite; a
 ///         coincident point has its representative's values
 /// @throws InvalidInput for an index out of range, arrays of different sizes, values that are not finite, or no pin on
 ///         any component
-/// @throws SolverFailure when the system cannot be solved
+/// @throws SolverFailure when the system cannot be solved, or sums of values overflow
+/// @throws Cancelled when `options.progress` returns false
 Eigen::MatrixXd harmonic(const Laplacian& laplacian, const Pins& pins, const SolverOptions& options = {},
                          SolveReport* report = nullptr);
 
 /// The function of least bending with given values: the least sum over M of the squared Laplacian, so L M^-1 L u = 0 at
 /// all other points. Smooth at the pins, where harmonic functions have peaks, but not bounded by their values; at a
-/// boundary it meets the rim at a right angle, as L does not see beyond.
+/// boundary it meets the rim at a right angle, as L does not see beyond. The report is that of harmonic().
+///
+/// Multigrid is not fit for this: where a factor exceeds `options.memory_limit` it is a SolverFailure.
 /// @return, @throws as harmonic()
 Eigen::MatrixXd biharmonic(const Laplacian& laplacian, const Pins& pins, const SolverOptions& options = {},
                            SolveReport* report = nullptr);

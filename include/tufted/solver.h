@@ -20,11 +20,13 @@ enum class SolverMethod {
 
 struct SolverOptions {
   SolverMethod method = SolverMethod::automatic;
-  std::size_t memory_limit = 0;  ///< bytes that a factor may take, for `automatic`; 0: half of the machine's memory
-  double tolerance = 1e-12;      ///< multigrid: stops at |b - A x| <= tolerance |b|; in (0, 1)
-  int max_iterations = 500;      ///< multigrid: of conjugate gradients, >= 1; beyond them SolverFailure
-  int threads = 0;               ///< at most this many, over right sides; 0: what OpenMP offers
-  Progress progress = {};        ///< while the solver is made
+  /// Bytes that a factor may take, for `automatic`; those of all factors together, where a function holds several. 0:
+  /// half of the available memory, of the system or of the process's control group, whichever is less.
+  std::size_t memory_limit = 0;
+  double tolerance = 1e-12;  ///< multigrid: stops at |b - A x| <= tolerance |b|; in (0, 1)
+  int max_iterations = 500;  ///< multigrid: of conjugate gradients, >= 1; beyond them SolverFailure
+  int threads = 0;           ///< at most this many, over right sides; 0: what OpenMP offers
+  Progress progress = {};    ///< while the solver is made; functions that make and use one show their solves, too
 };
 
 /// What making a solver did.
@@ -36,6 +38,7 @@ struct SolverReport {
   std::size_t factor_bytes = 0;  ///< what a factor takes or would take, where it was estimated
   std::int64_t components = 0;   ///< of a Laplacian; 0 otherwise
   double seconds = 0;            ///< wall-clock
+  bool iterative = false;        ///< by multigrid, not by a factor
 };
 
 /// What a solve did.
@@ -68,8 +71,10 @@ class Solver {
   /// @param b N x c right sides, which must be finite where they are looked at; several at once cost less
   /// @return N x c
   /// @throws InvalidInput for a wrong number of rows or right sides that are not finite
-  /// @throws SolverFailure when multigrid does not reach its tolerance
-  Eigen::MatrixXd solve(const Eigen::Ref<const Eigen::MatrixXd>& b, SolveReport* report = nullptr) const;
+  /// @throws SolverFailure when multigrid does not reach its tolerance, or memory does not suffice
+  /// @throws Cancelled when `progress` returns false
+  Eigen::MatrixXd solve(const Eigen::Ref<const Eigen::MatrixXd>& b, SolveReport* report = nullptr,
+                        const Progress& progress = {}) const;
 
   const SolverReport& report() const;
 

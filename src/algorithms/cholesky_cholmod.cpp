@@ -6,7 +6,6 @@
 
 #include "algorithms/linear_backend.h"
 #include "algorithms/serial_blas.h"
-#include "tufted/errors.h"
 
 namespace tufted {
 namespace {
@@ -61,7 +60,7 @@ class CholmodBackend : public LinearBackend {
  public:
   explicit CholmodBackend(Factor factor) : factor_(std::move(factor)) {}
 
-  int solve(Eigen::Ref<Eigen::MatrixXd> x) const override {
+  int solve(Eigen::Ref<Eigen::MatrixXd> x, const Tick& /*tick*/) const override {
     const SerialBlas serial;
     Common common;
     cholmod_dense b = {};

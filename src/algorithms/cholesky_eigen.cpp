@@ -15,7 +15,7 @@ class Factor : public Eigen::SimplicialLDLT<LongMatrix> {
 class EigenBackend : public LinearBackend {
  public:
   explicit EigenBackend(std::unique_ptr<Factor> factor) : factor_(std::move(factor)) {}
-  int solve(Eigen::Ref<Eigen::MatrixXd> x) const override {
+  int solve(Eigen::Ref<Eigen::MatrixXd> x, const Tick& /*tick*/) const override {
     for (Eigen::Index c = 0; c < x.cols(); ++c) x.col(c) = factor_->solve(x.col(c)).eval();
     return 0;
   }

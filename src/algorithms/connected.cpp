@@ -30,6 +30,24 @@ VectorXd Components::weights(const VectorXd& M) const {
   return result;
 }
 
+Eigen::MatrixXd Components::normalise(Eigen::Ref<Eigen::MatrixXd> values) const {
+  Eigen::MatrixXd top = Eigen::MatrixXd::Zero(count, values.cols());
+  for (Eigen::Index c = 0; c < values.cols(); ++c) {
+    for (const int i : points) top(of[i], c) = std::max(top(of[i], c), std::abs(values(i, c)));
+  }
+  top = (top.array() > 0).select(top, 1);
+  for (Eigen::Index c = 0; c < values.cols(); ++c) {
+    for (const int i : points) values(i, c) /= top(of[i], c);
+  }
+  return top;
+}
+
+void Components::multiply(Eigen::Ref<Eigen::MatrixXd> values, const Eigen::MatrixXd& factors) const {
+  for (Eigen::Index c = 0; c < values.cols(); ++c) {
+    for (const int i : points) values(i, c) *= factors(of[i], c);
+  }
+}
+
 Components findComponents(const Laplacian& laplacian) {
   const SparseMatrix& L = laplacian.L;
   const VectorXd diagonal = L.diagonal();

@@ -17,6 +17,12 @@ struct Components {
   VectorXd sums(const VectorXd& values) const;
   /// M divided by its sum over the component; all equal where that sum is 0. 0 at points that are not active.
   VectorXd weights(const VectorXd& M) const;
+
+  /// Divides each column on each component by its largest magnitude there, so that iterations see them alike.
+  /// @return what was divided by, components x columns; 1 where there is nothing but 0
+  Eigen::MatrixXd normalise(Eigen::Ref<Eigen::MatrixXd> values) const;
+  /// Multiplies by what normalise() has divided by.
+  void multiply(Eigen::Ref<Eigen::MatrixXd> values, const Eigen::MatrixXd& factors) const;
 };
 
 Components findComponents(const Laplacian& laplacian);

@@ -3,14 +3,19 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "algorithms/connected.h"
 #include "algorithms/heat_directions.h"
+#include "algorithms/linear_system.h"
+#include "algorithms/memory_limit.h"
+#include "base/number_text.h"
 #include "base/parallel.h"
 #include "base/stage_clock.h"
 #include "operators/surface_faces.h"
+#include "tufted/check.h"
 #include "tufted/errors.h"
 
 namespace tufted {
@@ -20,17 +25,35 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// A mass below this part of its row of L is lost when the two are added, and the matrix may become singular.
 constexpr double least_mass = 1e-13;
 
-void checkOptions(const Laplacian& laplacian, const DistanceOptions& options) {
-  const std::string name = "DistanceSolver: ";
+constexpr const char* constructor = "DistanceSolver";
+constexpr const char* query_name = "DistanceSolver::query";
+
+void checkArguments(const Laplacian& laplacian, const DistanceOptions& options) {
+  checkSizes(constructor, laplacian);
   if (!(options.time_step > 0 && std::isfinite(options.time_step))) {
-    throw InvalidInput(name + "time_step = " + std::to_string(options.time_step) + ", must be finite and above 0");
+    throw InvalidInput(std::string(constructor) + ": time_step = " + numberText(options.time_step) +
+                       ", must be finite and above 0");
   }
-  const std::size_t n = laplacian.status.size();
-  if (static_cast<std::size_t>(laplacian.L.rows()) != n || laplacian.representative.size() != n ||
-      laplacian.boundary.size() != n) {
-    throw InvalidInput(name +
-                       "L, status, representative and boundary differ in their number of points, must be the same");
+}
+
+/// A cover that was put together by hand may not fit.
+const IntrinsicTriangulation& checkedCover(const Laplacian& laplacian) {
+  const std::string name = std::string(constructor) + ": cover ";
+  const IntrinsicTriangulation& cover = laplacian.cover();
+  const auto n = std::ssize(laplacian.status);
+  if (cover.vertices != n)
+    throw InvalidInput(name + "has " + std::to_string(cover.vertices) + " vertices, must have " + std::to_string(n));
+  if (std::ssize(cover.length) != 3 * cover.size())
+    throw InvalidInput(name + "has " + std::to_string(cover.length.size()) + " lengths, must have " +
+                       std::to_string(3 * cover.size()));
+  for (const auto& face : cover.faces) {
+    for (const int corner : face) {
+      if (corner >= 0 && corner < n) continue;
+      throw InvalidInput(name + "has the corner " + std::to_string(corner) + ", must lie in [0, " + std::to_string(n) +
+                         ")");
+    }
   }
+  return cover;
 }
 
 /// M / t + L, with the areas of the faces, over the points where `interior` is not 0.
@@ -48,17 +71,17 @@ SparseMatrix heatMatrix(const Laplacian& laplacian, const SurfaceFaces& surface,
 }
 
 void checkSource(const SurfacePoint& source, int n) {
-  const std::string name = "DistanceSolver::query: ";
+  const std::string name = std::string(query_name) + ": ";
   for (int k = 0; k < 3; ++k) {
     if (source.corners[k] < 0 || source.corners[k] >= n) {
       throw InvalidInput(name + "source " + std::to_string(source.corners[k]) + ", must lie in [0, " +
                          std::to_string(n) + ")");
     }
     if (!(source.weights[k] >= 0 && source.weights[k] <= 1)) {
-      throw InvalidInput(name + "weight of a source = " + std::to_string(source.weights[k]) + ", must lie in [0, 1]");
+      throw InvalidInput(name + "weight of a source = " + numberText(source.weights[k]) + ", must lie in [0, 1]");
     }
     if (!(source.distances[k] >= 0 && std::isfinite(source.distances[k]))) {
-      throw InvalidInput(name + "distance of a source from a corner = " + std::to_string(source.distances[k]) +
+      throw InvalidInput(name + "distance of a source from a corner = " + numberText(source.distances[k]) +
                          ", must be finite and at least 0");
     }
   }
@@ -80,7 +103,7 @@ struct DistanceSolver::State {
   VectorXd interior;  ///< N; 0 where the surface ends, 1 elsewhere
   double time = 1;    ///< in units of 2^(2 exponent)
   int threads = 0;
-  std::unique_ptr<const Solver> closed, open, poisson;
+  std::optional<const LinearSystem> closed, open, poisson;
 
   Sources locate(const std::vector<SurfacePoint>& sources) const;
   std::vector<std::uint8_t> facesInside(const Sources& sources) const;
@@ -92,12 +115,12 @@ DistanceSolver& DistanceSolver::operator=(DistanceSolver&&) noexcept = default;
 DistanceSolver::~DistanceSolver() = default;
 
 DistanceSolver::DistanceSolver(const Laplacian& laplacian, const DistanceOptions& options) {
-  checkOptions(laplacian, options);
+  checkArguments(laplacian, options);
   auto state = std::make_unique<State>();
   const Workers workers(options.solver.threads, options.solver.progress);
   const double scale = laplacian.frames.normals.rows() > 0 ? 1.0 / 6 : 1.0 / 2;  // see Laplacian
   state->L = laplacian.L;
-  state->surface = distinctFaces(laplacian.cover(), scale, workers);
+  state->surface = distinctFaces(checkedCover(laplacian), scale, workers);
   state->components = findComponents(laplacian);
   state->representative = laplacian.representative;
   state->threads = options.solver.threads;
@@ -105,19 +128,27 @@ DistanceSolver::DistanceSolver(const Laplacian& laplacian, const DistanceOptions
   const double unit = options.unit == TimeUnit::mean_edge ? surface.mean_square : surface.area_mean_square;
   if (unit > 0) state->time = options.time_step * unit;
 
-  state->interior = VectorXd::Ones(laplacian.L.rows());
-  const auto factor = [&] {
-    const SparseMatrix A = heatMatrix(laplacian, surface, state->time, state->interior);
-    return std::make_unique<const Solver>(Solver::positiveDefinite(A, options.solver));
-  };
-  state->closed = factor();
-  if (options.open_boundary) {
-    for (Eigen::Index i = 0; i < state->interior.size(); ++i) {
-      if (laplacian.boundary[i] != Boundary::none) state->interior[i] = 0;
-    }
-    if (state->interior.size() > 0 && state->interior.minCoeff() == 0) state->open = factor();
+  const Eigen::Index n = laplacian.L.rows();
+  const VectorXd everywhere = VectorXd::Ones(n);
+  state->interior = everywhere;
+  for (Eigen::Index i = 0; i < n && options.open_boundary; ++i) {
+    if (laplacian.boundary[i] != Boundary::none) state->interior[i] = 0;
   }
-  state->poisson = std::make_unique<const Solver>(Solver::laplacian(laplacian, options.solver));
+  const bool ends = n > 0 && state->interior.minCoeff() == 0;
+  // All factors are held at once, and are about as large.
+  SolverOptions one = options.solver;
+  one.memory_limit = std::max<std::size_t>(memoryLimit(options.solver.memory_limit) / (ends ? 3 : 2), 1);
+  SolverOptions heat = one;
+  heat.tolerance = std::min(heat.tolerance, heat_tolerance);
+  const auto system = [&](const VectorXd& points) {
+    const SystemNames names = {.function = constructor,
+                               .matrix = "M + t L",
+                               .if_slow = "raise max_iterations, or set method to SolverMethod::cholesky"};
+    return LinearSystem::positiveDefinite(names, heatMatrix(laplacian, surface, state->time, points), heat);
+  };
+  state->closed.emplace(system(everywhere));
+  if (ends) state->open.emplace(system(state->interior));
+  state->poisson.emplace(LinearSystem::laplacian({.function = constructor, .matrix = "L"}, laplacian, one));
   state_ = std::move(state);
 }
 
@@ -127,7 +158,7 @@ double DistanceSolver::timeStep() const {
 
 Sources DistanceSolver::State::locate(const std::vector<SurfacePoint>& sources) const {
   const int n = static_cast<int>(representative.size());
-  if (sources.empty()) throw InvalidInput("DistanceSolver::query: sources is empty, must name at least one");
+  if (sources.empty()) throw InvalidInput(std::string(query_name) + ": sources is empty, must name at least one");
   Sources found{VectorXd::Constant(n, infinity), VectorXd::Zero(n)};
   for (const SurfacePoint& source : sources) {
     checkSource(source, n);
@@ -140,7 +171,7 @@ Sources DistanceSolver::State::locate(const std::vector<SurfacePoint>& sources) 
     }
   }
   if (!(found.heat.maxCoeff() > 0)) {
-    throw InvalidInput("DistanceSolver::query: no source lies on a component, must be at least one active point");
+    throw InvalidInput(std::string(query_name) + ": no source lies on a component, must be at least one active point");
   }
   return found;
 }
@@ -177,24 +208,29 @@ void DistanceSolver::State::shift(const Sources& sources, VectorXd& distance) co
   for (Eigen::Index i = 0; i < distance.size(); ++i) distance[i] = distance[representative[i]];
 }
 
-VectorXd DistanceSolver::query(const std::vector<int>& sources, DistanceReport* report) const {
+VectorXd DistanceSolver::query(const std::vector<int>& sources, DistanceReport* report,
+                               const Progress& progress) const {
   std::vector<SurfacePoint> points;
   points.reserve(sources.size());
   for (const int source : sources) points.push_back(SurfacePoint::vertex(source));
-  return queryAt(points, report);
+  return queryAt(points, report, progress);
 }
 
-VectorXd DistanceSolver::queryAt(const std::vector<SurfacePoint>& sources, DistanceReport* report) const {
+VectorXd DistanceSolver::queryAt(const std::vector<SurfacePoint>& sources, DistanceReport* report,
+                                 const Progress& progress) const {
   const Stopwatch watch;
   const State& state = *state_;
   const Sources known = state.locate(sources);
-  const HeatProblem problem{state.surface, state.L, state.components, *state.closed, state.open.get(), state.interior};
-  const Progress silent;
+  const HeatProblem problem{
+      state.surface, state.L, state.components, *state.closed, state.open ? &*state.open : nullptr, state.interior};
+  const bool measure = report != nullptr;
   DistanceReport made;
-  VectorXd distance = divergenceOfHeat(problem, known.heat, state.facesInside(known), Workers(state.threads, silent),
-                                       report != nullptr, made);
+  VectorXd distance = divergenceOfHeat(query_name, problem, known.heat, state.facesInside(known), state.threads,
+                                       progress, measure, made);
+  const Eigen::MatrixXd scale = state.components.normalise(distance);
   SolveReport solved;
-  distance = state.poisson->solve(distance, report != nullptr ? &solved : nullptr);
+  distance = state.poisson->solve(query_name, distance, measure ? &solved : nullptr, progress);
+  state.components.multiply(distance, scale);
   state.shift(known, distance);
   if (report != nullptr) {
     made.iterations = std::max(made.iterations, solved.iterations);
@@ -223,12 +259,12 @@ SurfacePoint SurfacePoint::inFace(const Points& points, const Triangles& triangl
       throw InvalidInput(name + "corner " + std::to_string(corner) + " is not finite, must be");
     }
     if (!(barycentric[k] >= 0 && std::isfinite(barycentric[k]))) {
-      throw InvalidInput(name + "barycentric = " + std::to_string(barycentric[k]) + ", must be finite and at least 0");
+      throw InvalidInput(name + "barycentric = " + numberText(barycentric[k]) + ", must be finite and at least 0");
     }
     sum += barycentric[k];
   }
   if (!(sum > 0 && std::isfinite(sum)))
-    throw InvalidInput(name + "barycentric coordinates sum to " + std::to_string(sum) + ", must be above 0");
+    throw InvalidInput(name + "barycentric coordinates sum to " + numberText(sum) + ", must be above 0");
   SurfacePoint result{{triangles(face, 0), triangles(face, 1), triangles(face, 2)}, {}, {}};
   const Eigen::RowVector3d origin = points.row(result.corners[0]);
   Eigen::RowVector3d place = Eigen::RowVector3d::Zero();  // from the first corner

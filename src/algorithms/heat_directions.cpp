@@ -10,7 +10,7 @@ namespace {
 constexpr std::int64_t block_size = 8192;
 
 /// u keeps its relative accuracy down to underflow, because in the factor of an M-matrix and with heat >= 0 nothing but
-/// numbers of one sign is ever added. Conjugate gradients know no more than their tolerance.
+/// numbers of one sign is ever added. Conjugate gradients know no more than their tolerance, `heat_tolerance`.
 struct Range {
   double valid;  ///< u is trusted above this part of its component's largest value
   double front;  ///< where it falls below this heat starts again; far enough above `valid` to even out
@@ -21,9 +21,12 @@ constexpr Range by_iteration = {1e-9, 1e-5};
 /// Heat that starts again and again where it would underflow.
 class Rounds {
  public:
-  Rounds(const HeatProblem& problem, const VectorXd& heat, bool measure, DistanceReport& report)
-      : problem_(problem),
-        range_(problem.closed.report().method.starts_with("multigrid") ? by_iteration : by_elimination),
+  Rounds(const std::string& function, const HeatProblem& problem, const VectorXd& heat, const Progress& progress,
+         bool measure, DistanceReport& report)
+      : function_(function),
+        problem_(problem),
+        progress_(progress),
+        range_(isIterative(problem) ? by_iteration : by_elimination),
         heat_(heat),
         passed_(static_cast<std::size_t>(heat.size()), 0),
         measure_(measure),
@@ -33,10 +36,10 @@ class Rounds {
   bool next() {
     if (report_.rounds > 0 && !restart()) return false;
     ++report_.rounds;
-    normalise(heat_);
+    problem_.components.normalise(heat_);
     u_ = solve(problem_.closed, heat_);
     if (problem_.open != nullptr) u_ = (u_ + solve(*problem_.open, heat_.cwiseProduct(problem_.interior))) / 2;
-    normalise(u_);
+    problem_.components.normalise(u_);
     return true;
   }
 
@@ -44,22 +47,16 @@ class Rounds {
   double valid() const { return range_.valid; }
 
  private:
-  VectorXd solve(const Solver& solver, const VectorXd& heat) {
+  static bool isIterative(const HeatProblem& problem) {
+    return problem.closed.report().iterative || (problem.open != nullptr && problem.open->report().iterative);
+  }
+
+  VectorXd solve(const LinearSystem& system, const VectorXd& heat) {
     SolveReport solved;
-    VectorXd u = solver.solve(heat, measure_ ? &solved : nullptr);
+    VectorXd u = system.solve(function_, heat, measure_ ? &solved : nullptr, progress_);
     report_.iterations = std::max(report_.iterations, solved.iterations);
     report_.residual = std::max(report_.residual, solved.residual);
     return u;
-  }
-
-  /// Divides each component by its largest value.
-  void normalise(VectorXd& values) const {
-    const Components& components = problem_.components;
-    std::vector<double> top(components.count, 0);
-    for (const int i : components.points) top[components.of[i]] = std::max(top[components.of[i]], values[i]);
-    for (const int i : components.points) {
-      if (top[components.of[i]] > 0) values[i] /= top[components.of[i]];
-    }
   }
 
   /// What flows from points that heat has reached into those that it has not is the heat of the next round. Past the
@@ -84,7 +81,9 @@ class Rounds {
     return flows;
   }
 
+  const std::string& function_;
   const HeatProblem& problem_;
+  const Progress& progress_;
   Range range_;
   VectorXd heat_, u_;
   std::vector<std::uint8_t> passed_;
@@ -108,12 +107,14 @@ std::vector<int> waitingFaces(const HeatProblem& problem, const VectorXd& heat,
 
 }  // namespace
 
-VectorXd divergenceOfHeat(const HeatProblem& problem, const VectorXd& heat, const std::vector<std::uint8_t>& still,
-                          const Workers& workers, bool measure, DistanceReport& report) {
+VectorXd divergenceOfHeat(const std::string& function, const HeatProblem& problem, const VectorXd& heat,
+                          const std::vector<std::uint8_t>& still, int threads, const Progress& progress, bool measure,
+                          DistanceReport& report) {
+  const Workers workers(threads, progress);
   std::vector<int> waiting = waitingFaces(problem, heat, still);
   std::vector<std::array<double, 3>> outflow(waiting.size());
   VectorXd result = VectorXd::Zero(heat.size()), log_u;
-  Rounds rounds(problem, heat, measure, report);
+  Rounds rounds(function, problem, heat, progress, measure, report);
   while (!waiting.empty() && rounds.next()) {
     log_u = rounds.u().array().max(0).log();  // -infinity where nothing is
     const double valid = std::log(rounds.valid());

@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 
@@ -10,14 +11,23 @@
 
 namespace tufted {
 
+/// Thrown where iterations do not suffice; LinearSystem makes a SolverFailure of it.
+struct NotConverged {
+  int iterations;
+  double residual;  ///< |b - A x| / |b|
+};
+
+/// Called with the fraction of a solve that is done; may throw to end it.
+using Tick = std::function<void(double)>;
+
 /// A positive definite system, prepared.
 class LinearBackend {
  public:
   virtual ~LinearBackend() = default;
   /// Replaces right sides (n x c) by solutions. May be called from several threads at once.
   /// @return iterations, the most of any column; 0 by elimination
-  /// @throws SolverFailure
-  virtual int solve(Eigen::Ref<Eigen::MatrixXd> x) const = 0;
+  /// @throws NotConverged, std::bad_alloc, and what `tick` throws
+  virtual int solve(Eigen::Ref<Eigen::MatrixXd> x, const Tick& tick) const = 0;
 
   std::string name;
   std::int64_t nonzeros = 0;

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "algorithms/linear_backend.h"
-#include "tufted/errors.h"
 
 // Of our own, because the multigrid libraries in Debian (hypre, PETSc, Trilinos) are built for MPI and would make every
 // program that uses tufted one of MPI's. Smoothed aggregation after P. Vanek, J. Mandel, M. Brezina, "Algebraic
@@ -135,41 +134,43 @@ class Multigrid : public LinearBackend {
     return true;
   }
 
-  int solve(Eigen::Ref<Eigen::MatrixXd> x) const override {
+  int solve(Eigen::Ref<Eigen::MatrixXd> x, const Tick& tick) const override {
     int most = 0;
+    const auto columns = static_cast<double>(x.cols());
     for (Eigen::Index c = 0; c < x.cols(); ++c) {
       const double scale = x.col(c).cwiseAbs().maxCoeff();  // norms shall neither overflow nor vanish
       if (scale == 0) continue;
       const VectorXd b = x.col(c) / scale;
       VectorXd solution = VectorXd::Zero(b.size());
-      most = std::max(most, iterate(b, solution));
+      const auto tick_here = [&](double done) { tick((static_cast<double>(c) + done) / columns); };
+      most = std::max(most, iterate(b, solution, tick_here));
       x.col(c) = scale * solution;
     }
     return most;
   }
 
  private:
-  int iterate(const VectorXd& b, VectorXd& x) const {
-    const double goal = options_.tolerance * b.norm();
+  int iterate(const VectorXd& b, VectorXd& x, const Tick& tick) const {
+    const double size = b.norm(), goal = options_.tolerance * size;
     VectorXd r = b, p, image;
-    if (r.norm() <= goal) return 0;
     VectorXd z = cycle(0, r);
     p = z;
-    double rz = r.dot(z);
+    double rz = r.dot(z), done = 0;
     for (int step = 1; step <= options_.max_iterations; ++step) {
       image.noalias() = levels_[0].A * p;
       const double alpha = rz / p.dot(image);
       x += alpha * p;
       r -= alpha * image;
-      if (r.norm() <= goal) return step;
+      const double left = r.norm();
+      if (left <= goal) return step;
+      done = std::max(done, std::log(left / size) / std::log(options_.tolerance));
+      tick(std::min(done, 1.0));
       z = cycle(0, r);
       const double next = r.dot(z);
       p = z + (next / rz) * p;
       rz = next;
     }
-    throw SolverFailure("multigrid: |b - A x| / |b| is " + std::to_string(r.norm() / b.norm()) + " after " +
-                        std::to_string(options_.max_iterations) +
-                        " iterations; allow more, a larger tolerance, or the memory for a factor");
+    throw NotConverged{options_.max_iterations, r.norm() / size};
   }
 
   /// Gauss-Seidel forwards, the coarser levels, Gauss-Seidel backwards: symmetric, as conjugate gradients want it.

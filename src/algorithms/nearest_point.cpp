@@ -3,11 +3,13 @@
 #include <limits>
 #include <string>
 
+#include "tufted/check.h"
 #include "tufted/errors.h"
 
 namespace tufted {
 
 int nearestPoint(const Laplacian& laplacian, const Points& points, const Eigen::Vector3d& position) {
+  checkSizes("nearestPoint", laplacian);
   const auto n = static_cast<Eigen::Index>(laplacian.status.size());
   if (points.rows() != n) {
     throw InvalidInput("nearestPoint: points has " + std::to_string(points.rows()) + " rows, must have " +

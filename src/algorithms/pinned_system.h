@@ -14,7 +14,8 @@ struct PinnedSystem {
   Components components;
   std::vector<std::uint8_t> pinned;  ///< N; 1 at points with a value, also those that are not active
   std::vector<std::uint8_t> free;    ///< N; 1 at active points without one, in components that have pins
-  Eigen::MatrixXd values;            ///< N x c; the pins, elsewhere the mean of the component's, NaN without any
+  Eigen::MatrixXd values;            ///< N x c; the pins, NaN elsewhere
+  Eigen::MatrixXd means;             ///< of the pins, by component
 };
 
 /// @param function to be named in errors

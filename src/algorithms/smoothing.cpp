@@ -4,9 +4,11 @@
 #include <cmath>
 #include <string>
 
+#include "algorithms/linear_system.h"
+#include "base/number_text.h"
 #include "base/parallel.h"
+#include "tufted/check.h"
 #include "tufted/errors.h"
-#include "tufted/solver.h"
 
 namespace tufted {
 namespace {
@@ -16,6 +18,7 @@ namespace {
 constexpr double least_mass = 1e-13;
 
 void checkArguments(const Laplacian& laplacian, const Points& points, const SmoothingOptions& options) {
+  checkSizes("smooth", laplacian);
   const std::string name = "smooth: ";
   const auto n = static_cast<Eigen::Index>(laplacian.status.size());
   const auto checkRows = [&](const char* what, Eigen::Index rows) {
@@ -27,7 +30,7 @@ void checkArguments(const Laplacian& laplacian, const Points& points, const Smoo
   checkRows("points", points.rows());
   if (options.fixed != nullptr) checkRows("fixed", static_cast<Eigen::Index>(options.fixed->size()));
   if (!(options.time_step >= 0 && std::isfinite(options.time_step))) {
-    throw InvalidInput(name + "time_step = " + std::to_string(options.time_step) + ", must be finite and at least 0");
+    throw InvalidInput(name + "time_step = " + numberText(options.time_step) + ", must be finite and at least 0");
   }
   if (options.iterations < 1) {
     throw InvalidInput(name + "iterations = " + std::to_string(options.iterations) + ", must be at least 1");
@@ -98,20 +101,18 @@ Points smooth(const Laplacian& laplacian, const Points& points, const SmoothingO
   if (std::find(is_free.begin(), is_free.end(), true) == is_free.end() || options.time_step == 0) return result;
 
   workers.report("factor", 0);
-  const Solver solver = [&] {
-    try {
-      return Solver::positiveDefinite(systemMatrix(laplacian, is_free, options.time_step),
-                                      {.threads = options.threads});
-    } catch (const SolverFailure& failure) {
-      throw SolverFailure(std::string("smooth: M + t L: ") + failure.what());
-    }
-  }();
+  const SystemNames names = {.function = "smooth",
+                             .matrix = "M + t L",
+                             .if_slow = "take a smaller time_step",
+                             .if_large = "take fewer points"};
+  const LinearSystem system = LinearSystem::positiveDefinite(names, systemMatrix(laplacian, is_free, options.time_step),
+                                                             {.threads = options.threads});
 
   // Solved for the way each point goes: x' = x + d with (M + t L) d = -t L x.
   Eigen::MatrixXd moved = Eigen::MatrixXd::Zero(points.rows(), 3);
   for (int step = 0; step < options.iterations; ++step) {
     workers.report("smooth", static_cast<double>(step) / options.iterations);
-    moved += solver.solve(pull(laplacian, is_free, points, moved));
+    moved += system.solve("smooth", pull(laplacian, is_free, points, moved), nullptr, {});
   }
   for (int i = 0; i < points.rows(); ++i)
     if (is_free[i]) result.row(i) += moved.row(i);

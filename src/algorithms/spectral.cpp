@@ -5,6 +5,8 @@
 #include <numbers>
 #include <string>
 
+#include "base/number_text.h"
+#include "tufted/check.h"
 #include "tufted/errors.h"
 
 namespace tufted {
@@ -50,7 +52,7 @@ VectorXd heatTimes(const Spectrum& spectrum, int count) {
 MatrixXd heatKernelSignature(const Spectrum& spectrum, const VectorXd& times) {
   for (const double t : times)
     if (!(t >= 0 && std::isfinite(t)))
-      throw InvalidInput("heatKernelSignature: a time is " + std::to_string(t) + ", must be finite and at least 0");
+      throw InvalidInput("heatKernelSignature: a time is " + numberText(t) + ", must be finite and at least 0");
   const MatrixXd weights = (-spectrum.values * times.transpose()).array().exp();
   return sumSquares(spectrum.vectors, weights);
 }
@@ -66,7 +68,7 @@ VectorXd waveEnergies(const Spectrum& spectrum, int count) {
 
 MatrixXd waveKernelSignature(const Spectrum& spectrum, const VectorXd& energies, double width) {
   if (!(width > 0 && std::isfinite(width)))
-    throw InvalidInput("waveKernelSignature: width = " + std::to_string(width) + ", must be finite and above 0");
+    throw InvalidInput("waveKernelSignature: width = " + numberText(width) + ", must be finite and above 0");
   if (!energies.allFinite()) throw InvalidInput("waveKernelSignature: an energy is not finite, must be");
   const Index first = firstPositive(spectrum, "waveKernelSignature");
   const Index count = spectrum.values.size() - first;
@@ -96,6 +98,7 @@ MatrixXd spectralEmbedding(const Spectrum& spectrum, Embedding embedding) {
 
 MatrixXd filterSignals(const Laplacian& laplacian, const Spectrum& spectrum, const Eigen::Ref<const MatrixXd>& signals,
                        const std::function<double(double)>& gain) {
+  checkSizes("filterSignals", laplacian);
   const auto n = static_cast<Index>(laplacian.status.size());
   const auto require = [n](const char* what, Index rows) {
     if (rows != n)

@@ -12,10 +12,13 @@
 #include "algorithms/block_lanczos.h"
 #include "algorithms/connected.h"
 #include "algorithms/inertia.h"
+#include "algorithms/linear_system.h"
 #include "algorithms/memory_limit.h"
 #include "algorithms/tall_matrix.h"
+#include "base/number_text.h"
 #include "base/parallel.h"
 #include "base/stage_clock.h"
+#include "tufted/check.h"
 #include "tufted/errors.h"
 
 namespace tufted {
@@ -25,13 +28,11 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 
 void checkArguments(const Laplacian& laplacian, const SpectrumOptions& options) {
-  const auto n = static_cast<Index>(laplacian.status.size());
-  if (laplacian.L.rows() != n || laplacian.L.cols() != n || laplacian.M.size() != n)
-    throw InvalidInput("spectrum: L, M and status differ in their number of points, must be the same");
+  checkSizes("spectrum", laplacian);
   if (!laplacian.M.allFinite() || (laplacian.M.array() < 0).any())
     throw InvalidInput("spectrum: M has values that are negative or not finite, must have none");
   if (!(options.tolerance > 0 && options.tolerance < 1))
-    throw InvalidInput("spectrum: tolerance = " + std::to_string(options.tolerance) + ", must lie in (0, 1)");
+    throw InvalidInput("spectrum: tolerance = " + numberText(options.tolerance) + ", must lie in (0, 1)");
   if (options.max_iterations < 1)
     throw InvalidInput("spectrum: max_iterations = " + std::to_string(options.max_iterations) + ", must be at least 1");
   if (options.threads < 0)
@@ -84,9 +85,9 @@ void fixSign(Eigen::Ref<VectorXd> x) {
 }
 
 /// Counts the eigenvalues below the last wide gap among those found (ascending): they must be as many. Values behind
-/// that gap are equal, so none between them can be missing.
-bool isComplete(const SparseMatrix& L, const Problem& problem, const VectorXd& values, std::size_t memory_limit,
-                bool& counted) {
+/// that gap are equal, so none between them can be missing. Nothing where it cannot be told.
+std::optional<bool> isComplete(const SparseMatrix& L, const Problem& problem, const VectorXd& values,
+                               std::size_t memory_limit) {
   Index below = values.size() - 1;
   while (below > 0 && values[below] - values[below - 1] <= 1e-6 * values[below]) --below;
   const double bound = ((below > 0 ? values[below - 1] : 0) + values[below]) / 2;
@@ -94,23 +95,33 @@ bool isComplete(const SparseMatrix& L, const Problem& problem, const VectorXd& v
   for (const int i : problem.components.points)
     if (problem.area[problem.components.of[i]] > 0) points.push_back(i);
   const std::optional<Index> count = eigenvaluesBelow(L, problem.mass, bound, points, memory_limit);
-  counted = count && *count == below + std::ssize(problem.order);
-  return counted || !count;
+  if (!count) return std::nullopt;
+  return *count == below + std::ssize(problem.order);
 }
 
 /// The pairs of positive eigenvalue, M-orthonormal.
 void findVibrations(const Laplacian& laplacian, const Problem& problem, Index wanted, const SpectrumOptions& options,
                     Spectrum& spectrum) {
-  const Solver solver = Solver::laplacian(laplacian, {.method = options.method,
-                                                      .memory_limit = options.memory_limit,
-                                                      .threads = options.threads,
-                                                      .progress = options.progress});
-  spectrum.report.solver = solver.report();
+  const std::size_t limit = memoryLimit(options.memory_limit);
+  const SystemNames names = {.function = "spectrum", .matrix = "L", .if_slow = "set method to SolverMethod::cholesky"};
+  const LinearSystem system = LinearSystem::laplacian(
+      names, laplacian,
+      {.method = options.method, .memory_limit = limit, .threads = options.threads, .progress = options.progress});
+  spectrum.report.solver = system.report();
 
-  const Workers workers(options.threads, options.progress);
+  // Solves can be cancelled, but what they show is how many pairs have been found.
+  double found_share = 0;
+  const Progress progress = [&](std::string_view stage, double fraction) {
+    if (stage == "eigenpairs") found_share = fraction;
+    if (!options.progress) return true;
+    return stage == "solve" ? options.progress("eigenpairs", found_share) : options.progress(stage, fraction);
+  };
+  const Workers workers(options.threads, progress);
   const Progress silent;
   const Workers quiet(options.threads, silent);
-  const auto apply = [&](const Eigen::Ref<const MatrixXd>& x) { return solver.solve(problem.mass.asDiagonal() * x); };
+  const auto apply = [&](const Eigen::Ref<const MatrixXd>& x) {
+    return system.solve("spectrum", problem.mass.asDiagonal() * x, nullptr, progress);
+  };
   const auto deflate = [&](Eigen::Ref<MatrixXd> x) {
     for (Index c = 0; c < x.cols(); ++c) {
       const VectorXd sums = problem.components.sums(x.col(c).cwiseProduct(problem.mass));
@@ -127,20 +138,23 @@ void findVibrations(const Laplacian& laplacian, const Problem& problem, Index wa
                             .dimension = problem.usable - nulls,
                             .wanted = wanted,
                             .is_complete = {}};
-  // Where no factor fits, nothing can be counted.
-  const std::size_t limit = memoryLimit(options.memory_limit);
-  if (options.method != SolverMethod::multigrid && spectrum.report.solver.factor_bytes <= limit) {
+  // Counting takes a factor beside the one that is held.
+  const std::size_t held = system.report().bytes;
+  if (!system.report().iterative && held < limit) {
     inverse.is_complete = [&](const VectorXd& values) {
       workers.report("count", 0);
-      return isComplete(laplacian.L, problem, values.cwiseInverse(), limit, spectrum.report.counted);
+      const std::optional<bool> complete = isComplete(laplacian.L, problem, values.cwiseInverse(), limit - held);
+      spectrum.report.counted = complete.value_or(false);
+      return complete;
     };
   }
   const LanczosResult found =
       largestEigenpairs(inverse, {.tolerance = options.tolerance, .max_iterations = options.max_iterations}, workers);
   spectrum.report.iterations = found.iterations;
   if (!found.converged)
-    throw SolverFailure("spectrum: " + std::to_string(options.max_iterations) + " iterations do not suffice for " +
-                        std::to_string(wanted) + " eigenvalues; allow more, or a larger tolerance");
+    throw SolverFailure("spectrum: max_iterations = " + std::to_string(options.max_iterations) +
+                        " do not suffice for " + std::to_string(wanted) + " eigenvalues to a tolerance of " +
+                        numberText(options.tolerance) + "; raise either");
 
   // Another step of the inverse takes out what rounding left of high frequencies, and fills in points without mass.
   MatrixXd x = apply(found.vectors) * found.values.cwiseInverse().asDiagonal();

@@ -195,6 +195,29 @@ TEST(Distance, IsTheSameInManyRounds) {
   EXPECT_LE(meanError(again, distance), 3e-3);  // the method itself errs by 9e-3
 }
 
+TEST(Distance, ByMultigridIsAsGoodAsItsTolerance) {
+  // Heat is looked at far below its largest value: a loose tolerance must not reach it.
+  const Laplacian laplacian = pointCloudLaplacian(shapes::square(4000).points);
+  const VectorXd distance = DistanceSolver(laplacian).query({0});
+  for (const double tolerance : {0.1, 1e-2, 1e-4}) {
+    const SolverOptions options = {.method = SolverMethod::multigrid, .tolerance = tolerance};
+    const VectorXd loose = DistanceSolver(laplacian, {.solver = options}).query({0});
+    EXPECT_LE(meanError(loose, distance), 3e-3 + tolerance) << tolerance;
+  }
+}
+
+TEST(Distance, KeepsAllItsFactorsWithinTheLimit) {
+  const Laplacian laplacian = pointCloudLaplacian(shapes::disk(2000).points);
+  const std::size_t one = Solver::laplacian(laplacian).report().factor_bytes;
+  const auto iterationsWithin = [&](std::size_t limit) {
+    DistanceReport report;
+    DistanceSolver(laplacian, {.solver = {.memory_limit = limit}}).query({0}, &report);
+    return report.iterations;
+  };
+  EXPECT_EQ(iterationsWithin(4 * one), 0);
+  EXPECT_GT(iterationsWithin(3 * one / 2), 0);  // one fits, three do not
+}
+
 TEST(Distance, NamesWhatACallerGotWrong) {
   Points points = shapes::sphere(500).points;
   points.row(3).setConstant(NAN);

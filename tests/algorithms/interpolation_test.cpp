@@ -101,6 +101,40 @@ TEST(Harmonic, WithOnePinIsConstant) {
   EXPECT_EQ(u.maxCoeff(), 0.1);
 }
 
+TEST(Harmonic, StaysWithinItsPinsThoughTheyAreFarFromZero) {
+  const Laplacian laplacian = pointCloudLaplacian(shapes::torus(3000).points);
+  Pins pins = randomPins(laplacian, 20, 5);
+  pins.values = pins.values.array() * 1e-3 + 1e6;
+  const Eigen::MatrixXd u = harmonic(laplacian, pins);
+  for (int c = 0; c < 2; ++c) {
+    EXPECT_LE(u.col(c).maxCoeff(), std::nextafter(pins.values.col(c).maxCoeff(), HUGE_VAL));
+    EXPECT_GE(u.col(c).minCoeff(), std::nextafter(pins.values.col(c).minCoeff(), -HUGE_VAL));
+  }
+  // What a component has beside another one's pins of 10^12 times the range, it has alone.
+  const Laplacian two = pointCloudLaplacian(shapes::twoSpheres(1));
+  const Pins both{{0, 500, 1000, 1500}, Eigen::VectorXd{{1, 2, -1e12, 1e12}}};
+  for (const SolverMethod method : {SolverMethod::cholesky, SolverMethod::multigrid}) {
+    const VectorXd all = harmonic(two, both, {.method = method});
+    const VectorXd alone = harmonic(two, {{0, 500}, Eigen::VectorXd{{1, 2}}}, {.method = method});
+    EXPECT_LE((all - alone).head(1000).cwiseAbs().maxCoeff(), 1e-12);
+  }
+}
+
+TEST(Harmonic, IsRefinedWhateverTheToleranceAndReportsWhatIsMissingInTheEnd) {
+  const Laplacian laplacian = pointCloudLaplacian(shapes::torus(3000).points);
+  const Pins pins = randomPins(laplacian, 20, 5);
+  SolveReport factored, loose;
+  const Eigen::MatrixXd exact = harmonic(laplacian, pins, {}, &factored);
+  const Eigen::MatrixXd found =
+      harmonic(laplacian, pins, {.method = SolverMethod::multigrid, .tolerance = 0.9}, &loose);
+  EXPECT_LE((found - exact).cwiseAbs().maxCoeff(), 1e-12 * 4);
+  EXPECT_LE(overshoot(found, pins), 1e-12);
+  EXPECT_LE(factored.residual, 1e-14);
+  EXPECT_LE(loose.residual, 1e-14);
+  EXPECT_EQ(factored.iterations, 0);
+  EXPECT_GT(loose.iterations, 10);
+}
+
 TEST(Interpolation, IsNotANumberWhereNoPinIsAndCopiesFollow) {
   Points points(2004, 3);
   points.topRows(1000) = shapes::sphere(1000).points;
@@ -221,7 +255,14 @@ TEST(Interpolation, FailsTypedWhenItCannotBeSolved) {
   Laplacian laplacian = pointCloudLaplacian(shapes::sphere(500).points);
   laplacian.L *= -1;
   EXPECT_THROW(greensFunction(laplacian, {0}), SolverFailure);
-  EXPECT_THROW(harmonic(laplacian, {{0}, Eigen::MatrixXd::Ones(1, 1)}), SolverFailure);
+  EXPECT_THROW(harmonic(laplacian, {{0, 1}, Eigen::VectorXd{{1, 2}}}), SolverFailure);
+}
+
+TEST(Interpolation, FailsTypedWhenSumsOverflow) {
+  const Laplacian laplacian = pointCloudLaplacian(shapes::sphere(500).points);
+  EXPECT_THROW(harmonic(laplacian, {{0, 50}, Eigen::VectorXd{{1.7e308, 1.7e308}}}), SolverFailure);
+  const Pins large{{0, 50}, Eigen::VectorXd{{8e307, -8e307}}};
+  EXPECT_LE(overshoot(harmonic(laplacian, large), large), 1e-12);
 }
 
 }  // namespace

@@ -229,7 +229,7 @@ TEST(Smoothing, NamesWhatACallerGotWrong) {
     }
     return std::string("accepted");
   };
-  EXPECT_EQ(refusal(points, {.time_step = -1}), "smooth: time_step = -1.000000, must be finite and at least 0");
+  EXPECT_EQ(refusal(points, {.time_step = -1}), "smooth: time_step = -1, must be finite and at least 0");
   EXPECT_NE(refusal(points, {.time_step = NAN}), "accepted");
   EXPECT_NE(refusal(points, {.time_step = INFINITY}), "accepted");
   EXPECT_EQ(refusal(points, {.iterations = 0}), "smooth: iterations = 0, must be at least 1");

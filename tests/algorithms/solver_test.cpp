@@ -176,7 +176,7 @@ TEST(Solver, NamesWhatACallerGotWrong) {
   const VectorXd good = VectorXd::Ones(500);
   VectorXd odd = good;
   odd[77] = INFINITY;
-  EXPECT_EQ(refusal({.tolerance = 0}, good), "Solver::laplacian: tolerance = 0.000000, must lie in (0, 1)");
+  EXPECT_EQ(refusal({.tolerance = 0}, good), "Solver::laplacian: tolerance = 0, must lie in (0, 1)");
   EXPECT_NE(refusal({.tolerance = NAN}, good), "accepted");
   EXPECT_EQ(refusal({.max_iterations = 0}, good), "Solver::laplacian: max_iterations = 0, must be at least 1");
   EXPECT_EQ(refusal({.threads = -1}, good), "Solver::laplacian: threads = -1, must be >= 0");

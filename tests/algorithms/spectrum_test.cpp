@@ -96,6 +96,13 @@ TEST(Spectrum, FindsCopiesOfMultipleEigenvalues) {
   for (int c = 0; c < 110; ++c) EXPECT_NEAR(more.values[c], single.values[c / 20], 1e-9 * single.values[5]) << c;
 }
 
+/// All eigenvalues by dense matrices.
+VectorXd denseEigenvalues(const Laplacian& laplacian) {
+  const VectorXd scale = laplacian.M.cwiseSqrt().cwiseInverse();
+  return Eigen::SelfAdjointEigenSolver<MatrixXd>(scale.asDiagonal() * MatrixXd(laplacian.L) * scale.asDiagonal())
+      .eigenvalues();
+}
+
 TEST(Spectrum, HasTheWholeSpaceButOne) {
   const shapes::Mesh mesh = shapes::tetrahedron();
   const Laplacian laplacian = meshLaplacian(mesh.points, mesh.triangles);
@@ -106,10 +113,62 @@ TEST(Spectrum, HasTheWholeSpaceButOne) {
   const Laplacian cloud = pointCloudLaplacian(shapes::torus(150).points);
   const Spectrum all = spectrum(cloud, 149);
   expectEigenpairs(cloud, all, "150 points");
-  const MatrixXd scaled = cloud.M.cwiseSqrt().cwiseInverse().asDiagonal() * MatrixXd(cloud.L) *
-                          cloud.M.cwiseSqrt().cwiseInverse().asDiagonal();
-  const VectorXd dense = Eigen::SelfAdjointEigenSolver<MatrixXd>(scaled).eigenvalues();
+  const VectorXd dense = denseEigenvalues(cloud);
   EXPECT_LE((all.values - dense.head(149)).cwiseAbs().maxCoeff(), 1e-10 * dense[148]);
+}
+
+TEST(Spectrum, IsThatOfDenseMatricesOnAHandfulOfPoints) {
+  for (int n = 4; n <= 12; ++n) {
+    const Laplacian laplacian = pointCloudLaplacian(shapes::sphere(n).points);
+    ASSERT_EQ(laplacian.report.active, n);
+    const VectorXd dense = denseEigenvalues(laplacian);
+    for (int k = 1; k < n; ++k) {
+      const Spectrum found = spectrum(laplacian, k);
+      expectEigenpairs(laplacian, found, std::to_string(n) + " points");
+      EXPECT_LE((found.values - dense.head(k)).cwiseAbs().maxCoeff(), 1e-11 * dense[n - 1]) << n << ", " << k;
+    }
+  }
+}
+
+TEST(Spectrum, HasAConstantForEachOfManyTinyComponents) {
+  const shapes::Mesh one = shapes::tetrahedron();
+  const int count = 200;
+  Points points(4 * count, 3);
+  Triangles triangles(4 * count, 3);
+  for (int c = 0; c < count; ++c) {
+    points.middleRows(4 * c, 4) = one.points.rowwise() + Eigen::RowVector3d(4.0 * c, 0, 0);
+    triangles.middleRows(4 * c, 4) = one.triangles.array() + 4 * c;
+  }
+  const Laplacian laplacian = meshLaplacian(points, triangles);
+  for (const int k : {150, 200, 201, 250, 799}) {  // all others are one eigenvalue, 600 times
+    const Spectrum found = spectrum(laplacian, k);
+    EXPECT_EQ(found.report.null_space, std::min(k, count));
+    expectEigenpairs(laplacian, found, std::to_string(k) + " of tetrahedra");
+    EXPECT_LE(found.values[k - 1] - found.values[std::min(count, k - 1)], 1e-10 * found.values[k - 1]);
+  }
+}
+
+TEST(Spectrum, OfPointsThatNothingJoinsIsZero) {
+  Laplacian laplacian = pointCloudLaplacian(shapes::sphere(50).points);
+  laplacian.L.setZero();
+  laplacian.M = VectorXd::LinSpaced(50, 1, 2);
+  const Spectrum found = spectrum(laplacian, 49);
+  EXPECT_EQ(found.report.null_space, 49);
+  EXPECT_TRUE(found.values.isZero(0));
+  expectEigenpairs(laplacian, found, "points");
+}
+
+TEST(Spectrum, IsSearchedWhereTheFactorForCountingDoesNotFit) {
+  // Nine copies of each eigenvalue, one more than a block has vectors.
+  const Laplacian laplacian = pointCloudLaplacian(copies(shapes::torus(500).points, 9));
+  const Spectrum counted = spectrum(laplacian, 30);
+  const std::size_t held = counted.report.solver.bytes;
+  const Spectrum searched = spectrum(laplacian, 30, {.memory_limit = held + held / 10});
+  EXPECT_TRUE(counted.report.counted);
+  EXPECT_FALSE(searched.report.counted);
+  EXPECT_FALSE(searched.report.solver.iterative);
+  EXPECT_GE(searched.report.iterations, counted.report.iterations + 8);  // a search that finds nothing more
+  EXPECT_LE((searched.values - counted.values).cwiseAbs().maxCoeff(), 1e-9 * counted.values[29]);
 }
 
 TEST(Spectrum, ScalesWithTheCloud) {
@@ -178,7 +237,7 @@ TEST(Spectrum, NamesWhatACallerGotWrong) {
             "spectrum: k = 0, must be at least 1 and less than 500, the number of active points of positive area");
   EXPECT_NE(refusal(laplacian, 500), "accepted");
   EXPECT_NE(refusal(pointCloudLaplacian(Points(0, 3)), 1), "accepted");
-  EXPECT_EQ(refusal(laplacian, 5, {.tolerance = 1}), "spectrum: tolerance = 1.000000, must lie in (0, 1)");
+  EXPECT_EQ(refusal(laplacian, 5, {.tolerance = 1}), "spectrum: tolerance = 1, must lie in (0, 1)");
   EXPECT_EQ(refusal(laplacian, 5, {.max_iterations = 0}), "spectrum: max_iterations = 0, must be at least 1");
   EXPECT_EQ(refusal(laplacian, 5, {.threads = -2}), "spectrum: threads = -2, must be >= 0");
   Laplacian wrong = laplacian;
