@@ -4,6 +4,10 @@
 #include <cstdio>
 #include <numbers>
 
+#ifndef EIGEN_DONT_PARALLELIZE
+#error "the target does not say how its copies of Eigen's functions were compiled"
+#endif
+
 namespace {
 
 /// Points spread evenly over the unit sphere, along a spiral of the golden angle.
