@@ -68,6 +68,7 @@ Writes into DIR, renamed one after the other when all are complete; files of oth
   boundary.npy        0, or why the surface ends there: 1 rim (the sampling ends), 2 jump (another surface lies
                       beyond; of organized clouds and those with a VIEWPOINT as seen from there), 3 lost (triangles
                       of the surface are missing)
+  frames.npy          N x 3 x 3: of each point the x axis, the y axis and the normal; none for meshes
   --format mtx
   L.mtx, M.mtx        Matrix Market: lower triangle of a symmetric matrix, N x 1 array
   --format mat
@@ -77,7 +78,10 @@ Writes into DIR, renamed one after the other when all are complete; files of oth
   --format ply
   points.ply          the points with mass, boundary, status and representative as fields
   --format pcd
-  points.pcd          the same, for PCL)";
+  points.pcd          the same, for PCL
+  --format cover
+  cover.npz           the triangles of the tufted cover by corners, gluing and lengths; three times as large as all of
+                      npz, so only on request)";
 
 struct Settings {
   Input input;
@@ -86,15 +90,16 @@ struct Settings {
   tufted::WriteOptions write;
 };
 
-const std::map<std::string, tufted::Format> formats = {{"npz", tufted::Format::npz}, {"mtx", tufted::Format::mtx},
-                                                       {"mat", tufted::Format::mat}, {"spmat", tufted::Format::spmat},
-                                                       {"ply", tufted::Format::ply}, {"pcd", tufted::Format::pcd}};
+const std::map<std::string, tufted::Format> formats = {
+    {"npz", tufted::Format::npz},     {"mtx", tufted::Format::mtx}, {"mat", tufted::Format::mat},
+    {"spmat", tufted::Format::spmat}, {"ply", tufted::Format::ply}, {"pcd", tufted::Format::pcd},
+    {"cover", tufted::Format::cover}};
 const std::map<std::string, tufted::Sign> signs = {{"psd", tufted::Sign::psd}, {"igl", tufted::Sign::igl}};
 
 /// What is written, and how.
 void addWriteOptions(CLI::App& command, tufted::WriteOptions& options) {
   const auto check = [](const std::string& key) {
-    return formats.count(key) > 0 ? std::string() : key + " is none of npz, mtx, mat, spmat, ply, pcd";
+    return formats.count(key) > 0 ? std::string() : key + " is none of npz, mtx, mat, spmat, ply, pcd, cover";
   };
   const auto set = [&options](const std::vector<std::string>& keys) {
     options.formats.clear();
@@ -102,7 +107,7 @@ void addWriteOptions(CLI::App& command, tufted::WriteOptions& options) {
   };
   command
       .add_option_function<std::vector<std::string>>(
-          "--format", set, "What to write, separated by commas: npz, mtx, mat, spmat, ply, pcd (npz,ply)")
+          "--format", set, "What to write, separated by commas: npz, mtx, mat, spmat, ply, pcd, cover (npz,ply)")
       ->delimiter(',')
       ->allow_extra_args(false)  // what follows may be FILE
       ->check(check)
@@ -148,8 +153,9 @@ int runLaplacian(Settings& settings) {
   progress("read", 0);
   const tufted::Geometry geometry = readInput(settings.input);
   if (interrupted()) throw tufted::Cancelled("cancelled");
-  const tufted::Laplacian laplacian = buildLaplacian(geometry, settings.input, settings.build, false, progress);
   tufted::WriteOptions& write = settings.write;
+  const bool keep_cover = std::count(write.formats.begin(), write.formats.end(), tufted::Format::cover) > 0;
+  const tufted::Laplacian laplacian = buildLaplacian(geometry, settings.input, settings.build, keep_cover, progress);
   write.source = settings.input.name();
   write.progress = progress;
   if (geometry.is_mesh)

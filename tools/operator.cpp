@@ -63,7 +63,7 @@ Operator loadOperator(OperatorSettings& settings, const std::vector<std::string>
       throw tufted::InvalidInput("--out " + settings.out.string() + ": is the folder of --operator, whose report and " +
                                  "points would be overwritten");
     checkOutput(settings.input, settings.out, files);
-    source.laplacian = tufted::readLaplacian(settings.folder);
+    source.laplacian = tufted::readLaplacian(settings.folder, keep_cover);
     source.geometry = pointsOf(settings.folder);
     const auto n = static_cast<Eigen::Index>(source.laplacian.status.size());
     if (source.geometry.points.rows() != n && source.geometry.points.rows() > 0)

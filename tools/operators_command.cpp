@@ -19,10 +19,11 @@ namespace {
 
 constexpr const char* description = "Operators for learning on surfaces, in one .npz as DiffusionNet caches them.";
 
-constexpr const char* footer = R"(Writes into DIR, renamed when complete:
+constexpr const char* footer = R"(Writes into DIR, renamed one after the other when all are complete:
   operators.npz  verts, faces, frames (N x 3 x 3: x axis, y axis, normal), k_eig, mass, evals, evecs, and L, gradX,
                  gradY as _data, _indices, _indptr, _shape of csc matrices; float64. The cache of DiffusionNet has
                  these names; its file names are hashes, so load this one and hand on its arrays.
+  points.ply     the points with the fields frames and evecs, float32; points.pcd with --format pcd
   report.json    residual and seconds of the spectrum
 gradX and gradY are slopes along the axes of the frames, by least squares over the neighbours in L. Points that take no
 part have rows of zeros. FILE and the options of building are those of `tufted laplacian`.)";
@@ -35,7 +36,7 @@ struct Settings {
 int runOperators(Settings& settings) {
   ProgressBar bar;
   const tufted::Progress progress = showOn(bar);
-  const Operator source = loadOperator(settings.source, {"operators.npz", "report.json"}, false, progress);
+  const Operator source = loadOperator(settings.source, {"points.ply", "points.pcd", "report.json"}, false, progress);
   const tufted::Geometry& geometry = source.geometry;
   const tufted::Gradients gradients = geometry.is_mesh
                                           ? tufted::gradients(source.laplacian, geometry.points,
@@ -50,7 +51,8 @@ int runOperators(Settings& settings) {
                                          {"source", settings.source.name()},
                                          {"report", reportOf(spectrum.report)}};
   const std::string text = report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
-  tufted::writeOperators(settings.source.out, source.laplacian, geometry, gradients, spectrum, text, progress);
+  tufted::writeOperators(settings.source.out, source.laplacian, geometry, gradients, spectrum,
+                         {.copies = settings.source.copies, .report = text, .progress = progress});
   bar.clear();
   std::printf("%-15s %d\n", "eigenvalues", settings.count);
   printSpectrumReport(spectrum.report);

@@ -1,11 +1,11 @@
 #include "tufted/io/operators.h"
 
-#include <Eigen/Geometry>
 #include <cstdint>
 #include <vector>
 
+#include "io/frames_file.h"
 #include "io/npz_archive.h"
-#include "io/output_file.h"
+#include "io/stage_results.h"
 #include "io/staged_files.h"
 #include "tufted/check.h"
 #include "tufted/errors.h"
@@ -49,27 +49,16 @@ void addMatrix(io::NpzArchive& archive, const std::string& name, const SparseMat
   add(archive, name + "_shape", "<i8", {2}, shape);
 }
 
-/// N x 9: of each point the x axis, the y axis and the normal.
-RowMajor axesOf(const Frames& frames) {
-  RowMajor axes(frames.normals.rows(), 9);
-  for (Eigen::Index i = 0; i < axes.rows(); ++i) {
-    const Eigen::RowVector3d normal = frames.normals.row(i), x = frames.tangents.row(i);
-    axes.row(i) << x, normal.cross(x), normal;
-  }
-  return axes;
-}
-
 }  // namespace
 
 void writeOperators(const std::filesystem::path& dir, const Laplacian& laplacian, const Geometry& geometry,
-                    const Gradients& gradients, const Spectrum& spectrum, const std::string& report,
-                    const Progress& progress) {
+                    const Gradients& gradients, const Spectrum& spectrum, const ResultOptions& options) {
   checkArguments(laplacian, geometry, gradients, spectrum);
-  if (progress && !progress("write", 0)) throw Cancelled("writeOperators: cancelled");
   const std::int64_t n = geometry.points.rows(), k = spectrum.values.size();
   const std::int64_t shape[2] = {n, n};
   const Faces faces = geometry.triangles.cast<std::int64_t>();
-  const RowMajor axes = axesOf(gradients.frames), vectors = spectrum.vectors;
+  const auto axes = io::axesOf(gradients.frames);
+  const RowMajor vectors = spectrum.vectors;
 
   io::StagedFiles files(dir);
   io::NpzArchive archive(files.stage("operators.npz"));
@@ -84,10 +73,8 @@ void writeOperators(const std::filesystem::path& dir, const Laplacian& laplacian
   addMatrix(archive, "gradX", gradients.X, shape);
   addMatrix(archive, "gradY", gradients.Y, shape);
   archive.close();
-  io::OutputFile file(files.stage("report.json"));
-  file.write(report);
-  file.close();
-  if (progress && !progress("write", 1)) throw Cancelled("writeOperators: cancelled");
+  io::stageResults(files, laplacian, geometry,
+                   {{.name = "frames", .values = axes}, {.name = "evecs", .values = spectrum.vectors}}, options);
   files.commit();
 }
 

@@ -1,16 +1,16 @@
-#include <zip.h>
-
 #include <algorithm>
-#include <cmath>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
-#include <utility>
 #include <vector>
 
+#include "io/cover_file.h"
 #include "io/errors.h"
 #include "io/file_text.h"
+#include "io/frames_file.h"
 #include "io/npy.h"
+#include "io/npz_reader.h"
 #include "tufted/io/results.h"
 
 namespace tufted {
@@ -19,73 +19,20 @@ namespace {
 using Json = nlohmann::json;
 using Path = std::filesystem::path;
 
-/// Members of a .npz file.
-class NpzReader {
- public:
-  explicit NpzReader(const Path& path) : path_(path), bytes_(io::readBytes(path)) {
-    zip_error_t error;
-    zip_error_init(&error);
-    zip_source_t* source = zip_source_buffer_create(bytes_.data(), bytes_.size(), 0, &error);
-    if (source != nullptr) archive_.reset(zip_open_from_source(source, ZIP_RDONLY | ZIP_CHECKCONS, &error));
-    if (source != nullptr && !archive_) zip_source_free(source);
-    zip_error_fini(&error);
-    if (!archive_) io::refuse(path_, "is no archive of numpy");
-  }
-
-  /// The bytes of the member `name`.npy.
-  std::string read(const std::string& name) const {
-    zip_stat_t status;
-    if (zip_stat(archive_.get(), (name + ".npy").c_str(), 0, &status) != 0 || (status.valid & ZIP_STAT_SIZE) == 0)
-      io::refuse(path_, "has no array " + io::quote(name));
-    // Deflate shrinks a thousandfold at best: what claims more is damaged, and not worth the memory.
-    if (status.size / 2048 > bytes_.size())
-      io::refuse(path_, "the array " + io::quote(name) + " claims to be too large");
-    std::string content(status.size, '\0');
-    const std::unique_ptr<zip_file_t, int (*)(zip_file_t*)> file(zip_fopen_index(archive_.get(), status.index, 0),
-                                                                 &zip_fclose);
-    if (!file || zip_fread(file.get(), content.data(), content.size()) != static_cast<zip_int64_t>(content.size()))
-      io::refuse(path_, "the array " + io::quote(name) + " is damaged");
-    return content;
-  }
-
- private:
-  struct Discard {
-    void operator()(zip_t* archive) const { zip_discard(archive); }
-  };
-  Path path_;
-  std::string bytes_;
-  std::unique_ptr<zip_t, Discard> archive_;
-};
-
-/// Integers in [least, most].
-std::vector<int> integersOf(const std::vector<double>& numbers, double least, double most, const Path& shown) {
-  std::vector<int> result(numbers.size());
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    if (!(numbers[i] >= least && numbers[i] <= most) || numbers[i] != std::floor(numbers[i]))
-      io::refuse(shown, "value " + std::to_string(i) + " is none of those expected");
-    result[i] = static_cast<int>(numbers[i]);
-  }
-  return result;
-}
-
 /// A symmetric matrix, so csc and csr are the same.
 SparseMatrix readMatrix(const Path& path) {
-  const NpzReader archive(path);
-  const auto numbers = [&](const std::string& name) {
-    const std::string bytes = archive.read(name);
-    return io::numbersOf(io::parseNpy(bytes, path), path);
-  };
+  const io::NpzReader archive(path);
   const std::string format_bytes = archive.read("format");
   const std::string_view format = io::parseNpy(format_bytes, path).values;
   if (format.substr(0, 3) != "csc" && format.substr(0, 3) != "csr")
     io::refuse(path, "is a matrix of the format " + io::quote(format) + ", must be csc or csr");
-  const std::vector<double> shape = numbers("shape"), data = numbers("data");
+  const std::vector<double> shape = archive.numbers("shape"), data = archive.numbers("data");
   const double most = std::numeric_limits<int>::max();
   if (shape.size() != 2 || shape[0] != shape[1] || !(shape[0] >= 0 && shape[0] < most))
     io::refuse(path, "holds no square matrix");
   const int n = static_cast<int>(shape[0]);
-  const std::vector<int> start = integersOf(numbers("indptr"), 0, most, path);
-  const std::vector<int> indices = integersOf(numbers("indices"), 0, n - 1.0, path);
+  const std::vector<int> start = io::integersOf(archive.numbers("indptr"), 0, most, path);
+  const std::vector<int> indices = io::integersOf(archive.numbers("indices"), 0, n - 1.0, path);
   if (start.size() != static_cast<std::size_t>(n) + 1 || start.front() != 0 ||
       !std::is_sorted(start.begin(), start.end()) || static_cast<std::size_t>(start.back()) != indices.size() ||
       indices.size() != data.size())
@@ -138,36 +85,39 @@ void removeDummies(Laplacian& laplacian) {
     if (laplacian.status[i] != PointStatus::active) laplacian.M[static_cast<Eigen::Index>(i)] = 0;
 }
 
-/// A later run into the same folder with other formats leaves the matrices of the former.
-void checkWritten(const Json& written, const std::filesystem::path& report_path) {
-  if (!written.is_object() || !written.contains("files") || !written["files"].is_array()) return;
-  for (const char* name : {"L.npz", "M.npy", "status.npy", "representative.npy", "boundary.npy"}) {
-    const Json& files = written["files"];
-    if (std::find(files.begin(), files.end(), name) == files.end())
-      io::refuse(report_path, std::string("is of a run that did not write ") + name);
-  }
+/// Whether the run that the report is of wrote the file: a later run into the same folder with other formats leaves the
+/// matrices of the former.
+bool hasWritten(const Json& written, const std::string& name) {
+  const Json files = written.is_object() ? written.value("files", Json()) : Json();
+  return files.is_array() && std::find(files.begin(), files.end(), name) != files.end();
 }
 
 }  // namespace
 
-Laplacian readLaplacian(const std::filesystem::path& dir) {
+Laplacian readLaplacian(const std::filesystem::path& dir, bool with_cover) {
   const Path report_path = dir / "report.json";
   const Json json = Json::parse(io::readBytes(report_path), nullptr, false);
   if (!json.is_object() || !json.contains("report") || !json["report"].is_object())
     io::refuse(report_path, "is no report of a Laplacian");
   const Json written = json.value("write_options", Json::object());
-  checkWritten(written, report_path);
+  for (const char* name : {"L.npz", "M.npy", "status.npy", "representative.npy", "boundary.npy", "frames.npy"})
+    if (!hasWritten(written, name)) io::refuse(report_path, std::string("is of a run that did not write ") + name);
   Laplacian laplacian;
   laplacian.L = readMatrix(dir / "L.npz");
   const auto n = static_cast<std::size_t>(laplacian.L.rows());
   const std::vector<double> mass = readArray(dir / "M.npy", n);
   laplacian.M = Eigen::Map<const VectorXd>(mass.data(), laplacian.L.rows());
   const double last = static_cast<double>(n) - 1;
-  for (const int code : integersOf(readArray(dir / "status.npy", n), 0, 3, dir / "status.npy"))
+  for (const int code : io::integersOf(readArray(dir / "status.npy", n), 0, 3, dir / "status.npy"))
     laplacian.status.push_back(static_cast<PointStatus>(code));
-  laplacian.representative = integersOf(readArray(dir / "representative.npy", n), 0, last, dir / "representative.npy");
-  for (const int code : integersOf(readArray(dir / "boundary.npy", n), 0, 3, dir / "boundary.npy"))
+  laplacian.representative =
+      io::integersOf(readArray(dir / "representative.npy", n), 0, last, dir / "representative.npy");
+  for (const int code : io::integersOf(readArray(dir / "boundary.npy", n), 0, 3, dir / "boundary.npy"))
     laplacian.boundary.push_back(static_cast<Boundary>(code));
+  laplacian.frames = io::readFrames(dir / "frames.npy", laplacian.status);
+  if (with_cover && hasWritten(written, "cover.npz"))
+    laplacian.stored_cover =
+        std::make_shared<const IntrinsicTriangulation>(io::readCover(dir / "cover.npz", static_cast<int>(n)));
   readReport(json["report"], laplacian.report);
   if (written.is_object() && written.value("sign", Json()) == "igl") laplacian.L = -laplacian.L;
   removeDummies(laplacian);

@@ -8,7 +8,7 @@
 #include "io/output_file.h"
 #include "io/pcd_writer.h"
 #include "io/ply_writer.h"
-#include "io/staged_files.h"
+#include "io/stage_results.h"
 #include "tufted/errors.h"
 
 namespace tufted {
@@ -82,36 +82,41 @@ std::vector<std::string> resultFiles(const std::vector<ResultArray>& arrays, con
   return names;
 }
 
-void writeResults(const std::filesystem::path& dir, const Laplacian& laplacian, const Geometry& geometry,
-                  const std::vector<ResultArray>& arrays, const ResultOptions& options) {
-  check(laplacian, geometry, arrays, options);
-  const std::size_t steps = arrays.size() + options.copies.size() + 1;
+void io::stageResults(StagedFiles& files, const Laplacian& laplacian, const Geometry& geometry,
+                      const std::vector<ResultArray>& arrays, const ResultOptions& options) {
+  const std::size_t steps = options.copies.size() + 1;
   std::size_t done = 0;
   const auto report = [&] {
     if (options.progress && !options.progress("write", static_cast<double>(done++) / static_cast<double>(steps)))
       throw Cancelled("writeResults: cancelled");
   };
-  io::StagedFiles files(dir);
-  for (const ResultArray& array : arrays) {
-    report();
-    writeArray(files.stage(array.name + ".npy"), array.values);
-  }
+  report();
   if (!options.copies.empty()) {
     const Geometry copy = copyWith(geometry, arrays);
-    const std::vector<io::Convention> conventions = io::conventions(laplacian, WriteOptions());
+    const std::vector<Convention> about = conventions(laplacian, WriteOptions());
     for (const Format format : options.copies) {
-      report();
       if (format == Format::ply)
-        io::writePly(files.stage("points.ply"), laplacian, copy, laplacian.M, conventions);
+        writePly(files.stage("points.ply"), laplacian, copy, laplacian.M, about);
       else
-        io::writePcd(files.stage("points.pcd"), laplacian, copy, laplacian.M, conventions);
+        writePcd(files.stage("points.pcd"), laplacian, copy, laplacian.M, about);
+      report();
     }
   }
-  report();
-  io::OutputFile file(files.stage("report.json"));
+  OutputFile file(files.stage("report.json"));
   file.write(options.report);
   file.close();
   report();
+}
+
+void writeResults(const std::filesystem::path& dir, const Laplacian& laplacian, const Geometry& geometry,
+                  const std::vector<ResultArray>& arrays, const ResultOptions& options) {
+  check(laplacian, geometry, arrays, options);
+  io::StagedFiles files(dir);
+  for (const ResultArray& array : arrays) {
+    if (options.progress && !options.progress("write", 0)) throw Cancelled("writeResults: cancelled");
+    writeArray(files.stage(array.name + ".npy"), array.values);
+  }
+  io::stageResults(files, laplacian, geometry, arrays, options);
   files.commit();
 }
 

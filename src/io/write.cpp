@@ -6,6 +6,8 @@
 
 #include "io/columns.h"
 #include "io/conventions.h"
+#include "io/cover_file.h"
+#include "io/frames_file.h"
 #include "io/mat.h"
 #include "io/matrix_text.h"
 #include "io/npy.h"
@@ -70,6 +72,10 @@ const ResultFile result_files[] = {
      [](const OutputPath& to, const Results& r) {
        writeNpy(to, "|u1", r.laplacian.boundary.data(), r.laplacian.boundary.size());
      }},
+    {Format::npz, "frames.npy",
+     [](const OutputPath& to, const Results& r) { io::writeFrames(to, r.laplacian.frames); }},
+    {Format::cover, "cover.npz",
+     [](const OutputPath& to, const Results& r) { io::writeCover(to, r.laplacian.cover()); }},
     {Format::mtx, "L.mtx",
      [](const OutputPath& to, const Results& r) { io::writeMtx(to, r.matrices.matrix(), r.conventions); }},
     {Format::mtx, "M.mtx",

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <memory>
 
 #include "sample_laplacian.h"
 #include "temporary_dir.h"
@@ -107,11 +108,14 @@ TEST(ResultFiles, AreThoseThatAreWrittenWhateverTheFormats) {
       {Format::spmat},
       {Format::ply},
       {Format::pcd},
+      {Format::cover},
       {Format::pcd, Format::mtx, Format::pcd},
       {Format::npz, Format::mtx, Format::mat, Format::spmat, Format::ply, Format::pcd}};
+  tufted::Laplacian laplacian = sampleLaplacian();
+  laplacian.stored_cover = std::make_shared<const tufted::IntrinsicTriangulation>();
   for (const auto& formats : choices) {
     const TemporaryDir dir;
-    tufted::writeLaplacian(dir.path(), sampleLaplacian(), sampleGeometry(), {.formats = formats});
+    tufted::writeLaplacian(dir.path(), laplacian, sampleGeometry(), {.formats = formats});
     std::vector<std::string> expected = tufted::resultFiles(formats), found;
     for (const auto& entry : std::filesystem::directory_iterator(dir.path())) found.push_back(entry.path().filename());
     std::sort(expected.begin(), expected.end());

@@ -1,18 +1,17 @@
 #pragma once
 
 #include <filesystem>
-#include <string>
 
 #include "tufted/gradient.h"
 #include "tufted/io/read.h"
+#include "tufted/io/results.h"
 #include "tufted/laplacian.h"
-#include "tufted/options.h"
 #include "tufted/spectrum.h"
 
 namespace tufted {
 
 /// Writes operators.npz into the directory `dir`, which is made if missing, with the names and shapes of DiffusionNet's
-/// cache of operators (Sharp et al. 2022), and the text `report` as report.json:
+/// cache of operators (Sharp et al. 2022):
 ///   verts          N x 3, float64
 ///   faces          F x 3, int64; 0 x 3 for clouds
 ///   frames         N x 3 x 3, float64: of each point the x axis, the y axis and the normal
@@ -21,12 +20,12 @@ namespace tufted {
 ///   L, gradX, gradY as _data (float64), _indices, _indptr (int32) and _shape (int64), N x N in csc; L positive
 ///                  semidefinite
 ///   evals, evecs   k and N x k, float64
-/// All numbers are those of the library bit for bit; the cache itself has float32.
+/// All numbers are those of the library bit for bit; the cache itself has float32. Beside it, as writeResults does, copies
+/// of the points with the fields frames and evecs, and report.json.
 /// @throws InvalidInput for arrays that differ in their number of points
 /// @throws IoError naming the path
-/// @throws Cancelled when `progress` returns false
+/// @throws Cancelled when `options.progress` returns false
 void writeOperators(const std::filesystem::path& dir, const Laplacian& laplacian, const Geometry& geometry,
-                    const Gradients& gradients, const Spectrum& spectrum, const std::string& report = "{}\n",
-                    const Progress& progress = {});
+                    const Gradients& gradients, const Spectrum& spectrum, const ResultOptions& options = {});
 
 }  // namespace tufted

@@ -12,12 +12,13 @@ namespace tufted {
 
 /// What writeLaplacian can write, beside report.json, which it always writes.
 enum class Format : std::uint8_t {
-  npz,    ///< L.npz, M.npy, status.npy, representative.npy, boundary.npy: NumPy and SciPy
+  npz,    ///< L.npz, M.npy, status.npy, representative.npy, boundary.npy, frames.npy: NumPy and SciPy
   mtx,    ///< L.mtx, M.mtx: Matrix Market
   mat,    ///< laplacian.mat: MATLAB 5, at most 2^31 - 1 bytes per variable
   spmat,  ///< L.spmat, M.spmat: triplets counted from 1, as the paper's program writes them
   ply,    ///< points.ply
   pcd,    ///< points.pcd
+  cover,  ///< cover.npz: the triangles, which take more than all the rest, for distances alone
 };
 
 /// Sign of L in the files. M is positive in both.
@@ -47,6 +48,8 @@ std::vector<std::string> resultFiles(const std::vector<Format>& formats);
 ///   status.npy          uint8, N, see PointStatus
 ///   representative.npy  int32, N, counted from 0
 ///   boundary.npy        uint8, N, see Boundary
+///   frames.npy          float64, N x 3 x 3: of each point the x axis, the y axis and the normal; 0 x 3 x 3 for meshes
+///   cover.npz           the cover, see IntrinsicTriangulation: faces and glue (int32), length (float64), F x 3 each
 ///   L.mtx               coordinate real symmetric: the lower triangle; an L that is not symmetric loses the upper one
 ///   M.mtx               array real general, N x 1
 ///   laplacian.mat       L (sparse), M, status, representative, boundary (N x 1) and the text `conventions`
@@ -65,8 +68,8 @@ std::vector<std::string> resultFiles(const std::vector<Format>& formats);
 /// green, blue (and alpha) of 8 bits become a packed rgb (rgba). All files are written under temporary names and, when
 /// all are complete, renamed one after the other: no file is ever half there, but for a moment new files stand beside
 /// old ones. Files of these names are replaced; those of formats that were not asked for stay.
-/// @throws InvalidInput if the arrays of `laplacian` and `geometry` differ in length, or the name of a field is not one
-///         word
+/// @throws InvalidInput if the arrays of `laplacian` and `geometry` differ in length, the name of a field is not one
+///         word, or the cover is asked for and was not kept
 /// @throws IoError naming the path
 /// @throws Cancelled when `options.progress` returns false
 void writeLaplacian(const std::filesystem::path& dir, const Laplacian& laplacian, const Geometry& geometry,

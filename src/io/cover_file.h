@@ -1,0 +1,17 @@
+#pragma once
+
+#include <filesystem>
+
+#include "io/output_file.h"
+#include "tufted/intrinsic_triangulation.h"
+
+namespace tufted::io {
+
+/// Writes cover.npz: faces (F x 3, int32), glue (F x 3, int32) and length (F x 3, float64).
+void writeCover(const OutputPath& to, const IntrinsicTriangulation& cover);
+
+/// @param vertices number of points of the Laplacian
+/// @throws IoError for what is no closed oriented triangulation of them with the lengths of triangles
+IntrinsicTriangulation readCover(const std::filesystem::path& path, int vertices);
+
+}  // namespace tufted::io
