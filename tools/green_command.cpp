@@ -1,13 +1,9 @@
 #include <CLI/CLI.hpp>
-#include <cstdio>
-#include <memory>
-#include <nlohmann/json.hpp>
-#include <string>
 
 #include "command.h"
 #include "operator.h"
 #include "point_options.h"
-#include "progress_bar.h"
+#include "reports.h"
 #include "tufted/errors.h"
 #include "tufted/interpolation.h"
 
@@ -24,37 +20,31 @@ FILE and the options of building are those of `tufted laplacian`; --operator tak
 struct Settings {
   OperatorSettings source;
   NamedPoints points;
+  std::vector<Place> places;
 };
 
-int runGreen(Settings& settings) {
-  ProgressBar bar;
-  const tufted::Progress progress = showOn(bar);
-  const Operator source =
-      loadOperator(settings.source, {"green.npy", "points.ply", "points.pcd", "report.json"}, false, progress);
-  const std::vector<int> points = indicesOf(settings.points, source);
+void check(Settings& settings, const Operator& source) {
+  settings.places = settings.points.places(source.points());
+  if (settings.places.empty())
+    throw tufted::InvalidInput("no point is given, must be at least one by --source, --near or --sources");
+}
+
+Results compute(Settings& settings, Operator& source) {
+  std::vector<int> points;
+  for (const Place& place : settings.places) points.push_back(locate(place, source));
   tufted::SolveReport made;
-  Eigen::MatrixXd green = tufted::greensFunction(source.laplacian, points,
-                                                 {.threads = settings.source.threads(), .progress = progress}, &made);
-  const nlohmann::ordered_json report = {
-      {"sources", points},
-      {"report", {{"iterations", made.iterations}, {"residual", made.residual}, {"seconds", made.seconds}}}};
-  writeOperatorResults(settings.source, "green", source, {{.name = "green", .values = std::move(green)}}, report.dump(),
-                       progress);
-  bar.clear();
-  std::printf("%-15s %zu\n", "points", points.size());
-  std::printf("%-15s residual %.1e, %.3g s\n", "solve", made.residual, made.seconds);
-  std::printf("%-15s %s\n", "written to", settings.source.out.c_str());
-  if (std::fflush(stdout) != 0) throw tufted::IoError("standard output: cannot write the summary");
-  return exit_done;
+  Results results;
+  results.arrays = {
+      {.name = "green", .values = tufted::greensFunction(source.laplacian, points, source.solver(), &made)}};
+  results.report["sources"] = points;
+  results.summary.add("points", "%zu", points.size());
+  addReport(made, results);
+  return results;
 }
 
 }  // namespace
 
 void addGreen(CLI::App& app, Run& run) {
-  CLI::App& command = *app.add_subcommand("green", description);
-  command.footer(footer);
-  const auto settings = std::make_shared<Settings>();
-  addOperatorOptions(command, settings->source);
-  addPointOptions(command, settings->points, "Points, a column for each");
-  command.callback([&run, settings] { run = [=] { return runGreen(*settings); }; });
+  const auto [command, settings] = addOperatorCommand<Settings>(app, run, "green", description, footer, compute, check);
+  addPointOptions(*command, settings->points, "Points, a column for each");
 }

@@ -1,17 +1,11 @@
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <limits>
-#include <memory>
-#include <nlohmann/json.hpp>
-#include <string>
 #include <vector>
 
 #include "command.h"
 #include "operator.h"
 #include "options.h"
-#include "progress_bar.h"
-#include "spectrum_report.h"
-#include "tufted/errors.h"
+#include "reports.h"
 #include "tufted/spectral.h"
 
 namespace {
@@ -53,48 +47,36 @@ std::vector<tufted::ResultArray> signatures(const Settings& settings, const tuft
           {.name = "times", .values = times, .per_point = false}};
 }
 
-int runHks(Settings& settings) {
-  ProgressBar bar;
-  const tufted::Progress progress = showOn(bar);
-  const std::vector<std::string> files = {"points.ply", "points.pcd", "report.json"};  // no input is a .npy
-  const Operator source = loadOperator(settings.source, files, false, progress);
+Results compute(Settings& settings, Operator& source) {
   const tufted::Spectrum spectrum =
-      tufted::spectrum(source.laplacian, settings.count, {.threads = settings.source.threads(), .progress = progress});
-  std::vector<tufted::ResultArray> arrays = signatures(settings, spectrum);
-  const auto samples = static_cast<long>(arrays[0].values.cols());
-  arrays.push_back({.name = "evals", .values = spectrum.values, .per_point = false});
-  const nlohmann::ordered_json report = {{"report", reportOf(spectrum.report)}};
-  writeOperatorResults(settings.source, "hks", source, arrays, report.dump(), progress);
-  bar.clear();
-  std::printf("%-15s %ld per point, of %d eigenvalues up to %.6g\n", settings.wave ? "energies" : "times", samples,
-              settings.count, spectrum.values[settings.count - 1]);
-  printSpectrumReport(spectrum.report);
-  std::printf("%-15s %s\n", "written to", settings.source.out.c_str());
-  if (std::fflush(stdout) != 0) throw tufted::IoError("standard output: cannot write the summary");
-  return exit_done;
+      tufted::spectrum(source.laplacian, settings.count, {.threads = source.threads, .progress = source.progress});
+  Results results;
+  results.arrays = signatures(settings, spectrum);
+  results.summary.add(settings.wave ? "energies" : "times", "%ld per point, of %d eigenvalues up to %.6g",
+                      static_cast<long>(results.arrays[0].values.cols()), settings.count,
+                      spectrum.values[settings.count - 1]);
+  results.arrays.push_back({.name = "evals", .values = spectrum.values, .per_point = false});
+  addReport(spectrum.report, results);
+  return results;
 }
 
 }  // namespace
 
 void addHks(CLI::App& app, Run& run) {
-  CLI::App& command = *app.add_subcommand("hks", description);
-  command.footer(footer);
-  const auto settings = std::make_shared<Settings>();
-  addOperatorOptions(command, settings->source);
-  addNumber(command, "--count", settings->count, 2, std::numeric_limits<int>::max(), "Number of eigenvalues (100)")
+  const auto [command, settings] = addOperatorCommand<Settings>(app, run, "hks", description, footer, compute);
+  addNumber(*command, "--count", settings->count, 2, std::numeric_limits<int>::max(), "Number of eigenvalues (100)")
       ->type_name("K");
   CLI::Option* const samples =
-      addNumber(command, "--samples", settings->samples, 2, 1 << 16, "Times (16), or energies with --wave (100)")
+      addNumber(*command, "--samples", settings->samples, 2, 1 << 16, "Times (16), or energies with --wave (100)")
           ->type_name("S");
-  CLI::Option* const wave = command.add_flag("--wave", settings->wave, "Wave kernel signatures");
+  CLI::Option* const wave = command->add_flag("--wave", settings->wave, "Wave kernel signatures");
   command
-      .add_option("--times", settings->times,
-                  "The times, separated by commas, in squares of the points' unit of length")
+      ->add_option("--times", settings->times,
+                   "The times, separated by commas, in squares of the points' unit of length")
       ->delimiter(',')
       ->allow_extra_args(false)  // what follows may be FILE
       ->check(CLI::NonNegativeNumber)
       ->excludes(samples)
       ->excludes(wave)
       ->type_name("LIST");
-  command.callback([&run, settings] { run = [=] { return runHks(*settings); }; });
 }

@@ -2,7 +2,6 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
 #include <limits>
 #include <map>
@@ -20,6 +19,7 @@
 #include "output.h"
 #include "peak_memory.h"
 #include "progress_bar.h"
+#include "summary.h"
 #include "tufted/errors.h"
 #include "tufted/io/read.h"
 #include "tufted/io/write.h"
@@ -80,8 +80,8 @@ Writes into DIR, renamed one after the other when all are complete; files of oth
   --format pcd
   points.pcd          the same, for PCL
   --format cover
-  cover.npz           the triangles of the tufted cover by corners, gluing and lengths; three times as large as all of
-                      npz, so only on request)";
+  cover.npz           the triangles of the tufted cover by corners, gluing and lengths, which `tufted distance
+                      --operator` needs; three times as large as all of npz, so only on request)";
 
 struct Settings {
   Input input;
@@ -120,29 +120,28 @@ void printSummary(const Settings& settings, const tufted::Geometry& geometry, co
                   double seconds) {
   const tufted::Report& report = laplacian.report;
   const auto count = [](std::int64_t n) { return static_cast<long long>(n); };
-  std::printf("%-15s %s (%s)\n", "file", settings.input.name().c_str(), geometry.is_mesh ? "mesh" : "cloud");
-  if (geometry.polygons > 0) std::printf("%-15s %lld triangulated\n", "polygons", count(geometry.polygons));
-  if (geometry.merged_vertices > 0)
-    std::printf("%-15s %lld equal corners\n", "merged", count(geometry.merged_vertices));
-  std::printf("%-15s %lld, %lld active, %lld not finite, %lld coincident, %lld isolated\n", "points",
-              count(report.points), count(report.active), count(report.not_finite), count(report.coincident),
-              count(report.isolated));
+  Summary summary;
+  summary.add("file", "%s (%s)", settings.input.name().c_str(), geometry.is_mesh ? "mesh" : "cloud");
+  if (geometry.polygons > 0) summary.add("polygons", "%lld triangulated", count(geometry.polygons));
+  if (geometry.merged_vertices > 0) summary.add("merged", "%lld equal corners", count(geometry.merged_vertices));
+  summary.add("points", "%lld, %lld active, %lld not finite, %lld coincident, %lld isolated", count(report.points),
+              count(report.active), count(report.not_finite), count(report.coincident), count(report.isolated));
   if (report.rim_points + report.jump_points + report.lost_points > 0)
-    std::printf("%-15s %lld on rims, %lld at jumps, %lld where triangles are missing\n", "boundary",
-                count(report.rim_points), count(report.jump_points), count(report.lost_points));
-  std::printf("%-15s %lld\n", "triangles", count(report.triangles));
-  std::printf("%-15s %.2f\n", "nonzeros/row",
+    summary.add("boundary", "%lld on rims, %lld at jumps, %lld where triangles are missing", count(report.rim_points),
+                count(report.jump_points), count(report.lost_points));
+  summary.add("triangles", "%lld", count(report.triangles));
+  summary.add("nonzeros/row", "%.2f",
               static_cast<double>(report.nonzeros) / static_cast<double>(std::max<std::int64_t>(report.active, 1)));
-  std::printf("%-15s %lld\n", "components", count(report.components));
-  std::printf("%-15s %.17g\n", "sum of M", laplacian.M.sum());
-  std::printf("%-15s %lld\n", "flips", count(report.flips));
-  std::printf("%-15s %lld weights\n", "clamped", count(report.clamped_weights + report.clamped_large));
+  summary.add("components", "%lld", count(report.components));
+  summary.add("sum of M", "%.17g", laplacian.M.sum());
+  summary.add("flips", "%lld", count(report.flips));
+  summary.add("clamped", "%lld weights", count(report.clamped_weights + report.clamped_large));
   if (report.flip_failures + report.clamped_large > 0)
-    std::printf("%-15s %lld edges not flipped, %lld large weights clamped\n", "failures", count(report.flip_failures),
+    summary.add("failures", "%lld edges not flipped, %lld large weights clamped", count(report.flip_failures),
                 count(report.clamped_large));
-  std::printf("%-15s %.3g s, peak memory %.0f MB\n", "took", seconds, peakMemory());
-  std::printf("%-15s %s\n", "written to", settings.out.c_str());
-  if (std::fflush(stdout) != 0) throw tufted::IoError("standard output: cannot write the summary");
+  summary.add("took", "%.3g s, peak memory %.0f MB", seconds, peakMemory());
+  summary.add("written to", "%s", settings.out.c_str());
+  summary.print();
 }
 
 int runLaplacian(Settings& settings) {

@@ -9,6 +9,7 @@
 #include "interrupt.h"
 #include "options.h"
 #include "output.h"
+#include "progress_bar.h"
 #include "tufted/errors.h"
 
 namespace {
@@ -27,69 +28,85 @@ tufted::Geometry pointsOf(const std::filesystem::path& folder) {
   return {};
 }
 
+void readFolder(const OperatorSettings& settings, Operator& source) {
+  const std::filesystem::path& folder = settings.folder;
+  std::error_code error;
+  if (std::filesystem::equivalent(folder, settings.out, error))
+    throw tufted::InvalidInput("--out " + settings.out.string() + ": is the folder of --operator, whose report and " +
+                               "points would be overwritten");
+  source.laplacian = tufted::readLaplacian(folder, settings.needs_cover);
+  if (settings.needs_cover && !source.laplacian.hasCover())
+    throw tufted::IoError(folder.string() + ": has no cover.npz, which `tufted laplacian --format npz,ply,cover` " +
+                          "writes and " + settings.command + " needs");
+  source.geometry = pointsOf(folder);
+  const auto n = static_cast<Eigen::Index>(source.laplacian.status.size());
+  if (source.geometry.points.rows() != n && source.geometry.points.rows() > 0)
+    throw tufted::IoError(folder.string() + ": the points are " + std::to_string(source.geometry.points.rows()) +
+                          ", and L has " + std::to_string(n) + " rows");
+}
+
+void write(const OperatorSettings& settings, const Operator& source, const Results& results) {
+  nlohmann::ordered_json json = {{"tufted", TUFTED_VERSION}, {"command", settings.command}, {"source", source.name}};
+  json.update(results.report);
+  tufted::ResultOptions options = {.copies = settings.copies, .progress = source.progress};
+  // A path need not be UTF-8.
+  options.report = json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  if (source.geometry.points.rows() == 0 && source.points() > 0) options.copies.clear();
+  if (results.write)
+    results.write(settings.out, options);
+  else
+    tufted::writeResults(settings.out, source.laplacian, source.geometry, results.arrays, options);
+}
+
 }  // namespace
 
-void addOperatorOptions(CLI::App& command, OperatorSettings& settings, bool with_folder) {
-  CLI::Option* const file = addInput(command, settings.input);
-  if (with_folder) {
-    file->required(false);
-    CLI::Option* const folder =
-        command
-            .add_option("--operator", settings.folder,
-                        "Take the Laplacian that `tufted laplacian --out DIR` wrote, instead of building FILE's")
-            ->check(notEmpty)
-            ->type_name("DIR");
-    command.parse_complete_callback([file, folder, &settings] {
-      if (file->count() + folder->count() != 1) throw CLI::RequiredError("exactly one of FILE and --operator");
-      if (folder->count() == 0) return;
-      std::vector<const CLI::Option*> unused = settings.build.cloud_only;
-      unused.insert(unused.end(), settings.build.others.begin(), settings.build.others.end());
-      for (const CLI::Option* option : unused)
-        if (option->count() > 0) throw CLI::ExcludesError(option->get_name(), "--operator");
-    });
-  }
+void addOperatorOptions(CLI::App& command, OperatorSettings& settings) {
+  settings.command = command.get_name();
+  CLI::Option* const file = addInput(command, settings.input)->required(false);
+  CLI::Option* const folder =
+      command
+          .add_option("--operator", settings.folder,
+                      "Take the Laplacian that `tufted laplacian --out DIR` wrote, instead of building FILE's")
+          ->check(notEmpty)
+          ->type_name("DIR");
   addOut(command, settings.out);
   addChoice(command, "--format", settings.copies, copies, "Format of the copy of the points with the results (ply)");
   addBuildOptions(command, settings.build);
+  command.parse_complete_callback([file, folder, &settings] {
+    if (file->count() + folder->count() != 1) throw CLI::RequiredError("exactly one of FILE and --operator");
+    if (folder->count() == 0) return;
+    std::vector<const CLI::Option*> unused = settings.build.cloud_only;
+    unused.insert(unused.end(), settings.build.others.begin(), settings.build.others.end());
+    for (const CLI::Option* option : unused)
+      if (option->count() > 0) throw CLI::ExcludesError(option->get_name(), "--operator");
+  });
 }
 
-Operator loadOperator(OperatorSettings& settings, const std::vector<std::string>& files, bool keep_cover,
-                      const tufted::Progress& progress) {
-  progress("read", 0);
+int runWithOperator(OperatorSettings& settings, const Check& check, const Compute& compute) {
+  ProgressBar bar;
   Operator source;
-  if (!settings.folder.empty()) {
-    std::error_code error;
-    if (std::filesystem::equivalent(settings.folder, settings.out, error))
-      throw tufted::InvalidInput("--out " + settings.out.string() + ": is the folder of --operator, whose report and " +
-                                 "points would be overwritten");
-    checkOutput(settings.input, settings.out, files);
-    source.laplacian = tufted::readLaplacian(settings.folder, keep_cover);
-    source.geometry = pointsOf(settings.folder);
-    const auto n = static_cast<Eigen::Index>(source.laplacian.status.size());
-    if (source.geometry.points.rows() != n && source.geometry.points.rows() > 0)
-      throw tufted::IoError(settings.folder.string() + ": the points are " +
-                            std::to_string(source.geometry.points.rows()) + ", and L has " + std::to_string(n) +
-                            " rows");
-  } else {
-    checkOutput(settings.input, settings.out, files);
-    source.geometry = readInput(settings.input);
+  source.name = settings.name();
+  source.threads = settings.build.cloud.threads;
+  source.progress = showOn(bar);
+  const auto checkpoint = [] {
     if (interrupted()) throw tufted::Cancelled("cancelled");
-    source.laplacian = buildLaplacian(source.geometry, settings.input, settings.build, keep_cover, progress);
-  }
-  if (interrupted()) throw tufted::Cancelled("cancelled");
-  return source;
-}
-
-void writeOperatorResults(const OperatorSettings& settings, const std::string& command, const Operator& source,
-                          const std::vector<tufted::ResultArray>& arrays, const std::string& report,
-                          const tufted::Progress& progress) {
-  nlohmann::ordered_json json = {{"tufted", TUFTED_VERSION}, {"command", command}, {"source", settings.name()}};
-  json.update(nlohmann::ordered_json::parse(report));
-  tufted::ResultOptions options;
-  // A path need not be UTF-8.
-  options.report = json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
-  options.progress = progress;
-  options.copies = settings.copies;
-  if (source.geometry.points.rows() == 0 && !source.laplacian.status.empty()) options.copies.clear();
-  tufted::writeResults(settings.out, source.laplacian, source.geometry, arrays, options);
+  };
+  source.progress("read", 0);
+  checkOutput(settings.input, settings.out, {"points.ply", "points.pcd", "report.json"});  // no input is a .npy
+  if (settings.folder.empty())
+    source.geometry = readInput(settings.input);
+  else
+    readFolder(settings, source);
+  checkpoint();
+  check(source);
+  if (settings.folder.empty())
+    source.laplacian =
+        buildLaplacian(source.geometry, settings.input, settings.build, settings.needs_cover, source.progress);
+  checkpoint();
+  Results results = compute(source);
+  write(settings, source, results);
+  bar.clear();
+  results.summary.add("written to", "%s", settings.out.c_str());
+  results.summary.print();
+  return exit_done;
 }

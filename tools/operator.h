@@ -1,48 +1,98 @@
 #pragma once
 
 #include <CLI/App.hpp>
+#include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "build.h"
+#include "command.h"
 #include "input.h"
+#include "summary.h"
 #include "tufted/io/results.h"
 #include "tufted/laplacian.h"
+#include "tufted/solver.h"
 
 // What the commands that use a Laplacian have in common: where it comes from and where results go.
 
 /// The options of such a command.
 struct OperatorSettings {
+  std::string command;           ///< its name
   Input input;                   ///< FILE; empty with --operator
   std::filesystem::path folder;  ///< of --operator
   std::filesystem::path out;
   Build build;
   std::vector<tufted::Format> copies = {tufted::Format::ply};
+  bool needs_cover = false;  ///< not only L and M
 
   /// As messages call the source.
   std::string name() const { return folder.empty() ? input.name() : folder.string(); }
-  int threads() const { return build.cloud.threads; }
 };
 
 /// Adds FILE or --operator, --out, --format and the options of building; checks that they fit together.
-/// @param with_folder whether a Laplacian from a folder will do, which has no cover
-void addOperatorOptions(CLI::App& command, OperatorSettings& settings, bool with_folder = true);
+void addOperatorOptions(CLI::App& command, OperatorSettings& settings);
 
 /// A Laplacian, and the points it belongs to.
 struct Operator {
-  tufted::Laplacian laplacian;
+  std::string name;           ///< as messages call it
   tufted::Geometry geometry;  ///< 0 points: a folder without points.ply and points.pcd
+  tufted::Laplacian laplacian;
+  int threads = 0;
+  tufted::Progress progress;
+
+  int points() const {
+    return static_cast<int>(std::max<std::size_t>(geometry.points.rows(), laplacian.status.size()));
+  }
+  tufted::SolverOptions solver() const { return {.threads = threads, .progress = progress}; }
 };
 
-/// Reads FILE and builds, or reads the folder.
-/// @param files that will be written, see checkOutput
-Operator loadOperator(OperatorSettings& settings, const std::vector<std::string>& files, bool keep_cover,
-                      const tufted::Progress& progress);
+/// What a command found.
+struct Results {
+  std::vector<tufted::ResultArray> arrays;
+  nlohmann::ordered_json report;  ///< members of report.json beside "tufted", "command" and "source"
+  Summary summary;
+  /// Writes them in place of writeResults.
+  std::function<void(const std::filesystem::path& dir, const tufted::ResultOptions& options)> write = {};
+};
 
-/// Writes the results, with copies of the points where there are points.
-/// @param report members of report.json beside "tufted", "command" and "source": a JSON object as text
-void writeOperatorResults(const OperatorSettings& settings, const std::string& command, const Operator& source,
-                          const std::vector<tufted::ResultArray>& arrays, const std::string& report,
-                          const tufted::Progress& progress);
+/// Refuses what can be refused before the Laplacian is built, which may take long: the points are there, and with
+/// --operator the whole of it.
+using Check = std::function<void(const Operator& source)>;
+/// May change the points, of which copies are written.
+using Compute = std::function<Results(Operator& source)>;
+
+/// Loads the Laplacian, computes, writes the results and then the summary. @returns an exit code
+int runWithOperator(OperatorSettings& settings, const Check& check, const Compute& compute);
+
+template <class Settings>
+struct OperatorCommand {
+  CLI::App* command;
+  std::shared_ptr<Settings> settings;
+};
+
+/// Adds a subcommand with the options of all that use a Laplacian.
+/// @param Settings has a member `source`, OperatorSettings
+template <class Settings>
+OperatorCommand<Settings> addOperatorCommand(CLI::App& app, Run& run, const char* name, const char* description,
+                                             const char* footer, Results (*compute)(Settings&, Operator&),
+                                             void (*check)(Settings&, const Operator&) = nullptr) {
+  CLI::App* const command = app.add_subcommand(name, description);
+  command->footer(footer);
+  const auto settings = std::make_shared<Settings>();
+  addOperatorOptions(*command, settings->source);
+  command->callback([&run, settings, compute, check] {
+    run = [settings, compute, check] {
+      return runWithOperator(
+          settings->source,
+          [&](const Operator& source) {
+            if (check != nullptr) check(*settings, source);
+          },
+          [&](Operator& source) { return compute(*settings, source); });
+    };
+  });
+  return {command, settings};
+}

@@ -1,15 +1,10 @@
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <limits>
-#include <memory>
-#include <nlohmann/json.hpp>
-#include <string>
 
 #include "command.h"
 #include "operator.h"
 #include "options.h"
-#include "progress_bar.h"
-#include "spectrum_report.h"
+#include "reports.h"
 #include "tufted/errors.h"
 #include "tufted/gradient.h"
 #include "tufted/io/operators.h"
@@ -26,49 +21,47 @@ constexpr const char* footer = R"(Writes into DIR, renamed one after the other w
   points.ply     the points with the fields frames and evecs, float32; points.pcd with --format pcd
   report.json    residual and seconds of the spectrum
 gradX and gradY are slopes along the axes of the frames, by least squares over the neighbours in L. Points that take no
-part have rows of zeros. FILE and the options of building are those of `tufted laplacian`.)";
+part have rows of zeros. FILE and the options of building are those of `tufted laplacian`; --operator takes what that
+has written, with the points (of meshes points.ply, which has the triangles).)";
 
 struct Settings {
   OperatorSettings source;
   int count = 128;
 };
 
-int runOperators(Settings& settings) {
-  ProgressBar bar;
-  const tufted::Progress progress = showOn(bar);
-  const Operator source = loadOperator(settings.source, {"points.ply", "points.pcd", "report.json"}, false, progress);
+/// What a folder may lack.
+void check(Settings&, const Operator& source) {
+  const tufted::Geometry& geometry = source.geometry;
+  if (source.points() > 0 && geometry.points.rows() == 0)
+    throw tufted::IoError(source.name + ": has no points, which `tufted laplacian --format npz,ply` writes");
+  if (source.laplacian.L.rows() > 0 && !geometry.is_mesh && source.laplacian.frames.normals.rows() == 0)
+    throw tufted::IoError(source.name + ": has neither frames of a cloud nor the triangles of a mesh, which " +
+                          "`tufted laplacian --format npz,ply` writes");
+}
+
+Results compute(Settings& settings, Operator& source) {
   const tufted::Geometry& geometry = source.geometry;
   const tufted::Gradients gradients = geometry.is_mesh
                                           ? tufted::gradients(source.laplacian, geometry.points,
                                                               tufted::meshFrames(geometry.points, geometry.triangles))
                                           : tufted::gradients(source.laplacian, geometry.points);
-  tufted::SpectrumOptions options;
-  options.threads = settings.source.threads();
-  options.progress = progress;
-  const tufted::Spectrum spectrum = tufted::spectrum(source.laplacian, settings.count, options);
-  const nlohmann::ordered_json report = {{"tufted", TUFTED_VERSION},
-                                         {"command", "operators"},
-                                         {"source", settings.source.name()},
-                                         {"report", reportOf(spectrum.report)}};
-  const std::string text = report.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
-  tufted::writeOperators(settings.source.out, source.laplacian, geometry, gradients, spectrum,
-                         {.copies = settings.source.copies, .report = text, .progress = progress});
-  bar.clear();
-  std::printf("%-15s %d\n", "eigenvalues", settings.count);
-  printSpectrumReport(spectrum.report);
-  std::printf("%-15s %s\n", "written to", (settings.source.out / "operators.npz").c_str());
-  if (std::fflush(stdout) != 0) throw tufted::IoError("standard output: cannot write the summary");
-  return exit_done;
+  const tufted::Spectrum spectrum =
+      tufted::spectrum(source.laplacian, settings.count, {.threads = source.threads, .progress = source.progress});
+  Results results;
+  results.summary.add("eigenvalues", "%d", settings.count);
+  addReport(spectrum.report, results);
+  results.write = [&source, gradients, spectrum](const std::filesystem::path& dir,
+                                                 const tufted::ResultOptions& options) {
+    tufted::writeOperators(dir, source.laplacian, source.geometry, gradients, spectrum, options);
+  };
+  return results;
 }
 
 }  // namespace
 
 void addOperators(CLI::App& app, Run& run) {
-  CLI::App& command = *app.add_subcommand("operators", description);
-  command.footer(footer);
-  const auto settings = std::make_shared<Settings>();
-  addOperatorOptions(command, settings->source, false);
-  addNumber(command, "--count", settings->count, 1, std::numeric_limits<int>::max(), "Number of eigenvalues (128)")
+  const auto [command, settings] =
+      addOperatorCommand<Settings>(app, run, "operators", description, footer, compute, check);
+  addNumber(*command, "--count", settings->count, 1, std::numeric_limits<int>::max(), "Number of eigenvalues (128)")
       ->type_name("K");
-  command.callback([&run, settings] { run = [=] { return runOperators(*settings); }; });
 }

@@ -1,49 +1,97 @@
 #include "point_options.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
+#include <cmath>
+#include <fstream>
 #include <sstream>
 
+#include "options.h"
 #include "tufted/errors.h"
 #include "tufted/nearest_point.h"
+
+namespace {
+
+bool parseNumber(const std::string& word, double& number) {
+  const char* const end = word.data() + word.size();
+  const auto [stop, error] = std::from_chars(word.data(), end, number);
+  return error == std::errc() && stop == end;
+}
+
+}  // namespace
 
 std::vector<double> parseNumbers(const std::string& text, const std::string& option) {
   std::vector<double> numbers;
   std::istringstream words(text);
-  for (std::string word; std::getline(words, word, ',');) {
-    double number = 0;
-    const char* const end = word.data() + word.size();
-    const auto [stop, error] = std::from_chars(word.data(), end, number);
-    if (error != std::errc() || stop != end)
+  for (std::string word; std::getline(words, word, ',');)
+    if (!parseNumber(word, numbers.emplace_back()))
       throw tufted::InvalidInput(option + " " + text + " is no list of numbers with commas between them");
-    numbers.push_back(number);
-  }
   return numbers;
 }
 
+std::vector<Row> readRows(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  if (!file || std::filesystem::is_directory(path)) throw tufted::IoError(path.string() + ": cannot be read");
+  std::vector<Row> rows;
+  std::string line;
+  for (int number = 1; std::getline(file, line); ++number) {
+    line.resize(std::min(line.find('#'), line.size()));
+    std::replace(line.begin(), line.end(), ',', ' ');
+    Row row{path.string() + ": line " + std::to_string(number), {}};
+    std::istringstream words(line);
+    for (std::string word; words >> word;)
+      if (!parseNumber(word, row.numbers.emplace_back()))
+        throw tufted::IoError(row.name + ": '" + word + "' is not a number");
+    if (!row.numbers.empty()) rows.push_back(std::move(row));
+  }
+  return rows;
+}
+
+Place placeOf(const std::vector<double>& numbers, int points, const std::string& name) {
+  Place place;
+  if (numbers.size() == 3) {
+    place.position = {numbers[0], numbers[1], numbers[2]};
+    if (!place.position.allFinite()) throw tufted::InvalidInput(name + " is not finite, must be");
+  } else {
+    if (numbers.size() != 1) throw tufted::InvalidInput(name + " is neither an index nor X,Y,Z");
+    if (!(numbers[0] >= 0 && numbers[0] < points && numbers[0] == std::floor(numbers[0])))
+      throw tufted::InvalidInput(name + " is no index in [0, " + std::to_string(points) + "), the number of points");
+    place.index = static_cast<int>(numbers[0]);
+  }
+  return place;
+}
+
+int locate(const Place& place, const Operator& source) {
+  if (place.index >= 0) return place.index;
+  if (source.geometry.points.rows() == 0)
+    throw tufted::InvalidInput("a position needs points, and " + source.name + " has none");
+  return tufted::nearestPoint(source.laplacian, source.geometry.points, place.position);
+}
+
+std::vector<Place> NamedPoints::places(int points) const {
+  std::vector<Place> found;
+  for (const std::string& index : indices)
+    found.push_back(placeOf(parseNumbers(index, "--source"), points, "--source " + index));
+  for (const std::string& position : positions) {
+    const std::vector<double> numbers = parseNumbers(position, "--near");
+    if (numbers.size() != 3) throw tufted::InvalidInput("--near " + position + " is not X,Y,Z");
+    found.push_back(placeOf(numbers, points, "--near " + position));
+  }
+  if (!file.empty())
+    for (const Row& row : readRows(file)) found.push_back(placeOf(row.numbers, points, row.name));
+  return found;
+}
+
 void addPointOptions(CLI::App& command, NamedPoints& points, const std::string& what) {
-  const auto set_indices = [&points](const std::vector<int>& indices) { points.indices = indices; };
-  command.add_option_function<std::vector<int>>("--source", set_indices, what + ", by index from 0")
+  command.add_option("--source", points.indices, what + ", by index from 0")
       ->delimiter(',')
       ->allow_extra_args(false)  // what follows may be FILE
       ->type_name("I,J,...");
   command.add_option("--near", points.positions, what + ", as the point nearest to this")
       ->allow_extra_args(false)
       ->type_name("X,Y,Z");
-}
-
-int nearestOf(const Operator& source, const Eigen::Vector3d& position) {
-  if (source.geometry.points.rows() == 0)
-    throw tufted::InvalidInput("a position needs points, and the folder of --operator has none");
-  return tufted::nearestPoint(source.laplacian, source.geometry.points, position);
-}
-
-std::vector<int> indicesOf(const NamedPoints& points, const Operator& source) {
-  std::vector<int> indices = points.indices;
-  for (const std::string& text : points.positions) {
-    const std::vector<double> numbers = parseNumbers(text, "--near");
-    if (numbers.size() != 3) throw tufted::InvalidInput("--near " + text + " is not X,Y,Z");
-    indices.push_back(nearestOf(source, {numbers[0], numbers[1], numbers[2]}));
-  }
-  return indices;
+  command.add_option("--sources", points.file, what + ", from a text file with an index or X Y Z per line")
+      ->check(notEmpty)
+      ->type_name("TEXT");
 }

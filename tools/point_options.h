@@ -2,6 +2,7 @@
 
 #include <CLI/App.hpp>
 #include <Eigen/Core>
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -10,17 +11,39 @@
 /// Numbers separated by commas. @throws InvalidInput naming the option
 std::vector<double> parseNumbers(const std::string& text, const std::string& option);
 
-/// Points that the user names: by index or as the nearest to a position.
-struct NamedPoints {
-  std::vector<int> indices;
-  std::vector<std::string> positions;  ///< X,Y,Z
+/// A line of a text file.
+struct Row {
+  std::string name;  ///< "path: line 12", for messages
+  std::vector<double> numbers;
 };
 
-/// Adds --source I,J,... and --near X,Y,Z, which may be repeated.
+/// Numbers with blanks or commas between them; lines without any and what follows a # are skipped.
+/// @throws IoError for a file that cannot be read or other words
+std::vector<Row> readRows(const std::filesystem::path& path);
+
+/// A point that the user names: by index, or as the nearest to a position.
+struct Place {
+  int index = -1;                                      ///< -1: by position
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< finite
+};
+
+/// @param numbers an index or x, y, z
+/// @param name of what gives them, for messages
+/// @throws InvalidInput unless it is an index of one of so many points, or a finite position
+Place placeOf(const std::vector<double>& numbers, int points, const std::string& name);
+
+/// The point itself. @throws InvalidInput for a position where the source has no points
+int locate(const Place& place, const Operator& source);
+
+/// Points that the user names with options.
+struct NamedPoints {
+  std::vector<std::string> indices, positions;
+  std::filesystem::path file;
+
+  /// @returns all of them, those by index first
+  /// @throws as placeOf() and readRows()
+  std::vector<Place> places(int points) const;
+};
+
+/// Adds --source I,J,... and --near X,Y,Z, which may be repeated, and --sources FILE.
 void addPointOptions(CLI::App& command, NamedPoints& points, const std::string& what);
-
-/// The nearest active point of the source. @throws InvalidInput where it has no points
-int nearestOf(const Operator& source, const Eigen::Vector3d& position);
-
-/// All points named, those by index first.
-std::vector<int> indicesOf(const NamedPoints& points, const Operator& source);

@@ -1,16 +1,10 @@
 #include <CLI/CLI.hpp>
-#include <cstdio>
 #include <limits>
-#include <memory>
-#include <nlohmann/json.hpp>
-#include <string>
 
 #include "command.h"
 #include "operator.h"
 #include "options.h"
-#include "progress_bar.h"
-#include "spectrum_report.h"
-#include "tufted/errors.h"
+#include "reports.h"
 #include "tufted/spectrum.h"
 
 namespace {
@@ -36,38 +30,25 @@ struct Settings {
   tufted::SpectrumOptions options;
 };
 
-int runSpectrum(Settings& settings) {
-  ProgressBar bar;
-  const tufted::Progress progress = showOn(bar);
-  const std::vector<std::string> files = {"evals.npy", "evecs.npy", "points.ply", "points.pcd", "report.json"};
-  const Operator source = loadOperator(settings.source, files, false, progress);
-  settings.options.threads = settings.source.threads();
-  settings.options.progress = progress;
+Results compute(Settings& settings, Operator& source) {
+  settings.options.threads = source.threads;
+  settings.options.progress = source.progress;
   tufted::Spectrum spectrum = tufted::spectrum(source.laplacian, settings.count, settings.options);
-  const nlohmann::ordered_json report = {{"report", reportOf(spectrum.report)}};
-  const double first = spectrum.values[0], last = spectrum.values[spectrum.values.size() - 1];
-  writeOperatorResults(settings.source, "spectrum", source,
-                       {{.name = "evals", .values = spectrum.values, .per_point = false},
-                        {.name = "evecs", .values = std::move(spectrum.vectors)}},
-                       report.dump(), progress);
-  bar.clear();
-  std::printf("%-15s %d, from %.6g to %.6g\n", "eigenvalues", settings.count, first, last);
-  printSpectrumReport(spectrum.report);
-  std::printf("%-15s %s\n", "written to", settings.source.out.c_str());
-  if (std::fflush(stdout) != 0) throw tufted::IoError("standard output: cannot write the summary");
-  return exit_done;
+  Results results;
+  results.summary.add("eigenvalues", "%d, from %.6g to %.6g", settings.count, spectrum.values[0],
+                      spectrum.values[settings.count - 1]);
+  addReport(spectrum.report, results);
+  results.arrays = {{.name = "evals", .values = spectrum.values, .per_point = false},
+                    {.name = "evecs", .values = std::move(spectrum.vectors)}};
+  return results;
 }
 
 }  // namespace
 
 void addSpectrum(CLI::App& app, Run& run) {
-  CLI::App& command = *app.add_subcommand("spectrum", description);
-  command.footer(footer);
-  const auto settings = std::make_shared<Settings>();
-  addOperatorOptions(command, settings->source);
-  addNumber(command, "--count", settings->count, 1, std::numeric_limits<int>::max(), "Number of eigenvalues (32)")
+  const auto [command, settings] = addOperatorCommand<Settings>(app, run, "spectrum", description, footer, compute);
+  addNumber(*command, "--count", settings->count, 1, std::numeric_limits<int>::max(), "Number of eigenvalues (32)")
       ->type_name("K");
-  addNumber(command, "--tolerance", settings->options.tolerance, 1e-15, 0.5, "Relative accuracy of vectors (1e-10)")
+  addNumber(*command, "--tolerance", settings->options.tolerance, 1e-15, 0.5, "Relative accuracy of vectors (1e-10)")
       ->type_name("T");
-  command.callback([&run, settings] { run = [=] { return runSpectrum(*settings); }; });
 }

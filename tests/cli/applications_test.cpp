@@ -32,10 +32,82 @@ TEST_F(ApplicationCommands, DistanceComesFromIndicesPositionsAndFaces) {
   expectRefusal({"distance", square, "--face", "2,1,1,1"}, "face = 2");
   expectRefusal({"distance", square, "--face", "0,1,1"}, "FACE,A,B,C");
   expectRefusal({"distance", cloud, "--face", "0,1,1,1"}, "applies to meshes");
-  expectRefusal({"distance", cloud}, "sources is empty");
+  expectRefusal({"distance", cloud}, "no source is given");
   expectRefusal({"distance", cloud, "--source", "500"}, "source 500");
   expectRefusal({"distance", cloud, "--near", "1,2"}, "X,Y,Z");
   expectRefusal({"distance", cloud, "--source", "0", "--time-step", "0"}, "--time-step");
+}
+
+TEST_F(ApplicationCommands, PlacesComeFromFiles) {
+  const std::string cloud = dir_.write("sphere.xyz", sphere(500));
+  const std::string places = dir_.write("places.txt", "# by index, by position\n3\r\n\n-1, 0 0 # x y z\n 7.000e+00");
+  run({"distance", cloud, "--source", "3,7", "--near", "-1,0,0", "--out", in("options")});
+  run({"distance", cloud, "--sources", places, "--out", in("file")});
+  EXPECT_EQ(values("options/distance.npy"), values("file/distance.npy"));
+  run({"green", cloud, "--sources", places, "--out", in("green")});
+  EXPECT_EQ(values("green/green.npy").size(), 1500u);
+
+  const std::string pins = dir_.write("pins.txt", "1 0 0 5\n-1 0 0 6\n");
+  run({"interpolate", cloud, "--pin", "1,0,0=5", "--pin", "-1,0,0=6", "--out", in("options")});
+  run({"interpolate", cloud, "--pins-near", pins, "--out", in("file")});
+  EXPECT_EQ(values("options/values.npy"), values("file/values.npy"));
+
+  expectRefusal({"distance", cloud, "--sources", in("nowhere")}, "nowhere: cannot be read", 1);
+  expectRefusal({"distance", cloud, "--sources", dir_.write("word.txt", "1\nx\n")}, "word.txt: line 2: 'x'", 1);
+  expectRefusal({"distance", cloud, "--sources", dir_.write("two.txt", "\n1 2\n")}, "two.txt: line 2 is neither");
+  expectRefusal({"interpolate", cloud, "--pins", dir_.write("index.txt", "500 1\n")}, "index.txt: line 1 is no index");
+  expectRefusal({"interpolate", cloud, "--pins-near", dir_.write("short.txt", "1 0 0\n")}, "short.txt: line 1", 1);
+}
+
+TEST_F(ApplicationCommands, PlacesAreCheckedBeforeTheBuild) {
+  const std::string cloud = dir_.write("sphere.xyz", sphere(100));
+  // A build with --normals fails, as the file has none.
+  expectRefusal({"distance", cloud, "--normals", "--source", "0"}, "--normals", 1);
+  expectRefusal({"distance", cloud, "--normals", "--source", "100"}, "--source 100 is no index in [0, 100)");
+  expectRefusal({"distance", cloud, "--normals", "--near", "0,0,nan"}, "--near 0,0,nan is not finite");
+  expectRefusal({"distance", cloud, "--normals", "--face", "0,1,1,1"}, "applies to meshes");
+  expectRefusal({"distance", cloud, "--normals"}, "no source");
+  expectRefusal({"green", cloud, "--normals", "--source", "-1"}, "--source -1");
+  expectRefusal({"interpolate", cloud, "--normals", "--pin", "100=1"}, "--pin 100=1 is no index");
+  expectRefusal({"interpolate", cloud, "--normals", "--pin", "1=inf"}, "not finite");
+}
+
+TEST_F(ApplicationCommands, DistanceFromAFolderIsThatOfABuild) {
+  std::string points = sphere(300);
+  points += points.substr(0, points.find('\n') + 1) + "nan 0 0\n";
+  const std::string cloud = dir_.write("sphere.xyz", points);
+  const std::string mesh = dir_.write("square.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n");
+  for (const std::string& file : {cloud, mesh}) {
+    std::filesystem::remove_all(in("folder"));
+    run({"laplacian", file, "--format", "npz,ply,cover", "--out", in("folder")});
+    run({"distance", file, "--source", "1", "--out", in("built")});
+    run({"distance", "--operator", in("folder"), "--source", "1", "--out", in("read")});
+    for (const char* name : {"/distance.npy", "/points.ply"})
+      EXPECT_TRUE(readAll(in("built") + name) == readAll(in("read") + name)) << file << name;
+  }
+  run({"distance", "--operator", in("folder"), "--face", "0,1,1,1", "--out", in("face")});
+  run({"laplacian", mesh, "--out", in("folder")});
+  expectRefusal({"distance", "--operator", in("folder"), "--source", "1"}, "--format npz,ply,cover", 1);
+}
+
+TEST_F(ApplicationCommands, OperatorsFromAFolderAreThoseOfABuild) {
+  const std::string cloud = dir_.write("sphere.xyz", sphere(300)), mesh = dir_.write("tetrahedron.off", tetrahedron);
+  for (const std::string& file : {cloud, mesh}) {
+    run({"laplacian", file, "--out", in("folder")});
+    run({"operators", file, "--count", "3", "--out", in("built")});
+    run({"operators", "--operator", in("folder"), "--count", "3", "--out", in("read")});
+    for (const char* name : {"/operators.npz", "/points.ply"})
+      EXPECT_TRUE(readAll(in("built") + name) == readAll(in("read") + name)) << file << name;
+  }
+  const std::string copy = readAll(dir_ / "built/points.ply");
+  EXPECT_NE(copy.find("property float frames_8\n"), std::string::npos);
+  EXPECT_NE(copy.find("property float evecs_2\n"), std::string::npos);
+  run({"operators", cloud, "--count", "3", "--format", "pcd", "--out", in("pcd")});
+  EXPECT_NE(readAll(dir_ / "pcd/points.pcd").find(" frames evecs "), std::string::npos);
+  run({"laplacian", mesh, "--format", "npz,pcd", "--out", in("folder")});
+  expectRefusal({"operators", "--operator", in("folder")}, "triangles of a mesh", 1);
+  run({"laplacian", mesh, "--format", "npz", "--out", in("folder")});
+  expectRefusal({"operators", "--operator", in("folder")}, "has no points", 1);
 }
 
 TEST_F(ApplicationCommands, InterpolateTakesPinsByIndexPositionAndFile) {
@@ -62,8 +134,8 @@ TEST_F(ApplicationCommands, InterpolateTakesPinsByIndexPositionAndFile) {
   EXPECT_EQ(report("smooth")["method"], "biharmonic");
   expectRefusal({"interpolate", cloud}, "--pin");
   expectRefusal({"interpolate", cloud, "--pin", "0"}, "INDEX=V");
-  expectRefusal({"interpolate", cloud, "--pin", "0.5=1"}, "pin 0");
-  expectRefusal({"interpolate", cloud, "--pin", "0=1", "--pin", "1=1,2"}, "pin 1");
+  expectRefusal({"interpolate", cloud, "--pin", "0.5=1"}, "--pin 0.5=1 is no index");
+  expectRefusal({"interpolate", cloud, "--pin", "0=1", "--pin", "1=1,2"}, "--pin 1=1,2 has 2 values");
   expectRefusal({"interpolate", cloud, "--pin", "500=1"}, "500");
 }
 
@@ -74,7 +146,7 @@ TEST_F(ApplicationCommands, GreenHasAColumnPerPoint) {
   ASSERT_EQ(green.size(), 1000u);
   EXPECT_NEAR(green[2 * 7], green[2 * 3 + 1], 1e-12);
   EXPECT_EQ(report("out")["sources"], nlohmann::json({3, 7}));
-  expectRefusal({"green", cloud}, "points is empty");
+  expectRefusal({"green", cloud}, "no point is given");
   expectRefusal({"green", cloud, "--source", "-1"}, "-1");
 }
 

@@ -1,0 +1,72 @@
+#include "pin_options.h"
+
+#include <CLI/CLI.hpp>
+
+#include "options.h"
+#include "tufted/errors.h"
+
+namespace {
+
+/// Where, what, and how messages call it.
+struct Pin {
+  std::vector<double> place, values;
+  std::string name;
+};
+
+Pin parsePin(const std::string& text) {
+  const std::size_t equals = text.find('=');
+  if (equals == std::string::npos) throw tufted::InvalidInput("--pin " + text + " is not INDEX=V or X,Y,Z=V");
+  return {parseNumbers(text.substr(0, equals), "--pin"), parseNumbers(text.substr(equals + 1), "--pin"),
+          "--pin " + text};
+}
+
+/// @param columns that say where
+void readPins(const std::filesystem::path& path, std::ptrdiff_t columns, std::vector<Pin>& pins) {
+  if (path.empty()) return;
+  for (const Row& row : readRows(path)) {
+    if (std::ssize(row.numbers) <= columns)
+      throw tufted::IoError(row.name + ": is not " + (columns == 1 ? "INDEX" : "X Y Z") + " V1 V2 ...");
+    const auto end = row.numbers.begin() + columns;
+    pins.push_back({{row.numbers.begin(), end}, {end, row.numbers.end()}, row.name});
+  }
+}
+
+}  // namespace
+
+void addPinOptions(CLI::App& command, PinOptions& options) {
+  command.add_option("--pin", options.pins, "A point and its value, may be repeated")
+      ->allow_extra_args(false)
+      ->type_name("INDEX=V|X,Y,Z=V");
+  command.add_option("--pins", options.by_index, "A text file of pins, INDEX V1 V2 ... per line")
+      ->check(notEmpty)
+      ->type_name("TEXT");
+  command.add_option("--pins-near", options.by_position, "A text file of pins, X Y Z V1 V2 ... per line")
+      ->check(notEmpty)
+      ->type_name("TEXT");
+}
+
+PlacedPins placePins(const PinOptions& options, int points) {
+  std::vector<Pin> given;
+  readPins(options.by_index, 1, given);
+  readPins(options.by_position, 3, given);
+  for (const std::string& text : options.pins) given.push_back(parsePin(text));
+  if (given.empty())
+    throw tufted::InvalidInput("no pin is given, must be at least one by --pin, --pins or --pins-near");
+  const auto columns = std::ssize(given.front().values);
+  PlacedPins pins{{}, Eigen::MatrixXd(std::ssize(given), columns)};
+  for (const Pin& pin : given) {
+    if (pin.values.empty() || std::ssize(pin.values) != columns)
+      throw tufted::InvalidInput(pin.name + " has " + std::to_string(pin.values.size()) + " values, must have " +
+                                 (columns == 0 ? "at least one" : std::to_string(columns) + " as the first"));
+    pins.values.row(std::ssize(pins.places)) = Eigen::Map<const Eigen::RowVectorXd>(pin.values.data(), columns);
+    pins.places.push_back(placeOf(pin.place, points, pin.name));
+  }
+  if (!pins.values.allFinite()) throw tufted::InvalidInput("a pin has a value that is not finite, must have none");
+  return pins;
+}
+
+tufted::Pins PlacedPins::locate(const Operator& source) const {
+  tufted::Pins pins{{}, values};
+  for (const Place& place : places) pins.points.push_back(::locate(place, source));
+  return pins;
+}

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <CLI/App.hpp>
+#include <Eigen/Core>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "operator.h"
+#include "point_options.h"
+#include "tufted/interpolation.h"
+
+/// Pins as the user gives them.
+struct PinOptions {
+  std::vector<std::string> pins;
+  std::filesystem::path by_index, by_position;
+
+  bool empty() const { return pins.empty() && by_index.empty() && by_position.empty(); }
+};
+
+/// Adds --pin, --pins and --pins-near.
+void addPinOptions(CLI::App& command, PinOptions& options);
+
+/// Pins before the nearest points are known.
+struct PlacedPins {
+  std::vector<Place> places;
+  Eigen::MatrixXd values;
+
+  tufted::Pins locate(const Operator& source) const;
+};
+
+/// @throws InvalidInput for no pin, pins that are none, or numbers of values that differ; IoError as readRows()
+PlacedPins placePins(const PinOptions& options, int points);
