@@ -43,6 +43,12 @@ Eigen::MatrixXd harmonic(const Laplacian& laplacian, const Pins& pins, const Sol
 Eigen::MatrixXd biharmonic(const Laplacian& laplacian, const Pins& pins, const SolverOptions& options = {},
                            SolveReport* report = nullptr);
 
+/// The mean over the connected component of each point, weighted by M: what poisson() takes out of f.
+/// @param values N x c; those of points that are not active are not looked at
+/// @return N x c; 0 at points that are isolated or not finite
+/// @throws InvalidInput for a wrong number of rows
+Eigen::MatrixXd componentMeans(const Laplacian& laplacian, const Eigen::MatrixXd& values);
+
 /// Solves L u = M f: minus the Laplacian of u is f. On a component that is only possible where f has mean 0, so its
 /// mean (weighted by M) is taken out; and u is made to have mean 0.
 /// @param f N x c, finite at active points

@@ -14,6 +14,7 @@ struct SpectrumOptions {
   /// Of |A x - theta x| / theta in the norm of M, A the inverse of L after M and theta = 1 / lambda; in (0, 1). The
   /// error of an eigenvalue is about its square.
   double tolerance = 1e-10;
+  bool null_space = true;                         ///< false: only positive eigenvalues, the k smallest
   int max_iterations = 1000;                      ///< of eight solves each, >= 1; beyond them SolverFailure
   SolverMethod method = SolverMethod::automatic;  ///< of the inverse
   std::size_t memory_limit = 0;                   ///< bytes that a factor may take, as in SolverOptions
@@ -49,7 +50,7 @@ struct Spectrum {
 ///
 /// Coincident points have the values of their representative; points that are not finite or isolated, and components
 /// whose areas all underflow, have 0.
-/// @param k >= 1, less than the number of active points of positive area
+/// @param k >= 1, less than the number of active points of positive area, less that of components without the null space
 /// @throws InvalidInput for k or options out of range, or arrays of the wrong size
 /// @throws SolverFailure when L cannot be factorised or the iterations do not suffice
 /// @throws Cancelled when `options.progress` returns false

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "algorithms/connected.h"
 #include "algorithms/linear_system.h"
 #include "algorithms/pinned_system.h"
 #include "base/stage_clock.h"
@@ -154,14 +155,17 @@ Eigen::MatrixXd solveWithPins(const std::string& function, const Laplacian& lapl
   return finish(laplacian, std::move(u), watch, made, report);
 }
 
+void checkRows(const std::string& function, const Laplacian& laplacian, const Eigen::MatrixXd& f) {
+  const std::size_t n = laplacian.status.size();
+  if (static_cast<std::size_t>(f.rows()) == n) return;
+  throw InvalidInput(function + " has " + std::to_string(f.rows()) + " rows, must have " + std::to_string(n) +
+                     ", one per point of the Laplacian");
+}
+
 void checkRight(const std::string& function, const Laplacian& laplacian, const Eigen::MatrixXd& f) {
   checkSizes(function, laplacian);
-  const auto n = static_cast<Eigen::Index>(laplacian.status.size());
-  if (f.rows() != n) {
-    throw InvalidInput(function + ": f has " + std::to_string(f.rows()) + " rows, must have " + std::to_string(n) +
-                       ", one per point of the Laplacian");
-  }
-  for (Eigen::Index i = 0; i < n; ++i) {
+  checkRows(function + ": f", laplacian, f);
+  for (Eigen::Index i = 0; i < f.rows(); ++i) {
     if (laplacian.status[i] == PointStatus::active && !f.row(i).allFinite()) {
       throw InvalidInput(function + ": f of point " + std::to_string(i) + " is not finite, must be");
     }
@@ -214,6 +218,21 @@ Eigen::MatrixXd biharmonic(const Laplacian& laplacian, const Pins& pins, const S
   SolveReport made;
   Eigen::MatrixXd u = Refinement(names, pinned, missing, options).run(bending, report != nullptr ? &made : nullptr);
   return finish(laplacian, std::move(u), watch, made, report);
+}
+
+Eigen::MatrixXd componentMeans(const Laplacian& laplacian, const Eigen::MatrixXd& values) {
+  checkRows("componentMeans: values", laplacian, values);
+  const Components components = findComponents(laplacian);
+  const VectorXd weights = components.weights(laplacian.M);
+  Eigen::MatrixXd means = Eigen::MatrixXd::Zero(values.rows(), values.cols());
+  for (Eigen::Index c = 0; c < values.cols(); ++c) {
+    VectorXd weighted = VectorXd::Zero(values.rows());
+    for (const int i : components.points) weighted[i] = weights[i] * values(i, c);
+    const VectorXd sums = components.sums(weighted);
+    for (const int i : components.points) means(i, c) = sums[components.of[i]];
+  }
+  copyToCoincident(laplacian, means);
+  return means;
 }
 
 Eigen::MatrixXd poisson(const Laplacian& laplacian, const Eigen::MatrixXd& f, const SolverOptions& options,

@@ -185,11 +185,13 @@ Spectrum spectrum(const Laplacian& laplacian, int k, const SpectrumOptions& opti
   checkArguments(laplacian, options);
   const Stopwatch watch;
   const Problem problem(laplacian);
-  if (k < 1 || k >= problem.usable)
+  const Index components = std::ssize(problem.order), bound = problem.usable - (options.null_space ? 0 : components);
+  if (k < 1 || k >= bound)
     throw InvalidInput("spectrum: k = " + std::to_string(k) + ", must be at least 1 and less than " +
-                       std::to_string(problem.usable) + ", the number of active points of positive area");
+                       std::to_string(bound) + ", the number of active points of positive area" +
+                       (options.null_space ? "" : " without one per component"));
   Spectrum result{VectorXd::Zero(k), MatrixXd(problem.mass.size(), k), {}};
-  const Index nulls = std::min<Index>(k, std::ssize(problem.order));
+  const Index nulls = options.null_space ? std::min<Index>(k, components) : 0;
   result.report.null_space = static_cast<int>(nulls);
   result.vectors.leftCols(nulls) = constants(problem, nulls);
   if (nulls < k) findVibrations(laplacian, problem, k - nulls, options, result);

@@ -109,6 +109,21 @@ TEST_F(FiveTori, HaveGreensFunctionsAndPoissonSolutionsByComponent) {
   expectCopies(g);
 }
 
+TEST_F(FiveTori, HaveMeansByComponent) {
+  Eigen::MatrixXd values(n, 2);
+  for (int i = 0; i < n; ++i) values.row(i) << (isNowhere(i) ? NAN : (*torus)[i]), i;
+  const Eigen::MatrixXd means = componentMeans(*laplacian, values);
+  double moment = 0, area = 0;
+  for (int i = 0; i < n; ++i) {
+    ASSERT_NEAR(means(i, 0), isNowhere(i) ? 0 : (*torus)[i], 1e-12) << i;
+    if ((*torus)[i] != 2 || isNowhere(i)) continue;
+    moment += laplacian->M[i] * i;
+    area += laplacian->M[i];
+  }
+  EXPECT_NEAR(means(firstOf(2), 1), moment / area, 1e-9 * n);
+  expectCopies(means);
+}
+
 TEST_F(FiveTori, HaveGradients) {
   const Gradients operators = gradients(*laplacian, *points);
   ASSERT_TRUE(operators.X.coeffs().allFinite() && operators.Y.coeffs().allFinite());

@@ -221,6 +221,11 @@ TEST(Spectrum, HasAConstantPerComponentLargestAreaFirst) {
   const Spectrum two = spectrum(laplacian, 2);
   EXPECT_EQ(two.vectors, found.vectors.leftCols(2));
   EXPECT_EQ(two.report.iterations, 0);
+  // Without them the rest is the same.
+  const Spectrum rest = spectrum(laplacian, 3, {.null_space = false});
+  EXPECT_EQ(rest.report.null_space, 0);
+  EXPECT_EQ(rest.values, found.values.tail(3));
+  EXPECT_EQ(rest.vectors, found.vectors.rightCols(3));
 }
 
 TEST(Spectrum, NamesWhatACallerGotWrong) {
@@ -236,6 +241,7 @@ TEST(Spectrum, NamesWhatACallerGotWrong) {
   EXPECT_EQ(refusal(laplacian, 0),
             "spectrum: k = 0, must be at least 1 and less than 500, the number of active points of positive area");
   EXPECT_NE(refusal(laplacian, 500), "accepted");
+  EXPECT_NE(refusal(laplacian, 499, {.null_space = false}).find("less than 499, "), std::string::npos);
   EXPECT_NE(refusal(pointCloudLaplacian(Points(0, 3)), 1), "accepted");
   EXPECT_EQ(refusal(laplacian, 5, {.tolerance = 1}), "spectrum: tolerance = 1, must lie in (0, 1)");
   EXPECT_EQ(refusal(laplacian, 5, {.max_iterations = 0}), "spectrum: max_iterations = 0, must be at least 1");
