@@ -48,8 +48,11 @@ int main(int argc, char** argv) {
   addLaplacian(app, run);
   addSpectrum(app, run);
   addHks(app, run);
+  addEmbed(app, run);
+  addFilter(app, run);
   addDistance(app, run);
   addInterpolate(app, run);
+  addPoisson(app, run);
   addGreen(app, run);
   addOperators(app, run);
   addInfo(app, run);

@@ -1,0 +1,60 @@
+#include <CLI/CLI.hpp>
+#include <limits>
+#include <map>
+
+#include "command.h"
+#include "operator.h"
+#include "options.h"
+#include "reports.h"
+#include "tufted/spectral.h"
+
+namespace {
+
+constexpr const char* description = "Spectral embedding: coordinates of every point by the smoothest eigenvectors.";
+
+constexpr const char* footer =
+    R"(A coordinate for each of the D smallest positive eigenvalues, so that distances between embedded points approximate
+  commute     commute times: eigenvectors over the roots of their eigenvalues (global point signature)
+  biharmonic  the biharmonic distance: eigenvectors over their eigenvalues, in the points' unit
+Constants of components are left out; a coordinate is 0 on components that its eigenvector does not live on.
+
+Writes into DIR, renamed one after the other when all are complete:
+  embedding.npy  N x D, float64; 0 at points that take no part, coincident ones as their representative
+  evals.npy      the D eigenvalues, 1 / length^2
+  points.ply     the points with embedding_0, embedding_1, ... as fields of float32; points.pcd with --format pcd: a
+                 field embedding of D values
+  report.json    iterations, residual, seconds
+FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written.)";
+
+const std::map<std::string, tufted::Embedding> kinds_of_distance = {{"commute", tufted::Embedding::commute},
+                                                                    {"biharmonic", tufted::Embedding::biharmonic}};
+
+struct Settings {
+  OperatorSettings source;
+  int dimension = 3;
+  tufted::Embedding embedding = tufted::Embedding::commute;
+};
+
+Results compute(Settings& settings, Operator& source) {
+  const tufted::Spectrum spectrum =
+      tufted::spectrum(source.laplacian, settings.dimension,
+                       {.null_space = false, .threads = source.threads, .progress = source.progress});
+  Results results;
+  results.arrays = {{.name = "embedding", .values = tufted::spectralEmbedding(spectrum, settings.embedding)},
+                    {.name = "evals", .values = spectrum.values, .per_point = false}};
+  results.summary.add("coordinates", "%d, eigenvalues from %.6g to %.6g", settings.dimension, spectrum.values[0],
+                      spectrum.values[settings.dimension - 1]);
+  addReport(spectrum.report, results);
+  return results;
+}
+
+}  // namespace
+
+void addEmbed(CLI::App& app, Run& run) {
+  const auto [command, settings] = addOperatorCommand<Settings>(app, run, "embed", description, footer, compute);
+  addNumber(*command, "--dimension", settings->dimension, 1, std::numeric_limits<int>::max(),
+            "Number of coordinates (3)")
+      ->type_name("D");
+  addChoice(*command, "--distance", settings->embedding, kinds_of_distance,
+            "What embedded distances approximate (commute)");
+}

@@ -1,0 +1,107 @@
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "command.h"
+#include "operator.h"
+#include "options.h"
+#include "reports.h"
+#include "signal_options.h"
+#include "tufted/errors.h"
+#include "tufted/interpolation.h"
+#include "tufted/spectral.h"
+
+namespace {
+
+constexpr const char* description = "Low-pass filter of fields of the points, of other values, or of the positions.";
+
+constexpr const char* footer =
+    R"(Keeps what the means over the connected components and the eigenvectors of the smallest positive eigenvalues hold:
+the first K, or those of waves at least W long (2 pi over the root of the eigenvalue, in the points' unit of length).
+
+Writes into DIR, renamed one after the other when all are complete:
+  filtered.npy  N values, N x c for c columns, or N x 3 positions, float64; points that are not finite or isolated keep
+                theirs, coincident ones have those of their representative
+  points.ply    the points with the field filtered, float32; points.pcd with --format pcd. With --positions they are
+                where the filter put them, and have no normals.
+  report.json   number of eigenvectors, the shortest wave, iterations, residual, seconds
+FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written.)";
+
+struct Settings {
+  OperatorSettings source;
+  SignalOptions signals;
+  bool positions = false;
+  int count = 100;
+  std::optional<double> wavelength;
+  Eigen::MatrixXd values;
+};
+
+void check(Settings& settings, const Operator& source) {
+  if (!settings.positions) {
+    settings.values = readSignals(settings.signals, source, settings.source.out);
+  } else {
+    if (!settings.signals.fields.empty() || !settings.signals.values.empty())
+      throw tufted::InvalidInput("--positions excludes --field and --values");
+    if (source.geometry.points.rows() == 0 && source.points() > 0)
+      throw tufted::IoError(source.name + ": has no points, which --positions filters");
+    settings.values = source.geometry.points;
+  }
+}
+
+/// The eigenvectors of waves at least so long. Weyl's law tells about how many there are.
+tufted::Spectrum longWaves(const Operator& source, double wavelength, tufted::SpectrumOptions options) {
+  const tufted::Laplacian& laplacian = source.laplacian;
+  const double most =
+      static_cast<double>((laplacian.M.array() > 0).count() - laplacian.report.components) - 1;  // see spectrum()
+  const double bound = std::pow(2 * std::numbers::pi / wavelength, 2);
+  for (double count = 16 + 1.1 * laplacian.M.sum() * bound / (4 * std::numbers::pi); count <= most; count *= 1.5) {
+    tufted::Spectrum spectrum = tufted::spectrum(laplacian, static_cast<int>(count), options);
+    const Eigen::Index kept = (spectrum.values.array() <= bound).count();
+    if (kept == spectrum.values.size()) continue;
+    spectrum.values.conservativeResize(kept);
+    spectrum.vectors.conservativeResize(Eigen::NoChange, kept);
+    return spectrum;
+  }
+  throw tufted::InvalidInput("--wavelength is shorter than what " + std::to_string(source.points()) +
+                             " points can tell, must be longer; or give --count");
+}
+
+Results compute(Settings& settings, Operator& source) {
+  requireFinite(settings.values, source);
+  const tufted::SpectrumOptions options = {.null_space = false, .threads = source.threads, .progress = source.progress};
+  const tufted::Spectrum spectrum = settings.wavelength ? longWaves(source, *settings.wavelength, options)
+                                                        : tufted::spectrum(source.laplacian, settings.count, options);
+  const Eigen::MatrixXd means = tufted::componentMeans(source.laplacian, settings.values);
+  Eigen::MatrixXd filtered = means + tufted::filterSignals(source.laplacian, spectrum, settings.values - means);
+  const auto count = spectrum.values.size();
+  const double shortest = count > 0 ? 2 * std::numbers::pi / std::sqrt(spectrum.values[count - 1]) : 0;
+  Results results;
+  results.report = {{"eigenvectors", count}, {"shortest_wave", shortest}};
+  results.summary.add("eigenvectors", "%lld, the shortest wave %.6g", static_cast<long long>(count), shortest);
+  addReport(spectrum.report, results);
+  if (settings.positions) {
+    source.geometry.points = filtered;
+    source.geometry.normals.resize(0, 3);
+    source.laplacian.frames = {};
+  }
+  results.arrays = {{.name = "filtered", .values = std::move(filtered)}};
+  return results;
+}
+
+}  // namespace
+
+void addFilter(CLI::App& app, Run& run) {
+  const auto [command, settings] =
+      addOperatorCommand<Settings>(app, run, "filter", description, footer, compute, check);
+  addSignalOptions(*command, settings->signals, "What to filter");
+  command->add_flag("--positions", settings->positions, "Filter the positions of the points");
+  CLI::Option* const count = addNumber(*command, "--count", settings->count, 1, std::numeric_limits<int>::max(),
+                                       "Number of eigenvectors, those of eigenvalue 0 not counted (100)")
+                                 ->type_name("K");
+  addNumber(*command, "--wavelength", settings->wavelength, std::numeric_limits<double>::min(),
+            std::numeric_limits<double>::max(), "Keep waves that are at least so long")
+      ->excludes(count)
+      ->type_name("W");
+}

@@ -1,0 +1,74 @@
+#include <CLI/CLI.hpp>
+
+#include "command.h"
+#include "operator.h"
+#include "pin_options.h"
+#include "reports.h"
+#include "signal_options.h"
+#include "tufted/errors.h"
+#include "tufted/interpolation.h"
+
+namespace {
+
+constexpr const char* description = "Solve Poisson's equation L u = M f: minus the Laplacian of u is f.";
+
+constexpr const char* footer =
+    R"(On a component that is only possible where f has mean 0, so its mean (weighted by M) is taken out, and u is made to
+have mean 0. With pins, as those of `tufted interpolate`, u has their values and the equation holds at all other
+points: nothing is taken out, and components without a pin are NaN.
+
+Writes into DIR, renamed one after the other when all are complete:
+  u.npy        N values, or N x c for c columns of f, float64; NaN at points that take no part
+  mean.npy     without pins: what was taken out of f at each point, in the same shape
+  points.ply   the points with the fields u and mean, float32; points.pcd with --format pcd
+  report.json  the greatest mean taken out, iterations, residual, seconds
+FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written.)";
+
+struct Settings {
+  OperatorSettings source;
+  SignalOptions signals;
+  PinOptions pins;
+  Eigen::MatrixXd f;
+  PlacedPins placed;
+};
+
+void check(Settings& settings, const Operator& source) {
+  settings.f = readSignals(settings.signals, source, settings.source.out);
+  if (settings.pins.empty()) return;
+  settings.placed = placePins(settings.pins, source.points());
+  if (settings.placed.values.cols() != settings.f.cols())
+    throw tufted::InvalidInput("pins have " + std::to_string(settings.placed.values.cols()) +
+                               " values, must have as many as f has columns, " + std::to_string(settings.f.cols()));
+}
+
+Results compute(Settings& settings, Operator& source) {
+  requireFinite(settings.f, source);
+  tufted::SolveReport made;
+  Results results;
+  if (settings.pins.empty()) {
+    Eigen::MatrixXd mean = tufted::componentMeans(source.laplacian, settings.f);
+    const double greatest = mean.size() > 0 ? mean.cwiseAbs().maxCoeff() : 0;
+    results.report["greatest_mean"] = greatest;
+    results.summary.add("mean removed", "%.6g at most, of %lld components", greatest,
+                        static_cast<long long>(source.laplacian.report.components));
+    results.arrays = {{.name = "u", .values = tufted::poisson(source.laplacian, settings.f, source.solver(), &made)},
+                      {.name = "mean", .values = std::move(mean)}};
+  } else {
+    const tufted::Pins pins = settings.placed.locate(source);
+    results.report["pins"] = pins.points.size();
+    results.summary.add("pins", "%zu", pins.points.size());
+    results.arrays = {
+        {.name = "u", .values = tufted::poisson(source.laplacian, settings.f, pins, source.solver(), &made)}};
+  }
+  addReport(made, results);
+  return results;
+}
+
+}  // namespace
+
+void addPoisson(CLI::App& app, Run& run) {
+  const auto [command, settings] =
+      addOperatorCommand<Settings>(app, run, "poisson", description, footer, compute, check);
+  addSignalOptions(*command, settings->signals, "f");
+  addPinOptions(*command, settings->pins);
+}

@@ -1,0 +1,106 @@
+#include "signal_options.h"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstring>
+#include <map>
+#include <system_error>
+
+#include "options.h"
+#include "tufted/errors.h"
+
+namespace {
+
+using Eigen::MatrixXd;
+using tufted::Field;
+
+/// What readers take out of the fields: a column of the points or of the normals.
+const std::map<std::string, int> axes = {{"x", 0}, {"y", 1}, {"z", 2}};
+const std::map<std::string, int> normal_axes = {{"nx", 0},       {"ny", 1},       {"nz", 2},
+                                                {"normal_x", 0}, {"normal_y", 1}, {"normal_z", 2}};
+
+/// The red, green and blue that PCD packs into four bytes, which are no number.
+MatrixXd unpack(const Field& field, Eigen::Index n) {
+  MatrixXd colors(n, 3);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    std::uint32_t packed = 0;
+    std::memcpy(&packed, field.bytes.data() + i * sizeof(packed), sizeof(packed));
+    colors.row(i) << (packed >> 16 & 255), (packed >> 8 & 255), (packed & 255);
+  }
+  return colors;
+}
+
+MatrixXd valuesOf(const Field& field, Eigen::Index n) {
+  const bool is_packed = (field.name == "rgb" || field.name == "rgba") && field.count == 1 &&
+                         (field.type == tufted::FieldType::float32 || field.type == tufted::FieldType::uint32);
+  if (is_packed) return unpack(field, n);
+  MatrixXd values(n, field.count);
+  for (Eigen::Index i = 0; i < n; ++i)
+    for (Eigen::Index c = 0; c < field.count; ++c)
+      values(i, c) = tufted::valueOf(field, static_cast<std::size_t>(i * field.count + c));
+  return values;
+}
+
+/// A field, or those that a field of several values is in PLY: NAME_0, NAME_1, ...
+std::vector<MatrixXd> columnsOf(const std::string& name, const tufted::Geometry& geometry) {
+  const Eigen::Index n = geometry.points.rows();
+  if (const auto axis = axes.find(name); axis != axes.end()) return {geometry.points.col(axis->second)};
+  if (const auto axis = normal_axes.find(name); axis != normal_axes.end() && geometry.normals.rows() > 0)
+    return {geometry.normals.col(axis->second)};
+  const auto find = [&](const std::string& sought) -> const Field* {
+    const auto field = std::find_if(geometry.fields.begin(), geometry.fields.end(),
+                                    [&](const Field& candidate) { return candidate.name == sought; });
+    return field == geometry.fields.end() ? nullptr : &*field;
+  };
+  if (const Field* const field = find(name)) return {valuesOf(*field, n)};
+  std::vector<MatrixXd> columns;
+  while (const Field* const field = find(name + "_" + std::to_string(columns.size())))
+    columns.push_back(valuesOf(*field, n));
+  return columns;
+}
+
+}  // namespace
+
+void addSignalOptions(CLI::App& command, SignalOptions& options, const std::string& what) {
+  command.add_option("--field", options.fields, what + ": fields of the points, separated by commas")
+      ->delimiter(',')
+      ->allow_extra_args(false)  // what follows may be FILE
+      ->type_name("NAME,...");
+  command.add_option("--values", options.values, what + ": a .npy file of N values or N x c")
+      ->check(notEmpty)
+      ->type_name("NPY");
+}
+
+MatrixXd readSignals(const SignalOptions& options, const Operator& source, const std::filesystem::path& out) {
+  if (options.fields.empty() == options.values.empty())
+    throw tufted::InvalidInput("exactly one of --field and --values must be given");
+  const Eigen::Index n = source.points();
+  if (!options.values.empty()) {
+    std::error_code error;
+    if (std::filesystem::equivalent(std::filesystem::absolute(options.values).parent_path(), out, error))
+      throw tufted::InvalidInput("--values " + options.values.string() + " lies in --out, whose files are overwritten");
+    MatrixXd values = tufted::readArray(options.values);
+    if (values.rows() != n || values.cols() == 0)
+      throw tufted::IoError(options.values.string() + ": has " + std::to_string(values.rows()) + " rows of " +
+                            std::to_string(values.cols()) + " values, must have " + std::to_string(n) +
+                            ", one per point");
+    return values;
+  }
+  MatrixXd signals(n, 0);
+  for (const std::string& name : options.fields) {
+    const std::vector<MatrixXd> columns = columnsOf(name, source.geometry);
+    if (columns.empty()) throw tufted::InvalidInput("--field " + name + ": " + source.name + " has no such field");
+    for (const MatrixXd& column : columns) {
+      signals.conservativeResize(Eigen::NoChange, signals.cols() + column.cols());
+      signals.rightCols(column.cols()) = column;
+    }
+  }
+  return signals;
+}
+
+void requireFinite(const MatrixXd& signals, const Operator& source) {
+  for (Eigen::Index i = 0; i < signals.rows(); ++i)
+    if (source.laplacian.status[i] == tufted::PointStatus::active && !signals.row(i).allFinite())
+      throw tufted::IoError(source.name + ": the values of point " + std::to_string(i) +
+                            " are not finite, must be at points that take part");
+}
