@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -50,19 +51,22 @@ void check(Settings& settings, const Operator& source) {
   }
 }
 
-/// The eigenvectors of waves at least so long. Weyl's law tells about how many there are.
-tufted::Spectrum longWaves(const Operator& source, double wavelength, tufted::SpectrumOptions options) {
+/// The eigenvectors of waves at least so long.
+tufted::Spectrum longWaves(const Operator& source, double wavelength, const tufted::SpectrumOptions& options) {
   const tufted::Laplacian& laplacian = source.laplacian;
   const double most =
       static_cast<double>((laplacian.M.array() > 0).count() - laplacian.report.components) - 1;  // see spectrum()
   const double bound = std::pow(2 * std::numbers::pi / wavelength, 2);
-  for (double count = 16 + 1.1 * laplacian.M.sum() * bound / (4 * std::numbers::pi); count <= most; count *= 1.5) {
-    tufted::Spectrum spectrum = tufted::spectrum(laplacian, static_cast<int>(count), options);
+  const double weyl = laplacian.M.sum() * bound / (4 * std::numbers::pi);  // about how many there are
+  for (double count = 16 + 1.1 * weyl; weyl <= most && most >= 1; count *= 1.5) {
+    tufted::Spectrum spectrum = tufted::spectrum(laplacian, static_cast<int>(std::min(count, most)), options);
     const Eigen::Index kept = (spectrum.values.array() <= bound).count();
-    if (kept == spectrum.values.size()) continue;
-    spectrum.values.conservativeResize(kept);
-    spectrum.vectors.conservativeResize(Eigen::NoChange, kept);
-    return spectrum;
+    if (kept < spectrum.values.size()) {
+      spectrum.values.conservativeResize(kept);
+      spectrum.vectors.conservativeResize(Eigen::NoChange, kept);
+      return spectrum;
+    }
+    if (count >= most) break;
   }
   throw tufted::InvalidInput("--wavelength is shorter than what " + std::to_string(source.points()) +
                              " points can tell, must be longer; or give --count");
