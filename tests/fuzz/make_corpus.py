@@ -96,7 +96,43 @@ def off():
     yield b"binary", b"OFF BINARY\n" + struct.pack(">3i", 4, 2, 0) + floats + faces
 
 
+def npy(kind, shape, values):
+    """kind: numpy's name of the type and struct's."""
+    descr, letter = kind
+    header = f"{{'descr': '{descr}', 'fortran_order': False, 'shape': ({', '.join(map(str, shape))},), }}\n".encode()
+    data = values if letter == "s" else struct.pack(f"<{len(values)}{letter}", *values)
+    return b"\x93NUMPY\x01\x00" + struct.pack("<H", len(header)) + header + data
+
+
+FLOAT, INT, LONG, BYTE = ("<f8", "d"), ("<i4", "i"), ("<i8", "q"), ("|u1", "B")
+
+
+def folder(pieces):
+    """Numbers of files, see fuzz_laplacian.cpp, and their contents."""
+    return b"".join(struct.pack("<BH", number, len(content)) + content for number, content in pieces)
+
+
+def laplacian():
+    """A right triangle and a point that is nowhere."""
+    names = ["L.npz", "M.npy", "status.npy", "representative.npy", "boundary.npy", "frames.npy", "cover.npz"]
+    files = ", ".join(f'"{name}"' for name in names)
+    frames = [1, 0, 0, 0, 1, 0, 0, 0, 1] * 4
+    legs = [1, 2 ** 0.5, 1, 1, 2 ** 0.5, 1]
+    for sign in ("psd", "igl"):
+        report = f'{{"write_options": {{"files": [{files}], "sign": "{sign}"}}, "report": {{"points": 4, "area": 0.5}}}}'
+        flip = 1 if sign == "psd" else -1
+        yield sign.encode(), folder([
+            (0, report.encode()), (1, npy(FLOAT, [4], [1 / 6] * 3 + [0])), (2, npy(BYTE, [4], [0, 0, 0, 1])),
+            (3, npy(INT, [4], range(4))), (4, npy(BYTE, [4], [1, 1, 1, 0])), (5, npy(FLOAT, [4, 3, 3], frames)),
+            (8, npy(("|S3", "s"), [1], b"csc")), (9, npy(LONG, [2], [4, 4])), (10, npy(INT, [5], [0, 3, 5, 7, 7])),
+            (11, npy(INT, [7], [0, 1, 2, 0, 1, 0, 2])),
+            (12, npy(FLOAT, [7], [flip * x for x in (1, -0.5, -0.5, -0.5, 0.5, -0.5, 0.5)])),
+            (13, npy(INT, [2, 3], [0, 1, 2, 0, 2, 1])), (14, npy(INT, [2, 3], [5, 4, 3, 2, 1, 0])),
+            (15, npy(FLOAT, [2, 3], legs))])
+
+
 SEEDS = {
+    "laplacian": laplacian(),
     "pcd": pcd(),
     "ply": ply(),
     "las": ((b"1.%d-%d" % (minor, form), las(minor, form)) for minor, form in
@@ -117,4 +153,6 @@ if __name__ == "__main__":
         (root / form).mkdir(parents=True, exist_ok=True)
         for name, data in seeds:
             (root / form / name.decode()).write_bytes(data)
+            if form == "laplacian":  # no file of points
+                continue
             (everything / f"{form}-{name.decode()}").write_bytes(data)
