@@ -48,10 +48,10 @@ void addRareBuildOptions(CLI::App& command, Build& build) {
       build.cloud_only.end(),
       {addChoice(command, "--gluing", build.cloud.gluing, gluings, "How the stars are glued, clouds only (star)"),
        addChoice(command, "--delaunay", build.cloud.delaunay, backends, "Who finds the stars, clouds only (star)")});
-  build.others = {addChoice(command, "--order", build.cloud.order, orders, "Order of the faces around an edge (angle)"),
-                  addNumber(command, "--mollify", build.mollify, 0.0, 1.0,
-                            "Mollification in mean edge lengths, at most 1 (1e-5 clouds, 1e-4 meshes)")
-                      ->type_name("D")};
+  addChoice(command, "--order", build.cloud.order, orders, "Order of the faces around an edge (angle)");
+  addNumber(command, "--mollify", build.mollify, 0.0, 1.0,
+            "Mollification in mean edge lengths, at most 1 (1e-5 clouds, 1e-4 meshes)")
+      ->type_name("D");
 }
 
 tufted::Laplacian buildLaplacian(const tufted::Geometry& geometry, const Input& input, Build& build, bool keep_cover,

@@ -24,8 +24,7 @@ struct Build {
   std::optional<tufted::ScanStructure> scan;
   Eigen::Vector3d viewpoint = Eigen::Vector3d::Zero();
 
-  /// Options that have no meaning for a mesh, and all others.
-  std::vector<const CLI::Option*> cloud_only, others;
+  std::vector<const CLI::Option*> cloud_only;  ///< options that have no meaning for a mesh
 };
 
 /// Adds --neighbors, --preset, --structure, --normals and --threads; they set `build`, which must outlive the command.

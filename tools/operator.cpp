@@ -72,11 +72,11 @@ void addOperatorOptions(CLI::App& command, OperatorSettings& settings) {
   addOut(command, settings.out);
   addChoice(command, "--format", settings.copies, copies, "Format of the copy of the points with the results (ply)");
   addBuildOptions(command, settings.build);
-  command.parse_complete_callback([file, folder, &settings] {
+  std::vector<const CLI::Option*> unused = {command.get_option("--as"), command.get_option("--weld")};
+  unused.insert(unused.end(), settings.build.cloud_only.begin(), settings.build.cloud_only.end());
+  command.parse_complete_callback([file, folder, unused] {
     if (file->count() + folder->count() != 1) throw CLI::RequiredError("exactly one of FILE and --operator");
     if (folder->count() == 0) return;
-    std::vector<const CLI::Option*> unused = settings.build.cloud_only;
-    unused.insert(unused.end(), settings.build.others.begin(), settings.build.others.end());
     for (const CLI::Option* option : unused)
       if (option->count() > 0) throw CLI::ExcludesError(option->get_name(), "--operator");
   });

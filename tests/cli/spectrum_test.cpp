@@ -88,6 +88,8 @@ TEST_F(SpectrumCommand, MistakesAreOneLineAndTwo) {
   expectRefusal({"spectrum"}, "--operator");
   expectRefusal({"spectrum", file, "--operator", in("laplacian")}, "--operator");
   expectRefusal({"spectrum", "--operator", in("laplacian"), "--preset", "clean"}, "--preset");
+  expectRefusal({"spectrum", "--operator", in("laplacian"), "--as", "mesh"}, "--as");
+  expectRefusal({"spectrum", "--operator", in("laplacian"), "--weld"}, "--weld");
   expectRefusal({"spectrum", file, "--count", "0"}, "--count");
   expectRefusal({"spectrum", file, "--count", "100"}, "k = 100");
   expectRefusal({"spectrum", file, "--tolerance", "2"}, "--tolerance");

@@ -45,6 +45,9 @@ def load(folder):
     assert L.has_canonical_format
     values = {name: np.load(path(folder, name + ".npy")) for name in NAMES}
     column = values["M"].reshape(-1, 1)
+    frames = np.load(path(folder, "frames.npy"))
+    assert frames.dtype == np.float64 and frames.shape in ((L.shape[0], 3, 3), (0, 3, 3))
+    assert np.allclose((frames @ frames.transpose(0, 2, 1))[values["status"][:len(frames)] == 0], np.eye(3))
 
     assert same_matrix(scipy.io.mmread(path(folder, "L.mtx")), L)
     assert scipy.io.mminfo(path(folder, "L.mtx"))[3:] == ("coordinate", "real", "symmetric")
