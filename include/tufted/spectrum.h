@@ -50,7 +50,8 @@ struct Spectrum {
 ///
 /// Coincident points have the values of their representative; points that are not finite or isolated, and components
 /// whose areas all underflow, have 0.
-/// @param k >= 1, less than the number of active points of positive area, less that of components without the null space
+/// @param k >= 1, less than the number of active points of positive area; without the null space, less than that minus
+///        the number of components
 /// @throws InvalidInput for k or options out of range, or arrays of the wrong size
 /// @throws SolverFailure when L cannot be factorised or the iterations do not suffice
 /// @throws Cancelled when `options.progress` returns false
