@@ -6,6 +6,7 @@
 #include <atomic>
 #include <exception>
 
+#include "base/workspace.h"
 #include "tufted/errors.h"
 
 namespace tufted {
@@ -28,18 +29,20 @@ void Workers::report(std::string_view stage, double fraction) const {
   }
 }
 
-void Workers::forBlocks(std::string_view stage, std::int64_t size, std::int64_t block,
-                        const std::function<void(std::int64_t, std::int64_t, int)>& work) const {
+void Workers::runBlocks(std::string_view stage, std::int64_t size, std::int64_t block, RunBlock run_block,
+                        const void* work) const {
   const std::int64_t blocks = (size + block - 1) / block;
   std::atomic<std::int64_t> next{0};
   std::atomic<bool> stop{false};
   std::exception_ptr error;
   report(stage, 0);
   const int team = static_cast<int>(std::min<std::int64_t>(count_, blocks));
+  Workspace* const workspace = Workspace::current();
   const auto run = [&](int worker) {
+    const Workspace::Scope scope(workspace);
     try {
       for (std::int64_t b = next++; b < blocks && !stop; b = next++) {
-        work(b * block, std::min(size, (b + 1) * block), worker);
+        run_block(work, b * block, std::min(size, (b + 1) * block), worker);
         // Only the caller's own thread talks to the caller.
         if (worker == 0)
           report(stage, static_cast<double>(std::min(next.load(), blocks)) / static_cast<double>(blocks));

@@ -1,0 +1,161 @@
+#include "base/workspace.h"
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <mutex>
+#include <new>
+#include <utility>
+
+namespace tufted {
+namespace {
+
+constexpr int steps = 4;  // classes of sizes per power of two
+constexpr int least_exponent = 6;
+constexpr int classes = steps * (48 - least_exponent);
+
+thread_local Workspace* current_workspace = nullptr;
+
+/// Of all blocks of a class; that of the least class is 2^least_exponent.
+std::size_t sizeOf(int size_class) {
+  const int exponent = least_exponent + size_class / steps;
+  return (std::size_t{1} << exponent) / steps * static_cast<std::size_t>(steps + size_class % steps);
+}
+
+/// The least class whose blocks hold so many bytes.
+int classOf(std::size_t bytes) {
+  if (bytes <= sizeOf(0)) return 0;
+  const int exponent = std::bit_width(bytes - 1) - 1;
+  const std::size_t step = (std::size_t{1} << exponent) / steps;
+  const auto above = static_cast<int>((bytes - (std::size_t{1} << exponent) + step - 1) / step);
+  return steps * (exponent - least_exponent) + above;
+}
+
+/// In front of every block.
+struct alignas(std::max_align_t) Header {
+  Workspace::Store* store;  ///< null: of the heap
+  std::int64_t size_class;
+};
+
+Header* takeFromHeap(Workspace::Store* store, int size_class, std::size_t bytes) {
+  return new (::operator new(sizeof(Header) + bytes)) Header{store, size_class};
+}
+
+}  // namespace
+
+/// Lists of blocks that wait, by class. Lives as long as the workspace or any block of it.
+class Workspace::Store {
+ public:
+  Header* take(std::size_t bytes) {
+    const int size_class = classOf(bytes);
+    const std::lock_guard lock(mutex_);
+    if (Waiting* const block = waiting_[size_class]; block != nullptr) {
+      waiting_[size_class] = block->next;
+      ++in_use_;
+      return &block->header;
+    }
+    Header* const header = takeFromHeap(this, size_class, sizeOf(size_class));
+    bytes_ += sizeOf(size_class);
+    ++in_use_;
+    return header;
+  }
+
+  void give(Header* header) {
+    bool is_last = false;
+    {
+      const std::lock_guard lock(mutex_);
+      const auto size_class = static_cast<std::size_t>(header->size_class);
+      auto* const block = reinterpret_cast<Waiting*>(header);
+      block->next = std::exchange(waiting_[size_class], block);
+      --in_use_;
+      if (is_abandoned_) releaseWaiting();
+      is_last = is_abandoned_ && in_use_ == 0;
+    }
+    if (is_last) delete this;
+  }
+
+  void release() {
+    const std::lock_guard lock(mutex_);
+    releaseWaiting();
+  }
+
+  void abandon() {
+    bool is_last = false;
+    {
+      const std::lock_guard lock(mutex_);
+      releaseWaiting();
+      is_abandoned_ = true;
+      is_last = in_use_ == 0;
+    }
+    if (is_last) delete this;
+  }
+
+  std::size_t bytes() const {
+    const std::lock_guard lock(mutex_);
+    return bytes_;
+  }
+
+ private:
+  struct Waiting {
+    Header header;
+    Waiting* next;  ///< where the block's content was
+  };
+
+  void releaseWaiting() {
+    for (int c = 0; c < std::ssize(waiting_); ++c) {
+      while (waiting_[c] != nullptr) {
+        Waiting* const block = std::exchange(waiting_[c], waiting_[c]->next);
+        bytes_ -= sizeOf(c);
+        ::operator delete(block);
+      }
+    }
+  }
+
+  mutable std::mutex mutex_;
+  std::array<Waiting*, classes> waiting_ = {};
+  std::size_t bytes_ = 0;
+  std::int64_t in_use_ = 0;  ///< blocks
+  bool is_abandoned_ = false;
+};
+
+Workspace::Workspace() : store_(new Store) {}
+
+Workspace::~Workspace() {
+  store_->abandon();
+}
+
+void Workspace::release() {
+  store_->release();
+}
+
+std::size_t Workspace::bytes() const {
+  return store_->bytes();
+}
+
+Workspace* Workspace::current() {
+  return current_workspace;
+}
+
+Workspace::Scope::Scope(Workspace* workspace) : outer_(std::exchange(current_workspace, workspace)) {}
+
+Workspace::Scope::~Scope() {
+  current_workspace = outer_;
+}
+
+void* takeBlock(std::size_t bytes) {
+  Workspace* const workspace = current_workspace;
+  // What is larger than any class is no request that could succeed, and the heap says so.
+  const bool is_huge = bytes > sizeOf(classes - 1);
+  return (workspace == nullptr || is_huge ? takeFromHeap(nullptr, 0, bytes) : workspace->store_->take(bytes)) + 1;
+}
+
+void giveBlock(void* memory) noexcept {
+  if (memory == nullptr) return;
+  Header* const header = static_cast<Header*>(memory) - 1;
+  if (header->store == nullptr)
+    ::operator delete(header);
+  else
+    header->store->give(header);
+}
+
+}  // namespace tufted

@@ -1,0 +1,101 @@
+#include "base/workspace.h"
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <optional>
+#include <random>
+#include <thread>
+
+#include "base/buffer.h"
+#include "base/parallel.h"
+#include "base/stable_sort.h"
+
+namespace tufted {
+namespace {
+
+TEST(Workspace, BlocksAreUsedAgainForSizesLikeTheirs) {
+  Workspace workspace;
+  const Workspace::Scope scope(&workspace);
+  Buffer<double>(1000);
+  const std::size_t held = workspace.bytes();
+  EXPECT_GE(held, 1000 * sizeof(double));
+  for (const int size : {1000, 900, 1010}) Buffer<double> again(size);
+  EXPECT_EQ(workspace.bytes(), held);
+  Buffer<double>(100);  // a tenth of the block would be used
+  EXPECT_GT(workspace.bytes(), held);
+}
+
+TEST(Workspace, BlocksHoldWhatWasAskedFor) {
+  Workspace workspace;
+  const Workspace::Scope scope(&workspace);
+  std::vector<Buffer<std::uint8_t>> buffers;
+  for (int round = 0; round < 2; ++round) {
+    for (std::size_t size = 1; size < 100'000; size += 1 + size / 7) {
+      buffers.emplace_back(size, static_cast<std::uint8_t>(buffers.size()));
+      EXPECT_EQ(reinterpret_cast<std::uintptr_t>(buffers.back().data()) % alignof(std::max_align_t), 0);
+    }
+    for (std::size_t i = 0; i < buffers.size(); ++i)
+      for (const std::uint8_t byte : buffers[i]) ASSERT_EQ(byte, static_cast<std::uint8_t>(i));
+    buffers.clear();
+  }
+}
+
+TEST(Workspace, OnlyScopesTakeFromIt) {
+  Workspace workspace;
+  Buffer<int>(1000);
+  EXPECT_EQ(workspace.bytes(), 0);
+  {
+    const Workspace::Scope scope(&workspace);
+    const Workspace::Scope inner(nullptr);
+    Buffer<int>(1000);
+  }
+  EXPECT_EQ(workspace.bytes(), 0);
+}
+
+TEST(Workspace, BuffersOutliveScopeAndWorkspace) {
+  std::optional<Workspace> workspace(std::in_place);
+  std::optional<Workspace::Scope> scope(&*workspace);
+  Buffer<int> kept(1000, 7), other(10, 7);
+  scope.reset();
+  workspace.reset();
+  EXPECT_EQ(kept.back(), 7);
+  std::thread([moved = std::move(kept)] { EXPECT_EQ(moved.front(), 7); }).join();
+  kept.assign(10, 3);  // from the heap
+}
+
+TEST(Workspace, ReleaseKeepsWhatIsInUse) {
+  Workspace workspace;
+  const Workspace::Scope scope(&workspace);
+  Buffer<int> used(1000, 7);
+  const std::size_t held = workspace.bytes();
+  Buffer<int>(3000);
+  EXPECT_GT(workspace.bytes(), held);
+  workspace.release();
+  EXPECT_EQ(workspace.bytes(), held);
+  EXPECT_EQ(used.back(), 7);
+}
+
+TEST(Workspace, AllThreadsOfABuildTakeFromIt) {
+  Workspace workspace;
+  const Workspace::Scope scope(&workspace);
+  const Progress silent;
+  Workers(4, silent).forBlocks("test", 64, 1,
+                               [&](std::int64_t, std::int64_t, int) { EXPECT_EQ(Workspace::current(), &workspace); });
+}
+
+TEST(StableSort, AgreesWithTheStandardLibrary) {
+  std::mt19937_64 random(1);
+  for (const int size : {0, 1, 31, 32, 33, 64, 65, 1000, 4097}) {
+    Buffer<std::pair<int, int>> values, scratch;
+    for (int i = 0; i < size; ++i) values.emplace_back(static_cast<int>(random() % 20), i);
+    Buffer<std::pair<int, int>> expected = values;
+    const auto less = [](const auto& a, const auto& b) { return a.first < b.first; };
+    std::stable_sort(expected.begin(), expected.end(), less);
+    stableSort(values.data(), values.data() + values.size(), scratch, less);
+    EXPECT_EQ(values, expected) << size;
+  }
+}
+
+}  // namespace
+}  // namespace tufted
