@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <limits>
 #include <new>
 #include <vector>
@@ -11,8 +12,8 @@ namespace tufted {
 
 /// Takes memory where takeBlock() does.
 template <class T>
-struct WorkspaceAllocator {
-  static_assert(alignof(T) <= __STDCPP_DEFAULT_NEW_ALIGNMENT__);
+class WorkspaceAllocator {
+ public:
   using value_type = T;
 
   WorkspaceAllocator() = default;
@@ -21,11 +22,21 @@ struct WorkspaceAllocator {
 
   T* allocate(std::size_t count) {
     if (count > std::numeric_limits<std::size_t>::max() / 2 / sizeof(T)) throw std::bad_array_new_length();
-    return static_cast<T*>(takeBlock(count * sizeof(T)));
+    void* const block = takeBlock(count * sizeof(T) + (is_wide ? alignof(T) : 0));
+    if constexpr (!is_wide) return static_cast<T*>(block);
+    // Blocks have the default alignment, so that there is room for a pointer in front.
+    const auto place = (reinterpret_cast<std::uintptr_t>(block) / alignof(T) + 1) * alignof(T);
+    *(reinterpret_cast<void**>(place) - 1) = block;
+    return reinterpret_cast<T*>(place);
   }
-  void deallocate(T* memory, std::size_t) noexcept { giveBlock(memory); }
+  void deallocate(T* memory, std::size_t) noexcept {
+    giveBlock(is_wide ? *(reinterpret_cast<void**>(memory) - 1) : static_cast<void*>(memory));
+  }
 
   friend bool operator==(const WorkspaceAllocator&, const WorkspaceAllocator&) { return true; }
+
+ private:
+  static constexpr bool is_wide = alignof(T) > __STDCPP_DEFAULT_NEW_ALIGNMENT__;
 };
 
 /// The arrays of the stages of a build: vectors whose memory a LaplacianBuilder keeps for its next frame.

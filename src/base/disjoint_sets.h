@@ -3,7 +3,8 @@
 #include <algorithm>
 #include <cstdint>
 #include <numeric>
-#include <vector>
+
+#include "base/buffer.h"
 
 namespace tufted {
 
@@ -30,7 +31,7 @@ class DisjointSets {
   }
 
  private:
-  std::vector<int> parent_;
+  Buffer<int> parent_;
 };
 
 }  // namespace tufted

@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/buffer.h"
+
 namespace tufted {
 namespace {
 
 constexpr double farthest_spreads = 1e70;   // in median spreads; squares and fourth powers of it still fit a double
 constexpr double largest_distance = 1e152;  // in the caller's unit; an area still fits a double
 
-double median(std::vector<double>& values) {
+double median(Buffer<double>& values) {
   if (values.empty()) return 0;
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
   std::nth_element(values.begin(), middle, values.end());
@@ -26,7 +28,7 @@ Scaling measureScaling(const Points& points, std::vector<PointStatus>& status) {
   }
 
   Scaling scaling;
-  std::vector<double> values;
+  Buffer<double> values;
   values.reserve(static_cast<std::size_t>(n));
   for (int axis = 0; axis < 3; ++axis) {
     values.clear();

@@ -41,8 +41,8 @@ class StageClock {
   Stopwatch watch_;
 };
 
-template <class T>
-std::size_t bytesOf(const std::vector<T>& values) {
+template <class T, class Allocator>
+std::size_t bytesOf(const std::vector<T, Allocator>& values) {
   return values.capacity() * sizeof(T);
 }
 

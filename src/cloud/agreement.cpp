@@ -2,6 +2,8 @@
 
 #include <atomic>
 
+#include "base/buffer.h"
+
 namespace tufted {
 namespace {
 
@@ -32,8 +34,8 @@ bool agreeOn(const Stars& stars, int p, int i) {
 
 }  // namespace
 
-std::vector<std::uint8_t> findDisagreement(const Stars& stars, const Workers& workers) {
-  std::vector<std::uint8_t> disagrees(stars.size());
+Buffer<std::uint8_t> findDisagreement(const Stars& stars, const Workers& workers) {
+  Buffer<std::uint8_t> disagrees(stars.size());
   workers.forBlocks("agreement", stars.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
     for (int p = static_cast<int>(begin); p < end; ++p) {
       for (int i = stars.offset[p]; i < stars.offset[p + 1]; ++i) {

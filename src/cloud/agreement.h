@@ -1,8 +1,8 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
+#include "base/buffer.h"
 #include "base/parallel.h"
 #include "cloud/stars.h"
 
@@ -14,7 +14,7 @@ namespace tufted {
 /// two neighbours, and no other star has p in its link. Then each edge at p lies in two triangles, of which all three
 /// stars have a copy, and the cover around p is known from its star: with Gluing::star all copies of an edge have two
 /// faces, and front and back mirror each other.
-std::vector<std::uint8_t> findDisagreement(const Stars& stars, const Workers& workers);
+Buffer<std::uint8_t> findDisagreement(const Stars& stars, const Workers& workers);
 
 /// The link entry of star p that holds q, or -1.
 inline int entryOf(const Stars& stars, int p, int q) {

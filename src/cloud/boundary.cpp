@@ -6,6 +6,8 @@
 #include <numbers>
 #include <optional>
 
+#include "base/buffer.h"
+#include "base/point_buffer.h"
 #include "cloud/tangent_frame.h"
 
 namespace tufted {
@@ -35,7 +37,7 @@ enum class View { along_normal, from_viewpoint };
 /// The points around p, projected to a plane.
 class Chart {
  public:
-  Chart(const Points& positions, int p, const Eigen::Vector3d& normal)
+  Chart(const PointsView& positions, int p, const Eigen::Vector3d& normal)
       : positions_(positions), p_(p), x_(tangentOf(normal)), y_(normal.cross(x_)) {}
 
   /// From p to q.
@@ -49,25 +51,27 @@ class Chart {
   }
 
  private:
-  const Points& positions_;
+  PointsView positions_;
   int p_;
   Eigen::Vector3d x_, y_;
 };
 
 struct WorkerState {
-  std::vector<Gap> gaps;
-  std::vector<Neighbor> near;
+  Buffer<Gap> gaps;
+  Buffer<Neighbor> near;
 };
 
 /// Looks through the gaps between a point's triangles.
 class BoundaryFinder {
  public:
-  BoundaryFinder(const Stars& stars, const Points& points, const NeighborSource& source)
+  BoundaryFinder(const Stars& stars, const PointsView& points, const NeighborSource& source)
       : stars_(stars), points_(points), source_(source) {}
 
   /// Has find() look from there as well.
   void lookFrom(const Eigen::Vector3d& viewpoint) {
-    directions_ = (points_.rowwise() - viewpoint.transpose()).rowwise().normalized();
+    directions_.resize(points_.rows());
+    for (Eigen::Index p = 0; p < points_.rows(); ++p)
+      directions_.row(p) = (points_.row(p) - viewpoint.transpose()).normalized();
     seen_.emplace(directions_);
   }
 
@@ -94,7 +98,7 @@ class BoundaryFinder {
   }
 
   /// Finds the gaps between the triangles of p, which has some. Returns the square of the longest edge in the chart.
-  double findGaps(int p, const Chart& chart, std::vector<Gap>& gaps) const {
+  double findGaps(int p, const Chart& chart, Buffer<Gap>& gaps) const {
     gaps.clear();
     int first = stars_.offset[p];
     while (!stars_.hasTriangle(first)) ++first;
@@ -146,22 +150,22 @@ class BoundaryFinder {
   }
 
   const Stars& stars_;
-  const Points& points_;
+  PointsView points_;
   const NeighborSource& source_;
-  Points directions_;  ///< n x 3, unit vectors from the viewpoint; 0 x 3 without one
+  PointBuffer directions_;  ///< n x 3, unit vectors from the viewpoint; 0 x 3 without one
   std::optional<NeighborSearch> seen_;
 };
 
 }  // namespace
 
-std::vector<Boundary> findBoundary(const Stars& stars, const RankedCloud& cloud, const NeighborSource& source,
-                                   const Eigen::Vector3d* viewpoint, const Workers& workers) {
-  std::vector<Boundary> boundary(stars.size(), Boundary::none);
+Buffer<Boundary> findBoundary(const Stars& stars, const RankedCloud& cloud, const NeighborSource& source,
+                              const Eigen::Vector3d* viewpoint, const Workers& workers) {
+  Buffer<Boundary> boundary(stars.size(), Boundary::none);
   BoundaryFinder finder(stars, cloud.points, source);
   const auto scaled = [&](double x) { return std::clamp(std::ldexp(x, -cloud.exponent), -infinity, infinity); };
   const bool any = std::any_of(stars.ends.begin(), stars.ends.end(), [](std::uint8_t ends) { return ends != 0; });
   if (any && viewpoint != nullptr) finder.lookFrom(viewpoint->unaryExpr(scaled));
-  std::vector<WorkerState> states(workers.count());
+  Buffer<WorkerState> states(workers.count());
   workers.forBlocks("boundary", stars.size(), block_size, [&](std::int64_t begin, std::int64_t end, int worker) {
     for (int p = static_cast<int>(begin); p < end; ++p) boundary[p] = finder.find(p, states[worker]);
   });

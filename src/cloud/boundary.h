@@ -1,8 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <vector>
 
+#include "base/buffer.h"
 #include "base/parallel.h"
 #include "cloud/morton.h"
 #include "cloud/stars.h"
@@ -12,7 +12,7 @@ namespace tufted {
 
 /// Why the surface ends at each point, by rank; none where `stars.ends` is 0, lost where no triangle is left.
 /// @param viewpoint in the caller's unit; null: what lies beyond a point's gaps is judged along its normal alone
-std::vector<Boundary> findBoundary(const Stars& stars, const RankedCloud& cloud, const NeighborSource& source,
-                                   const Eigen::Vector3d* viewpoint, const Workers& workers);
+Buffer<Boundary> findBoundary(const Stars& stars, const RankedCloud& cloud, const NeighborSource& source,
+                              const Eigen::Vector3d* viewpoint, const Workers& workers);
 
 }  // namespace tufted

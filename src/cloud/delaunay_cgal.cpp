@@ -5,6 +5,7 @@
 
 #include <utility>
 
+#include "base/buffer.h"
 #include "cloud/delaunay_star.h"
 
 namespace tufted {
@@ -17,7 +18,7 @@ using Triangulation = CGAL::Delaunay_triangulation_2<Kernel, Structure>;
 
 }  // namespace
 
-void delaunayStarCgal(const std::vector<PlanarPoint>& candidates, int p, StarScratch& scratch, DelaunayStar& star) {
+void delaunayStarCgal(const Buffer<PlanarPoint>& candidates, int p, StarScratch& scratch, DelaunayStar& star) {
   Triangulation triangulation;
   const auto center = triangulation.insert(Kernel::Point_2(0, 0));
   center->info() = nullptr;
@@ -39,7 +40,7 @@ void delaunayStarCgal(const std::vector<PlanarPoint>& candidates, int p, StarScr
     } while (++vertex != circulator);
   }
   if (triangulation.dimension() == 2) {
-    std::vector<std::pair<Triangulation::Face_handle, int>> fronts;  // a face and the index of its outward edge
+    Buffer<std::pair<Triangulation::Face_handle, int>> fronts;  // a face and the index of its outward edge
     const auto around = triangulation.incident_faces(center);
     auto face = around;
     do {

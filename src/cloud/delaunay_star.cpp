@@ -4,13 +4,14 @@
 #include <cmath>
 #include <limits>
 
+#include "base/buffer.h"
 #include "base/pseudo_angle.h"
+#include "base/stable_sort.h"
 
 namespace tufted {
 namespace {
 
-constexpr std::size_t near_part = 12;   // most stars are settled by so many nearest candidates
-constexpr std::size_t few_points = 48;  // insertion sort up to here
+constexpr std::size_t near_part = 12;  // most stars are settled by so many nearest candidates
 
 double squaredNorm(const PlanarPoint& q) {
   return q.u * q.u + q.v * q.v;
@@ -28,19 +29,10 @@ bool comesBefore(const Directed& a, const Directed& b) {
 }
 
 /// Sorts by direction and keeps the nearest in each; of those at one place the first.
-void sortByDirection(std::vector<PlanarPoint>& points, std::vector<Directed>& directed) {
+void sortByDirection(Buffer<PlanarPoint>& points, Buffer<Directed>& directed, Buffer<Directed>& scratch) {
   directed.clear();
   for (const PlanarPoint& q : points) directed.push_back({pseudoAngle(q.u, q.v), q});
-  if (directed.size() > few_points) {
-    std::stable_sort(directed.begin(), directed.end(), comesBefore);
-  } else {
-    for (auto at = directed.begin(); at != directed.end(); ++at) {
-      const Directed moved = *at;
-      auto place = at;
-      for (; place != directed.begin() && comesBefore(moved, *(place - 1)); --place) *place = *(place - 1);
-      *place = moved;
-    }
-  }
+  stableSort(directed.data(), directed.data() + directed.size(), scratch, comesBefore);
   points.clear();
   for (std::size_t i = 0; i < directed.size(); ++i) {
     const PlanarPoint& q = directed[i].point;
@@ -81,8 +73,8 @@ double DelaunayStar::largestCircumradius() const {
 }
 
 void wrapChosen(int p, StarScratch& scratch, DelaunayStar& star) {
-  std::vector<PlanarPoint>& ring = scratch.chosen;
-  sortByDirection(ring, scratch.directed);
+  Buffer<PlanarPoint>& ring = scratch.chosen;
+  sortByDirection(ring, scratch.directed, scratch.sorted);
   const int m = static_cast<int>(ring.size());
   star.link.clear();
   star.radius.clear();
@@ -131,8 +123,8 @@ void wrapChosen(int p, StarScratch& scratch, DelaunayStar& star) {
   for (int i = 0; i < star.triangles(); ++i) star.radius.push_back(circumradius(star.link[i], star.after(i)));
 }
 
-void delaunayStar(const std::vector<PlanarPoint>& candidates, int p, StarScratch& scratch, DelaunayStar& star) {
-  std::vector<PlanarPoint>& chosen = scratch.chosen;
+void delaunayStar(const Buffer<PlanarPoint>& candidates, int p, StarScratch& scratch, DelaunayStar& star) {
+  Buffer<PlanarPoint>& chosen = scratch.chosen;
   const auto hasDirection = [](const PlanarPoint& q) { return q.u != 0 || q.v != 0; };
   const std::size_t near = std::min(near_part, candidates.size());
   chosen.clear();

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "base/pair.h"
+#include "base/point_buffer.h"
 #include "cloud/tangent_frame.h"
 
 namespace tufted {
@@ -78,8 +79,8 @@ bool solve(Matrix gram, const Vector& right, Vector& solution) {
 
 }  // namespace
 
-HeightFit fitHeights(const Points& points, int p, std::span<const Neighbor> neighbors, const Eigen::Vector3d& normal,
-                     double reach) {
+HeightFit fitHeights(const PointsView& points, int p, std::span<const Neighbor> neighbors,
+                     const Eigen::Vector3d& normal, double reach) {
   HeightFit fit;
   const std::size_t count = neighbors.size() + 1;
   if (count < least_points || !(reach > 0)) return fit;

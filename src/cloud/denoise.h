@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <span>
 
+#include "base/point_buffer.h"
 #include "cloud/neighbors.h"
 #include "tufted/types.h"
 
@@ -18,8 +19,8 @@ struct HeightFit {
 /// Least squares over {1, u, v, u^2, u v, v^2}.
 /// @param normal unit length
 /// @param reach radius of the neighbourhood, which is the unit of the fit
-HeightFit fitHeights(const Points& points, int p, std::span<const Neighbor> neighbors, const Eigen::Vector3d& normal,
-                     double reach);
+HeightFit fitHeights(const PointsView& points, int p, std::span<const Neighbor> neighbors,
+                     const Eigen::Vector3d& normal, double reach);
 
 /// Whether a neighbourhood is noise around a surface rather than curved: the residuals of the fit are more than a fifth
 /// of the smallest variance. An exact plane is not.

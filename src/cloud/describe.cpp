@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "base/buffer.h"
 #include "base/disjoint_sets.h"
 #include "base/parallel.h"
 #include "base/stage_clock.h"
@@ -24,9 +25,9 @@ constexpr std::int64_t block_size = 4096;
 /// The k nearest of every point, and what is seen on the way.
 struct NeighborGraph {
   int k = 0;
-  std::vector<int> nearest;      ///< n * k ranks
-  std::vector<double> distance;  ///< n, to the nearest
-  std::vector<std::uint8_t> on_line;
+  Buffer<int> nearest;      ///< n * k ranks
+  Buffer<double> distance;  ///< n, to the nearest
+  Buffer<std::uint8_t> on_line;
 };
 
 NeighborGraph findNeighbors(const RankedCloud& cloud, int k, const Workers& workers) {
@@ -37,9 +38,9 @@ NeighborGraph findNeighbors(const RankedCloud& cloud, int k, const Workers& work
   graph.on_line.resize(cloud.size());
   if (graph.k == 0) return graph;
   const NeighborSearch search(cloud.points);
-  std::vector<std::vector<Neighbor>> found(workers.count());
+  Buffer<Buffer<Neighbor>> found(workers.count());
   workers.forBlocks("neighbours", cloud.size(), block_size, [&](std::int64_t begin, std::int64_t end, int worker) {
-    std::vector<Neighbor>& neighbors = found[worker];
+    Buffer<Neighbor>& neighbors = found[worker];
     for (std::int64_t p = begin; p < end; ++p) {
       search.nearest(static_cast<int>(p), graph.k, neighbors);
       for (int j = 0; j < graph.k; ++j) graph.nearest[p * graph.k + j] = neighbors[j].index;
@@ -51,7 +52,7 @@ NeighborGraph findNeighbors(const RankedCloud& cloud, int k, const Workers& work
   return graph;
 }
 
-double quantile(std::vector<double> values, double q) {
+double quantile(Buffer<double> values, double q) {
   if (values.empty()) return 0;
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size() - 1));
   std::nth_element(values.begin(), at, values.end());
@@ -60,10 +61,10 @@ double quantile(std::vector<double> values, double q) {
 
 /// Points far from all others, measured by how far their neighbours are from theirs.
 std::int64_t countOutliers(const NeighborGraph& graph, const Workers& workers) {
-  std::vector<std::int64_t> counts(workers.count());
+  Buffer<std::int64_t> counts(workers.count());
   workers.forBlocks("outliers", static_cast<std::int64_t>(graph.distance.size()), block_size,
                     [&](std::int64_t begin, std::int64_t end, int worker) {
-                      std::vector<double> around(graph.k);
+                      Buffer<double> around(graph.k);
                       for (std::int64_t p = begin; p < end; ++p) {
                         for (int j = 0; j < graph.k; ++j) around[j] = graph.distance[graph.nearest[p * graph.k + j]];
                         const auto middle = around.begin() + graph.k / 2;

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <limits>
 
+#include "base/buffer.h"
+#include "base/point_buffer.h"
+
 namespace tufted {
 namespace {
 
@@ -15,7 +18,8 @@ constexpr double nowhere = std::numeric_limits<double>::infinity();
 
 class GroupSearch {
  public:
-  GroupSearch(const NeighborSearch& search, const Points& points, int k, const Kernels& kernels, GroupScratch& scratch)
+  GroupSearch(const NeighborSearch& search, const PointsView& points, int k, const Kernels& kernels,
+              GroupScratch& scratch)
       : search_(search), points_(points), k_(k), kernels_(kernels), scratch_(scratch) {}
 
   /// How many points from `first` on, of `count`, lie close enough together.
@@ -47,7 +51,7 @@ class GroupSearch {
 
  private:
   bool gather(int first, int count) {
-    std::vector<int>& candidate = scratch_.candidate;
+    Buffer<int>& candidate = scratch_.candidate;
     if (!search_.candidates(first, count, k_, candidate, scratch_.bounds, center_, reach_)) return false;
     const int size = static_cast<int>(candidate.size()), room = toLanes(size);
     candidate.resize(room);
@@ -111,7 +115,7 @@ class GroupSearch {
   }
 
   const NeighborSearch& search_;
-  const Points& points_;
+  PointsView points_;
   const int k_;
   const Kernels& kernels_;
   GroupScratch& scratch_;
@@ -122,8 +126,8 @@ class GroupSearch {
 
 }  // namespace
 
-void nearestOfEach(const NeighborSearch& search, const Points& points, int first, int count, int k,
-                   const Kernels& kernels, GroupScratch& scratch, std::vector<Neighbor>& found) {
+void nearestOfEach(const NeighborSearch& search, const PointsView& points, int first, int count, int k,
+                   const Kernels& kernels, GroupScratch& scratch, Buffer<Neighbor>& found) {
   k = std::max(0, std::min(k, static_cast<int>(points.rows()) - 1));
   if (k == 0) return found.clear();
   found.resize(static_cast<std::size_t>(count) * static_cast<std::size_t>(k) + NeighborSearch::most_candidates);

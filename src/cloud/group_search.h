@@ -1,7 +1,9 @@
 #pragma once
 
-#include <vector>
+#include <cstdint>
 
+#include "base/buffer.h"
+#include "base/point_buffer.h"
 #include "cloud/kernels.h"
 #include "cloud/neighbors.h"
 #include "tufted/types.h"
@@ -10,14 +12,14 @@ namespace tufted {
 
 /// Memory that one worker reuses from group to group.
 struct GroupScratch {
-  std::vector<int> candidate;   ///< ranks of those of the group, filled up to whole lanes
-  std::vector<double> x, y, z;  ///< where they are
-  std::vector<double> bounds;   ///< see NeighborSearch::candidates
-  std::vector<double> squared;  ///< squared distances of those near one point
-  std::vector<int> index;       ///< their ranks
-  std::vector<float> rounded;
-  std::vector<int> place;
-  std::vector<Neighbor> sorted;
+  Buffer<int> candidate;   ///< ranks of those of the group, filled up to whole lanes
+  Buffer<double> x, y, z;  ///< where they are
+  Buffer<double> bounds;   ///< see NeighborSearch::candidates
+  Buffer<double> squared;  ///< squared distances of those near one point
+  Buffer<int> index;       ///< their ranks
+  Buffer<float> rounded;
+  Buffer<int> place;
+  Buffer<Neighbor> sorted;
 };
 
 /// The k nearest of every point of [first, first + count), each as NeighborSearch::nearest finds them: one search of
@@ -27,7 +29,7 @@ struct GroupScratch {
 /// search.
 /// @param points what `search` was built from
 /// @param found count rows of min(k, n - 1), one after the other; overwritten
-void nearestOfEach(const NeighborSearch& search, const Points& points, int first, int count, int k,
-                   const Kernels& kernels, GroupScratch& scratch, std::vector<Neighbor>& found);
+void nearestOfEach(const NeighborSearch& search, const PointsView& points, int first, int count, int k,
+                   const Kernels& kernels, GroupScratch& scratch, Buffer<Neighbor>& found);
 
 }  // namespace tufted

@@ -5,6 +5,7 @@
 #include <numbers>
 #include <string>
 
+#include "base/point_buffer.h"
 #include "base/stage_clock.h"
 #include "cloud/scan_search.h"
 #include "tufted/errors.h"
@@ -49,8 +50,8 @@ class ImageSearch final : public ScanSearch {
     for (std::size_t i = 1; i < begin_.size(); ++i) begin_[i] += begin_[i - 1];
     rank_.resize(static_cast<std::size_t>(places_));
     column_.resize(rank_.size());
-    points_.resize(places_, 3);
-    std::vector<int> next(begin_.begin(), begin_.end() - 1);
+    points_.resize(places_);
+    Buffer<int> next(begin_.begin(), begin_.end() - 1);
     for (int p = 0; p < cloud.size(); ++p) {
       if (scan.row[p] < 0) continue;
       const std::int64_t pixel = pixelOf(p);
@@ -65,7 +66,7 @@ class ImageSearch final : public ScanSearch {
     findJumps();
   }
 
-  Searched nearest(int p, int k, std::vector<Neighbor>& found) const override {
+  Searched nearest(int p, int k, Buffer<Neighbor>& found) const override {
     found.clear();
     Searched searched;
     if (place_[p] < 0 || k <= 0) return searched;
@@ -114,8 +115,7 @@ class ImageSearch final : public ScanSearch {
 
   std::size_t bytes() const override {
     return bytesOf(begin_) + bytesOf(place_) + bytesOf(rank_) + bytesOf(row_) + bytesOf(column_) +
-           bytesOf(jumps_in_row_) + bytesOf(jumps_in_column_) + bytesOf(to_jump_) +
-           static_cast<std::size_t>(points_.size()) * sizeof(double);
+           bytesOf(jumps_in_row_) + bytesOf(jumps_in_column_) + bytesOf(to_jump_) + points_.bytes();
   }
 
  private:
@@ -133,13 +133,13 @@ class ImageSearch final : public ScanSearch {
   static std::int64_t toPixels(double steps) { return static_cast<std::int64_t>(std::min(std::ceil(steps), 1e6)); }
 
   /// Keeps the k nearest; the distance of the last.
-  static double takeNearest(int k, std::vector<Neighbor>& found) {
+  static double takeNearest(int k, Buffer<Neighbor>& found) {
     std::nth_element(found.begin(), found.begin() + (k - 1), found.end());
     found.resize(k);
     return std::sqrt(found.back().squared_distance);
   }
 
-  Borders collect(int self, const Window& window, Searched& searched, std::vector<Neighbor>& found) const {
+  Borders collect(int self, const Window& window, Searched& searched, Buffer<Neighbor>& found) const {
     found.clear();
     searched.cut = 0;
     const std::int64_t column = column_[self], row = row_[self];
@@ -218,7 +218,7 @@ class ImageSearch final : public ScanSearch {
     jumps_in_column_.assign(pixels, 0);
     to_jump_.assign(pixels, far_from_jumps);
     // Pixels without a point are skipped: the step is that between the points on both sides.
-    const auto walk = [&](std::int64_t first, std::int64_t step, std::int64_t count, std::vector<int>& jumps) {
+    const auto walk = [&](std::int64_t first, std::int64_t step, std::int64_t count, Buffer<int>& jumps) {
       int seen = 0, last = -1;
       std::int64_t last_pixel = first;
       for (std::int64_t i = 0, pixel = first; i < count; ++i, pixel += step) {
@@ -257,14 +257,14 @@ class ImageSearch final : public ScanSearch {
 
   Eigen::RowVector3d origin_;  ///< of the sensor
   std::int64_t rows_ = 0, columns_ = 0, places_ = 0;
-  std::vector<int> begin_;                           ///< by pixel, the first place; one more at the end
-  std::vector<int> place_;                           ///< of each rank in the order of pixels, -1: none
-  std::vector<int> rank_;                            ///< by place
-  std::vector<int> row_;                             ///< by place
-  std::vector<int> column_;                          ///< by place
-  Points points_;                                    ///< by place
-  std::vector<int> jumps_in_row_, jumps_in_column_;  ///< by pixel, from the first one of the row or column on
-  std::vector<std::uint8_t> to_jump_;                ///< by pixel, at most 255
+  Buffer<int> begin_;                           ///< by pixel, the first place; one more at the end
+  Buffer<int> place_;                           ///< of each rank in the order of pixels, -1: none
+  Buffer<int> rank_;                            ///< by place
+  Buffer<int> row_;                             ///< by place
+  Buffer<int> column_;                          ///< by place
+  PointBuffer points_;                          ///< by place
+  Buffer<int> jumps_in_row_, jumps_in_column_;  ///< by pixel, from the first one of the row or column on
+  Buffer<std::uint8_t> to_jump_;                ///< by pixel, at most 255
 };
 
 }  // namespace

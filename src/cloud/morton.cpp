@@ -6,6 +6,7 @@
 #include <numeric>
 #include <parallel/algorithm>
 
+#include "base/buffer.h"
 #include "base/scaling.h"
 
 namespace tufted {
@@ -55,14 +56,14 @@ RankedCloud rankPoints(const Points& points, std::vector<PointStatus>& status, s
   std::iota(representative.begin(), representative.end(), 0);
 
   const PowerOfTwo to_scaled = scaling.toScaled();
-  Points scaled(points.rows(), 3);
+  PointBuffer scaled(points.rows());
   Eigen::Vector3d lowest = Eigen::Vector3d::Constant(INFINITY);
-  std::vector<Key> keys;
+  Buffer<Key> keys;
   keys.reserve(static_cast<std::size_t>(points.rows()));
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
     if (status[i] == PointStatus::not_finite) continue;
     for (int axis = 0; axis < 3; ++axis)
-      scaled(i, axis) = to_scaled.times(points(i, axis)) + 0.0;  // no -0: equal have equal bits
+      scaled.row(i)[axis] = to_scaled.times(points(i, axis)) + 0.0;  // no -0: equal have equal bits
     lowest = lowest.cwiseMin(scaled.row(i).transpose());
     keys.push_back({0, static_cast<int>(i)});
   }
@@ -78,8 +79,9 @@ RankedCloud rankPoints(const Points& points, std::vector<PointStatus>& status, s
 
   const auto comesBefore = [&](const Key& a, const Key& b) {
     if (a.code != b.code) return a.code < b.code;
+    const auto a_point = scaled.row(a.index), b_point = scaled.row(b.index);
     for (int axis = 0; axis < 3; ++axis) {
-      if (scaled(a.index, axis) != scaled(b.index, axis)) return scaled(a.index, axis) < scaled(b.index, axis);
+      if (a_point[axis] != b_point[axis]) return a_point[axis] < b_point[axis];
     }
     return a.index < b.index;
   };
@@ -100,7 +102,7 @@ RankedCloud rankPoints(const Points& points, std::vector<PointStatus>& status, s
       cloud.caller.push_back(key.index);
     }
   }
-  cloud.points.resize(cloud.size(), 3);
+  cloud.points.resize(cloud.size());
   workers.forBlocks("order", cloud.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
     for (std::int64_t rank = begin; rank < end; ++rank) cloud.points.row(rank) = scaled.row(cloud.caller[rank]);
   });

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "base/parallel.h"
+#include "base/point_buffer.h"
 #include "tufted/types.h"
 
 namespace tufted {
@@ -11,8 +12,8 @@ namespace tufted {
 /// The distinct finite points of a cloud along a Morton curve. The position in this order is the point's rank;
 /// every tie rule of the pipeline compares ranks, so a permuted cloud gives the permuted result.
 struct RankedCloud {
-  Points points;            ///< n x 3, in units of 2^exponent
-  std::vector<int> caller;  ///< n, the caller's index of each rank (of coincident points, the lowest)
+  PointBuffer points;  ///< n x 3, in units of 2^exponent
+  Buffer<int> caller;  ///< n, the caller's index of each rank (of coincident points, the lowest)
   int exponent = 0;
 
   int size() const { return static_cast<int>(caller.size()); }

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/buffer.h"
+#include "base/point_buffer.h"
 #include "base/stage_clock.h"
 #include "tufted/errors.h"
 
@@ -13,7 +15,7 @@ namespace {
 void takeNeighborhoods(const Neighborhoods& lists, const RankedCloud& cloud, const std::vector<PointStatus>& status,
                        const std::vector<int>& representative, NeighborSource& source, Report& report) {
   const int n = static_cast<int>(status.size());
-  std::vector<int> rank(status.size(), -1);
+  Buffer<int> rank(status.size(), -1);
   for (int r = 0; r < cloud.size(); ++r) rank[cloud.caller[r]] = r;
   source.list_offset.assign(1, 0);
   for (int p = 0; p < cloud.size(); ++p) {
@@ -41,7 +43,7 @@ void takeNeighborhoods(const Neighborhoods& lists, const RankedCloud& cloud, con
 
 /// Normalises the caller's normals and brings them into rank order.
 void takeNormals(const Points& normals, const RankedCloud& cloud, NeighborSource& source, Report& report) {
-  source.normals.setZero(cloud.size(), 3);
+  source.normals.setZero(cloud.size());
   for (int p = 0; p < cloud.size(); ++p) {
     const Eigen::Vector3d normal = normals.row(cloud.caller[p]);
     const double length = normal.stableNorm();
@@ -55,8 +57,8 @@ void takeNormals(const Points& normals, const RankedCloud& cloud, NeighborSource
 
 }  // namespace
 
-ScanSearch::Searched NeighborSource::nearest(const Points& points, int p, int count,
-                                             std::vector<Neighbor>& found) const {
+ScanSearch::Searched NeighborSource::nearest(const PointsView& points, int p, int count,
+                                             Buffer<Neighbor>& found) const {
   if (scan != nullptr) return scan->nearest(p, count, found);
   if (search != nullptr) {
     search->nearest(p, count, found);

@@ -3,7 +3,9 @@
 #include <memory>
 #include <vector>
 
+#include "base/buffer.h"
 #include "base/parallel.h"
+#include "base/point_buffer.h"
 #include "cloud/group_search.h"
 #include "cloud/morton.h"
 #include "cloud/neighbors.h"
@@ -18,9 +20,9 @@ struct NeighborSource {
   int k = 0;                               ///< neighbours per point, at most n - 1
   std::unique_ptr<NeighborSearch> search;  ///< null when the caller's lists or the structure of a scan are used
   std::unique_ptr<ScanSearch> scan;        ///< null without a structure
-  std::vector<std::size_t> list_offset;    ///< n + 1, into `list`
-  std::vector<int> list;                   ///< the caller's lists, checked
-  Points normals;                          ///< the caller's, unit length or zero where unusable; else 0 x 3
+  Buffer<std::size_t> list_offset;         ///< n + 1, into `list`
+  Buffer<int> list;                        ///< the caller's lists, checked
+  PointBuffer normals;                     ///< the caller's, unit length or zero where unusable; else 0 x 3
 
   /// Whether there are the caller's lists and no others.
   bool isFixed() const { return search == nullptr && scan == nullptr; }
@@ -30,12 +32,12 @@ struct NeighborSource {
   /// `count` neighbours of p, ascending by (distance, index), or the caller's list as it is. See
   /// NeighborSearch::nearest and ScanSearch::nearest.
   /// @returns the region that was searched
-  ScanSearch::Searched nearest(const Points& points, int p, int count, std::vector<Neighbor>& found) const;
+  ScanSearch::Searched nearest(const PointsView& points, int p, int count, Buffer<Neighbor>& found) const;
 
   /// The k neighbours of every point of [first, first + count), row after row, by one search for many. Only with
   /// `search`.
-  void nearestOfEach(const Points& points, int first, int count, GroupScratch& scratch,
-                     std::vector<Neighbor>& found) const {
+  void nearestOfEach(const PointsView& points, int first, int count, GroupScratch& scratch,
+                     Buffer<Neighbor>& found) const {
     tufted::nearestOfEach(*search, points, first, count, k, kernels(), scratch, found);
   }
 

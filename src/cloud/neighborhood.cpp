@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 
+#include "base/buffer.h"
 #include "cloud/stars.h"
 
 namespace tufted {
@@ -53,7 +54,7 @@ void NeighborhoodFinder::search(int p, int k, Neighborhood& hood) const {
   hood.cut = searched.cut;
 }
 
-void NeighborhoodFinder::find(int first, int count, GroupScratch& scratch, std::vector<Neighbor>& found,
+void NeighborhoodFinder::find(int first, int count, GroupScratch& scratch, Buffer<Neighbor>& found,
                               Neighborhood* hoods) const {
   if (source_.search != nullptr) source_.nearestOfEach(points_, first, count, scratch, found);
   for (int i = 0; i < count; ++i) {

@@ -1,8 +1,9 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <vector>
 
+#include "base/buffer.h"
+#include "base/point_buffer.h"
 #include "cloud/neighbor_source.h"
 #include "cloud/tangent_frame.h"
 #include "tufted/options.h"
@@ -11,7 +12,7 @@ namespace tufted {
 
 /// The neighbours of one point and the plane through them.
 struct Neighborhood {
-  std::vector<Neighbor> neighbors;  ///< ascending; those of other sheets left out
+  Buffer<Neighbor> neighbors;  ///< ascending; those of other sheets left out
   PrincipalAxes axes;
   std::int64_t cut = 0;   ///< left out because the surface jumps in between
   int k = 0;              ///< neighbours asked for
@@ -25,8 +26,8 @@ struct Neighborhood {
 
 /// Memory that one worker reuses from point to point.
 struct SheetScratch {
-  std::vector<double> heights, sorted;
-  std::vector<Neighbor> all;  ///< before any were left out; empty while none were
+  Buffer<double> heights, sorted;
+  Buffer<Neighbor> all;  ///< before any were left out; empty while none were
   Neighborhood tried;
 };
 
@@ -34,11 +35,11 @@ struct SheetScratch {
 class NeighborhoodFinder {
  public:
   /// All arguments are borrowed.
-  NeighborhoodFinder(const Points& points, const NeighborSource& source, const CloudOptions& options)
+  NeighborhoodFinder(const PointsView& points, const NeighborSource& source, const CloudOptions& options)
       : points_(points), source_(source), options_(options) {}
 
   /// For each of `count` points from `first` on the caller's k neighbours, or the caller's own list.
-  void find(int first, int count, GroupScratch& scratch, std::vector<Neighbor>& found, Neighborhood* hoods) const;
+  void find(int first, int count, GroupScratch& scratch, Buffer<Neighbor>& found, Neighborhood* hoods) const;
 
   /// Doubles the neighbourhood while it says too little about the surface, fits the plane, and leaves other sheets out.
   /// @param[out] offsets of the neighbours unless the neighbourhood has grown or was split
@@ -65,7 +66,7 @@ class NeighborhoodFinder {
   /// two of the nearest four. False, and the neighbourhood as it was before any were left out, if there is none.
   bool findSheet(int p, const PrincipalAxes& before, Neighborhood& hood, SheetScratch& scratch) const;
 
-  const Points& points_;
+  PointsView points_;
   const NeighborSource& source_;
   const CloudOptions& options_;
 };

@@ -7,6 +7,10 @@
 #include <cmath>
 #include <limits>
 
+#include "base/buffer.h"
+#include "base/foreign_memory.h"
+#include "base/point_buffer.h"
+
 namespace tufted {
 namespace {
 
@@ -22,8 +26,7 @@ constexpr double least_square = 1e-290;  // of a distance; below, squares have n
 /// distances are the same bits for any tree.
 class NearestSet final : public flann::ResultSet<double> {
  public:
-  NearestSet(int self, int k, std::vector<Neighbor>& found)
-      : self_(self), k_(static_cast<std::size_t>(k)), found_(found) {
+  NearestSet(int self, int k, Buffer<Neighbor>& found) : self_(self), k_(static_cast<std::size_t>(k)), found_(found) {
     found_.clear();
     found_.reserve(k_ + 1);
   }
@@ -45,7 +48,7 @@ class NearestSet final : public flann::ResultSet<double> {
  private:
   int self_;
   std::size_t k_;
-  std::vector<Neighbor>& found_;
+  Buffer<Neighbor>& found_;
   double worst_ = std::numeric_limits<double>::infinity();
 };
 
@@ -53,7 +56,7 @@ class NearestSet final : public flann::ResultSet<double> {
 class ShrinkingBall final : public flann::ResultSet<double> {
  public:
   /// @param nearest k squared distances of points from the centre, a heap with the largest in front
-  ShrinkingBall(double margin, std::vector<double>& nearest, std::vector<int>& found)
+  ShrinkingBall(double margin, Buffer<double>& nearest, Buffer<int>& found)
       : margin_(margin), nearest_(nearest), found_(found) {
     std::fill(nearest_.begin(), nearest_.end(), nearest_.front());  // a bound; the points come again
     setWorst();
@@ -92,18 +95,18 @@ class ShrinkingBall final : public flann::ResultSet<double> {
   }
 
   double margin_;
-  std::vector<double>& nearest_;
-  std::vector<int>& found_;
+  Buffer<double>& nearest_;
+  Buffer<int>& found_;
   double worst_ = 0;
 };
 
 }  // namespace
 
-struct NeighborSearch::Tree {
+struct NeighborSearch::Tree : InWorkspace {
   flann::KDTreeSingleIndex<Distance> index;
   flann::SearchParams params{flann::FLANN_CHECKS_UNLIMITED};
 
-  explicit Tree(const Points& points)
+  explicit Tree(const PointsView& points)
       // The points are in Morton order already, so FLANN's reordered copy would only cost memory.
       : index(flann::Matrix<double>(const_cast<double*>(points.data()), static_cast<size_t>(points.rows()), 3),
               flann::KDTreeSingleIndexParams(16, false)) {
@@ -111,20 +114,23 @@ struct NeighborSearch::Tree {
   }
 };
 
-NeighborSearch::NeighborSearch(const Points& points) : points_(points) {
-  if (points.rows() > 1) tree_ = std::make_unique<Tree>(points);
+NeighborSearch::NeighborSearch(const PointsView& points) : points_(points) {
+  if (points.rows() < 2) return;
+  const ForeignMemory building;
+  tree_ = std::make_unique<Tree>(points);
 }
 
 NeighborSearch::~NeighborSearch() = default;
 
-void NeighborSearch::nearest(int p, int k, std::vector<Neighbor>& found) const {
+void NeighborSearch::nearest(int p, int k, Buffer<Neighbor>& found) const {
   const int available = static_cast<int>(points_.rows()) - 1;
   NearestSet set(p, std::min(k, available), found);
   if (k <= 0 || available <= 0) return;
+  const ForeignMemory query;
   tree_->index.findNeighbors(set, points_.row(p).data(), tree_->params);
 }
 
-bool NeighborSearch::candidates(int first, int count, int k, std::vector<int>& found, std::vector<double>& bounds,
+bool NeighborSearch::candidates(int first, int count, int k, Buffer<int>& found, Buffer<double>& bounds,
                                 Eigen::RowVector3d& center, double& reach) const {
   const int n = static_cast<int>(points_.rows());
   const auto group = points_.middleRows(first, count);
@@ -145,6 +151,7 @@ bool NeighborSearch::candidates(int first, int count, int k, std::vector<int>& f
 
   found.clear();
   ShrinkingBall ball(2 * radius, bounds, found);
+  const ForeignMemory query;
   tree_->index.findNeighbors(ball, center.data(), tree_->params);
   reach = std::sqrt(bounds.front());
   return !ball.isTooFull() && bounds.front() > least_square;

@@ -2,8 +2,9 @@
 
 #include <cstddef>
 #include <memory>
-#include <vector>
 
+#include "base/buffer.h"
+#include "base/point_buffer.h"
 #include "tufted/types.h"
 
 namespace tufted {
@@ -18,19 +19,19 @@ struct Neighbor {
 };
 
 /// Exact nearest neighbours by FLANN's KDTreeSingleIndex in double.
-class NeighborSearch {
+class NeighborSearch : public InWorkspace {
  public:
   static constexpr int most_candidates = 1024;
 
   /// @param points n x 3, distinct, finite, in Morton order; borrowed for the life of the search
-  explicit NeighborSearch(const Points& points);
+  explicit NeighborSearch(const PointsView& points);
   ~NeighborSearch();
   NeighborSearch(const NeighborSearch&) = delete;
   NeighborSearch& operator=(const NeighborSearch&) = delete;
 
   /// The min(k, n - 1) points nearest to point p, itself left out by index, ascending by (distance, index).
   /// `found` is overwritten and keeps its memory. Safe to call from several threads.
-  void nearest(int p, int k, std::vector<Neighbor>& found) const;
+  void nearest(int p, int k, Buffer<Neighbor>& found) const;
 
   /// All points that any of the points [first, first + count) has among its min(k, n - 1) nearest, and others near
   /// them. False, and nothing of use, where these are more than most_candidates, or so close that squares of
@@ -39,15 +40,15 @@ class NeighborSearch {
   /// @param bounds scratch
   /// @param[out] center of the points' box
   /// @param[out] reach a point q of them has at least k neighbours within reach + distance(q, center)
-  bool candidates(int first, int count, int k, std::vector<int>& found, std::vector<double>& bounds,
-                  Eigen::RowVector3d& center, double& reach) const;
+  bool candidates(int first, int count, int k, Buffer<int>& found, Buffer<double>& bounds, Eigen::RowVector3d& center,
+                  double& reach) const;
 
   std::size_t bytes() const;
 
  private:
   struct Tree;
   std::unique_ptr<Tree> tree_;
-  const Points& points_;
+  PointsView points_;
 };
 
 }  // namespace tufted

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/buffer.h"
+#include "base/point_buffer.h"
+
 namespace tufted {
 namespace {
 
@@ -10,24 +13,24 @@ constexpr std::int64_t block_size = 1024;
 constexpr double steep = 0.5;  // sine of the angle between a tangent plane and the way to a point
 
 /// Whether p lies beyond the neighbours that q looked at.
-bool isUnseen(const Stars& stars, const Points& points, int p, int q) {
+bool isUnseen(const Stars& stars, const PointsView& points, int p, int q) {
   return (points.row(p) - points.row(q)).squaredNorm() > stars.reach[q] * stars.reach[q];
 }
 
 /// Whether p lies far off the tangent plane of q, for its distance.
-bool isOffPlane(const Stars& stars, const Points& points, int p, int q) {
+bool isOffPlane(const Stars& stars, const PointsView& points, int p, int q) {
   const Eigen::RowVector3d d = points.row(p) - points.row(q);
   const double height = std::abs(d.dot(stars.normals.row(q)));
   return height > steep * d.norm();
 }
 
 /// Whether the star alone allows p to be an outlier. Next to all points are spared the search.
-bool isSuspect(const Stars& stars, const Points& points, int p) {
+bool isSuspect(const Stars& stars, const PointsView& points, int p) {
   const auto begin = stars.link.begin() + stars.offset[p], end = stars.link.begin() + stars.offset[p + 1];
   return std::any_of(begin, end, [&](int q) { return stars.isolated[q] != 0 || isUnseen(stars, points, p, q); });
 }
 
-bool isOutlier(const Stars& stars, const Points& points, int p, const std::vector<Neighbor>& neighbors) {
+bool isOutlier(const Stars& stars, const PointsView& points, int p, const Buffer<Neighbor>& neighbors) {
   const auto hovered = std::count_if(neighbors.begin(), neighbors.end(), [&](const Neighbor& q) {
     return isUnseen(stars, points, p, q.index) && isOffPlane(stars, points, p, q.index);
   });
@@ -51,12 +54,12 @@ void isolateOutliers(Stars& stars, const RankedCloud& cloud, const NeighborSourc
                      Report& report) {
   if (source.search == nullptr || stars.size() <= source.k + 1) return;
   enum Verdict : std::uint8_t { untried, sound, outlier, isolated };
-  std::vector<Verdict> verdicts(stars.size(), untried);
+  Buffer<Verdict> verdicts(stars.size(), untried);
   // Outliers that see each other alone become suspect once one of them is isolated.
   for (bool found = true; found;) {
     found = false;
     workers.forBlocks("outliers", stars.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
-      std::vector<Neighbor> neighbors;
+      Buffer<Neighbor> neighbors;
       for (int p = static_cast<int>(begin); p < end; ++p) {
         if (verdicts[p] != untried || !isSuspect(stars, cloud.points, p)) continue;
         source.nearest(cloud.points, p, source.k, neighbors);

@@ -4,6 +4,8 @@
 
 #include <cmath>
 
+#include "base/foreign_memory.h"
+
 namespace tufted {
 namespace {
 
@@ -32,6 +34,7 @@ int orientation(const PlanarPoint& a, const PlanarPoint& b) {
   // Three roundings of at most half an ulp each; the second bound keeps clear of underflow.
   const double bound = 4e-16 * (std::abs(left) + std::abs(right));
   if (std::abs(determinant) > bound && bound > 1e-290) return determinant > 0 ? 1 : -1;
+  const ForeignMemory exact;
   return static_cast<int>(CGAL::orientation(Kernel::Point_2(0, 0), toCgal(a), toCgal(b)));
 }
 
@@ -54,6 +57,7 @@ CircleSide sideOfCircle(const PlanarPoint& a, const PlanarPoint& b, const Planar
   const double cross_a = cross(-a.u, -a.v, -abu, -abv);
   const double sides_a = dot(a.u, a.v, a.u, a.v) * dot(abu, abv, abu, abv);
   if (in_range && cosine < 0 && cross_a * cross_a > flat_sine * flat_sine * sides_a) return CircleSide::tie;
+  const ForeignMemory exact;
   switch (CGAL::side_of_oriented_circle(Kernel::Point_2(0, 0), toCgal(a), toCgal(b), toCgal(c))) {
     case CGAL::ON_POSITIVE_SIDE:
       return CircleSide::inside;

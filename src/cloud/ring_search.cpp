@@ -4,6 +4,7 @@
 #include <numbers>
 #include <utility>
 
+#include "base/point_buffer.h"
 #include "base/stage_clock.h"
 #include "cloud/scan_search.h"
 
@@ -25,14 +26,14 @@ constexpr int most_misses = 2;  // points of a ring, one after the other, that a
 class RingSearch final : public ScanSearch {
  public:
   RingSearch(const RankedScan& scan, const RankedCloud& cloud) : place_(scan.row.size(), -1) {
-    std::vector<int> order;
+    Buffer<int> order;
     for (int p = 0; p < cloud.size(); ++p)
       if (scan.row[p] >= 0) order.push_back(p);
     std::sort(order.begin(), order.end(), [&scan](int a, int b) {
       if (scan.row[a] != scan.row[b]) return scan.row[a] < scan.row[b];
       return scan.position[a] != scan.position[b] ? scan.position[a] < scan.position[b] : a < b;
     });
-    points_.resize(static_cast<Eigen::Index>(order.size()), 3);
+    points_.resize(std::ssize(order));
     azimuth_.resize(order.size());
     ring_.resize(order.size());
     for (int i = 0; i < static_cast<int>(order.size()); ++i) {
@@ -47,7 +48,7 @@ class RingSearch final : public ScanSearch {
     rank_ = std::move(order);
   }
 
-  Searched nearest(int p, int k, std::vector<Neighbor>& found) const override {
+  Searched nearest(int p, int k, Buffer<Neighbor>& found) const override {
     found.clear();
     if (place_[p] < 0) return {};
     const int self = place_[p];
@@ -72,8 +73,7 @@ class RingSearch final : public ScanSearch {
   bool isGraded() const override { return true; }
 
   std::size_t bytes() const override {
-    return bytesOf(place_) + bytesOf(rank_) + bytesOf(ring_) + bytesOf(azimuth_) + bytesOf(begin_) +
-           static_cast<std::size_t>(points_.size()) * sizeof(double);
+    return bytesOf(place_) + bytesOf(rank_) + bytesOf(ring_) + bytesOf(azimuth_) + bytesOf(begin_) + points_.bytes();
   }
 
  private:
@@ -122,7 +122,7 @@ class RingSearch final : public ScanSearch {
   }
 
   /// Adds the points of a ring around `foot` that lie in the ball around `self`.
-  void addRing(int self, int foot, double radius, std::vector<Neighbor>& found) const {
+  void addRing(int self, int foot, double radius, Buffer<Neighbor>& found) const {
     if (foot != self) found.push_back({squaredDistance(self, foot), rank_[foot]});
     const double most = radius * radius;
     const int size = ringSize(ring_[foot]);
@@ -149,12 +149,12 @@ class RingSearch final : public ScanSearch {
     return is_power ? steps + steps / 2 : steps + steps / 3;
   }
 
-  std::vector<int> place_;       ///< of each rank in the order of rings and azimuths, -1: none
-  std::vector<int> rank_;        ///< the inverse
-  std::vector<int> ring_;        ///< by place
-  std::vector<double> azimuth_;  ///< by place
-  std::vector<int> begin_;       ///< first place of each ring; number of places at the end
-  Points points_;                ///< by place
+  Buffer<int> place_;       ///< of each rank in the order of rings and azimuths, -1: none
+  Buffer<int> rank_;        ///< the inverse
+  Buffer<int> ring_;        ///< by place
+  Buffer<double> azimuth_;  ///< by place
+  Buffer<int> begin_;       ///< first place of each ring; number of places at the end
+  PointBuffer points_;      ///< by place
 };
 
 }  // namespace

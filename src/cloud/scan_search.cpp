@@ -7,6 +7,7 @@
 #include <string>
 #include <tuple>
 
+#include "base/buffer.h"
 #include "base/number_text.h"
 #include "tufted/errors.h"
 
@@ -44,9 +45,9 @@ RankedScan rankScan(const ScanStructure& structure, const RankedCloud& cloud, co
   if (!structure.origin.allFinite()) {
     throw InvalidInput(std::string(function_name) + "origin is not finite, must be");
   }
-  std::vector<int> rank(status.size(), -1);
+  Buffer<int> rank(status.size(), -1);
   for (int r = 0; r < cloud.size(); ++r) rank[cloud.caller[r]] = r;
-  RankedScan scan{std::vector<int>(cloud.size(), -1), std::vector<double>(cloud.size(), 0), {}};
+  RankedScan scan{Buffer<int>(cloud.size(), -1), Buffer<double>(cloud.size(), 0), {}};
   for (int axis = 0; axis < 3; ++axis) scan.origin[axis] = std::ldexp(structure.origin[axis], -cloud.exponent);
   for (std::size_t i = 0; i < status.size(); ++i) {
     const int p = rank[representative[i]];

@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "base/buffer.h"
 #include "cloud/morton.h"
 #include "cloud/neighbors.h"
 #include "tufted/report.h"
@@ -11,7 +12,7 @@
 namespace tufted {
 
 /// Neighbours of a point of a scan: those that were taken around it, without a tree.
-class ScanSearch {
+class ScanSearch : public InWorkspace {
  public:
   struct Searched {
     double radius = 0;  ///< no other point of the surface around p is nearer, short of those that a ring's own hide
@@ -22,7 +23,7 @@ class ScanSearch {
 
   /// About k points around p, itself left out, ascending by (distance, index); fewer where the scan holds no more.
   /// `found` is overwritten and keeps its memory. Safe to call from several threads.
-  virtual Searched nearest(int p, int k, std::vector<Neighbor>& found) const = 0;
+  virtual Searched nearest(int p, int k, Buffer<Neighbor>& found) const = 0;
 
   /// Whether a triangle of points leads across a jump of the surface that its corners may all be neighbours around.
   virtual bool spansJump(int /*a*/, int /*b*/, int /*c*/) const { return false; }
@@ -35,9 +36,9 @@ class ScanSearch {
 
 /// The places of ranked points in a scan.
 struct RankedScan {
-  std::vector<int> row;          ///< n, -1: no place
-  std::vector<double> position;  ///< n
-  Eigen::Vector3d origin;        ///< in units of the cloud
+  Buffer<int> row;          ///< n, -1: no place
+  Buffer<double> position;  ///< n
+  Eigen::Vector3d origin;   ///< in units of the cloud
 };
 
 /// Brings a structure into rank order; of coincident points that with the smallest row and position stands for all.

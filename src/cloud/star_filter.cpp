@@ -7,6 +7,9 @@
 #include <cmath>
 #include <limits>
 
+#include "base/buffer.h"
+#include "base/point_buffer.h"
+
 namespace tufted {
 namespace {
 
@@ -30,7 +33,7 @@ int otherVotes(const Stars& stars, int p, int i) {
 }
 
 /// Circumradius in space; infinite for a triangle without area.
-double circumradius(const Points& points, int p, int a, int b) {
+double circumradius(const PointsView& points, int p, int a, int b) {
   const Eigen::Vector3d u = points.row(a) - points.row(p), v = points.row(b) - points.row(p);
   const double twice_area = u.cross(v).norm();
   return twice_area > 0 ? u.norm() * v.norm() * (u - v).norm() / (2 * twice_area)
@@ -47,7 +50,7 @@ bool isTooLarge(const Stars& stars, int p, int i) {
 
 /// Filter::votes: far larger than the neighbourhood; or of one star alone and, in space, large for its corners: for
 /// any of them, or for those around a point that sees further than they do.
-bool isImplausible(const Stars& stars, const Points& points, int p, int i) {
+bool isImplausible(const Stars& stars, const PointsView& points, int p, int i) {
   const int a = stars.link[i], b = stars.link[stars.after(p, i)];
   if (stars.radius[i] > 3 * stars.reach[p]) return true;
   const double smallest = std::min({stars.reach[p], stars.reach[a], stars.reach[b]});
@@ -61,7 +64,7 @@ bool isImplausible(const Stars& stars, const Points& points, int p, int i) {
 /// Drops the triangles that `test(p, i)` condemns, after all were tested. Returns their number.
 template <class Test>
 std::int64_t dropTriangles(Stars& stars, const Workers& workers, const Test& test) {
-  std::vector<std::uint8_t> condemned(stars.link.size());
+  Buffer<std::uint8_t> condemned(stars.link.size());
   std::atomic<std::int64_t> dropped{0};
   const auto forEachEntry = [&](const auto& visit) {
     workers.forBlocks("filter", stars.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
@@ -81,7 +84,7 @@ std::int64_t dropTriangles(Stars& stars, const Workers& workers, const Test& tes
 
 }  // namespace
 
-void filterStars(Stars& stars, const Points& points, int k, Filter filter, const Workers& workers, Report& report) {
+void filterStars(Stars& stars, const PointsView& points, int k, Filter filter, const Workers& workers, Report& report) {
   if (stars.size() <= k + 1) return;
   report.dropped_triangles += dropTriangles(stars, workers, [&](int p, int i) {
     if (stars.isolated[stars.link[i]] != 0 || stars.isolated[stars.link[stars.after(p, i)]] != 0) return true;
@@ -89,8 +92,7 @@ void filterStars(Stars& stars, const Points& points, int k, Filter filter, const
   });
 }
 
-void countVotes(const Stars& stars, const std::vector<std::uint8_t>& disagrees, const Workers& workers,
-                Report& report) {
+void countVotes(const Stars& stars, const Buffer<std::uint8_t>& disagrees, const Workers& workers, Report& report) {
   std::array<std::atomic<std::int64_t>, 3> copies = {};
   workers.forBlocks("votes", stars.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
     std::array<std::int64_t, 3> found = {};

@@ -1,6 +1,8 @@
 #pragma once
 
+#include "base/buffer.h"
 #include "base/parallel.h"
+#include "base/point_buffer.h"
 #include "cloud/stars.h"
 #include "tufted/report.h"
 
@@ -9,10 +11,10 @@ namespace tufted {
 /// Drops triangles that no surface sampled like this would have, see Filter. A cloud of no more than k + 1 points keeps
 /// all but the flat ones. A point that loses a triangle is tagged in `ends`.
 /// @param points n x 3, by rank
-void filterStars(Stars& stars, const Points& points, int k, Filter filter, const Workers& workers, Report& report);
+void filterStars(Stars& stars, const PointsView& points, int k, Filter filter, const Workers& workers, Report& report);
 
 /// Counts the distinct triangles that 1, 2 and 3 of their corners' stars contain.
 /// @param disagrees see findDisagreement(): all corners' stars contain the triangles of the others
-void countVotes(const Stars& stars, const std::vector<std::uint8_t>& disagrees, const Workers& workers, Report& report);
+void countVotes(const Stars& stars, const Buffer<std::uint8_t>& disagrees, const Workers& workers, Report& report);
 
 }  // namespace tufted

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "base/buffer.h"
+#include "base/point_buffer.h"
 #include "base/power_of_two.h"
 #include "cloud/delaunay_star.h"
 #include "cloud/denoise.h"
@@ -22,24 +24,24 @@ constexpr double flat_share = 0.02;        // of the second variance, below whic
 
 /// What one block of points leaves behind.
 struct BlockOfStars {
-  std::vector<int> link;
-  std::vector<std::uint8_t> triangle;
-  std::vector<double> radius;
-  std::vector<int> noisy;              ///< ranks
-  std::vector<std::size_t> noisy_end;  ///< where the neighbours of each end in `noisy_neighbors`
-  std::vector<int> noisy_neighbors;    ///< ranks
+  Buffer<int> link;
+  Buffer<std::uint8_t> triangle;
+  Buffer<double> radius;
+  Buffer<int> noisy;              ///< ranks
+  Buffer<std::size_t> noisy_end;  ///< where the neighbours of each end in `noisy_neighbors`
+  Buffer<int> noisy_neighbors;    ///< ranks
 };
 
 /// Memory, counts and times of one worker.
 struct WorkerState {
   GroupScratch group;
-  std::vector<Neighbor> found;
-  std::vector<Neighborhood> hoods;
+  Buffer<Neighbor> found;
+  Buffer<Neighborhood> hoods;
   std::array<Offsets, group_size> offsets;
   SheetScratch sheets;
   Neighborhood saved_hood;
   DelaunayStar saved_star;
-  std::vector<PlanarPoint> planar;
+  Buffer<PlanarPoint> planar;
   StarScratch scratch;
   DelaunayStar star;
   std::int64_t cut_neighbors = 0, grown_neighborhoods = 0, split_neighborhoods = 0, isolated = 0, grown_stars = 0,
@@ -77,7 +79,7 @@ class StarBuilder {
   }
 
  private:
-  using Wrap = void (*)(const std::vector<PlanarPoint>&, int, StarScratch&, DelaunayStar&);
+  using Wrap = void (*)(const Buffer<PlanarPoint>&, int, StarScratch&, DelaunayStar&);
 
   static Wrap cgalBackend() {
 #ifdef TUFTED_WITH_GPL
@@ -206,15 +208,14 @@ class StarBuilder {
 
 /// Fits the surface of noisy points once more, to points that lie on it by now. Positions are taken relative to the
 /// point, so that the distance from the origin does not matter.
-void refineSurface(const Points& points, Stars& stars, const std::vector<BlockOfStars>& blocks,
-                   const Workers& workers) {
-  const Points first = stars.move;
-  const auto refine = [&](const BlockOfStars& block, Points& local, std::vector<Neighbor>& neighbors) {
+void refineSurface(const PointsView& points, Stars& stars, const Buffer<BlockOfStars>& blocks, const Workers& workers) {
+  const PointBuffer first = stars.move;
+  const auto refine = [&](const BlockOfStars& block, PointBuffer& local, Buffer<Neighbor>& neighbors) {
     std::size_t begin = 0;
     for (std::size_t i = 0; i < block.noisy.size(); begin = block.noisy_end[i++]) {
       const int p = block.noisy[i];
       const auto count = static_cast<int>(block.noisy_end[i] - begin);
-      local.resize(count + 1, 3);
+      local.resize(count + 1);
       local.row(0) = first.row(p);
       neighbors.clear();
       for (int j = 1; j <= count; ++j) {
@@ -229,8 +230,8 @@ void refineSurface(const Points& points, Stars& stars, const std::vector<BlockOf
   };
   workers.forBlocks("surface", static_cast<std::int64_t>(blocks.size()), 1,
                     [&](std::int64_t begin, std::int64_t end, int) {
-                      Points local;
-                      std::vector<Neighbor> neighbors;
+                      PointBuffer local;
+                      Buffer<Neighbor> neighbors;
                       for (std::int64_t b = begin; b < end; ++b) refine(blocks[b], local, neighbors);
                     });
 }
@@ -243,8 +244,7 @@ std::int64_t Stars::triangles() const {
 
 std::size_t Stars::bytes() const {
   return bytesOf(triangle) + bytesOf(offset) + bytesOf(link) + bytesOf(radius) + bytesOf(reach) + bytesOf(ends) +
-         bytesOf(isolated) + bytesOf(flat) + bytesOf(disagrees) +
-         static_cast<std::size_t>(normals.size() + move.size()) * sizeof(double);
+         bytesOf(isolated) + bytesOf(flat) + bytesOf(disagrees) + normals.bytes() + move.bytes();
 }
 
 Stars buildStars(const RankedCloud& cloud, const NeighborSource& source, const CloudOptions& options,
@@ -256,12 +256,12 @@ Stars buildStars(const RankedCloud& cloud, const NeighborSource& source, const C
   stars.ends.resize(n);
   stars.isolated.resize(n);
   stars.flat.resize(n);
-  stars.normals.resize(n, 3);
-  if (options.steps.lengths == Lengths::denoised) stars.move.setZero(n, 3);
+  stars.normals.resize(n);
+  if (options.steps.lengths == Lengths::denoised) stars.move.setZero(n);
 
   Stopwatch wall;
-  std::vector<BlockOfStars> blocks((n + block_size - 1) / block_size);
-  std::vector<WorkerState> states(workers.count());
+  Buffer<BlockOfStars> blocks((n + block_size - 1) / block_size);
+  Buffer<WorkerState> states(workers.count());
   const StarBuilder builder(cloud, source, options, stars);
   workers.forBlocks("stars", n, block_size, [&](std::int64_t begin, std::int64_t end, int worker) {
     builder.build(begin, end, states[worker], blocks[begin / block_size]);

@@ -2,9 +2,9 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <vector>
 
 #include "base/parallel.h"
+#include "base/point_buffer.h"
 #include "base/stage_clock.h"
 #include "cloud/morton.h"
 #include "cloud/neighbor_source.h"
@@ -19,18 +19,18 @@ namespace tufted {
 /// stands for the triangle (p, link[i], successor of i). There is none at the last link vertex of an open star, and
 /// where a filter dropped it.
 struct Stars {
-  std::vector<int> offset;             ///< n + 1
-  std::vector<int> link;               ///< ranks
-  std::vector<std::uint8_t> triangle;  ///< per link entry, 0 where there is none
-  std::vector<double> radius;      ///< circumradius in the tangent plane, per link entry; empty once the filter has run
-  std::vector<double> reach;       ///< n, r_k: distance to the last neighbour before a star grows
-  std::vector<std::uint8_t> ends;  ///< n, 1 where the surface ends at p: an open star or a lost triangle
-  std::vector<std::uint8_t>
+  Buffer<int> offset;             ///< n + 1
+  Buffer<int> link;               ///< ranks
+  Buffer<std::uint8_t> triangle;  ///< per link entry, 0 where there is none
+  Buffer<double> radius;          ///< circumradius in the tangent plane, per link entry; empty once the filter has run
+  Buffer<double> reach;           ///< n, r_k: distance to the last neighbour before a star grows
+  Buffer<std::uint8_t> ends;      ///< n, 1 where the surface ends at p: an open star or a lost triangle
+  Buffer<std::uint8_t>
       isolated;  ///< n, 1 for points without a star: outliers, and where all neighbours are of other sheets
-  std::vector<std::uint8_t> disagrees;  ///< n, see findDisagreement(); empty before the filter has run
-  std::vector<std::uint8_t> flat;       ///< n, 1 where the neighbourhood is next to a plane
-  Points normals;                       ///< n x 3
-  Points move;                          ///< n x 3, from each point to where lengths are measured; 0 x 3: no point moves
+  Buffer<std::uint8_t> disagrees;  ///< n, see findDisagreement(); empty before the filter has run
+  Buffer<std::uint8_t> flat;       ///< n, 1 where the neighbourhood is next to a plane
+  PointBuffer normals;             ///< n x 3
+  PointBuffer move;                ///< n x 3, from each point to where lengths are measured; 0 x 3: no point moves
 
   int size() const { return std::max(0, static_cast<int>(offset.size()) - 1); }
   /// The link entry after i in star p, cyclically.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/point_buffer.h"
 #include "base/power_of_two.h"
 
 namespace tufted {
@@ -59,7 +60,7 @@ bool findSmallest(const Symmetric& a, PrincipalAxes& axes) {
 
 }  // namespace
 
-void takeOffsets(const Points& points, int p, std::span<const Neighbor> neighbors, Offsets& offsets) {
+void takeOffsets(const PointsView& points, int p, std::span<const Neighbor> neighbors, Offsets& offsets) {
   const double* all = points.data();
   const double* origin = all + 3 * std::ptrdiff_t{p};
   offsets.count = static_cast<int>(neighbors.size());
@@ -72,12 +73,12 @@ void takeOffsets(const Points& points, int p, std::span<const Neighbor> neighbor
   for (int i = offsets.count; i < toLanes(offsets.count); ++i) offsets.x[i] = offsets.y[i] = offsets.z[i] = 0;
 }
 
-PrincipalAxes principalAxes(const Points& points, int p, std::span<const Neighbor> neighbors) {
+PrincipalAxes principalAxes(const PointsView& points, int p, std::span<const Neighbor> neighbors) {
   Offsets offsets;
   return principalAxes(points, p, neighbors, offsets);
 }
 
-PrincipalAxes principalAxes(const Points& points, int p, std::span<const Neighbor> neighbors, Offsets& offsets) {
+PrincipalAxes principalAxes(const PointsView& points, int p, std::span<const Neighbor> neighbors, Offsets& offsets) {
   const Kernels& kernel = kernels();
   const bool is_one_part = neighbors.size() <= Offsets::most;
   if (is_one_part) takeOffsets(points, p, neighbors, offsets);

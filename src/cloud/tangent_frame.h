@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <span>
 
+#include "base/point_buffer.h"
 #include "cloud/kernels.h"
 #include "cloud/neighbors.h"
 #include "tufted/types.h"
@@ -17,13 +18,13 @@ struct PrincipalAxes {
 };
 
 /// Positions relative to p of at most Offsets::most points.
-void takeOffsets(const Points& points, int p, std::span<const Neighbor> neighbors, Offsets& offsets);
+void takeOffsets(const PointsView& points, int p, std::span<const Neighbor> neighbors, Offsets& offsets);
 
 /// PCA of p and its neighbours about their centroid, from coordinates relative to p, so that the distance from the
 /// origin does not matter.
 /// @param[out] offsets of the neighbours, if they are at most Offsets::most
-PrincipalAxes principalAxes(const Points& points, int p, std::span<const Neighbor> neighbors, Offsets& offsets);
-PrincipalAxes principalAxes(const Points& points, int p, std::span<const Neighbor> neighbors);
+PrincipalAxes principalAxes(const PointsView& points, int p, std::span<const Neighbor> neighbors, Offsets& offsets);
+PrincipalAxes principalAxes(const PointsView& points, int p, std::span<const Neighbor> neighbors);
 
 /// One scan line only: the second axis has less than a tenth of the first one's variance.
 bool liesOnOneLine(const PrincipalAxes& axes);

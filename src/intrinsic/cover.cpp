@@ -1,6 +1,7 @@
 #include "intrinsic/cover.h"
 
-#include <vector>
+#include "base/buffer.h"
+#include "base/point_buffer.h"
 
 namespace tufted {
 namespace {
@@ -16,16 +17,11 @@ void resizeCover(IntrinsicTriangulation& cover, int vertices, std::int64_t trian
   cover.length.resize(static_cast<std::size_t>(6 * triangles));
 }
 
-void addTriangle(IntrinsicTriangulation& cover, int t, int i, int j, int k) {
-  cover.faces[2 * t] = {i, j, k};
-  cover.faces[2 * t + 1] = {i, k, j};
-}
-
-MeanLengths measureLengths(IntrinsicTriangulation& cover, const Points& points, const Points& move,
+MeanLengths measureLengths(IntrinsicTriangulation& cover, const PointsView& points, const PointsView& move,
                            const Workers& workers) {
   const std::int64_t triangles = cover.size() / 2;
   // Per block, so that the means have the same bits always.
-  std::vector<MeanLengths> sums((triangles + block_size - 1) / block_size);
+  Buffer<MeanLengths> sums((triangles + block_size - 1) / block_size);
   workers.forBlocks("lengths", triangles, block_size, [&](std::int64_t begin, std::int64_t end, int) {
     MeanLengths& sum = sums[begin / block_size];
     for (int t = static_cast<int>(begin); t < end; ++t) {

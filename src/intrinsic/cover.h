@@ -1,9 +1,11 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
 #include "base/parallel.h"
+#include "base/point_buffer.h"
 #include "tufted/intrinsic_triangulation.h"
 #include "tufted/options.h"
 #include "tufted/report.h"
@@ -15,9 +17,23 @@ constexpr int unglued = -1;
 /// Sides have int numbers: 6 per triangle under the cover.
 constexpr std::int64_t most_triangles = INT32_MAX / 6;
 
+/// An IntrinsicTriangulation while it grows.
+struct CoverBuffer {
+  int vertices = 0;
+  Buffer<std::array<int, 3>> faces;
+  Buffer<int> glue;
+  Buffer<double> length;
+
+  std::int64_t size() const { return std::ssize(faces); }
+};
+
 /// Front and back of each triangle (Section 4.2), nothing glued yet: face 2 t is triangle t = (i, j, k), face 2 t + 1
 /// is (i, k, j).
-void addTriangle(IntrinsicTriangulation& cover, int t, int i, int j, int k);
+template <class Triangulation>
+void addTriangle(Triangulation& cover, int t, int i, int j, int k) {
+  cover.faces[2 * t] = {i, j, k};
+  cover.faces[2 * t + 1] = {i, k, j};
+}
 
 /// Makes room for `triangles` triangles.
 void resizeCover(IntrinsicTriangulation& cover, int vertices, std::int64_t triangles);
@@ -31,7 +47,8 @@ constexpr int backSide(int t, int s) {
 }
 
 /// Glues two sides to each other.
-inline void glueSides(IntrinsicTriangulation& cover, int a, int b) {
+template <class Triangulation>
+void glueSides(Triangulation& cover, int a, int b) {
   cover.glue[a] = b;
   cover.glue[b] = a;
 }
@@ -49,7 +66,7 @@ struct EdgeCounts {
 
 /// Algorithm 1: puts all sides that are not glued yet into one pool per vertex pair, orders each pool circularly and
 /// glues front to back. `boundary`, if given, gets rim at both vertices of an edge of a single face.
-EdgeCounts glueEdges(IntrinsicTriangulation& cover, const Points& points, const EdgeOrder& order,
+EdgeCounts glueEdges(IntrinsicTriangulation& cover, const PointsView& points, const EdgeOrder& order,
                      const Workers& workers, std::vector<Boundary>* boundary = nullptr);
 
 /// Means over the triangles' sides; 0 without a triangle.
@@ -60,7 +77,7 @@ struct MeanLengths {
 
 /// Euclidean lengths of all sides (MEASUREEDGELENGTHS).
 /// @param move by vertex, added to `points`; 0 x 3: nothing
-MeanLengths measureLengths(IntrinsicTriangulation& cover, const Points& points, const Points& move,
+MeanLengths measureLengths(IntrinsicTriangulation& cover, const PointsView& points, const PointsView& move,
                            const Workers& workers);
 
 /// Section 4.5: adds to all lengths the least amount that leaves every triangle inequality a slack of `delta`.

@@ -2,14 +2,15 @@
 
 #include <cmath>
 
+#include "base/point_buffer.h"
 #include "tufted/types.h"
 
 namespace tufted {
 
 /// Lengths of edges between moved points, with what mollification adds (Section 4.5).
 struct EdgeLengths {
-  const Points& points;  ///< by vertex
-  const Points& move;    ///< added to `points`; 0 x 3: nothing
+  PointsView points;  ///< by vertex
+  PointsView move;    ///< added to `points`; 0 x 3: nothing
   double added = 0;
 
   double operator()(int a, int b) const {

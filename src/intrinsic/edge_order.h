@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 
+#include "base/point_buffer.h"
 #include "base/pseudo_angle.h"
 #include "tufted/types.h"
 
@@ -11,7 +12,7 @@ namespace tufted {
 /// copies of one triangle have equal keys.
 class DihedralOrder {
  public:
-  DihedralOrder(const Points& points, int low, int high) : points_(points), low_(low) {
+  DihedralOrder(const PointsView& points, int low, int high) : points_(points), low_(low) {
     const Eigen::Vector3d axis = points.row(high) - points.row(low);
     int smallest = 0;
     axis.cwiseAbs().minCoeff(&smallest);
@@ -26,7 +27,7 @@ class DihedralOrder {
   }
 
  private:
-  const Points& points_;
+  PointsView points_;
   int low_;
   Eigen::Vector3d x_, y_;
 };

@@ -3,8 +3,8 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <vector>
 
+#include "base/buffer.h"
 #include "intrinsic/cover.h"
 #include "intrinsic/geometry.h"
 
@@ -14,7 +14,8 @@ constexpr double flip_below = -1e-10;  // on cot + cot; ties of cocircular quadr
 
 /// Length of the other diagonal, from a layout of both triangles in the plane with the common edge on the x axis
 /// (Fisher et al. 2007): it stays accurate where the law of cosines cancels.
-inline double flippedLength(const IntrinsicTriangulation& t, int side, int mate) {
+template <class Triangulation>
+double flippedLength(const Triangulation& t, int side, int mate) {
   const double base = t.length[side];
   // Apex of a triangle over the base from (0, 0), given the distances to its start and end.
   const auto apex = [&](double from_start, double from_end) {
@@ -29,7 +30,8 @@ inline double flippedLength(const IntrinsicTriangulation& t, int side, int mate)
 
 /// Flips the edge i j between the faces (i, j, k) and (j, i, m) to k m (Figure 12). The flipped edge keeps its two side
 /// numbers; the faces become (m, k, i) and (k, m, j), counted from these sides.
-inline void flip(IntrinsicTriangulation& t, int side, int mate) {
+template <class Triangulation>
+void flip(Triangulation& t, int side, int mate) {
   const int jk = nextSide(side), ki = previousSide(side);
   const int im = nextSide(mate), mj = previousSide(mate);
   const int i = tail(t, side), j = head(t, side), k = head(t, jk), m = head(t, im);
@@ -63,21 +65,21 @@ inline void flip(IntrinsicTriangulation& t, int side, int mate) {
 }
 
 /// Algorithm 2 from the given sides on. `Cover` has
-///   IntrinsicTriangulation& triangulation()
+///   triangulation()                    a reference to an IntrinsicTriangulation or CoverBuffer
 ///   void resolve(int side)             sees to it that the side is glued; may add faces
 ///   void flipped(int side, int mate)   hears of each flip
 template <class Cover>
-FlipCounts flipEdges(Cover& cover, const std::vector<int>& seeds, const Workers& workers) {
+FlipCounts flipEdges(Cover& cover, const Buffer<int>& seeds, const Workers& workers) {
   constexpr std::uint8_t most_flips = 100;    // per edge
   constexpr std::uint8_t queued_flag = 0x80;  // beside the count
   constexpr std::int64_t report_every = 1 << 16;
-  IntrinsicTriangulation& t = cover.triangulation();
+  auto& t = cover.triangulation();
   FlipCounts counts;
 
   // Per place of a side: the flips done there and queued_flag. A flip moves its outer edges to other places and queues
   // them anew, so no edge is missed, and the bound per place ends the loop whatever the lengths are.
-  std::vector<std::uint8_t> state;
-  std::vector<int> queue;  // depth first
+  Buffer<std::uint8_t> state;
+  Buffer<int> queue;  // depth first
   const auto push = [&](int side) {
     cover.resolve(side);
     state.resize(t.glue.size());

@@ -1,3 +1,4 @@
+#include "base/buffer.h"
 #include "intrinsic/flip_edges.h"
 
 namespace tufted {
@@ -23,8 +24,8 @@ bool isOppositeObtuse(const IntrinsicTriangulation& t, int side) {
 }
 
 /// The sides, one per edge, that are not Delaunay at the start, in order.
-std::vector<int> findSeeds(const IntrinsicTriangulation& cover, const Workers& workers) {
-  std::vector<std::vector<int>> found((cover.size() + block_size - 1) / block_size);
+Buffer<int> findSeeds(const IntrinsicTriangulation& cover, const Workers& workers) {
+  Buffer<Buffer<int>> found((cover.size() + block_size - 1) / block_size);
   workers.forBlocks("flips", cover.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
     for (int side = static_cast<int>(3 * begin); side < 3 * end; ++side) {
       const int mate = cover.glue[side];
@@ -32,7 +33,7 @@ std::vector<int> findSeeds(const IntrinsicTriangulation& cover, const Workers& w
         found[begin / block_size].push_back(std::min(side, mate));
     }
   });
-  std::vector<int> seeds;
+  Buffer<int> seeds;
   for (const auto& part : found) seeds.insert(seeds.end(), part.begin(), part.end());
   return seeds;
 }

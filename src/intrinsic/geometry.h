@@ -37,19 +37,23 @@ inline double oppositeCotan(double a, double b, double c) {
 }
 
 /// The same for `side` in its face.
-inline double oppositeCotan(const IntrinsicTriangulation& t, int side) {
+template <class Triangulation>
+double oppositeCotan(const Triangulation& t, int side) {
   return oppositeCotan(t.length[side], t.length[nextSide(side)], t.length[previousSide(side)]);
 }
 
-inline double faceArea(const IntrinsicTriangulation& t, int face) {
+template <class Triangulation>
+double faceArea(const Triangulation& t, int face) {
   return triangleArea(t.length[3 * face], t.length[3 * face + 1], t.length[3 * face + 2]);
 }
 
 /// First and last corner of a side.
-inline int tail(const IntrinsicTriangulation& t, int side) {
+template <class Triangulation>
+int tail(const Triangulation& t, int side) {
   return t.faces[side / 3][side % 3];
 }
-inline int head(const IntrinsicTriangulation& t, int side) {
+template <class Triangulation>
+int head(const Triangulation& t, int side) {
   return t.faces[side / 3][nextSide(side) % 3];
 }
 

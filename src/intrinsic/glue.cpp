@@ -6,7 +6,8 @@
 #include <numeric>
 #include <vector>
 
-#include "base/release.h"
+#include "base/buffer.h"
+#include "base/point_buffer.h"
 #include "intrinsic/cover.h"
 #include "intrinsic/edge_order.h"
 #include "intrinsic/geometry.h"
@@ -33,7 +34,7 @@ std::uint64_t mix(std::uint64_t seed, std::uint64_t value) {
 /// The faces at one edge, in the order in which they are glued.
 class EdgePool {
  public:
-  EdgePool(const IntrinsicTriangulation& cover, const Points& points, const EdgeOrder& order)
+  EdgePool(const IntrinsicTriangulation& cover, const PointsView& points, const EdgeOrder& order)
       : cover_(cover), points_(points), order_(order) {}
 
   /// Sorts the `count` sides of the edge (low, high) circularly; ties by face. Any order of two is the same one.
@@ -77,9 +78,9 @@ class EdgePool {
   }
 
   const IntrinsicTriangulation& cover_;
-  const Points& points_;
+  PointsView points_;
   const EdgeOrder& order_;
-  std::vector<std::pair<double, int>> keys_;
+  Buffer<std::pair<double, int>> keys_;
 };
 
 /// Front to back around the edge: the side that runs from the smaller to the larger vertex ("plus") faces the next
@@ -98,7 +99,7 @@ void glueAround(IntrinsicTriangulation& cover, const PooledSide* sides, std::siz
 
 }  // namespace
 
-EdgeCounts glueEdges(IntrinsicTriangulation& cover, const Points& points, const EdgeOrder& order,
+EdgeCounts glueEdges(IntrinsicTriangulation& cover, const PointsView& points, const EdgeOrder& order,
                      const Workers& workers, std::vector<Boundary>* boundary) {
   // All sides that are still open, grouped by their smaller vertex: count, prefix sum, fill.
   const int sides = static_cast<int>(3 * (cover.size() / 2));
@@ -107,13 +108,13 @@ EdgeCounts glueEdges(IntrinsicTriangulation& cover, const Points& points, const 
     const auto& corner = cover.faces[2 * (side / 3)];
     return std::minmax(corner[side % 3], corner[(side + 1) % 3]);
   };
-  std::vector<int> offset(static_cast<std::size_t>(cover.vertices) + 1);
+  Buffer<int> offset(static_cast<std::size_t>(cover.vertices) + 1);
   for (int side = 0; side < sides; ++side) {
     if (isOpen(side)) ++offset[ends(side).first + 1];
   }
   std::partial_sum(offset.begin(), offset.end(), offset.begin());
-  std::vector<PooledSide> pooled(offset.back());
-  std::vector<int> fill(offset.begin(), offset.end() - 1);
+  Buffer<PooledSide> pooled(offset.back());
+  Buffer<int> fill(offset.begin(), offset.end() - 1);
   for (int side = 0; side < sides; ++side) {
     if (!isOpen(side)) continue;
     const auto [low, high] = ends(side);

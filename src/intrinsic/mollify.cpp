@@ -1,6 +1,6 @@
 #include <algorithm>
-#include <vector>
 
+#include "base/buffer.h"
 #include "intrinsic/cover.h"
 #include "intrinsic/geometry.h"
 
@@ -13,7 +13,7 @@ constexpr std::int64_t block_size = 16384;
 
 double mollify(IntrinsicTriangulation& cover, double delta, const Workers& workers) {
   const std::int64_t triangles = cover.size() / 2;
-  std::vector<double> missing((triangles + block_size - 1) / block_size);
+  Buffer<double> missing((triangles + block_size - 1) / block_size);
   workers.forBlocks("mollify", triangles, block_size, [&](std::int64_t begin, std::int64_t end, int) {
     double most = 0;
     for (std::int64_t t = begin; t < end; ++t) {  // front and back have the same lengths

@@ -4,6 +4,7 @@
 #include <array>
 #include <numeric>
 
+#include "base/buffer.h"
 #include "intrinsic/flip_edges.h"
 #include "intrinsic/geometry.h"
 
@@ -36,12 +37,14 @@ void forEachSpoke(const Stars& stars, int p, int first, const Glue& glue) {
 }
 
 /// Triangle (p, a, v) ends on the spoke v p with side 2, triangle (p, v, b) begins on it with side 0.
-void glueSpoke(IntrinsicTriangulation& cover, int before, int after) {
+template <class Triangulation>
+void glueSpoke(Triangulation& cover, int before, int after) {
   glueSides(cover, frontSide(before, 2), frontSide(after, 0));
   glueSides(cover, backSide(before, 2), backSide(after, 0));
 }
 
-void setLengths(IntrinsicTriangulation& cover, int t, const EdgeLengths& length) {
+template <class Triangulation>
+void setLengths(Triangulation& cover, int t, const EdgeLengths& length) {
   const auto& corner = cover.faces[2 * t];
   for (int s = 0; s < 3; ++s)
     cover.length[frontSide(t, s)] = cover.length[backSide(t, s)] = length(corner[s], corner[(s + 1) % 3]);
@@ -53,7 +56,7 @@ void setLengths(IntrinsicTriangulation& cover, int t, const EdgeLengths& length)
 class Flipping {
  public:
   explicit Flipping(PartialCover& cover) : cover_(cover) {}
-  IntrinsicTriangulation& triangulation() { return cover_.cover_; }
+  CoverBuffer& triangulation() { return cover_.cover_; }
   void resolve(int side) { cover_.resolve(side); }
   void flipped(int side, int mate) {
     for (const int face : {side / 3, mate / 3})
@@ -100,7 +103,7 @@ StarSide PartialCover::mateOf(const StarSide& side, bool is_plus) const {
   return is_plus ? pools_.next(side) : pools_.previous(side);
 }
 
-int PartialCover::sideNumber(const StarSide& side, bool is_front, const std::vector<int>& first) const {
+int PartialCover::sideNumber(const StarSide& side, bool is_front, const Buffer<int>& first) const {
   const int t = first[side.star] + trianglesBefore(stars_, side.star, side.entry);
   return is_front ? frontSide(t, side.side) : backSide(t, side.side);
 }
@@ -120,14 +123,14 @@ double PartialCover::cotanAt(const StarSide& side) const {
   return oppositeCotan(length_(a, b), length_(b, c), length_(c, a));
 }
 
-std::vector<int> PartialCover::findSeeds(const StarMetric& metric, const Workers& workers) {
+Buffer<int> PartialCover::findSeeds(const StarMetric& metric, const Workers& workers) {
   struct Seed {
     StarSide side;
     bool is_plus, is_minus;
   };
-  std::vector<std::vector<Seed>> found((stars_.size() + block_size - 1) / block_size);
+  Buffer<Buffer<Seed>> found((stars_.size() + block_size - 1) / block_size);
   workers.forBlocks("flips", stars_.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
-    std::vector<Seed>& seeds = found[begin / block_size];
+    Buffer<Seed>& seeds = found[begin / block_size];
     for (int p = static_cast<int>(begin); p < end; ++p) {
       for (int i = stars_.offset[p]; i < stars_.offset[p + 1]; ++i) {
         if (!(metric.cotan_sum[i] < flip_below)) continue;
@@ -150,7 +153,7 @@ std::vector<int> PartialCover::findSeeds(const StarMetric& metric, const Workers
       }
     });
   });
-  std::vector<int> sides;
+  Buffer<int> sides;
   for (const auto& part : found) {
     for (const Seed& seed : part) {
       if (!isPresent(seed.side.star)) add(seed.side.star);
@@ -177,12 +180,12 @@ void PartialCover::reserve() {
 
 FlipCounts PartialCover::flipToDelaunay(const StarMetric& metric, const Workers& workers) {
   reserve();
-  const std::vector<int> seeds = findSeeds(metric, workers);
+  const Buffer<int> seeds = findSeeds(metric, workers);
   Flipping flipping(*this);
   return flipEdges(flipping, seeds, workers);
 }
 
-void PartialCover::fillStar(int p, const std::vector<int>& first, IntrinsicTriangulation& whole) const {
+void PartialCover::fillStar(int p, const Buffer<int>& first, IntrinsicTriangulation& whole) const {
   int t = first[p];
   for (int i = stars_.offset[p]; i < stars_.offset[p + 1]; ++i) {
     if (!stars_.hasTriangle(i)) continue;
@@ -203,7 +206,7 @@ void PartialCover::fillStar(int p, const std::vector<int>& first, IntrinsicTrian
   forEachSpoke(stars_, p, first[p], [&](int before, int after) { glueSpoke(whole, before, after); });
 }
 
-void PartialCover::copyStar(int p, const std::vector<int>& first, const std::vector<int>& triangle,
+void PartialCover::copyStar(int p, const Buffer<int>& first, const Buffer<int>& triangle,
                             IntrinsicTriangulation& whole) const {
   const int from = 6 * first_[p], to = 6 * first[p];
   for (int s = 0; s < 6 * (first[p + 1] - first[p]); ++s) {
@@ -217,9 +220,9 @@ void PartialCover::copyStar(int p, const std::vector<int>& first, const std::vec
 
 IntrinsicTriangulation PartialCover::complete(const Workers& workers) const {
   const int n = stars_.size();
-  std::vector<int> first(static_cast<std::size_t>(n) + 1);  // triangle of each star
+  Buffer<int> first(static_cast<std::size_t>(n) + 1);  // triangle of each star
   for (int p = 0; p < n; ++p) first[p + 1] = first[p] + trianglesBefore(stars_, p, stars_.offset[p + 1]);
-  std::vector<int> triangle(entry_of_.size());  // number in the whole of each that is present
+  Buffer<int> triangle(entry_of_.size());  // number in the whole of each that is present
   for (int p = 0; p < n; ++p) {
     if (isPresent(p))
       std::iota(triangle.begin() + first_[p], triangle.begin() + first_[p] + first[p + 1] - first[p], first[p]);

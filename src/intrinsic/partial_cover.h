@@ -1,8 +1,8 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
+#include "base/buffer.h"
 #include "base/parallel.h"
 #include "cloud/agreement.h"
 #include "intrinsic/cover.h"
@@ -23,7 +23,7 @@ class PartialCover {
   FlipCounts flipToDelaunay(const StarMetric& metric, const Workers& workers);
 
   /// The faces of the stars that are present; 2 t and 2 t + 1 are front and back of a triangle until they are flipped.
-  const IntrinsicTriangulation& faces() const { return cover_; }
+  const CoverBuffer& faces() const { return cover_; }
   bool isPresent(int p) const { return first_[p] >= 0; }
   /// Whether a face at p was flipped.
   bool isFlipped(int p) const { return flipped_[p] != 0; }
@@ -40,23 +40,22 @@ class PartialCover {
   /// The side whose minus copy the plus copy of this one is glued to, or the other way round. The plus copy runs from
   /// the smaller to the larger vertex.
   StarSide mateOf(const StarSide& side, bool is_plus) const;
-  std::vector<int> findSeeds(const StarMetric& metric, const Workers& workers);
+  Buffer<int> findSeeds(const StarMetric& metric, const Workers& workers);
   double cotanAt(const StarSide& side) const;
-  int sideNumber(const StarSide& side, bool is_front, const std::vector<int>& first) const;
+  int sideNumber(const StarSide& side, bool is_front, const Buffer<int>& first) const;
   bool runsUp(const StarSide& side) const { return tail(stars_, side) < head(stars_, side); }
   /// Writes the star of p into the whole cover as the stars have it, then as flips have left it.
   /// @param first the first triangle of each star in the whole
-  void fillStar(int p, const std::vector<int>& first, IntrinsicTriangulation& whole) const;
-  void copyStar(int p, const std::vector<int>& first, const std::vector<int>& triangle,
-                IntrinsicTriangulation& whole) const;
+  void fillStar(int p, const Buffer<int>& first, IntrinsicTriangulation& whole) const;
+  void copyStar(int p, const Buffer<int>& first, const Buffer<int>& triangle, IntrinsicTriangulation& whole) const;
 
   const Stars& stars_;
   const EdgeLengths& length_;
   const StarPools& pools_;
-  IntrinsicTriangulation cover_;
-  std::vector<int> first_;             ///< n, the first triangle of a star, -1 where absent
-  std::vector<int> entry_of_;          ///< link entry of each triangle that is present
-  std::vector<std::uint8_t> flipped_;  ///< n
+  CoverBuffer cover_;
+  Buffer<int> first_;             ///< n, the first triangle of a star, -1 where absent
+  Buffer<int> entry_of_;          ///< link entry of each triangle that is present
+  Buffer<std::uint8_t> flipped_;  ///< n
 };
 
 }  // namespace tufted

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "base/buffer.h"
 #include "intrinsic/geometry.h"
 
 namespace tufted {
@@ -21,7 +22,7 @@ class StarMeasurer {
   StarMeasurer(const Stars& stars, const EdgeLengths& length, StarMetric& metric)
       : stars_(stars), length_(length), metric_(metric) {}
 
-  void measure(int p, std::vector<double>& spokes, BlockSums& sums) const {
+  void measure(int p, Buffer<double>& spokes, BlockSums& sums) const {
     const int begin = stars_.offset[p], end = stars_.offset[p + 1];
     const double nan = std::numeric_limits<double>::quiet_NaN();
     spokes.clear();
@@ -67,10 +68,10 @@ StarMetric measureStars(const Stars& stars, const EdgeLengths& length, const Wor
   metric.cotan_sum.resize(stars.link.size());
   metric.area.resize(stars.size());
   metric.is_flat.resize(stars.size());
-  std::vector<BlockSums> sums((stars.size() + block_size - 1) / block_size);
+  Buffer<BlockSums> sums((stars.size() + block_size - 1) / block_size);
   const StarMeasurer measurer(stars, length, metric);
   workers.forBlocks("lengths", stars.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
-    std::vector<double> spokes;
+    Buffer<double> spokes;
     for (int p = static_cast<int>(begin); p < end; ++p) measurer.measure(p, spokes, sums[begin / block_size]);
   });
   BlockSums all;

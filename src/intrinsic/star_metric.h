@@ -1,8 +1,8 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
+#include "base/buffer.h"
 #include "base/parallel.h"
 #include "cloud/stars.h"
 #include "intrinsic/cover.h"
@@ -12,11 +12,11 @@ namespace tufted {
 
 /// What the lengths of the edges say about every star.
 struct StarMetric {
-  std::vector<double> cotan_sum;  ///< per link entry: of the two angles opposite the spoke, NaN without two triangles
-  std::vector<double> area;       ///< n, of the star's triangles
-  std::vector<std::uint8_t> is_flat;  ///< n, 1 where a triangle of the star has no area
-  double least_slack = 0;             ///< of the triangle inequality, over all triangles
-  MeanLengths mean;                   ///< over all sides of all triangles
+  Buffer<double> cotan_sum;      ///< per link entry: of the two angles opposite the spoke, NaN without two triangles
+  Buffer<double> area;           ///< n, of the star's triangles
+  Buffer<std::uint8_t> is_flat;  ///< n, 1 where a triangle of the star has no area
+  double least_slack = 0;        ///< of the triangle inequality, over all triangles
+  MeanLengths mean;              ///< over all sides of all triangles
 };
 
 StarMetric measureStars(const Stars& stars, const EdgeLengths& length, const Workers& workers);

@@ -4,6 +4,9 @@
 #include <numeric>
 #include <utility>
 
+#include "base/buffer.h"
+#include "base/point_buffer.h"
+#include "base/stable_sort.h"
 #include "cloud/agreement.h"
 #include "intrinsic/edge_order.h"
 
@@ -25,7 +28,7 @@ void forEachOpenSide(const Stars& stars, int p, const Visit& visit) {
 
 }  // namespace
 
-StarPools::StarPools(const Stars& stars, const Points& points, const Workers& workers) : stars_(stars) {
+StarPools::StarPools(const Stars& stars, const PointsView& points, const Workers& workers) : stars_(stars) {
   collect(workers);
   sort(points, workers);
 }
@@ -44,24 +47,26 @@ void StarPools::collect(const Workers& workers) {
   forEachPooled([&](const StarSide&, const auto& ends) { ++offset_[ends.first + 1]; });
   std::partial_sum(offset_.begin(), offset_.end(), offset_.begin());
   pooled_.resize(static_cast<std::size_t>(offset_.back()));
-  std::vector<int> fill(offset_.begin(), offset_.end() - 1);
+  Buffer<int> fill(offset_.begin(), offset_.end() - 1);
   forEachPooled([&](const StarSide& side, const auto& ends) { pooled_[fill[ends.first]++] = {ends.second, side}; });
 }
 
-void StarPools::sort(const Points& points, const Workers& workers) {
+void StarPools::sort(const PointsView& points, const Workers& workers) {
   workers.forBlocks("glue", stars_.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
-    std::vector<std::pair<double, Pooled>> keys;
+    Buffer<Pooled> sides;
+    Buffer<std::pair<double, Pooled>> keys, sorted;
     for (int low = static_cast<int>(begin); low < end; ++low) {
-      const auto first = pooled_.begin() + offset_[low], last = pooled_.begin() + offset_[low + 1];
       // They came in the order of stars and entries, which decides ties.
-      std::stable_sort(first, last, [](const Pooled& a, const Pooled& b) { return a.high < b.high; });
+      stableSort(pooled_.data() + offset_[low], pooled_.data() + offset_[low + 1], sides,
+                 [](const Pooled& a, const Pooled& b) { return a.high < b.high; });
       for (int i = offset_[low]; i < offset_[low + 1];) {
         const int stop = endOfPool(i);
         if (stop - i > 2) {  // any order of two is the same one
           const DihedralOrder order(points, low, pooled_[i].high);
           keys.clear();
           for (int j = i; j < stop; ++j) keys.emplace_back(order.key(apex(stars_, pooled_[j].side)), pooled_[j]);
-          std::stable_sort(keys.begin(), keys.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+          stableSort(keys.data(), keys.data() + keys.size(), sorted,
+                     [](const auto& a, const auto& b) { return a.first < b.first; });
           for (int j = i; j < stop; ++j) pooled_[j] = keys[j - i].second;
         }
         i = stop;

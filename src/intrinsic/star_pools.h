@@ -2,9 +2,10 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
+#include "base/buffer.h"
 #include "base/parallel.h"
+#include "base/point_buffer.h"
 #include "cloud/stars.h"
 
 namespace tufted {
@@ -37,7 +38,7 @@ inline int apex(const Stars& stars, const StarSide& s) {
 class StarPools {
  public:
   /// @param stars borrowed
-  StarPools(const Stars& stars, const Points& points, const Workers& workers);
+  StarPools(const Stars& stars, const PointsView& points, const Workers& workers);
 
   /// The sides after and before this one around its edge; itself where there is no other.
   StarSide next(const StarSide& side) const { return neighbor(side, 1); }
@@ -67,12 +68,12 @@ class StarPools {
   StarSide neighbor(const StarSide& side, int step) const;
   StarSide acrossAgreeing(const StarSide& side, int agreeing, int other) const;
   void collect(const Workers& workers);
-  void sort(const Points& points, const Workers& workers);
+  void sort(const PointsView& points, const Workers& workers);
   int endOfPool(int i) const;
 
   const Stars& stars_;
-  std::vector<int> offset_;  ///< n + 1, by smaller vertex
-  std::vector<Pooled> pooled_;
+  Buffer<int> offset_;  ///< n + 1, by smaller vertex
+  Buffer<Pooled> pooled_;
 };
 
 }  // namespace tufted

@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "base/buffer.h"
 #include "base/disjoint_sets.h"
-#include "base/release.h"
 #include "intrinsic/geometry.h"
 #include "operators/rows.h"
 #include "tufted/errors.h"
@@ -26,7 +26,7 @@ double edgeWeight(const IntrinsicTriangulation& cover, int side) {
 
 /// Side numbers of each vertex, one vertex after the other.
 struct SideLists {
-  std::vector<int> offset, sides;
+  Buffer<int> offset, sides;
 };
 
 /// Sides, one per edge, filed under the smaller vertex; edges from a vertex to itself are left out.
@@ -34,13 +34,13 @@ SideLists sidesByVertex(const IntrinsicTriangulation& cover) {
   const int sides = static_cast<int>(3 * cover.size());
   const auto counts = [&](int side) { return side < cover.glue[side] && tail(cover, side) != head(cover, side); };
   const auto owner = [&](int side) { return std::min(tail(cover, side), head(cover, side)); };
-  std::vector<int> offset(static_cast<std::size_t>(cover.vertices) + 1);
+  Buffer<int> offset(static_cast<std::size_t>(cover.vertices) + 1);
   for (int side = 0; side < sides; ++side) {
     if (counts(side)) ++offset[owner(side) + 1];
   }
   std::partial_sum(offset.begin(), offset.end(), offset.begin());
-  std::vector<int> list(offset.back());
-  std::vector<int> fill(offset.begin(), offset.end() - 1);
+  Buffer<int> list(offset.back());
+  Buffer<int> fill(offset.begin(), offset.end() - 1);
   for (int side = 0; side < sides; ++side) {
     if (counts(side)) list[fill[owner(side)]++] = side;
   }
@@ -52,19 +52,19 @@ Rows sumWeights(const IntrinsicTriangulation& cover, double scale, const Workers
   const SideLists lists = sidesByVertex(cover);
   Rows upper;
   upper.offset.assign(lists.offset.size(), 0);
-  std::vector<std::vector<Entry>> parts((cover.vertices + block_size - 1) / block_size);
+  Buffer<Buffer<Entry>> parts((cover.vertices + block_size - 1) / block_size);
   workers.forBlocks("assemble", cover.vertices, block_size, [&](std::int64_t begin, std::int64_t end, int) {
-    std::vector<Entry>& part = parts[begin / block_size];
-    std::vector<Entry> row;
+    Buffer<Entry>& part = parts[begin / block_size];
+    Buffer<Entry> row, scratch;
     for (int v = static_cast<int>(begin); v < end; ++v) {
       row.clear();
       for (int i = lists.offset[v]; i < lists.offset[v + 1]; ++i) {
         const int side = lists.sides[i];
         row.push_back({std::max(tail(cover, side), head(cover, side)), scale * edgeWeight(cover, side)});
       }
-      const auto end_of_row = mergeColumns(row.begin(), row.end());
-      part.insert(part.end(), row.begin(), end_of_row);
-      upper.offset[v + 1] = static_cast<int>(end_of_row - row.begin());
+      Entry* const end_of_row = mergeColumns(row.data(), row.data() + row.size(), scratch);
+      part.insert(part.end(), row.data(), end_of_row);
+      upper.offset[v + 1] = static_cast<int>(end_of_row - row.data());
     }
   });
   std::partial_sum(upper.offset.begin(), upper.offset.end(), upper.offset.begin());
@@ -77,9 +77,9 @@ Rows sumWeights(const IntrinsicTriangulation& cover, double scale, const Workers
 }
 
 /// Minus the row sums, in ascending order of both halves.
-std::vector<double> sumDiagonal(const Rows& upper) {
+Buffer<double> sumDiagonal(const Rows& upper) {
   const int n = static_cast<int>(upper.offset.size()) - 1;
-  std::vector<double> diagonal(n);
+  Buffer<double> diagonal(n);
   for (int v = 0; v < n; ++v) {  // when row v comes, all smaller vertices have added theirs
     for (int i = upper.offset[v]; i < upper.offset[v + 1]; ++i) {
       diagonal[v] += upper.entries[i].weight;
@@ -89,7 +89,7 @@ std::vector<double> sumDiagonal(const Rows& upper) {
   return diagonal;
 }
 
-void clampNegative(Rows& upper, const std::vector<double>& diagonal, Report& report) {
+void clampNegative(Rows& upper, const Buffer<double>& diagonal, Report& report) {
   const int n = static_cast<int>(diagonal.size());
   for (int v = 0; v < n; ++v) {
     for (int i = upper.offset[v]; i < upper.offset[v + 1]; ++i) {
@@ -105,11 +105,11 @@ void clampNegative(Rows& upper, const std::vector<double>& diagonal, Report& rep
 }
 
 /// Both halves and the diagonal as compressed columns in the caller's numbering. Zero weights are not stored.
-SparseMatrix toCallerOrder(const Rows& upper, const std::vector<double>& diagonal, const std::vector<int>& caller,
-                           int size) {
+void toCallerOrder(const Rows& upper, const Buffer<double>& diagonal, const Buffer<int>& caller, int size,
+                   SparseMatrix& L) {
   const int n = static_cast<int>(diagonal.size());
-  SparseMatrix L(size, size);
-  std::vector<int> fill(static_cast<std::size_t>(size) + 1);
+  L.resize(size, size);
+  Buffer<int> fill(static_cast<std::size_t>(size) + 1);
   const auto forEachEntry = [&](auto visit) {  // visit(column, row, value), both halves
     for (int v = 0; v < n; ++v) {
       if (diagonal[v] > 0) visit(caller[v], caller[v], diagonal[v]);
@@ -123,20 +123,19 @@ SparseMatrix toCallerOrder(const Rows& upper, const std::vector<double>& diagona
   };
   forEachEntry([&](int column, int, double) { ++fill[column + 1]; });
   std::partial_sum(fill.begin(), fill.end(), fill.begin());
-  L.resizeNonZeros(fill.back());
+  resizeEntries(L, fill.back());
   std::copy(fill.begin(), fill.end(), L.outerIndexPtr());
   forEachEntry([&](int column, int row, double value) {
     const int place = fill[column]++;
     L.innerIndexPtr()[place] = row;
     L.valuePtr()[place] = value;
   });
-  return L;
 }
 
 /// Sorts the rows within each column.
 void sortColumns(SparseMatrix& L, const Workers& workers) {
   workers.forBlocks("assemble", L.cols(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
-    std::vector<std::pair<int, double>> column;
+    Buffer<std::pair<int, double>> column;
     for (std::int64_t j = begin; j < end; ++j) {
       column.clear();
       const int first = L.outerIndexPtr()[j], last = L.outerIndexPtr()[j + 1];
@@ -151,21 +150,21 @@ void sortColumns(SparseMatrix& L, const Workers& workers) {
 }
 
 /// A third of each face's area to each corner (Section 3.3), summed in the order of the faces.
-VectorXd lumpAreas(const IntrinsicTriangulation& cover, const std::vector<int>& caller, int size, double scale,
-                   Report& report) {
-  VectorXd M = VectorXd::Zero(size);
+void lumpAreas(const IntrinsicTriangulation& cover, const Buffer<int>& caller, int size, double scale, VectorXd& M,
+               Report& report) {
+  M.setZero(size);
   for (int f = 0; f < cover.size(); ++f) {
     const double area = faceArea(cover, f);
     report.degenerate_faces += area > 0 ? 0 : 1;
     for (const int corner : cover.faces[f]) M[caller[corner]] += scale * area / 3;
   }
-  return M;
 }
 
 }  // namespace
 
-Matrices assembleLaplacian(const IntrinsicTriangulation& cover, const std::vector<int>& caller, int size, double scale,
-                           const Workers& workers, Report& report) {
+void assembleLaplacian(const IntrinsicTriangulation& cover, const Buffer<int>& caller, int size, double scale,
+                       const Workers& workers, Laplacian& result) {
+  Report& report = result.report;
   Rows upper = sumWeights(cover, scale, workers);
   const auto most_entries = 2 * static_cast<std::int64_t>(upper.entries.size()) + cover.vertices;
   if (most_entries > INT32_MAX) {
@@ -173,17 +172,15 @@ Matrices assembleLaplacian(const IntrinsicTriangulation& cover, const std::vecto
                        std::to_string(INT32_MAX) + ", what an int can number");
   }
   clampNegative(upper, sumDiagonal(upper), report);
-  Matrices matrices;
-  matrices.L = toCallerOrder(upper, sumDiagonal(upper), caller, size);
+  toCallerOrder(upper, sumDiagonal(upper), caller, size, result.L);
   upper = {};
-  sortColumns(matrices.L, workers);
-  matrices.M = lumpAreas(cover, caller, size, scale, report);
+  sortColumns(result.L, workers);
+  lumpAreas(cover, caller, size, scale, result.M, report);
   for (int i = 0; i < size; ++i) {  // no row, no mass: the point takes no part
-    if (matrices.L.outerIndexPtr()[i] == matrices.L.outerIndexPtr()[i + 1]) matrices.M[i] = 0;
+    if (result.L.outerIndexPtr()[i] == result.L.outerIndexPtr()[i + 1]) result.M[i] = 0;
   }
-  report.nonzeros = matrices.L.nonZeros();
-  report.components = countComponents(matrices.L);
-  return matrices;
+  report.nonzeros = result.L.nonZeros();
+  report.components = countComponents(result.L);
 }
 
 std::int64_t countComponents(const SparseMatrix& L) {

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <vector>
-
+#include "base/buffer.h"
 #include "base/parallel.h"
+#include "base/workspace.h"
 #include "tufted/intrinsic_triangulation.h"
-#include "tufted/report.h"
+#include "tufted/laplacian.h"
 #include "tufted/types.h"
 
 namespace tufted {
@@ -12,22 +12,24 @@ namespace tufted {
 /// Negative weights up to this share of the larger diagonal are rounding.
 constexpr double weight_rounding = 1e-9;
 
-/// L and M in the caller's numbering.
-struct Matrices {
-  SparseMatrix L;  ///< N x N, see Laplacian
-  VectorXd M;      ///< N, in units of the cover's length squared
-};
+/// Room for so many entries, in memory that L has or new one; in a workspace with some to spare, since the next frame
+/// may have a few more.
+inline void resizeEntries(SparseMatrix& L, std::int64_t entries) {
+  L.data().resize(entries, Workspace::current() != nullptr ? 0.125 : 0);
+}
 
 /// Cotan Laplacian and lumped areas of a cover (Algorithm 3, lines 6 to 15), times `scale`.
 ///
 /// Sums run in the cover's own numbering, so they do not depend on the caller's. The diagonal is minus the sum of the
 /// other entries. Negative weights are set to 0: those within 1e-9 of the larger diagonal are rounding, others are
 /// counted as failures in the report.
+/// @param[out] result L and M, in the memory that they have, in units of the cover's length; and what the report says
+/// about them
 /// @param cover vertices in [0, n)
 /// @param caller n, the caller's index of each vertex
 /// @param size N
-Matrices assembleLaplacian(const IntrinsicTriangulation& cover, const std::vector<int>& caller, int size, double scale,
-                           const Workers& workers, Report& report);
+void assembleLaplacian(const IntrinsicTriangulation& cover, const Buffer<int>& caller, int size, double scale,
+                       const Workers& workers, Laplacian& result);
 
 /// Connected components of the graph of L among rows with a positive diagonal.
 std::int64_t countComponents(const SparseMatrix& L);

@@ -1,7 +1,10 @@
 #include <algorithm>
 #include <numeric>
 
+#include "base/buffer.h"
+#include "base/point_buffer.h"
 #include "base/scaling.h"
+#include "operators/build.h"
 #include "operators/pipeline.h"
 
 namespace tufted {
@@ -10,9 +13,9 @@ namespace {
 constexpr const char* function_name = "meshLaplacian";
 
 /// Indices of the triangles that can be used; the others are counted.
-std::vector<int> usableTriangles(const Points& points, const Triangles& triangles,
-                                 const std::vector<PointStatus>& status, Report& report) {
-  std::vector<int> usable;
+Buffer<int> usableTriangles(const Points& points, const Triangles& triangles, const std::vector<PointStatus>& status,
+                            Report& report) {
+  Buffer<int> usable;
   usable.reserve(static_cast<std::size_t>(triangles.rows()));
   for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
     const int i = triangles(t, 0), j = triangles(t, 1), k = triangles(t, 2);
@@ -37,34 +40,40 @@ std::vector<int> usableTriangles(const Points& points, const Triangles& triangle
 }  // namespace
 
 Laplacian meshLaplacian(const Points& points, const Triangles& triangles, const MeshOptions& options) {
+  Laplacian result;
+  buildMeshLaplacian(points, triangles, options, result);
+  return result;
+}
+
+void buildMeshLaplacian(const Points& points, const Triangles& triangles, const MeshOptions& options,
+                        Laplacian& result) {
   checkCommon(function_name, options);
   if (points.rows() > INT32_MAX || triangles.rows() > most_triangles) {
     throw InvalidInput(std::string(function_name) + ": " + std::to_string(triangles.rows()) +
                        " triangles, must be at most " + std::to_string(most_triangles));
   }
   const Workers workers(options.threads, options.progress);
-  Laplacian result;
+  restart(result, points.rows(), workers);
   Report& report = result.report;
   StageClock clock(report);
   const int n = static_cast<int>(points.rows());
-  report.points = n;
-  report.threads = workers.count();
 
   workers.report("scale", 0);
   const Scaling scaling = measureScaling(points, result.status);
   const PowerOfTwo to_scaled = scaling.toScaled();
-  Points scaled(n, 3);
+  PointBuffer scaled(n);
   for (int i = 0; i < n; ++i) {
     for (int axis = 0; axis < 3; ++axis)
-      scaled(i, axis) = to_scaled.times(points(i, axis)) + 0.0;  // no -0: equal have equal bits
+      scaled.row(i)[axis] = to_scaled.times(points(i, axis)) + 0.0;  // no -0: equal have equal bits
   }
   result.representative.resize(n);
   std::iota(result.representative.begin(), result.representative.end(), 0);
   result.boundary.assign(n, Boundary::none);
-  const std::vector<int> usable = usableTriangles(points, triangles, result.status, report);
+  result.frames = {};
+  const Buffer<int> usable = usableTriangles(points, triangles, result.status, report);
   clock.finish("scale", static_cast<std::size_t>(n) * 3 * sizeof(double) + bytesOf(usable));
 
-  auto cover = std::make_shared<IntrinsicTriangulation>();
+  std::shared_ptr<IntrinsicTriangulation> cover = takeCover(result);
   resizeCover(*cover, n, static_cast<std::int64_t>(usable.size()));
   for (std::size_t t = 0; t < usable.size(); ++t) {
     const auto corner = triangles.row(usable[t]);
@@ -73,13 +82,12 @@ Laplacian meshLaplacian(const Points& points, const Triangles& triangles, const 
   const EdgeCounts edges = glueEdges(*cover, scaled, {options.order, options.seed}, workers, &result.boundary);
   report.boundary_edges = edges.boundary;
   report.nonmanifold_edges = edges.nonmanifold;
-  clock.finish("cover", bytesOf(*cover));
+  clock.finish("cover", bytesOfCover(*cover));
 
-  std::vector<int> caller(n);
+  Buffer<int> caller(n);
   std::iota(caller.begin(), caller.end(), 0);
-  finishLaplacian(std::move(cover), scaled, Points(0, 3), caller, scaling.exponent, 1.0 / 2, options, workers, clock,
+  finishLaplacian(std::move(cover), scaled, PointBuffer(), caller, scaling.exponent, 1.0 / 2, options, workers, clock,
                   result);
-  return result;
 }
 
 }  // namespace tufted

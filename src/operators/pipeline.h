@@ -4,10 +4,13 @@
 #include <cmath>
 #include <memory>
 #include <string>
+#include <utility>
 #include <vector>
 
+#include "base/buffer.h"
 #include "base/number_text.h"
 #include "base/parallel.h"
+#include "base/point_buffer.h"
 #include "base/power_of_two.h"
 #include "base/stage_clock.h"
 #include "intrinsic/cover.h"
@@ -19,19 +22,19 @@ namespace tufted {
 
 // What the cloud and the mesh pipeline have in common.
 
-inline std::size_t bytesOf(const IntrinsicTriangulation& cover) {
+template <class Triangulation>
+std::size_t bytesOfCover(const Triangulation& cover) {
   return bytesOf(cover.faces) + bytesOf(cover.glue) + bytesOf(cover.length);
 }
 
 /// @throws InvalidInput for options that both entry points share
 template <class Options>
 void checkCommon(const char* function, const Options& options) {
-  const std::string name = function;
   if (!(options.mollify >= 0 && options.mollify <= 1)) {
-    throw InvalidInput(name + ": mollify = " + numberText(options.mollify) + ", must lie in [0, 1]");
+    throw InvalidInput(std::string(function) + ": mollify = " + numberText(options.mollify) + ", must lie in [0, 1]");
   }
   if (options.threads < 0) {
-    throw InvalidInput(name + ": threads = " + std::to_string(options.threads) + ", must be >= 0");
+    throw InvalidInput(std::string(function) + ": threads = " + std::to_string(options.threads) + ", must be >= 0");
   }
 }
 
@@ -39,6 +42,24 @@ inline void countBoundary(Boundary boundary, Report& report) {
   report.rim_points += boundary == Boundary::rim ? 1 : 0;
   report.jump_points += boundary == Boundary::jump ? 1 : 0;
   report.lost_points += boundary == Boundary::lost ? 1 : 0;
+}
+
+/// Forgets the result of another frame, but for the memory of its arrays.
+inline void restart(Laplacian& result, std::int64_t points, const Workers& workers) {
+  result.cover_source.reset();
+  std::vector<StageCost> stages = std::move(result.report.stages);
+  stages.clear();
+  result.report = {};
+  result.report.stages = std::move(stages);
+  result.report.points = points;
+  result.report.threads = workers.count();
+}
+
+/// The cover of another frame, if nobody else has it, or a new one.
+inline std::shared_ptr<IntrinsicTriangulation> takeCover(Laplacian& result) {
+  const auto stored = std::exchange(result.stored_cover, nullptr);
+  return stored.use_count() == 1 ? std::const_pointer_cast<IntrinsicTriangulation>(stored)
+                                 : std::make_shared<IntrinsicTriangulation>();
 }
 
 /// What a build knows beside L and M, in units of the points that it worked on.
@@ -49,12 +70,10 @@ struct BuildFigures {
   std::int64_t triangles = 0;
 };
 
-/// Completes the result in the caller's unit.
+/// Completes the result, which has L and M, in the caller's unit.
 /// @param exponent the build's unit is 2^exponent of the caller's
-inline void finishResult(Matrices matrices, const BuildFigures& figures, int exponent, Laplacian& result) {
+inline void finishResult(const BuildFigures& figures, int exponent, Laplacian& result) {
   Report& report = result.report;
-  result.L.swap(matrices.L);
-  result.M = std::move(matrices.M);
 
   // Back from units of 2^exponent, which is exact.
   const PowerOfTwo area_unit(2 * exponent);
@@ -85,7 +104,7 @@ inline void finishResult(Matrices matrices, const BuildFigures& figures, int exp
 }
 
 /// Brings a cover into the caller's numbering and unit.
-inline void toCaller(IntrinsicTriangulation& cover, const std::vector<int>& caller, int size, int exponent) {
+inline void toCaller(IntrinsicTriangulation& cover, const Buffer<int>& caller, int size, int exponent) {
   cover.vertices = size;
   for (auto& face : cover.faces) {
     for (int& corner : face) corner = caller[corner];
@@ -106,8 +125,8 @@ inline std::size_t bytesOfMatrices(const Laplacian& result) {
 /// @param caller the caller's index of each vertex
 /// @param scale 1/2 for the two sheets, times 1/3 where every triangle comes thrice
 template <class Options>
-void finishLaplacian(std::shared_ptr<IntrinsicTriangulation> cover, const Points& points, const Points& move,
-                     const std::vector<int>& caller, int exponent, double scale, const Options& options,
+void finishLaplacian(std::shared_ptr<IntrinsicTriangulation> cover, const PointsView& points, const PointsView& move,
+                     const Buffer<int>& caller, int exponent, double scale, const Options& options,
                      const Workers& workers, StageClock& clock, Laplacian& result) {
   BuildFigures figures{.mean = measureLengths(*cover, points, move, workers)};
   figures.mollify_length = mollify(*cover, options.mollify * figures.mean.length, workers);
@@ -118,7 +137,8 @@ void finishLaplacian(std::shared_ptr<IntrinsicTriangulation> cover, const Points
   clock.finish("flips", 0);
 
   const int size = static_cast<int>(result.status.size());
-  finishResult(assembleLaplacian(*cover, caller, size, scale, workers, result.report), figures, exponent, result);
+  assembleLaplacian(*cover, caller, size, scale, workers, result);
+  finishResult(figures, exponent, result);
   if (options.keep_cover) {
     toCaller(*cover, caller, size, exponent);
     result.stored_cover = std::move(cover);

@@ -4,13 +4,13 @@
 #include <optional>
 
 #include "base/number_text.h"
-#include "base/release.h"
+#include "base/point_buffer.h"
 #include "cloud/boundary.h"
 #include "cloud/morton.h"
 #include "cloud/neighbor_source.h"
 #include "cloud/surface_stars.h"
 #include "cloud/tangent_frame.h"
-#include "operators/cloud_build.h"
+#include "operators/build.h"
 #include "operators/pipeline.h"
 #include "operators/star_laplacian.h"
 #include "operators/star_mass.h"
@@ -22,30 +22,30 @@ constexpr std::int64_t block_size = 4096;
 constexpr const char* function_name = "pointCloudLaplacian";
 
 void checkOptions(const Points& points, const CloudOptions& options) {
-  const std::string name = function_name;
+  const auto name = [] { return std::string(function_name); };
   checkCommon(function_name, options);
   if (options.neighbors < 3) {
-    throw InvalidInput(name + ": neighbors = " + std::to_string(options.neighbors) + ", must be at least 3");
+    throw InvalidInput(name() + ": neighbors = " + std::to_string(options.neighbors) + ", must be at least 3");
   }
   const auto checkRows = [&](const char* what, Eigen::Index rows) {
     if (rows != points.rows()) {
-      throw InvalidInput(name + ": " + what + " has " + std::to_string(rows) + " rows, must have " +
+      throw InvalidInput(name() + ": " + what + " has " + std::to_string(rows) + " rows, must have " +
                          std::to_string(points.rows()) + ", one per point");
     }
   };
   if (options.viewpoint != nullptr && !options.viewpoint->allFinite()) {
     const Eigen::Vector3d& v = *options.viewpoint;
-    throw InvalidInput(name + ": viewpoint = " + numberText(v.x()) + " " + numberText(v.y()) + " " + numberText(v.z()) +
-                       ", must be finite");
+    throw InvalidInput(name() + ": viewpoint = " + numberText(v.x()) + " " + numberText(v.y()) + " " +
+                       numberText(v.z()) + ", must be finite");
   }
   if (options.normals != nullptr) checkRows("normals", options.normals->rows());
   if (options.structure != nullptr && options.neighborhoods != nullptr) {
-    throw InvalidInput(name + ": structure and neighborhoods are both given, must be one at most");
+    throw InvalidInput(name() + ": structure and neighborhoods are both given, must be one at most");
   }
   if (options.neighborhoods != nullptr) checkRows("neighborhoods", options.neighborhoods->rows());
 #ifndef TUFTED_WITH_GPL
   if (options.delaunay == Delaunay::cgal) {
-    throw InvalidInput(name + ": delaunay = cgal, must be star: this library was built without TUFTED_WITH_GPL");
+    throw InvalidInput(name() + ": delaunay = cgal, must be star: this library was built without TUFTED_WITH_GPL");
   }
 #endif
 }
@@ -60,7 +60,7 @@ void checkOptions(const Points& points, const CloudOptions& options) {
 /// share a spoke are glued to each other here, front to front and back to back.
 void addStars(const Stars& stars, Gluing gluing, IntrinsicTriangulation& cover, const Workers& workers) {
   const int n = stars.size();
-  std::vector<int> first(static_cast<std::size_t>(n) + 1);
+  Buffer<int> first(static_cast<std::size_t>(n) + 1);
   for (int p = 0; p < n; ++p) {
     first[p + 1] = first[p];
     for (int i = stars.offset[p]; i < stars.offset[p + 1]; ++i) first[p + 1] += stars.hasTriangle(i) ? 1 : 0;
@@ -90,7 +90,7 @@ void addStars(const Stars& stars, Gluing gluing, IntrinsicTriangulation& cover, 
 }
 
 /// Boundary tags and frames in the caller's order; coincident points take the frame of their representative.
-void describePoints(const Stars& stars, const std::vector<Boundary>& boundary, const RankedCloud& cloud,
+void describePoints(const Stars& stars, const Buffer<Boundary>& boundary, const RankedCloud& cloud,
                     const Workers& workers, Laplacian& result) {
   const auto n = static_cast<Eigen::Index>(result.status.size());
   result.boundary.assign(result.status.size(), Boundary::none);
@@ -113,13 +113,13 @@ void describePoints(const Stars& stars, const std::vector<Boundary>& boundary, c
 }
 
 /// Makes the stars' own areas M where they are positive and the point has a row.
-void takeAreas(const VectorXd& areas, const std::vector<int>& caller, int exponent, Laplacian& result) {
+void takeAreas(const Buffer<double>& areas, const Buffer<int>& caller, int exponent, Laplacian& result) {
   const PowerOfTwo area_unit(2 * exponent);
   for (std::size_t p = 0; p < caller.size(); ++p) {
     const int i = caller[p];
     if (result.status[i] != PointStatus::active) continue;
-    if (areas[static_cast<Eigen::Index>(p)] > 0)
-      result.M[i] = area_unit.times(areas[static_cast<Eigen::Index>(p)]);
+    if (areas[p] > 0)
+      result.M[i] = area_unit.times(areas[p]);
     else
       ++result.report.cover_masses;
   }
@@ -129,12 +129,12 @@ void takeAreas(const VectorXd& areas, const std::vector<int>& caller, int expone
 /// Algorithm 3 by the whole cover.
 void finishFromCover(Stars stars, const RankedCloud& cloud, const CloudOptions& options, const Workers& workers,
                      StageClock& clock, Laplacian& result) {
-  const Points move = std::move(stars.move);
-  auto cover = std::make_shared<IntrinsicTriangulation>();
+  const PointBuffer move = std::move(stars.move);
+  std::shared_ptr<IntrinsicTriangulation> cover = takeCover(result);
   addStars(stars, options.gluing, *cover, workers);
   stars = {};
   glueEdges(*cover, cloud.points, {options.order, options.seed}, workers);
-  clock.finish("cover", bytesOf(*cover));
+  clock.finish("cover", bytesOfCover(*cover));
   finishLaplacian(std::move(cover), cloud.points, move, cloud.caller, cloud.exponent, 1.0 / 2 / 3, options, workers,
                   clock, result);
 }
@@ -142,20 +142,20 @@ void finishFromCover(Stars stars, const RankedCloud& cloud, const CloudOptions& 
 }  // namespace
 
 Laplacian pointCloudLaplacian(const Points& points, const CloudOptions& options) {
-  return buildCloudLaplacian(points, options, CloudBuild::automatic);
+  Laplacian result;
+  buildCloudLaplacian(points, options, CloudBuild::automatic, result);
+  return result;
 }
 
-Laplacian buildCloudLaplacian(const Points& points, const CloudOptions& options, CloudBuild build) {
+void buildCloudLaplacian(const Points& points, const CloudOptions& options, CloudBuild build, Laplacian& result) {
   checkOptions(points, options);
   if (points.rows() > INT32_MAX) tooMany(points.rows(), 6 * points.rows());
   const Workers workers(options.threads, options.progress);
   const Eigen::Vector3d* viewpoint = options.viewpoint;
   if (viewpoint == nullptr && options.structure != nullptr) viewpoint = &options.structure->origin;
-  Laplacian result;
+  restart(result, points.rows(), workers);
   Report& report = result.report;
   StageClock clock(report);
-  report.points = points.rows();
-  report.threads = workers.count();
 
   workers.report("order", 0);
   RankedCloud cloud = rankPoints(points, result.status, result.representative, workers);
@@ -174,20 +174,21 @@ Laplacian buildCloudLaplacian(const Points& points, const CloudOptions& options,
   release(stars.reach);
   clock.finish("boundary", 0);
 
-  VectorXd areas;
+  Buffer<double> areas;
   if (options.steps.mass == Mass::star) areas = starAreas(stars, cloud.points, workers);
-  const std::vector<int> caller = options.steps.mass == Mass::star ? cloud.caller : std::vector<int>();
+  const Buffer<int> caller = options.steps.mass == Mass::star ? cloud.caller : Buffer<int>();
   const int exponent = cloud.exponent;
   clock.finish("mass", 0);
 
   if (stars.triangles() > most_triangles) tooMany(stars.size(), stars.triangles());
   const bool stars_agree = options.gluing == Gluing::star && options.order == FaceOrder::angle;
-  if (stars_agree && build == CloudBuild::automatic)
+  if (stars_agree && build == CloudBuild::automatic) {
+    result.stored_cover.reset();
     finishFromStars(std::move(stars), std::move(cloud), options, workers, clock, result);
-  else
+  } else {
     finishFromCover(std::move(stars), cloud, options, workers, clock, result);
+  }
   if (options.steps.mass == Mass::star) takeAreas(areas, caller, exponent, result);
-  return result;
 }
 
 CloudSteps cloudSteps(Preset preset) {

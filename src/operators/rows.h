@@ -1,8 +1,7 @@
 #pragma once
 
-#include <algorithm>
-#include <iterator>
-#include <vector>
+#include "base/buffer.h"
+#include "base/stable_sort.h"
 
 namespace tufted {
 
@@ -14,18 +13,17 @@ struct Entry {
 
 /// Rows of entries, one after the other.
 struct Rows {
-  std::vector<int> offset;  ///< one more than rows
-  std::vector<Entry> entries;
+  Buffer<int> offset;  ///< one more than rows
+  Buffer<Entry> entries;
 };
 
 /// Sorts entries by column and sums those of equal columns, in the order given, to the front. Returns where they end.
-template <class Iterator>
-Iterator mergeColumns(Iterator first, Iterator last) {
-  std::stable_sort(first, last, [](const Entry& a, const Entry& b) { return a.column < b.column; });
-  Iterator kept = first;
-  for (Iterator at = first; at != last; ++at) {
-    if (kept != first && std::prev(kept)->column == at->column)
-      std::prev(kept)->weight += at->weight;
+inline Entry* mergeColumns(Entry* first, Entry* last, Buffer<Entry>& scratch) {
+  stableSort(first, last, scratch, [](const Entry& a, const Entry& b) { return a.column < b.column; });
+  Entry* kept = first;
+  for (const Entry* at = first; at != last; ++at) {
+    if (kept != first && (kept - 1)->column == at->column)
+      (kept - 1)->weight += at->weight;
     else
       *kept++ = *at;
   }

@@ -33,8 +33,8 @@ class StarUnion final : public CoverSource {
 
   FlipCounts flip(const StarMetric& metric, const Workers& workers) { return cover_.flipToDelaunay(metric, workers); }
 
-  Matrices assemble(StarMetric& metric, const Workers& workers, Report& report) const {
-    return assembleStars(stars_, metric, cover_, length_, cloud_.caller, size_, 1.0 / 2 / 3, workers, report);
+  void assemble(StarMetric& metric, const Workers& workers, Laplacian& result) const {
+    assembleStars(stars_, metric, cover_, length_, cloud_.caller, size_, 1.0 / 2 / 3, workers, result);
   }
 
   const IntrinsicTriangulation& cover() const override {
@@ -47,7 +47,7 @@ class StarUnion final : public CoverSource {
   }
 
   double mollifyLength() const { return length_.added; }
-  std::size_t bytes() const { return bytesOf(cover_.faces()); }
+  std::size_t bytes() const { return bytesOfCover(cover_.faces()); }
 
  private:
   const Stars stars_;
@@ -67,7 +67,8 @@ void finishFromStars(Stars stars, RankedCloud cloud, const CloudOptions& options
   const int exponent = cloud.exponent;
   BuildFigures figures{.triangles = stars.triangles()};
   const auto stars_and_cover =
-      std::make_shared<StarUnion>(std::move(stars), std::move(cloud), static_cast<int>(result.status.size()), workers);
+      std::allocate_shared<StarUnion>(WorkspaceAllocator<StarUnion>(), std::move(stars), std::move(cloud),
+                                      static_cast<int>(result.status.size()), workers);
   clock.finish("cover", 0);
 
   StarMetric metric = stars_and_cover->measure(options.mollify, workers);
@@ -78,7 +79,8 @@ void finishFromStars(Stars stars, RankedCloud cloud, const CloudOptions& options
   figures.flips = stars_and_cover->flip(metric, workers);
   clock.finish("flips", stars_and_cover->bytes());
 
-  finishResult(stars_and_cover->assemble(metric, workers, result.report), figures, exponent, result);
+  stars_and_cover->assemble(metric, workers, result);
+  finishResult(figures, exponent, result);
   if (options.keep_cover) result.cover_source = stars_and_cover;
   clock.finish("matrices", bytesOfMatrices(result));
   workers.report("done", 1);

@@ -1,5 +1,6 @@
 #include "operators/star_mass.h"
 
+#include "base/point_buffer.h"
 #include "intrinsic/geometry.h"
 
 namespace tufted {
@@ -35,13 +36,13 @@ bool isInside(const Stars& stars, int p) {
 
 }  // namespace
 
-VectorXd starAreas(const Stars& stars, const Points& points, const Workers& workers) {
+Buffer<double> starAreas(const Stars& stars, const PointsView& points, const Workers& workers) {
   const auto distance = [&](int a, int b) {
     Eigen::RowVector3d edge = points.row(a) - points.row(b);
     if (stars.move.rows() > 0) edge += stars.move.row(a) - stars.move.row(b);
     return edge.norm();
   };
-  VectorXd areas = VectorXd::Zero(stars.size());
+  Buffer<double> areas(stars.size());
   workers.forBlocks("mass", stars.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
     for (int p = static_cast<int>(begin); p < end; ++p) {
       CornerAreas sum;

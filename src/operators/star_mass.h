@@ -1,8 +1,7 @@
 #pragma once
 
-#include <vector>
-
 #include "base/parallel.h"
+#include "base/point_buffer.h"
 #include "cloud/stars.h"
 #include "tufted/types.h"
 
@@ -16,6 +15,6 @@ namespace tufted {
 /// obtuse triangle can turn negative.
 /// @param points n x 3, by rank
 /// @returns n areas in units of `points` squared
-VectorXd starAreas(const Stars& stars, const Points& points, const Workers& workers);
+Buffer<double> starAreas(const Stars& stars, const PointsView& points, const Workers& workers);
 
 }  // namespace tufted

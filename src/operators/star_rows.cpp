@@ -7,8 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "base/buffer.h"
 #include "base/disjoint_sets.h"
-#include "base/release.h"
 #include "intrinsic/geometry.h"
 #include "operators/rows.h"
 #include "tufted/errors.h"
@@ -66,7 +66,7 @@ class StarAssembler {
   void weighFaces() {
     Rows terms = collectTerms();
     release(face_area_);
-    const std::vector<int> edges = mergeTerms(terms);
+    const Buffer<int> edges = mergeTerms(terms);
     const auto forBoth = [&](const auto& visit) {
       for (int p = 0; p < stars_.size(); ++p) {
         for (int i = terms.offset[p]; i < terms.offset[p] + edges[p]; ++i) {
@@ -79,7 +79,7 @@ class StarAssembler {
     forBoth([&](int p, int, double) { ++mixed_rows_.offset[p + 1]; });
     std::partial_sum(mixed_rows_.offset.begin(), mixed_rows_.offset.end(), mixed_rows_.offset.begin());
     mixed_rows_.entries.resize(static_cast<std::size_t>(mixed_rows_.offset.back()));
-    std::vector<int> fill(mixed_rows_.offset.begin(), mixed_rows_.offset.end() - 1);
+    Buffer<int> fill(mixed_rows_.offset.begin(), mixed_rows_.offset.end() - 1);
     forBoth([&](int p, int q, double weight) { mixed_rows_.entries[fill[p]++] = {q, weight}; });
   }
 
@@ -107,12 +107,12 @@ class StarAssembler {
   }
 
   /// A third of each face's area to each corner (Section 3.3), by rank.
-  std::vector<double> lumpAreas(Report& report) {
+  Buffer<double> lumpAreas(Report& report) {
     face_area_.resize(cover_.faces().faces.size());
     workers_.forBlocks("assemble", std::ssize(face_area_), block_size, [&](std::int64_t begin, std::int64_t end, int) {
       for (int f = static_cast<int>(begin); f < end; ++f) face_area_[f] = faceArea(cover_.faces(), f);
     });
-    std::vector<double> mass(static_cast<std::size_t>(stars_.size()));
+    Buffer<double> mass(static_cast<std::size_t>(stars_.size()));
     for (int p = 0; p < stars_.size(); ++p)
       if (mixed_[p] == 0) mass[p] = 2 * scale_ * metric_.area[p];  // 2 sheets, 3 stars, a third
     const auto add = [&](int p, double share) {
@@ -123,7 +123,7 @@ class StarAssembler {
       report.degenerate_faces += area > 0 ? 0 : 2;
       for (const int corner : {p, a, b}) add(corner, 2 * scale_ * area / 3);
     });
-    const IntrinsicTriangulation& faces = cover_.faces();
+    const CoverBuffer& faces = cover_.faces();
     for (int f = 0; f < static_cast<int>(faces.size()); ++f) {
       const double area = face_area_[f];
       report.degenerate_faces += area > 0 ? 0 : 1;
@@ -163,7 +163,7 @@ class StarAssembler {
       term(p, b, [&] { return onBothSheets(b, p, a); });
       term(a, b, [&] { return onBothSheets(a, b, p); });
     });
-    const IntrinsicTriangulation& faces = cover_.faces();
+    const CoverBuffer& faces = cover_.faces();
     const auto cotan = [&](int side) {
       const double numerator =
           cotanNumerator(faces.length[side], faces.length[nextSide(side)], faces.length[previousSide(side)]);
@@ -183,33 +183,35 @@ class StarAssembler {
     forEachTerm([&](int low, int, const auto&) { ++terms.offset[low + 1]; });
     std::partial_sum(terms.offset.begin(), terms.offset.end(), terms.offset.begin());
     terms.entries.resize(static_cast<std::size_t>(terms.offset.back()));
-    std::vector<int> fill(terms.offset.begin(), terms.offset.end() - 1);
+    Buffer<int> fill(terms.offset.begin(), terms.offset.end() - 1);
     forEachTerm([&](int low, int high, const auto& weight) { terms.entries[fill[low]++] = {high, weight()}; });
     return terms;
   }
 
   /// Sums the terms of each edge, in their order, to the front of the row. Returns the number of edges in each.
-  std::vector<int> mergeTerms(Rows& terms) const {
-    std::vector<int> edges(static_cast<std::size_t>(stars_.size()));
+  Buffer<int> mergeTerms(Rows& terms) const {
+    Buffer<int> edges(static_cast<std::size_t>(stars_.size()));
     workers_.forBlocks("assemble", stars_.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+      Buffer<Entry> scratch;
       for (int p = static_cast<int>(begin); p < end; ++p) {
-        const auto first = terms.entries.begin() + terms.offset[p], last = terms.entries.begin() + terms.offset[p + 1];
-        edges[p] = static_cast<int>(mergeColumns(first, last) - first);
+        Entry* const first = terms.entries.data() + terms.offset[p];
+        Entry* const last = terms.entries.data() + terms.offset[p + 1];
+        edges[p] = static_cast<int>(mergeColumns(first, last, scratch) - first);
       }
     });
     return edges;
   }
 
   const Stars& stars_;
-  std::vector<double>& weight_;  ///< per link entry, of unmixed stars
+  Buffer<double>& weight_;  ///< per link entry, of unmixed stars
   const StarMetric& metric_;
   const PartialCover& cover_;
   const EdgeLengths& length_;
   const double scale_;
   const Workers& workers_;
-  std::vector<std::uint8_t> mixed_;
-  std::vector<double> face_area_;  ///< of the faces of the cover
-  Rows mixed_rows_;                ///< edges between mixed points, from both ends
+  Buffer<std::uint8_t> mixed_;
+  Buffer<double> face_area_;  ///< of the faces of the cover
+  Rows mixed_rows_;           ///< edges between mixed points, from both ends
 };
 
 /// One column of L, in the order that its entries come in.
@@ -264,8 +266,8 @@ class Column {
   }
 
   int size_ = 0;
-  std::vector<int> row_, order_;
-  std::vector<double> value_;
+  Buffer<int> row_, order_;
+  Buffer<double> value_;
 };
 
 constexpr int ahead = 16;  // columns
@@ -287,19 +289,20 @@ struct Clamped {
 
 }  // namespace
 
-Matrices assembleStars(const Stars& stars, StarMetric& metric, const PartialCover& cover, const EdgeLengths& length,
-                       const std::vector<int>& caller, int size, double scale, const Workers& workers, Report& report) {
+void assembleStars(const Stars& stars, StarMetric& metric, const PartialCover& cover, const EdgeLengths& length,
+                   const Buffer<int>& caller, int size, double scale, const Workers& workers, Laplacian& result) {
+  Report& report = result.report;
   const int n = stars.size();
   StarAssembler assembler(stars, metric, cover, length, scale, workers);
   assembler.setMixed();
-  const std::vector<double> mass = assembler.lumpAreas(report);
+  const Buffer<double> mass = assembler.lumpAreas(report);
   assembler.weighSpokes();
   assembler.weighFaces();
 
   // Columns of L in the caller's numbering: their sizes, then what is in them.
-  std::vector<double> diagonal(static_cast<std::size_t>(n));
-  std::vector<int> count(static_cast<std::size_t>(size));
-  std::vector<Clamped> clamped((n + block_size - 1) / block_size);
+  Buffer<double> diagonal(static_cast<std::size_t>(n));
+  Buffer<int> count(static_cast<std::size_t>(size));
+  Buffer<Clamped> clamped((n + block_size - 1) / block_size);
   workers.forBlocks("assemble", n, block_size, [&](std::int64_t begin, std::int64_t end, int) {
     for (int p = static_cast<int>(begin); p < end; ++p) {
       int positive = 0;
@@ -315,14 +318,13 @@ Matrices assembleStars(const Stars& stars, StarMetric& metric, const PartialCove
     throw InvalidInput("assembleStars: " + std::to_string(entries) + " entries of L, must be at most " +
                        std::to_string(INT32_MAX) + ", what an int can number");
   }
-  Matrices matrices;
-  SparseMatrix& L = matrices.L;
+  SparseMatrix& L = result.L;
   L.resize(size, size);
-  L.resizeNonZeros(entries);
+  resizeEntries(L, entries);
   L.outerIndexPtr()[0] = 0;
   std::partial_sum(count.begin(), count.end(), L.outerIndexPtr() + 1);
   release(count);
-  matrices.M = VectorXd::Zero(size);
+  result.M.setZero(size);
   workers.forBlocks("assemble", n, block_size, [&](std::int64_t begin, std::int64_t end, int) {
     Column column;
     for (int p = static_cast<int>(begin); p < end; ++p) {
@@ -342,7 +344,7 @@ Matrices assembleStars(const Stars& stars, StarMetric& metric, const PartialCove
         }
       });
       if (column.isEmpty()) continue;  // no row, no mass: the point takes no part
-      matrices.M[caller[p]] = mass[p];
+      result.M[caller[p]] = mass[p];
       column.add(caller[p], sum);
       const int place = L.outerIndexPtr()[caller[p]];
       column.sortInto(L.innerIndexPtr() + place, L.valuePtr() + place);
@@ -364,7 +366,6 @@ Matrices assembleStars(const Stars& stars, StarMetric& metric, const PartialCove
     report.largest_clamped = std::max(report.largest_clamped, block.largest);
   }
   report.nonzeros = entries;
-  return matrices;
 }
 
 }  // namespace tufted

@@ -1,8 +1,8 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
+#include "base/buffer.h"
 #include "base/parallel.h"
 #include "intrinsic/partial_cover.h"
 #include "intrinsic/star_metric.h"
@@ -16,7 +16,7 @@ namespace tufted {
 /// that its weight is read off one star. Only edges between two other points are summed over the faces of the cover.
 /// @param metric its sums of cotangents are overwritten
 /// @param scale of one face, see finishLaplacian()
-Matrices assembleStars(const Stars& stars, StarMetric& metric, const PartialCover& cover, const EdgeLengths& length,
-                       const std::vector<int>& caller, int size, double scale, const Workers& workers, Report& report);
+void assembleStars(const Stars& stars, StarMetric& metric, const PartialCover& cover, const EdgeLengths& length,
+                   const Buffer<int>& caller, int size, double scale, const Workers& workers, Laplacian& result);
 
 }  // namespace tufted

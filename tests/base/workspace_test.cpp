@@ -41,6 +41,21 @@ TEST(Workspace, BlocksHoldWhatWasAskedFor) {
   }
 }
 
+TEST(Workspace, WideTypesAreAligned) {
+  struct alignas(64) Wide {
+    int value = 0;
+  };
+  Workspace workspace;
+  const Workspace::Scope scope(&workspace);
+  for (int round = 0; round < 2; ++round) {
+    std::vector<Buffer<Wide>> buffers;
+    for (std::size_t size = 1; size < 20; ++size) {
+      buffers.emplace_back(size).back().value = 7;
+      EXPECT_EQ(reinterpret_cast<std::uintptr_t>(buffers.back().data()) % alignof(Wide), 0);
+    }
+  }
+}
+
 TEST(Workspace, OnlyScopesTakeFromIt) {
   Workspace workspace;
   Buffer<int>(1000);

@@ -32,7 +32,7 @@ TEST(DelaunayStar, EqualsCgalOnEveryPointOfEveryGeneratedCloud) {
 /// The short cut through the convex hull may decline, not differ; and it is the same bits on any processor.
 TEST(DelaunayStar, OfTheShortCutIsThatOfTheExactWay) {
   StarScratch scratch;
-  std::vector<Neighbor> neighbors;
+  Buffer<Neighbor> neighbors;
   int inverted = 0, all = 0;
   for (const auto& shape : shapes::allClouds(1500)) {
     std::vector<PointStatus> status;
@@ -47,7 +47,7 @@ TEST(DelaunayStar, OfTheShortCutIsThatOfTheExactWay) {
       PlanarOffsets planar;
       takeOffsets(cloud.points, p, neighbors, offsets);
       kernels().project(offsets, 1, x.data(), y.data(), planar);
-      std::vector<PlanarPoint> candidates;
+      Buffer<PlanarPoint> candidates;
       for (int i = 0; i < planar.count; ++i) candidates.push_back({planar.u[i], planar.v[i], neighbors[i].index});
       DelaunayStar exact, star, portable;
       delaunayStar(candidates, p, scratch, exact);
@@ -71,12 +71,12 @@ TEST(DelaunayStar, OfTheShortCutIsThatOfTheExactWay) {
 
 TEST(DelaunayStar, OfALatticeTakesTheDiagonalOfTheSmallestIndex) {
   // The unit square around its corner p = 0 or with p as the largest index.
-  const std::vector<PlanarPoint> square = {{1, 0, 1}, {0, 1, 2}, {1, 1, 3}};
+  const Buffer<PlanarPoint> square = {{1, 0, 1}, {0, 1, 2}, {1, 1, 3}};
   StarScratch scratch;
   DelaunayStar star;
   delaunayStar(square, 0, scratch, star);
   EXPECT_EQ(star.triangles(), 2);  // the diagonal starts at 0
-  std::vector<PlanarPoint> shifted = square;
+  Buffer<PlanarPoint> shifted = square;
   for (PlanarPoint& q : shifted) --q.index;  // now 0, 1, 2 and p = 3
   delaunayStar(shifted, 3, scratch, star);
   EXPECT_EQ(star.triangles(), 1);  // the diagonal joins 0 and 1
@@ -86,7 +86,7 @@ TEST(DelaunayStar, HasNoTriangleAmongCollinearPoints) {
   StarScratch scratch;
   DelaunayStar star;
   for (const double slope : {0.0, 1.0, 0.375}) {
-    std::vector<PlanarPoint> line;
+    Buffer<PlanarPoint> line;
     for (int i = -5; i <= 5; ++i) line.push_back({double(i), slope * i, i + 5});
     delaunayStar(line, 20, scratch, star);
     EXPECT_EQ(star.triangles(), 0);
@@ -97,8 +97,7 @@ TEST(DelaunayStar, HasNoTriangleAmongCollinearPoints) {
 TEST(DelaunayStar, DropsWhatHasNoDirectionAndKeepsTheNearestInEach) {
   StarScratch scratch;
   DelaunayStar star;
-  const std::vector<PlanarPoint> points = {{0, 0, 1},  {2, 0, 2},  {1, 0, 3}, {0, 1, 4},
-                                           {-1, 0, 5}, {0, -1, 6}, {1, 0, 7}};
+  const Buffer<PlanarPoint> points = {{0, 0, 1}, {2, 0, 2}, {1, 0, 3}, {0, 1, 4}, {-1, 0, 5}, {0, -1, 6}, {1, 0, 7}};
   delaunayStar(points, 0, scratch, star);
   ASSERT_EQ(star.link.size(), 4U);
   EXPECT_EQ(star.link[0].index, 3);  // not 7, which projects to the same place but is further away in space
@@ -110,7 +109,7 @@ TEST(DelaunayStar, IsRightForPointsOnTinyAndHugeScales) {
   StarScratch scratch;
   DelaunayStar star, scaled_star;
   for (const int exponent : {-300, -150, 150, 300}) {
-    std::vector<PlanarPoint> points, scaled;
+    Buffer<PlanarPoint> points, scaled;
     for (int i = 0; i < 30; ++i) points.push_back({random.uniform(-1, 1), random.uniform(-1, 1), i});
     for (const auto& q : points) scaled.push_back({std::ldexp(q.u, exponent), std::ldexp(q.v, exponent), q.index});
     delaunayStar(points, 99, scratch, star);

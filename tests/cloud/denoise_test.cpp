@@ -24,8 +24,8 @@ Points surface(int n, const Height& height) {
   return points;
 }
 
-std::vector<Neighbor> allOthers(const Points& points) {
-  std::vector<Neighbor> neighbors;
+Buffer<Neighbor> allOthers(const Points& points) {
+  Buffer<Neighbor> neighbors;
   for (int i = 1; i < points.rows(); ++i) neighbors.push_back({(points.row(i) - points.row(0)).squaredNorm(), i});
   return neighbors;
 }

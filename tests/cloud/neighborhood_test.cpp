@@ -24,7 +24,7 @@ class Hoods {
   Neighborhood at(int p) {
     Neighborhood hood;
     GroupScratch group;
-    std::vector<Neighbor> found;
+    Buffer<Neighbor> found;
     finder_.find(p, 1, group, found, &hood);
     finder_.fit(p, hood, offsets_, scratch_);
     return hood;

@@ -17,7 +17,7 @@ TEST(Neighbors, EqualBruteForceWithTiesToTheSmallerIndex) {
     std::vector<int> representative;
     const RankedCloud ranked = rankPoints(cloud.points, status, representative);
     const NeighborSearch search(ranked.points);
-    std::vector<Neighbor> found, expected;
+    Buffer<Neighbor> found, expected;
     for (int p = 0; p < ranked.size(); ++p) {
       search.nearest(p, 30, found);
       expected.clear();
@@ -48,7 +48,7 @@ TEST(Neighbors, OfEachAreThoseOfOne) {
     const NeighborSearch search(ranked.points);
     const int k = std::min(30, ranked.size() - 1);
     GroupScratch scratch;
-    std::vector<Neighbor> each, one;
+    Buffer<Neighbor> each, one;
     for (const Kernels* kernel : {&portableKernels(), &kernels()}) {
       nearestOfEach(search, ranked.points, 0, ranked.size(), 30, *kernel, scratch, each);
       ASSERT_EQ(std::ssize(each), static_cast<std::ptrdiff_t>(ranked.size()) * k);
@@ -67,7 +67,7 @@ TEST(Neighbors, AreAllOthersWhenThereAreFewer) {
   Points points(3, 3);
   points << 0, 0, 0, 1, 0, 0, 0, 3, 0;
   const NeighborSearch search(points);
-  std::vector<Neighbor> found;
+  Buffer<Neighbor> found;
   search.nearest(0, 30, found);
   ASSERT_EQ(found.size(), 2U);
   EXPECT_EQ(found[0].index, 1);
@@ -80,7 +80,7 @@ TEST(Rank, DoesNotDependOnTheCallersOrder) {
   std::vector<int> representative;
   const RankedCloud a = rankPoints(lattice.points, status, representative);
   const RankedCloud b = rankPoints(shapes::shuffled(lattice).points, status, representative);
-  EXPECT_EQ(a.points, b.points);
+  EXPECT_EQ(a.points.all(), b.points.all());
 }
 
 TEST(Rank, NamesTheLowestIndexOfCoincidentPoints) {

@@ -21,7 +21,7 @@ struct Scan {
 
   /// The caller's indices of the neighbours of a point of the caller.
   std::vector<int> around(int point, int k) const {
-    std::vector<Neighbor> found;
+    Buffer<Neighbor> found;
     search->nearest(rank(point), k, found);
     EXPECT_TRUE(std::is_sorted(found.begin(), found.end()));
     std::vector<int> points;
@@ -58,7 +58,7 @@ TEST(ImageSearch, FindsTheNearestOfAllPointsOnPlanes) {
     const Points points = plane(x, y);
     const Scan scan(points, imageStructure(width, height));
     const NeighborSearch tree(scan.cloud.points);
-    std::vector<Neighbor> found, expected;
+    Buffer<Neighbor> found, expected;
     for (int p = 0; p < scan.cloud.size(); ++p) {
       const int column = scan.cloud.caller[p] % width, row = scan.cloud.caller[p] / width;
       if (std::min({column, row, width - 1 - column, height - 1 - row}) < 12) continue;
@@ -82,7 +82,7 @@ TEST(ImageSearch, NeverLooksAcrossADepthJump) {
   for (int i = 0; i < points.rows(); ++i) {
     for (const int q : scan.around(i, 60)) ASSERT_EQ(q % width < 30, i % width < 30) << i << " and " << q;
   }
-  std::vector<Neighbor> found;
+  Buffer<Neighbor> found;
   const auto rank = std::find(scan.cloud.caller.begin(), scan.cloud.caller.end(), 25 * width + 30);
   const auto p = static_cast<int>(rank - scan.cloud.caller.begin());
   EXPECT_GT(scan.search->nearest(p, 30, found).cut, 0);
@@ -95,7 +95,7 @@ TEST(ImageSearch, PassesOverPixelsWithoutAPoint) {
     if (random.uniform() < 0.2) points.row(i).setConstant(std::nan(""));
   const Scan scan(points, imageStructure(width, height));
   const NeighborSearch tree(scan.cloud.points);
-  std::vector<Neighbor> found, expected;
+  Buffer<Neighbor> found, expected;
   int equal = 0, inner = 0;
   for (int p = 0; p < scan.cloud.size(); ++p) {
     const int column = scan.cloud.caller[p] % width, row = scan.cloud.caller[p] / width;

@@ -60,16 +60,16 @@ TEST_P(FlatSolid, NeedsItsFlips) {
   }
   glueEdges(cover, bad.points, {}, workers);
   measureLengths(cover, bad.points, Points(0, 3), workers);
-  std::vector<int> caller(n);
+  Buffer<int> caller(n);
   for (int i = 0; i < n; ++i) caller[i] = i;
-  Report unflipped, flipped;
-  const Matrices before = assembleLaplacian(cover, caller, n, 0.5, workers, unflipped);
+  Laplacian before, after;
+  assembleLaplacian(cover, caller, n, 0.5, workers, before);
   EXPECT_FALSE(validate(cover).ok());
-  EXPECT_GT(unflipped.clamped_large, 0);
+  EXPECT_GT(before.report.clamped_large, 0);
   flipToDelaunay(cover, workers);
-  const Matrices after = assembleLaplacian(cover, caller, n, 0.5, workers, flipped);
+  assembleLaplacian(cover, caller, n, 0.5, workers, after);
   EXPECT_TRUE(validate(cover).ok());
-  EXPECT_EQ(flipped.clamped_large, 0);
+  EXPECT_EQ(after.report.clamped_large, 0);
   EXPECT_GT(largestDifference(before.L, after.L), 1e-2);
 }
 

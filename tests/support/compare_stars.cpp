@@ -14,10 +14,10 @@
 namespace tufted::support {
 namespace {
 
-std::vector<PlanarPoint> project(const RankedCloud& cloud, int p, const std::vector<Neighbor>& neighbors) {
+Buffer<PlanarPoint> project(const RankedCloud& cloud, int p, const Buffer<Neighbor>& neighbors) {
   const Eigen::Vector3d normal = principalAxes(cloud.points, p, neighbors).normal;
   const Eigen::Vector3d x = tangentOf(normal), y = normal.cross(x);
-  std::vector<PlanarPoint> planar;
+  Buffer<PlanarPoint> planar;
   for (const Neighbor& q : neighbors) {
     const Eigen::Vector3d d = (cloud.points.row(q.index) - cloud.points.row(p)).transpose();
     planar.push_back({d.dot(x), d.dot(y), q.index});
@@ -34,7 +34,7 @@ std::set<int> linkOf(const DelaunayStar& star) {
 
 /// Whether p, q and two neighbours next to q in `ring` are cocircular within the band, so that either diagonal is
 /// right.
-bool isTied(const PlanarPoint& q, const std::vector<PlanarPoint>& ring) {
+bool isTied(const PlanarPoint& q, const Buffer<PlanarPoint>& ring) {
   for (const PlanarPoint& a : ring) {
     for (const PlanarPoint& c : ring) {
       if (a.index == q.index || c.index == q.index || orientation(a, q) <= 0 || orientation(q, c) <= 0) continue;
@@ -51,13 +51,13 @@ StarComparison compareStars(const Points& points, int step) {
   std::vector<int> representative;
   const RankedCloud cloud = rankPoints(points, status, representative);
   const NeighborSearch search(cloud.points);
-  std::vector<Neighbor> neighbors;
+  Buffer<Neighbor> neighbors;
   StarScratch scratch;
   DelaunayStar ours, backend;
   StarComparison result;
   for (int p = 0; p < cloud.size(); p += step) {
     search.nearest(p, 30, neighbors);
-    const std::vector<PlanarPoint> planar = project(cloud, p, neighbors);
+    const Buffer<PlanarPoint> planar = project(cloud, p, neighbors);
     Eigen::Matrix<double, Eigen::Dynamic, 2, Eigen::RowMajor> plane(planar.size(), 2);
     for (std::size_t i = 0; i < planar.size(); ++i) plane.row(i) << planar[i].u, planar[i].v;
     const oracles::PlanarStar oracle = oracles::delaunayStarOracle(plane);
@@ -69,7 +69,7 @@ StarComparison compareStars(const Points& points, int step) {
     const std::set<int> our_link = linkOf(ours);
     bool tied = false, different = ours.triangles() > 0 && ours.closed != oracle.closed;
     const auto compareWith = [&](const std::set<int>& link) {
-      std::vector<PlanarPoint> ring;  // both links together
+      Buffer<PlanarPoint> ring;  // both links together
       for (const PlanarPoint& q : planar) {
         if (our_link.count(q.index) + link.count(q.index) > 0) ring.push_back(q);
       }

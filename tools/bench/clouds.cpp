@@ -124,8 +124,9 @@ void registerSpheres() {
     CloudCase sphere{.cloud = counted("sphere", n), .make = [n] { return shapes::sphere(n).points; }};
     registerPresets(sphere, n);
     if (n > 1'000'000) continue;
-    registerPresets(
-        {.cloud = counted("sphere_in_order", n), .make = [n] { return ranked(shapes::sphere(n).points).points; }}, n);
+    registerPresets({.cloud = counted("sphere_in_order", n),
+                     .make = [n]() -> Points { return ranked(shapes::sphere(n).points).points.all(); }},
+                    n);
     registerPresets({.cloud = counted("noisy_sphere", n),
                      .make = [n] { return shapes::withNoise(shapes::sphere(n), noise).points; }},
                     n);

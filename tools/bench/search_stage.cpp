@@ -22,7 +22,7 @@ struct Setting {
 constexpr std::array<Setting, 6> settings = {
     {{10, false}, {15, false}, {30, false}, {10, true}, {15, true}, {30, true}}};
 
-double flannSeconds(const Points& points, int k, const Setting& setting) {
+double flannSeconds(const PointsView& points, int k, const Setting& setting) {
   using Index = flann::KDTreeSingleIndex<flann::L2_Simple<double>>;
   const CpuStopwatch watch;
   const flann::Matrix<double> rows(const_cast<double*>(points.data()), static_cast<std::size_t>(points.rows()), 3);
@@ -42,7 +42,7 @@ double flannSeconds(const Points& points, int k, const Setting& setting) {
 }
 
 struct Adaptor {
-  const Points& points;
+  const PointsView& points;
 
   std::size_t kdtree_get_point_count() const { return static_cast<std::size_t>(points.rows()); }
   double kdtree_get_pt(std::size_t i, std::size_t axis) const {
@@ -54,7 +54,7 @@ struct Adaptor {
   }
 };
 
-double nanoflannSeconds(const Points& points, int k) {
+double nanoflannSeconds(const PointsView& points, int k) {
   using Index =
       nanoflann::KDTreeSingleIndexAdaptor<nanoflann::L2_Simple_Adaptor<double, Adaptor>, Adaptor, 3, std::uint32_t>;
   const CpuStopwatch watch;
@@ -72,7 +72,7 @@ double nanoflannSeconds(const Points& points, int k) {
 
 }  // namespace
 
-SearchSeconds searchSeconds(const Points& points, int k) {
+SearchSeconds searchSeconds(const PointsView& points, int k) {
   static Eigen::Index tried_size = -1;
   static Setting fastest{};
   SearchSeconds seconds{std::numeric_limits<double>::infinity(), nanoflannSeconds(points, k)};

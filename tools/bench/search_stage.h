@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tufted/types.h"
+#include "base/point_buffer.h"
 
 namespace tufted::bench {
 
@@ -14,6 +14,6 @@ struct SearchSeconds {
 /// FLANN with one reused result set per cloud; leaves of 10, 15 and 30 points, with and without a reordered copy of the
 /// points. The first call for a size of cloud tries all six, later ones repeat the fastest.
 /// @param points in Morton order
-SearchSeconds searchSeconds(const Points& points, int k);
+SearchSeconds searchSeconds(const PointsView& points, int k);
 
 }  // namespace tufted::bench
