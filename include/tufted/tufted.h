@@ -9,6 +9,7 @@
 #include "tufted/interpolation.h"
 #include "tufted/intrinsic_triangulation.h"
 #include "tufted/laplacian.h"
+#include "tufted/laplacian_builder.h"
 #include "tufted/nearest_point.h"
 #include "tufted/options.h"
 #include "tufted/polygons.h"

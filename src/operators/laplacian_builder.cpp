@@ -1,0 +1,47 @@
+#include "tufted/laplacian_builder.h"
+
+#include "base/workspace.h"
+#include "operators/build.h"
+
+namespace tufted {
+
+struct LaplacianBuilder::State {
+  Workspace workspace;
+  Laplacian result;
+
+  template <class Build>
+  const Laplacian& run(const Build& build) {
+    const Workspace::Scope scope(&workspace);
+    try {
+      build();
+    } catch (...) {
+      result = {};
+      throw;
+    }
+    return result;
+  }
+};
+
+LaplacianBuilder::LaplacianBuilder() : state_(std::make_unique<State>()) {}
+LaplacianBuilder::~LaplacianBuilder() = default;
+LaplacianBuilder::LaplacianBuilder(LaplacianBuilder&&) noexcept = default;
+LaplacianBuilder& LaplacianBuilder::operator=(LaplacianBuilder&&) noexcept = default;
+
+const Laplacian& LaplacianBuilder::pointCloud(const Points& points, const CloudOptions& options) {
+  return state_->run([&] { buildCloudLaplacian(points, options, CloudBuild::automatic, state_->result); });
+}
+
+const Laplacian& LaplacianBuilder::mesh(const Points& points, const Triangles& triangles, const MeshOptions& options) {
+  return state_->run([&] { buildMeshLaplacian(points, triangles, options, state_->result); });
+}
+
+void LaplacianBuilder::release() {
+  state_->result = {};
+  state_->workspace.release();
+}
+
+std::size_t LaplacianBuilder::bytes() const {
+  return state_->workspace.bytes();
+}
+
+}  // namespace tufted
