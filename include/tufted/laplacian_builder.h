@@ -10,12 +10,13 @@ namespace tufted {
 /// Builds the Laplacians of one frame after another and keeps the memory in between, arrays of the result included.
 ///
 /// A frame like the one before takes nothing from the heap, on one thread and but for what the libraries below take:
-/// FLANN for its tree and searches (none with `CloudOptions::structure`), CGAL for numbers that a double cannot tell
-/// apart; with several threads now and then a little, for who needs how much when is different every time. A frame of
-/// another number of points takes new arrays for what holds one value per point in the result; larger ones take what
-/// they need more. What is held between frames is the result and the scratch of the largest frame so far.
+/// FLANN for its trees and searches, CGAL for numbers that a double cannot tell apart. With several threads it takes a
+/// little now and then: the parallel sort, and who needs how much when differs every time. A frame of another number of
+/// points takes new arrays for what holds one value per point in the result; larger ones take what they need more.
+/// Between frames the result is held, and the scratch of the largest frame so far.
 ///
-/// The results have the bits of pointCloudLaplacian() and meshLaplacian(). Not for several threads at a time.
+/// The results have the bits of pointCloudLaplacian() and meshLaplacian(). For one thread at a time, and not from
+/// within `Progress`.
 class LaplacianBuilder {
  public:
   LaplacianBuilder();

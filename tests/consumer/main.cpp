@@ -36,6 +36,12 @@ bool cloud() {
          check("cover", tufted::validate(laplacian.cover()).ok(), true, 0);
 }
 
+bool frames() {
+  tufted::LaplacianBuilder builder;
+  builder.pointCloud(spiral(2000));
+  return check("sum(M) of the second frame", builder.pointCloud(2 * spiral(2000)).M.sum(), 16 * std::numbers::pi, 0.2);
+}
+
 /// Links whatever the solver was built with.
 bool algorithms() {
   const tufted::Laplacian laplacian = tufted::pointCloudLaplacian(spiral(2000));
@@ -66,5 +72,5 @@ bool errors() {
 }  // namespace
 
 int main() {
-  return cloud() & algorithms() & mesh() & errors() ? 0 : 1;
+  return cloud() & frames() & algorithms() & mesh() & errors() ? 0 : 1;
 }

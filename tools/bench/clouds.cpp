@@ -9,7 +9,7 @@
 #include "cloud/kernels.h"
 #include "cloud/morton.h"
 #include "shapes/shapes.h"
-#include "tufted/laplacian.h"
+#include "tufted/laplacian_builder.h"
 #ifdef TUFTED_BENCH_IO
 #include "tufted/io/read.h"
 #endif
@@ -18,6 +18,7 @@ namespace tufted::bench {
 namespace {
 
 constexpr int neighbor_count = 30;
+constexpr Eigen::Index largest_frame = 640 * 480;
 constexpr double noise = 0.005;  // of the radius of the sphere
 
 struct CloudCase {
@@ -54,6 +55,24 @@ RankedCloud ranked(const Points& points) {
   return rankPoints(points, status, representative);
 }
 
+/// Frame after frame, each built on its own and in the memory of a builder by turns: `builder_frames_per_second` and
+/// `builder_per_whole`.
+void runFrames(benchmark::State& state, const Points& points, const CloudOptions& options, Costs& costs) {
+  constexpr int frames = 7;
+  LaplacianBuilder builder;
+  builder.pointCloud(points, options);
+  for (int i = 0; i < frames; ++i) {
+    Stopwatch watch;
+    pointCloudLaplacian(points, options);
+    costs.addSeconds("frame", watch.restart());
+    builder.pointCloud(points, options);
+    costs.addSeconds("builder_frame", watch.seconds());
+  }
+  const double seconds = costs.medianSeconds("builder_frame");
+  state.counters["builder_frames_per_second"] = 1 / seconds;
+  state.counters["builder_per_whole"] = seconds / costs.medianSeconds("frame");
+}
+
 /// One build per iteration: seconds of the processor with one thread, else of the clock. With one thread, every build
 /// is followed by the search alone (not timed), so that both medians come from the same minutes: `whole_per_flann`.
 /// Points are those that are finite and differ. The cover is not kept but built on demand from what one more build
@@ -87,6 +106,7 @@ void runCloud(benchmark::State& state, const CloudCase& c) {
   costs.publish(state);
   const double whole = costs.medianSeconds("whole");
   state.counters["frames_per_second"] = 1 / whole;
+  if (points.rows() <= largest_frame) runFrames(state, points, options, costs);
   if (c.threads != 1) return;
   state.counters["whole_per_flann"] = whole / costs.medianSeconds("flann");
   options.keep_cover = true;
