@@ -24,7 +24,7 @@ class WorkspaceAllocator {
     if (count > std::numeric_limits<std::size_t>::max() / 2 / sizeof(T)) throw std::bad_array_new_length();
     void* const block = takeBlock(count * sizeof(T) + (is_wide ? alignof(T) : 0));
     if constexpr (!is_wide) return static_cast<T*>(block);
-    // Blocks have the default alignment, so that there is room for a pointer in front.
+    // Blocks are aligned for pointers, so that there is room for one in front.
     const auto place = (reinterpret_cast<std::uintptr_t>(block) / alignof(T) + 1) * alignof(T);
     *(reinterpret_cast<void**>(place) - 1) = block;
     return reinterpret_cast<T*>(place);
@@ -36,7 +36,7 @@ class WorkspaceAllocator {
   friend bool operator==(const WorkspaceAllocator&, const WorkspaceAllocator&) { return true; }
 
  private:
-  static constexpr bool is_wide = alignof(T) > __STDCPP_DEFAULT_NEW_ALIGNMENT__;
+  static constexpr bool is_wide = alignof(T) > alignof(void*);
 };
 
 /// The arrays of the stages of a build: vectors whose memory a LaplacianBuilder keeps for its next frame.

@@ -31,15 +31,14 @@ int classOf(std::size_t bytes) {
   return steps * (exponent - least_exponent) + above;
 }
 
-/// In front of every block.
-struct alignas(std::max_align_t) Header {
-  Workspace::Store* store;  ///< null: of the heap
-  std::int64_t size_class;
-};
+using Owner = Workspace::Store*;
 
-Header* takeFromHeap(Workspace::Store* store, int size_class, std::size_t bytes) {
-  return new (::operator new(sizeof(Header) + bytes)) Header{store, size_class};
-}
+/// In front of every block of a workspace. Those of the heap have the owner alone, null: with one word in front malloc
+/// gives an array of n numbers the room that it gives Eigen's, so that each fits where the other was.
+struct Header {
+  std::int64_t size_class;
+  Owner owner;
+};
 
 }  // namespace
 
@@ -54,7 +53,7 @@ class Workspace::Store {
       ++in_use_;
       return &block->header;
     }
-    Header* const header = takeFromHeap(this, size_class, sizeOf(size_class));
+    auto* const header = new (::operator new(sizeof(Header) + sizeOf(size_class))) Header{size_class, this};
     bytes_ += sizeOf(size_class);
     ++in_use_;
     return header;
@@ -146,16 +145,17 @@ void* takeBlock(std::size_t bytes) {
   Workspace* const workspace = current_workspace;
   // What is larger than any class is no request that could succeed, and the heap says so.
   const bool is_huge = bytes > sizeOf(classes - 1);
-  return (workspace == nullptr || is_huge ? takeFromHeap(nullptr, 0, bytes) : workspace->store_->take(bytes)) + 1;
+  if (workspace != nullptr && !is_huge) return workspace->store_->take(bytes) + 1;
+  return new (::operator new(sizeof(Owner) + bytes)) Owner(nullptr) + 1;
 }
 
 void giveBlock(void* memory) noexcept {
   if (memory == nullptr) return;
-  Header* const header = static_cast<Header*>(memory) - 1;
-  if (header->store == nullptr)
-    ::operator delete(header);
+  Owner* const owner = static_cast<Owner*>(memory) - 1;
+  if (*owner == nullptr)
+    ::operator delete(owner);
   else
-    header->store->give(header);
+    (*owner)->give(static_cast<Header*>(memory) - 1);
 }
 
 }  // namespace tufted

@@ -49,7 +49,7 @@ class Workspace {
   Store* const store_;
 };
 
-/// Memory from the current workspace, or else from the heap; aligned as by operator new. Any thread may give it back.
+/// Memory from the current workspace, or else from the heap; aligned for pointers. Any thread may give it back.
 void* takeBlock(std::size_t bytes);
 void giveBlock(void* memory) noexcept;
 
