@@ -34,6 +34,9 @@ TUFTED_INLINE Lane select(Mask mask, Lane a, Lane b) {
 TUFTED_INLINE Lane absolute(Lane a) {
   return _mm512_abs_pd(a);
 }
+TUFTED_INLINE Lane squareRoot(Lane a) {
+  return _mm512_sqrt_pd(a);
+}
 TUFTED_INLINE Lane least(Lane a, Lane b) {
   return _mm512_min_pd(a, b);
 }
@@ -165,6 +168,9 @@ TUFTED_INLINE void store(const Lane& a, double* values) {
 }
 TUFTED_INLINE Lane absolute(Lane a) {
   return forPairs<Lane>(a, [](Pair x) { return x < -x ? -x : x; });
+}
+TUFTED_INLINE Lane squareRoot(Lane a) {
+  return forPairs<Lane>(a, [](Pair x) { return Pair{__builtin_sqrt(x[0]), __builtin_sqrt(x[1])}; });
 }
 TUFTED_INLINE Lane least(Lane a, Lane b) {
   return forPairs<Lane>(a, b, [](Pair x, Pair y) { return x < y ? x : y; });

@@ -108,9 +108,16 @@ class GroupSearch {
       row[scratch_.place[i]] = {scratch_.squared[i], scratch_.index[i]};
     }
     if (sum == static_cast<std::int64_t>(count) * (count - 1) / 2) return;
-    scratch_.sorted.clear();
-    for (int i = 0; i < count; ++i) scratch_.sorted.push_back({scratch_.squared[i], scratch_.index[i]});
-    std::partial_sort(scratch_.sorted.begin(), scratch_.sorted.begin() + k_, scratch_.sorted.end());
+    // Those of one float stand behind each other first, and then change places among themselves.
+    scratch_.sorted.resize(static_cast<std::size_t>(count));
+    scratch_.taken.assign(static_cast<std::size_t>(count), 0);
+    for (int i = 0; i < count; ++i) {
+      const int place = scratch_.place[i];
+      scratch_.sorted[place + scratch_.taken[place]++] = {scratch_.squared[i], scratch_.index[i]};
+    }
+    for (int i = 1; i < count; ++i)
+      for (int j = i; j > 0 && scratch_.sorted[j] < scratch_.sorted[j - 1]; --j)
+        std::swap(scratch_.sorted[j], scratch_.sorted[j - 1]);
     std::copy_n(scratch_.sorted.begin(), k_, row);
   }
 

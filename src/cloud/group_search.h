@@ -18,7 +18,7 @@ struct GroupScratch {
   Buffer<double> squared;  ///< squared distances of those near one point
   Buffer<int> index;       ///< their ranks
   Buffer<float> rounded;
-  Buffer<int> place;
+  Buffer<int> place, taken;
   Buffer<Neighbor> sorted;
 };
 

@@ -126,7 +126,7 @@ TUFTED_INLINE Verdict judge(const Inverted& points, Ring& hull, Subset& given, I
   if (hull.size < 3 || hull.size > InvertedStar::most) return Verdict::doubtful;
   hull.close(toLanes(hull.size) - hull.size + 2);
   // A point is left of the edge from a to b where across . point < 1.
-  alignas(64) double across_x[InvertedStar::most], across_y[InvertedStar::most], diameter[InvertedStar::most];
+  alignas(64) double across_x[InvertedStar::most], across_y[InvertedStar::most];
   Mask is_doubtful = none();
   Lane inner_square = all(most_square), least_cross = all(most_square), most_size = all(0);
   for (int i = 0; i < hull.size; i += lane_size) {
@@ -146,7 +146,7 @@ TUFTED_INLINE Verdict judge(const Inverted& points, Ring& hull, Subset& given, I
     inner_square = least(inner_square, square);
     least_cross = least(least_cross, cross);
     most_size = most(most_size, a);
-    store(all(1) / square, diameter + i);  // squared
+    store(all(0.5) / squareRoot(square), star.radius + i);
   }
   if (any(is_doubtful)) return Verdict::doubtful;
   const double size = most(most_size);
@@ -166,10 +166,7 @@ TUFTED_INLINE Verdict judge(const Inverted& points, Ring& hull, Subset& given, I
   for (int i = 0; i < points.count; i += lane_size) outermost = most(outermost, load(gauge + i));
   if (most(outermost) < limit) {
     star.size = hull.size;
-    for (int i = 0; i < hull.size; ++i) {
-      star.link[i] = hull.of[i + 1];
-      star.radius[i] = __builtin_sqrt(diameter[i]) / 2;
-    }
+    for (int i = 0; i < hull.size; ++i) star.link[i] = hull.of[i + 1];
     return Verdict::certain;
   }
   for (int i = 0; i < given.size; ++i)
