@@ -7,9 +7,10 @@ namespace tufted {
 namespace {
 
 constexpr int most_given = PlanarOffsets::most;
-constexpr int near_part = 16, most_rounds = 3;
+constexpr int near_part = 16, most_rounds = 3, missing = -1;
 /// The sine of the angle between circles from which on they differ: far wider than the tie band of sideOfCircle().
 constexpr double distinct = 1e-7;
+constexpr double inside = 1e-5;
 constexpr double rounding = 1e-14;                          // of coordinates and products of them, a dozen roundings
 constexpr double least_square = 1e-60, most_square = 1e60;  // of distances, which keeps all products in range
 
@@ -60,8 +61,8 @@ TUFTED_INLINE bool invert(const PlanarOffsets& planar, Inverted& points) {
   return least(nearest) > least_square && most(furthest) < most_square;
 }
 
-/// Sorts by direction, counterclockwise from the u axis. Of points in one direction only the first is certain to be
-/// there.
+/// Sorts by direction, counterclockwise from the u axis. Of points in one direction the first
+/// alone is left.
 TUFTED_INLINE void sortByDirection(const Subset& given, Ring& ring) {
   alignas(64) float key[most_given + float_lane_size];  // a pseudo-angle, 0 to 4
   for (int i = 0; i < given.size; i += lane_size) {
@@ -71,17 +72,24 @@ TUFTED_INLINE void sortByDirection(const Subset& given, Ring& ring) {
   }
   alignas(64) int rank[most_given + float_lane_size];
   for (int i = 0; i < given.size; i += float_lane_size) rankFloats<1>(key + i, key, given.size, rank + i);
-  ring.size = given.size;
-  for (int i = 1; i <= given.size; ++i) {  // where one is missing stands a copy of another
-    ring.x[i] = given.x[0];
-    ring.y[i] = given.y[0];
-    ring.of[i] = given.of[0];
-  }
+  for (int i = 1; i <= given.size; ++i) ring.of[i] = missing;
+  int sum = 0;
   for (int i = given.size - 1; i >= 0; --i) {
-    const auto at = 1 + rank[i];
+    const int at = 1 + rank[i];
+    sum += rank[i];
     ring.x[at] = given.x[i];
     ring.y[at] = given.y[i];
     ring.of[at] = given.of[i];
+  }
+  ring.size = given.size;
+  if (sum == given.size * (given.size - 1) / 2) return;
+  ring.size = 0;  // places are missing, where points had one direction
+  for (int i = 1; i <= given.size; ++i) {
+    if (ring.of[i] == missing) continue;
+    const int at = ++ring.size;
+    ring.x[at] = ring.x[i];
+    ring.y[at] = ring.y[i];
+    ring.of[at] = ring.of[i];
   }
 }
 
@@ -112,22 +120,24 @@ TUFTED_INLINE void removeReflex(Ring& first, Ring& second, Ring*& hull) {
   hull = ring;
 }
 
-enum class Verdict { certain, incomplete, doubtful };
+enum class Verdict { certain, tied, incomplete, doubtful };
 
 /// Whether the hull is beyond doubt that of all points, with the origin inside and no tie among the circles. Where
 /// points that were not `given` are outside of it or too near, it is incomplete and `given` becomes what the hull must
-/// be made of.
+/// be made of. Where only points that were given are too near, the star is tied and has as `link` all that may be in
+/// it.
 ///
 /// Between two vertices of the hull, in direction, whatever link the careful routine is left with turns inwards at the
 /// one and comes back at the other. Where no point is seen from either of them at less than the angle `distinct` to
 /// their edge, one of the vertices between them turns the wrong way by far more than the tie band, so all are removed;
-/// and the vertices of the hull, which turn by more than that, are not.
+/// and the vertices of the hull, which turn by more than that, are not. Points are asked to keep `inside` instead,
+/// which also holds for the edge that is left when tied vertices of the hull are removed.
 TUFTED_INLINE Verdict judge(const Inverted& points, Ring& hull, Subset& given, InvertedStar& star) {
   if (hull.size < 3 || hull.size > InvertedStar::most) return Verdict::doubtful;
   hull.close(toLanes(hull.size) - hull.size + 2);
   // A point is left of the edge from a to b where across . point < 1.
   alignas(64) double across_x[InvertedStar::most], across_y[InvertedStar::most];
-  Mask is_doubtful = none();
+  Mask is_open = none(), is_tied = none();
   Lane inner_square = all(most_square), least_cross = all(most_square), most_size = all(0);
   for (int i = 0; i < hull.size; i += lane_size) {
     const Lane ax = load(hull.x + i + 1), ay = load(hull.y + i + 1);
@@ -139,7 +149,8 @@ TUFTED_INLINE Verdict judge(const Inverted& points, Ring& hull, Subset& given, I
     // A difference is off by the rounding of its ends, and counts times the length of the other.
     const Lane doubt = all(distinct) * u * v + all(rounding) * ((a + b) * v + (b + c) * u);
     const Lane cross = ax * by - ay * bx, edge_square = ux * ux + uy * uy;
-    is_doubtful = either(is_doubtful, either(isAtMost(cross, all(0)), isAtMost(ux * vy - uy * vx, doubt)));
+    is_open = either(is_open, isAtMost(cross, all(0)));
+    is_tied = either(is_tied, isAtMost(ux * vy - uy * vx, doubt));
     store(uy / cross, across_x + i);
     store(-ux / cross, across_y + i);
     const Lane square = cross * cross / edge_square;  // of the distance from the origin to the edge
@@ -148,10 +159,10 @@ TUFTED_INLINE Verdict judge(const Inverted& points, Ring& hull, Subset& given, I
     most_size = most(most_size, a);
     store(all(0.5) / squareRoot(square), star.radius + i);
   }
-  if (any(is_doubtful)) return Verdict::doubtful;
+  if (any(is_open)) return Verdict::doubtful;
   const double size = most(most_size);
   const double limit =
-      1 - 2 * distinct * size / __builtin_sqrt(least(inner_square)) - rounding * size * size / least(least_cross);
+      1 - 2 * inside * size / __builtin_sqrt(least(inner_square)) - rounding * size * size / least(least_cross);
   if (!(limit > 0)) return Verdict::doubtful;
 
   alignas(64) double gauge[most_given];  // the largest across . point
@@ -164,29 +175,35 @@ TUFTED_INLINE Verdict judge(const Inverted& points, Ring& hull, Subset& given, I
   for (int i = 1; i <= hull.size; ++i) gauge[hull.of[i]] = 0;
   Lane outermost = all(0);
   for (int i = 0; i < points.count; i += lane_size) outermost = most(outermost, load(gauge + i));
-  if (most(outermost) < limit) {
+  if (most(outermost) < limit && !any(is_tied)) {
     star.size = hull.size;
     for (int i = 0; i < hull.size; ++i) star.link[i] = hull.of[i + 1];
     return Verdict::certain;
   }
-  for (int i = 0; i < given.size; ++i)
-    if (!(gauge[given.of[i]] < limit)) return Verdict::doubtful;
+  // All that lie on the hull or too near to it, by ascending distance.
+  for (int i = 1; i <= hull.size; ++i) gauge[hull.of[i]] = 1;
+  bool is_given[most_given] = {};
+  for (int i = 0; i < given.size; ++i) is_given[given.of[i]] = true;
+  bool is_complete = true;
   given.size = 0;
-  const auto give = [&](int i) {
+  for (int i = 0; i < points.count; ++i) {
+    if (gauge[i] < limit) continue;
+    is_complete &= is_given[i];
     given.x[given.size] = points.x[i];
     given.y[given.size] = points.y[i];
     given.of[given.size++] = i;
-  };
-  for (int i = 1; i <= hull.size; ++i) give(hull.of[i]);
-  for (int i = 0; i < points.count; ++i)
-    if (!(gauge[i] < limit)) give(i);
-  return Verdict::incomplete;
+  }
+  if (!is_complete) return Verdict::incomplete;
+  if (given.size > InvertedStar::most) return Verdict::doubtful;
+  star.size = given.size;
+  for (int i = 0; i < given.size; ++i) star.link[i] = given.of[i];
+  return Verdict::tied;
 }
 
-bool wrapInvertedLanes(const PlanarOffsets& planar, InvertedStar& star) {
-  if (planar.count < 3) return false;
+StarKind wrapInvertedLanes(const PlanarOffsets& planar, InvertedStar& star) {
+  if (planar.count < 3) return StarKind::unknown;
   Inverted points;
-  if (!invert(planar, points)) return false;
+  if (!invert(planar, points)) return StarKind::unknown;
   Subset given;
   given.size = points.count < near_part ? points.count : near_part;
   for (int i = 0; i < given.size; i += lane_size) {
@@ -201,7 +218,8 @@ bool wrapInvertedLanes(const PlanarOffsets& planar, InvertedStar& star) {
     removeReflex(first, second, hull);
     verdict = judge(points, *hull, given, star);
   }
-  return verdict == Verdict::certain;
+  if (verdict == Verdict::certain) return StarKind::closed;
+  return verdict == Verdict::tied ? StarKind::tied : StarKind::unknown;
 }
 
 }  // namespace

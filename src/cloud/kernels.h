@@ -45,7 +45,12 @@ struct PlanarOffsets {
   alignas(64) double u[most], v[most];
 };
 
-/// A closed star: numbers of neighbours counterclockwise, and the circumradius of each and the next.
+/// What is certain of a star: that it is closed, and its link; which few neighbours are in the link, but for ties among
+/// them; or nothing.
+enum class StarKind { closed, tied, unknown };
+
+/// A closed star: numbers of neighbours counterclockwise, and the circumradius of each and the next. A tied one:
+/// numbers in ascending order, of all that may be in the link.
 struct InvertedStar {
   static constexpr int most = 24;
   int size = 0;
@@ -72,7 +77,7 @@ struct Kernels {
   /// The offsets times `unit` along the axes x and y.
   void (*project)(const Offsets& offsets, double unit, const double* x, const double* y, PlanarOffsets& planar);
   /// See wrapInverted().
-  bool (*wrapInverted)(const PlanarOffsets& planar, InvertedStar& star);
+  StarKind (*wrapInverted)(const PlanarOffsets& planar, InvertedStar& star);
 };
 
 /// What every processor runs.

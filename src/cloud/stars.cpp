@@ -126,7 +126,11 @@ class StarBuilder {
       if (taken == nullptr) takeOffsets(cloud_.points, p, part, part_of_them);
       kernels_.project(taken != nullptr ? *taken : part_of_them, unit, x.data(), y.data(), planar);
       const bool is_whole = part.size() == neighbors.size();
-      if (is_whole && has_short_cut_ && wrapInverted(kernels_, planar, part, state.star)) return;
+      if (is_whole && has_short_cut_) {
+        const StarKind kind = wrapInverted(kernels_, planar, part, state.star, state.planar);
+        if (kind == StarKind::closed) return;
+        if (kind == StarKind::tied) break;
+      }
       for (int i = 0; i < planar.count; ++i) state.planar.push_back({planar.u[i], planar.v[i], part[i].index});
     }
     wrap_(state.planar, p, state.scratch, state.star);
