@@ -9,14 +9,14 @@ namespace tufted {
 /// Multiplies by a power of two, like std::ldexp at a fraction of its cost: exact unless the product is subnormal.
 class PowerOfTwo {
  public:
-  /// 2^exponent, also where no double is that large or small.
+  /// 2^exponent, also where no double is that large or small: up to 2^3000 either way.
   explicit PowerOfTwo(int exponent)
-      : first_(std::ldexp(1.0, exponent / 2)), second_(std::ldexp(1.0, exponent - exponent / 2)) {}
+      : third_(std::ldexp(1.0, exponent / 3)), rest_(std::ldexp(1.0, exponent - 2 * (exponent / 3))) {}
 
-  double times(double x) const { return x * first_ * second_; }
+  double times(double x) const { return x * third_ * third_ * rest_; }
 
  private:
-  double first_, second_;
+  double third_, rest_;
 };
 
 /// The largest power of two that is not above |x|, but at least 2^-1022, so that its inverse is a double too.

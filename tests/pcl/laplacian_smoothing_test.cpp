@@ -172,7 +172,7 @@ TEST(LaplacianSmoothing, SaysOnPclsConsoleWhatACallerGotWrong) {
     EXPECT_TRUE(output.empty());
     EXPECT_EQ(output.width * output.height, 0U);
   };
-  expectSaid("smooth: time_step = -1.000000", [](auto& s) { s.setTimeStep(-1); });
+  expectSaid("smooth: time_step = -1,", [](auto& s) { s.setTimeStep(-1); });
   expectSaid("smooth: iterations = 0", [](auto& s) { s.setIterations(0); });
   expectSaid("pointCloudLaplacian: neighbors = 1", [](auto& s) { s.setKSearch(1); });
   expectSaid("setIndices: index 4800, must lie in [0, 4800)",
