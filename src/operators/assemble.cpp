@@ -10,6 +10,7 @@
 #include "base/buffer.h"
 #include "base/disjoint_sets.h"
 #include "intrinsic/geometry.h"
+#include "operators/column.h"
 #include "operators/rows.h"
 #include "tufted/errors.h"
 
@@ -18,10 +19,23 @@ namespace {
 
 constexpr std::int64_t block_size = 8192;
 
+Buffer<double> faceAreas(const IntrinsicTriangulation& cover, const Workers& workers) {
+  Buffer<double> area(cover.size());
+  workers.forBlocks("assemble", std::ssize(area), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    for (int f = static_cast<int>(begin); f < end; ++f) area[f] = faceArea(cover, f);
+  });
+  return area;
+}
+
 /// The weight of an edge, 1/2 (cot + cot). A face of no area has no cotangents and adds nothing.
-double edgeWeight(const IntrinsicTriangulation& cover, int side) {
-  const double here = oppositeCotan(cover, side), there = oppositeCotan(cover, cover.glue[side]);
-  return ((std::isfinite(here) ? here : 0) + (std::isfinite(there) ? there : 0)) / 2;
+double edgeWeight(const IntrinsicTriangulation& cover, const Buffer<double>& area, int side) {
+  const auto cotan = [&](int at) {
+    const double numerator =
+        cotanNumerator(cover.length[at], cover.length[nextSide(at)], cover.length[previousSide(at)]);
+    const double value = numerator / (4 * area[at / 3]);
+    return std::isfinite(value) ? value : 0;
+  };
+  return (cotan(side) + cotan(cover.glue[side])) / 2;
 }
 
 /// Side numbers of each vertex, one vertex after the other.
@@ -48,7 +62,7 @@ SideLists sidesByVertex(const IntrinsicTriangulation& cover) {
 }
 
 /// The upper triangle: for each vertex the summed weights of its edges to larger vertices, ascending.
-Rows sumWeights(const IntrinsicTriangulation& cover, double scale, const Workers& workers) {
+Rows sumWeights(const IntrinsicTriangulation& cover, const Buffer<double>& area, double scale, const Workers& workers) {
   const SideLists lists = sidesByVertex(cover);
   Rows upper;
   upper.offset.assign(lists.offset.size(), 0);
@@ -60,7 +74,7 @@ Rows sumWeights(const IntrinsicTriangulation& cover, double scale, const Workers
       row.clear();
       for (int i = lists.offset[v]; i < lists.offset[v + 1]; ++i) {
         const int side = lists.sides[i];
-        row.push_back({std::max(tail(cover, side), head(cover, side)), scale * edgeWeight(cover, side)});
+        row.push_back({std::max(tail(cover, side), head(cover, side)), scale * edgeWeight(cover, area, side)});
       }
       Entry* const end_of_row = mergeColumns(row.data(), row.data() + row.size(), scratch);
       part.insert(part.end(), row.data(), end_of_row);
@@ -135,26 +149,22 @@ void toCallerOrder(const Rows& upper, const Buffer<double>& diagonal, const Buff
 /// Sorts the rows within each column.
 void sortColumns(SparseMatrix& L, const Workers& workers) {
   workers.forBlocks("assemble", L.cols(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
-    Buffer<std::pair<int, double>> column;
+    Column column;
     for (std::int64_t j = begin; j < end; ++j) {
-      column.clear();
       const int first = L.outerIndexPtr()[j], last = L.outerIndexPtr()[j + 1];
-      for (int i = first; i < last; ++i) column.emplace_back(L.innerIndexPtr()[i], L.valuePtr()[i]);
-      std::sort(column.begin(), column.end());
-      for (int i = first; i < last; ++i) {
-        L.innerIndexPtr()[i] = column[i - first].first;
-        L.valuePtr()[i] = column[i - first].second;
-      }
+      column.start(last - first);
+      for (int i = first; i < last; ++i) column.add(L.innerIndexPtr()[i], L.valuePtr()[i]);
+      column.sortInto(L.innerIndexPtr() + first, L.valuePtr() + first);
     }
   });
 }
 
 /// A third of each face's area to each corner (Section 3.3), summed in the order of the faces.
-void lumpAreas(const IntrinsicTriangulation& cover, const Buffer<int>& caller, int size, double scale, VectorXd& M,
-               Report& report) {
+void lumpAreas(const IntrinsicTriangulation& cover, const Buffer<double>& areas, const Buffer<int>& caller, int size,
+               double scale, VectorXd& M, Report& report) {
   M.setZero(size);
   for (int f = 0; f < cover.size(); ++f) {
-    const double area = faceArea(cover, f);
+    const double area = areas[f];
     report.degenerate_faces += area > 0 ? 0 : 1;
     for (const int corner : cover.faces[f]) M[caller[corner]] += scale * area / 3;
   }
@@ -165,7 +175,8 @@ void lumpAreas(const IntrinsicTriangulation& cover, const Buffer<int>& caller, i
 void assembleLaplacian(const IntrinsicTriangulation& cover, const Buffer<int>& caller, int size, double scale,
                        const Workers& workers, Laplacian& result) {
   Report& report = result.report;
-  Rows upper = sumWeights(cover, scale, workers);
+  const Buffer<double> areas = faceAreas(cover, workers);
+  Rows upper = sumWeights(cover, areas, scale, workers);
   const auto most_entries = 2 * static_cast<std::int64_t>(upper.entries.size()) + cover.vertices;
   if (most_entries > INT32_MAX) {
     throw InvalidInput("assembleLaplacian: " + std::to_string(most_entries) + " entries of L, must be at most " +
@@ -175,7 +186,7 @@ void assembleLaplacian(const IntrinsicTriangulation& cover, const Buffer<int>& c
   toCallerOrder(upper, sumDiagonal(upper), caller, size, result.L);
   upper = {};
   sortColumns(result.L, workers);
-  lumpAreas(cover, caller, size, scale, result.M, report);
+  lumpAreas(cover, areas, caller, size, scale, result.M, report);
   for (int i = 0; i < size; ++i) {  // no row, no mass: the point takes no part
     if (result.L.outerIndexPtr()[i] == result.L.outerIndexPtr()[i + 1]) result.M[i] = 0;
   }
