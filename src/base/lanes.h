@@ -3,7 +3,7 @@
 // Arithmetic on eight numbers at once, for the sources of kernels only. Includes no header with functions of others: a
 // copy of one that is compiled for one kind of processor could be linked into code for another.
 #include <cstdint>
-#ifdef __AVX512F__
+#ifdef TUFTED_WIDE_LANES
 #include <immintrin.h>
 #endif
 
@@ -14,7 +14,7 @@ namespace {
 
 constexpr int lane_size = 8, float_lane_size = 16;
 
-#ifdef __AVX512F__
+#ifdef TUFTED_WIDE_LANES
 
 using Lane = __m512d;
 using Mask = __mmask8;  // a bit for each number

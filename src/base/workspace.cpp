@@ -1,5 +1,6 @@
 #include "base/workspace.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cstdint>
@@ -50,12 +51,12 @@ class Workspace::Store {
     const std::lock_guard lock(mutex_);
     if (Waiting* const block = waiting_[size_class]; block != nullptr) {
       waiting_[size_class] = block->next;
-      ++in_use_;
+      use(size_class);
       return &block->header;
     }
-    auto* const header = new (::operator new(sizeof(Header) + sizeOf(size_class))) Header{size_class, this};
+    auto* const header = new (fromHeap(sizeof(Header) + sizeOf(size_class))) Header{size_class, this};
     bytes_ += sizeOf(size_class);
-    ++in_use_;
+    use(size_class);
     return header;
   }
 
@@ -67,6 +68,7 @@ class Workspace::Store {
       auto* const block = reinterpret_cast<Waiting*>(header);
       block->next = std::exchange(waiting_[size_class], block);
       --in_use_;
+      bytes_in_use_ -= sizeOf(static_cast<int>(size_class));
       if (is_abandoned_) releaseWaiting();
       is_last = is_abandoned_ && in_use_ == 0;
     }
@@ -76,6 +78,11 @@ class Workspace::Store {
   void release() {
     const std::lock_guard lock(mutex_);
     releaseWaiting();
+  }
+
+  void trim() {
+    const std::lock_guard lock(mutex_);
+    if (bytes_ > 2 * std::exchange(most_bytes_in_use_, bytes_in_use_)) releaseWaiting();
   }
 
   void abandon() {
@@ -100,6 +107,20 @@ class Workspace::Store {
     Waiting* next;  ///< where the block's content was
   };
 
+  void use(int size_class) {
+    ++in_use_;
+    bytes_in_use_ += sizeOf(size_class);
+    most_bytes_in_use_ = std::max(most_bytes_in_use_, bytes_in_use_);
+  }
+
+  /// Before there is no memory left, what waits for others is given back.
+  void* fromHeap(std::size_t bytes) {
+    void* const memory = ::operator new(bytes, std::nothrow);
+    if (memory != nullptr) return memory;
+    releaseWaiting();
+    return ::operator new(bytes);
+  }
+
   void releaseWaiting() {
     for (int c = 0; c < std::ssize(waiting_); ++c) {
       while (waiting_[c] != nullptr) {
@@ -112,7 +133,7 @@ class Workspace::Store {
 
   mutable std::mutex mutex_;
   std::array<Waiting*, classes> waiting_ = {};
-  std::size_t bytes_ = 0;
+  std::size_t bytes_ = 0, bytes_in_use_ = 0, most_bytes_in_use_ = 0;
   std::int64_t in_use_ = 0;  ///< blocks
   bool is_abandoned_ = false;
 };
@@ -125,6 +146,10 @@ Workspace::~Workspace() {
 
 void Workspace::release() {
   store_->release();
+}
+
+void Workspace::trim() {
+  store_->trim();
 }
 
 std::size_t Workspace::bytes() const {

@@ -23,6 +23,10 @@ class Workspace {
   /// Gives the blocks that nobody uses back to the heap.
   void release();
 
+  /// The same where they are more than what was in use at one time since the last call. Frames of changing size leave
+  /// blocks of sizes that none asks for again.
+  void trim();
+
   /// Bytes taken from the heap, in use or not.
   std::size_t bytes() const;
 

@@ -11,6 +11,9 @@ constexpr int near_part = 16, most_rounds = 3, missing = -1;
 /// The sine of the angle between circles from which on they differ: far wider than the tie band of sideOfCircle().
 constexpr double distinct = 1e-7;
 constexpr double inside = 1e-5;
+/// Sines near the tie band, between what is a tie and what is none however many ties add up. There the order in which
+/// vertices are looked at may decide.
+constexpr double surely_tied = 1e-11, surely_not_tied = 1e-7;
 constexpr double rounding = 1e-14;                          // of coordinates and products of them, a dozen roundings
 constexpr double least_square = 1e-60, most_square = 1e60;  // of distances, which keeps all products in range
 
@@ -137,7 +140,7 @@ TUFTED_INLINE Verdict judge(const Inverted& points, Ring& hull, Subset& given, I
   hull.close(toLanes(hull.size) - hull.size + 2);
   // A point is left of the edge from a to b where across . point < 1.
   alignas(64) double across_x[InvertedStar::most], across_y[InvertedStar::most];
-  Mask is_open = none(), is_tied = none();
+  Mask is_open = none(), is_tied = none(), is_ambiguous = none();
   Lane inner_square = all(most_square), least_cross = all(most_square), most_size = all(0);
   for (int i = 0; i < hull.size; i += lane_size) {
     const Lane ax = load(hull.x + i + 1), ay = load(hull.y + i + 1);
@@ -150,7 +153,9 @@ TUFTED_INLINE Verdict judge(const Inverted& points, Ring& hull, Subset& given, I
     const Lane doubt = all(distinct) * u * v + all(rounding) * ((a + b) * v + (b + c) * u);
     const Lane cross = ax * by - ay * bx, edge_square = ux * ux + uy * uy;
     is_open = either(is_open, isAtMost(cross, all(0)));
-    is_tied = either(is_tied, isAtMost(ux * vy - uy * vx, doubt));
+    const Lane turn = ux * vy - uy * vx;
+    is_tied = either(is_tied, isAtMost(turn, doubt));
+    is_ambiguous = either(is_ambiguous, both(isAtMost(turn, doubt), isLess(all(surely_tied) * u * v, turn)));
     store(uy / cross, across_x + i);
     store(-ux / cross, across_y + i);
     const Lane square = cross * cross / edge_square;  // of the distance from the origin to the edge
@@ -180,6 +185,13 @@ TUFTED_INLINE Verdict judge(const Inverted& points, Ring& hull, Subset& given, I
     for (int i = 0; i < hull.size; ++i) star.link[i] = hull.of[i + 1];
     return Verdict::certain;
   }
+  const double ratio = size / __builtin_sqrt(least(inner_square));
+  const Lane from = all(1 - surely_not_tied * ratio), to = all(1 - surely_tied * ratio);
+  for (int i = 0; i < points.count; i += lane_size) {
+    const Lane value = load(gauge + i);
+    is_ambiguous = either(is_ambiguous, both(isLess(from, value), isLess(value, to)));
+  }
+  if (any(is_ambiguous)) return Verdict::doubtful;
   // All that lie on the hull or too near to it, by ascending distance.
   for (int i = 1; i <= hull.size; ++i) gauge[hull.of[i]] = 1;
   bool is_given[most_given] = {};

@@ -9,7 +9,7 @@ namespace tufted {
 constexpr int kernel_lane = 8;
 
 /// `count` filled up to whole lanes.
-constexpr int toLanes(int count) {
+static constexpr int toLanes(int count) {
   return (count + kernel_lane - 1) / kernel_lane * kernel_lane;
 }
 

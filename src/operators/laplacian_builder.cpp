@@ -15,10 +15,19 @@ struct LaplacianBuilder::State {
     try {
       build();
     } catch (...) {
-      result = {};
+      forget();
       throw;
     }
+    workspace.trim();
     return result;
+  }
+
+  /// Swapped, because assigning an empty matrix keeps the memory of the old one.
+  void forget() {
+    Laplacian none;
+    none.L.swap(result.L);
+    result = std::move(none);
+    SparseMatrix().swap(result.L);
   }
 };
 
@@ -36,7 +45,7 @@ const Laplacian& LaplacianBuilder::mesh(const Points& points, const Triangles& t
 }
 
 void LaplacianBuilder::release() {
-  state_->result = {};
+  state_->forget();
   state_->workspace.release();
 }
 

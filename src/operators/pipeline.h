@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -24,7 +25,9 @@ namespace tufted {
 
 template <class Triangulation>
 std::size_t bytesOfCover(const Triangulation& cover) {
-  return bytesOf(cover.faces) + bytesOf(cover.glue) + bytesOf(cover.length);
+  // By size: arrays of an earlier frame may have room for more.
+  const auto bytes = [](const auto& values) { return values.size() * sizeof(values[0]); };
+  return bytes(cover.faces) + bytes(cover.glue) + bytes(cover.length);
 }
 
 /// @throws InvalidInput for options that both entry points share
@@ -58,8 +61,9 @@ inline void restart(Laplacian& result, std::int64_t points, const Workers& worke
 /// The cover of another frame, if nobody else has it, or a new one.
 inline std::shared_ptr<IntrinsicTriangulation> takeCover(Laplacian& result) {
   const auto stored = std::exchange(result.stored_cover, nullptr);
-  return stored.use_count() == 1 ? std::const_pointer_cast<IntrinsicTriangulation>(stored)
-                                 : std::make_shared<IntrinsicTriangulation>();
+  if (stored.use_count() != 1) return std::make_shared<IntrinsicTriangulation>();
+  std::atomic_thread_fence(std::memory_order_acquire);  // after all that the last other owner did with it
+  return std::const_pointer_cast<IntrinsicTriangulation>(stored);
 }
 
 /// What a build knows beside L and M, in units of the points that it worked on.

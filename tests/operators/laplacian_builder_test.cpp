@@ -138,5 +138,14 @@ TEST(LaplacianBuilder, FramesLikeOneAnotherHoldNoMoreAndMore) {
   EXPECT_EQ(builder.bytes(), 0);
 }
 
+TEST(LaplacianBuilder, FramesThatGrowLeaveLittleBehind) {
+  LaplacianBuilder builder;
+  for (int points = 300; points <= 3000; points += 30) builder.pointCloud(shapes::sphere(points).points);
+  const std::size_t held = builder.bytes();
+  LaplacianBuilder other;
+  other.pointCloud(shapes::sphere(3000).points);
+  EXPECT_LE(held, 2 * other.bytes());
+}
+
 }  // namespace
 }  // namespace tufted
