@@ -18,7 +18,7 @@ inline Points permuted(const Points& points, const std::vector<int>& source) {
 }
 
 inline bool sameBits(const double* a, const double* b, std::size_t count) {
-  return std::memcmp(a, b, count * sizeof(double)) == 0;
+  return count == 0 || std::memcmp(a, b, count * sizeof(double)) == 0;
 }
 
 inline bool sameBits(const SparseMatrix& a, const SparseMatrix& b) {
