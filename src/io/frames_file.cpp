@@ -45,6 +45,7 @@ Frames readFrames(const std::filesystem::path& path, const std::vector<PointStat
   if (!fits || (array.shape[0] != n && array.shape[0] != 0))
     refuse(path, "is not an array of " + std::to_string(n) + " x 3 x 3 values, three axes for each row of L");
   const std::vector<double> numbers = numbersOf(array, path);
+  if (numbers.empty()) return {};  // of a mesh; a part of an array without data has no address
   const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 9, Eigen::RowMajor>> axes(numbers.data(), array.shape[0],
                                                                                          9);
   Frames frames{axes.rightCols<3>(), axes.leftCols<3>()};
