@@ -141,7 +141,7 @@ class BlockLanczos {
       combination.bottomRows(count) = gram.matrixU().solve(MatrixXd::Identity(count, count));
       combination.topRows(size_) = -known * combination.bottomRows(count);
       multiplyInto(all, combination, all.rightCols(count), quiet_);
-      if (least_share > 1e-2) return true;  // so little was taken away that rounding did not grow
+      if (least_share > 0.1) return true;  // rounding grew by the inverse of its square
     }
     return false;
   }
