@@ -5,7 +5,6 @@
 #include <array>
 #include <cmath>
 
-#include "base/pair.h"
 #include "base/point_buffer.h"
 #include "cloud/tangent_frame.h"
 
@@ -20,6 +19,9 @@ constexpr double smallest_pivot = 1e-9;      // of the largest
 
 using Vector = std::array<double, coefficients>;
 using Matrix = std::array<Vector, coefficients>;
+
+/// Two doubles that are worked on together, by every processor with the same bits as one after the other.
+using Pair = double __attribute__((vector_size(16)));
 
 double total(Pair a) {
   return a[0] + a[1];

@@ -94,8 +94,8 @@ class GroupSearch {
   }
 
   /// The k least by (distance, index) of what was taken, in order, and anything behind them, where the next row will be
-  /// or the end's spare room is. Where no two distances are one float, each goes to
-  /// the place that says how many are less.
+  /// or the end's spare room is. Where no two distances are one float, each goes to the place that says how many are
+  /// less.
   void takeNearest(int count, Neighbor* row) {
     const int room = toLanes(count);
     std::fill(scratch_.squared.begin() + count, scratch_.squared.begin() + room, nowhere);

@@ -1,7 +1,5 @@
 #pragma once
 
-#include <cstdint>
-
 #include "base/buffer.h"
 #include "base/point_buffer.h"
 #include "cloud/kernels.h"

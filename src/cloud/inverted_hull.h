@@ -11,9 +11,9 @@ constexpr int near_part = 16, most_rounds = 3, missing = -1;
 /// The sine of the angle between circles from which on they differ: far wider than the tie band of sideOfCircle().
 constexpr double distinct = 1e-7;
 constexpr double inside = 1e-5;
-/// Sines near the tie band, between what is a tie and what is none however many ties add up. There the order in which
-/// vertices are looked at may decide.
-constexpr double surely_tied = 1e-11, surely_not_tied = 1e-7;
+/// Up to here there is a tie however many add up. Between this and `distinct` the order in which vertices are looked at
+/// may decide.
+constexpr double surely_tied = 1e-11;
 constexpr double rounding = 1e-14;                          // of coordinates and products of them, a dozen roundings
 constexpr double least_square = 1e-60, most_square = 1e60;  // of distances, which keeps all products in range
 
@@ -165,9 +165,8 @@ TUFTED_INLINE Verdict judge(const Inverted& points, Ring& hull, Subset& given, I
     store(all(0.5) / squareRoot(square), star.radius + i);
   }
   if (any(is_open)) return Verdict::doubtful;
-  const double size = most(most_size);
-  const double limit =
-      1 - 2 * inside * size / __builtin_sqrt(least(inner_square)) - rounding * size * size / least(least_cross);
+  const double size = most(most_size), ratio = size / __builtin_sqrt(least(inner_square));
+  const double limit = 1 - 2 * inside * ratio - rounding * size * size / least(least_cross);
   if (!(limit > 0)) return Verdict::doubtful;
 
   alignas(64) double gauge[most_given];  // the largest across . point
@@ -185,8 +184,7 @@ TUFTED_INLINE Verdict judge(const Inverted& points, Ring& hull, Subset& given, I
     for (int i = 0; i < hull.size; ++i) star.link[i] = hull.of[i + 1];
     return Verdict::certain;
   }
-  const double ratio = size / __builtin_sqrt(least(inner_square));
-  const Lane from = all(1 - surely_not_tied * ratio), to = all(1 - surely_tied * ratio);
+  const Lane from = all(1 - distinct * ratio), to = all(1 - surely_tied * ratio);
   for (int i = 0; i < points.count; i += lane_size) {
     const Lane value = load(gauge + i);
     is_ambiguous = either(is_ambiguous, both(isLess(from, value), isLess(value, to)));

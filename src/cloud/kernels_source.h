@@ -5,6 +5,8 @@
 namespace tufted {
 namespace {
 
+static_assert(lane_size == kernel_lane, "arrays are filled up to the lanes that are worked on");
+
 int takeWithin(const Candidates& candidates, const double* point, int p, double bound, double* squared_distance,
                int* index) {
   // Copies, which what is written below cannot change.

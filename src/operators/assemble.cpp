@@ -11,6 +11,7 @@
 #include "base/disjoint_sets.h"
 #include "intrinsic/geometry.h"
 #include "operators/column.h"
+#include "operators/face_areas.h"
 #include "operators/rows.h"
 #include "tufted/errors.h"
 
@@ -19,23 +20,9 @@ namespace {
 
 constexpr std::int64_t block_size = 8192;
 
-Buffer<double> faceAreas(const IntrinsicTriangulation& cover, const Workers& workers) {
-  Buffer<double> area(cover.size());
-  workers.forBlocks("assemble", std::ssize(area), block_size, [&](std::int64_t begin, std::int64_t end, int) {
-    for (int f = static_cast<int>(begin); f < end; ++f) area[f] = faceArea(cover, f);
-  });
-  return area;
-}
-
-/// The weight of an edge, 1/2 (cot + cot). A face of no area has no cotangents and adds nothing.
-double edgeWeight(const IntrinsicTriangulation& cover, const Buffer<double>& area, int side) {
-  const auto cotan = [&](int at) {
-    const double numerator =
-        cotanNumerator(cover.length[at], cover.length[nextSide(at)], cover.length[previousSide(at)]);
-    const double value = numerator / (4 * area[at / 3]);
-    return std::isfinite(value) ? value : 0;
-  };
-  return (cotan(side) + cotan(cover.glue[side])) / 2;
+/// The weight of an edge, 1/2 (cot + cot).
+double edgeWeight(const IntrinsicTriangulation& cover, const Buffer<double>& areas, int side) {
+  return (finiteCotan(cover, areas, side) + finiteCotan(cover, areas, cover.glue[side])) / 2;
 }
 
 /// Side numbers of each vertex, one vertex after the other.
@@ -62,7 +49,8 @@ SideLists sidesByVertex(const IntrinsicTriangulation& cover) {
 }
 
 /// The upper triangle: for each vertex the summed weights of its edges to larger vertices, ascending.
-Rows sumWeights(const IntrinsicTriangulation& cover, const Buffer<double>& area, double scale, const Workers& workers) {
+Rows sumWeights(const IntrinsicTriangulation& cover, const Buffer<double>& areas, double scale,
+                const Workers& workers) {
   const SideLists lists = sidesByVertex(cover);
   Rows upper;
   upper.offset.assign(lists.offset.size(), 0);
@@ -74,7 +62,7 @@ Rows sumWeights(const IntrinsicTriangulation& cover, const Buffer<double>& area,
       row.clear();
       for (int i = lists.offset[v]; i < lists.offset[v + 1]; ++i) {
         const int side = lists.sides[i];
-        row.push_back({std::max(tail(cover, side), head(cover, side)), scale * edgeWeight(cover, area, side)});
+        row.push_back({std::max(tail(cover, side), head(cover, side)), scale * edgeWeight(cover, areas, side)});
       }
       Entry* const end_of_row = mergeColumns(row.data(), row.data() + row.size(), scratch);
       part.insert(part.end(), row.data(), end_of_row);

@@ -22,12 +22,9 @@ struct LaplacianBuilder::State {
     return result;
   }
 
-  /// Swapped, because assigning an empty matrix keeps the memory of the old one.
   void forget() {
-    Laplacian none;
-    none.L.swap(result.L);
-    result = std::move(none);
-    SparseMatrix().swap(result.L);
+    result = {};
+    SparseMatrix().swap(result.L);  // assigning an empty one keeps the memory
   }
 };
 

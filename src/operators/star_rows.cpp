@@ -1,16 +1,15 @@
 #include "operators/star_rows.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 #include <string>
-#include <utility>
 
 #include "base/buffer.h"
 #include "base/disjoint_sets.h"
 #include "intrinsic/geometry.h"
 #include "operators/column.h"
+#include "operators/face_areas.h"
 #include "operators/rows.h"
 #include "tufted/errors.h"
 
@@ -18,10 +17,6 @@ namespace tufted {
 namespace {
 
 constexpr std::int64_t block_size = 8192;
-
-double finite(double cotan) {
-  return std::isfinite(cotan) ? cotan : 0;  // a face of no area has no cotangents and adds nothing
-}
 
 class StarAssembler {
  public:
@@ -109,10 +104,7 @@ class StarAssembler {
 
   /// A third of each face's area to each corner (Section 3.3), by rank.
   Buffer<double> lumpAreas(Report& report) {
-    face_area_.resize(cover_.faces().faces.size());
-    workers_.forBlocks("assemble", std::ssize(face_area_), block_size, [&](std::int64_t begin, std::int64_t end, int) {
-      for (int f = static_cast<int>(begin); f < end; ++f) face_area_[f] = faceArea(cover_.faces(), f);
-    });
+    face_area_ = faceAreas(cover_.faces(), workers_);
     Buffer<double> mass(static_cast<std::size_t>(stars_.size()));
     for (int p = 0; p < stars_.size(); ++p)
       if (mixed_[p] == 0) mass[p] = 2 * scale_ * metric_.area[p];  // 2 sheets, 3 stars, a third
@@ -158,18 +150,14 @@ class StarAssembler {
     forEachAbsentTriangle([&](int p, int a, int b) {
       if (mixed_[p] + mixed_[a] + mixed_[b] < 2) return;
       const auto onBothSheets = [&](int from, int to, int opposite) {
-        return 2 * finite(oppositeCotan(length_(from, to), length_(to, opposite), length_(opposite, from)));
+        return 2 * finiteCotan(oppositeCotan(length_(from, to), length_(to, opposite), length_(opposite, from)));
       };
       term(p, a, [&] { return onBothSheets(p, a, b); });
       term(p, b, [&] { return onBothSheets(b, p, a); });
       term(a, b, [&] { return onBothSheets(a, b, p); });
     });
     const CoverBuffer& faces = cover_.faces();
-    const auto cotan = [&](int side) {
-      const double numerator =
-          cotanNumerator(faces.length[side], faces.length[nextSide(side)], faces.length[previousSide(side)]);
-      return finite(numerator / (4 * face_area_[side / 3]));
-    };
+    const auto cotan = [&](int side) { return finiteCotan(faces, face_area_, side); };
     for (int side = 0; side < static_cast<int>(3 * faces.size()); ++side) {
       const int mate = faces.glue[side];
       if (mate != unglued && mate < side) continue;

@@ -91,10 +91,9 @@ void runCloud(benchmark::State& state, const CloudCase& c) {
   Costs costs(cloud.size());
   for ([[maybe_unused]] auto _ : state) {
     {
-      const Stopwatch watch;
-      const CpuStopwatch cpu_watch;
+      const BuildStopwatch watch(c.threads);
       const Laplacian laplacian = pointCloudLaplacian(points, options);
-      const double seconds = c.threads == 1 ? cpu_watch.seconds() : watch.seconds();
+      const double seconds = watch.seconds();
       state.SetIterationTime(seconds);
       costs.addBuild(seconds, laplacian.report);
     }

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "base/stage_clock.h"
 #include "tufted/report.h"
 
 namespace tufted::bench {
@@ -19,6 +20,18 @@ class CpuStopwatch {
 
  private:
   std::clock_t start_ = std::clock();
+};
+
+/// Seconds of a build: of the processor on one thread, of the clock on several.
+class BuildStopwatch {
+ public:
+  explicit BuildStopwatch(int threads) : threads_(threads) {}
+  double seconds() const { return threads_ == 1 ? processor_.seconds() : clock_.seconds(); }
+
+ private:
+  int threads_;
+  CpuStopwatch processor_;
+  Stopwatch clock_;
 };
 
 /// Collects what the builds of one case cost and writes medians as counters of the benchmark:

@@ -92,10 +92,9 @@ void runMesh(benchmark::State& state, const MeshCase& c) {
   const std::string text = c.threads == 1 ? offText(mesh) : "";
   Costs costs(c.triangles());
   for ([[maybe_unused]] auto _ : state) {
-    const Stopwatch watch;
-    const CpuStopwatch cpu_watch;
+    const BuildStopwatch watch(c.threads);
     const Laplacian laplacian = meshLaplacian(mesh.points, mesh.triangles, {.threads = c.threads});
-    const double seconds = c.threads == 1 ? cpu_watch.seconds() : watch.seconds();
+    const double seconds = watch.seconds();
     state.SetIterationTime(seconds);
     costs.addBuild(seconds, laplacian.report);
     if (c.threads == 1) costs.addSeconds("read", readSeconds(text));

@@ -1,0 +1,35 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "base/buffer.h"
+#include "base/parallel.h"
+#include "intrinsic/geometry.h"
+
+namespace tufted {
+
+/// Of every face of an IntrinsicTriangulation or a CoverBuffer.
+template <class Triangulation>
+Buffer<double> faceAreas(const Triangulation& t, const Workers& workers) {
+  constexpr std::int64_t block_size = 8192;
+  Buffer<double> areas(static_cast<std::size_t>(t.size()));
+  workers.forBlocks("assemble", std::ssize(areas), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    for (int f = static_cast<int>(begin); f < end; ++f) areas[f] = faceArea(t, f);
+  });
+  return areas;
+}
+
+/// A face of no area has no cotangents and adds nothing.
+inline double finiteCotan(double cotan) {
+  return std::isfinite(cotan) ? cotan : 0;
+}
+
+/// The cotangent opposite `side`, from the areas of the faces.
+template <class Triangulation>
+double finiteCotan(const Triangulation& t, const Buffer<double>& areas, int side) {
+  return finiteCotan(cotanNumerator(t.length[side], t.length[nextSide(side)], t.length[previousSide(side)]) /
+                     (4 * areas[side / 3]));
+}
+
+}  // namespace tufted
