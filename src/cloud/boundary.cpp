@@ -57,6 +57,7 @@ class Chart {
 };
 
 struct WorkerState {
+  SearchBefore before, seen_before;
   Buffer<Gap> gaps;
   Buffer<Neighbor> near;
 };
@@ -78,13 +79,13 @@ class BoundaryFinder {
   Boundary find(int p, WorkerState& state) const {
     if (stars_.ends[p] == 0) return Boundary::none;
     if (!hasTriangles(p)) return Boundary::lost;
-    source_.nearest(points_, p, search_factor * source_.k, state.near);
+    source_.nearest(points_, p, search_factor * source_.k, state.near, NeighborOrder::any, &state.before);
     const Eigen::Vector3d normal = stars_.normals.row(p);
     const Boundary along_normal = lookBeyond(p, View::along_normal, Chart(points_, p, normal), state);
     if (!seen_ || along_normal == Boundary::jump) return along_normal;
 
     const Eigen::Vector3d sight = directions_.row(p);
-    seen_->nearest(p, search_factor * source_.k, state.near);
+    seen_->nearest(p, search_factor * source_.k, state.near, NeighborOrder::any, &state.seen_before);
     const Chart image(directions_, p, sight.dot(normal) < 0 ? -sight : sight);  // gaps run the same way round
     const Boundary in_image = lookBeyond(p, View::from_viewpoint, image, state);
     return in_image == Boundary::jump ? Boundary::jump : along_normal;

@@ -57,11 +57,11 @@ void takeNormals(const Points& normals, const RankedCloud& cloud, NeighborSource
 
 }  // namespace
 
-ScanSearch::Searched NeighborSource::nearest(const PointsView& points, int p, int count,
-                                             Buffer<Neighbor>& found) const {
+ScanSearch::Searched NeighborSource::nearest(const PointsView& points, int p, int count, Buffer<Neighbor>& found,
+                                             NeighborOrder order, SearchBefore* before) const {
   if (scan != nullptr) return scan->nearest(p, count, found);
   if (search != nullptr) {
-    search->nearest(p, count, found);
+    search->nearest(p, count, found, order, before);
   } else {
     found.clear();
     for (std::size_t i = list_offset[p]; i < list_offset[p + 1]; ++i)

@@ -29,10 +29,11 @@ struct NeighborSource {
   /// Whether the points found get sparser with their distance by design.
   bool isGraded() const { return scan != nullptr && scan->isGraded(); }
 
-  /// `count` neighbours of p, ascending by (distance, index), or the caller's list as it is. See
-  /// NeighborSearch::nearest and ScanSearch::nearest.
+  /// `count` neighbours of p, or the caller's list as it is. See NeighborSearch::nearest and ScanSearch::nearest, whose
+  /// neighbours ascend in any case.
   /// @returns the region that was searched
-  ScanSearch::Searched nearest(const PointsView& points, int p, int count, Buffer<Neighbor>& found) const;
+  ScanSearch::Searched nearest(const PointsView& points, int p, int count, Buffer<Neighbor>& found,
+                               NeighborOrder order = NeighborOrder::ascending, SearchBefore* before = nullptr) const;
 
   /// The k neighbours of every point of [first, first + count), row after row, by one search for many. Only with
   /// `search`.

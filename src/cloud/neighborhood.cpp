@@ -40,15 +40,16 @@ int NeighborhoodFinder::mostNeighbors() const {
   return most_growth * source_.k;
 }
 
-bool NeighborhoodFinder::query(int p, int k, Neighborhood& hood) const {
+bool NeighborhoodFinder::query(int p, int k, Neighborhood& hood, SheetScratch& scratch) const {
   k = std::min(k, static_cast<int>(points_.rows()) - 1);
   if (source_.isFixed() || k <= hood.k) return false;
-  search(p, k, hood);
+  search(p, k, hood, &scratch.before);
   return true;
 }
 
-void NeighborhoodFinder::search(int p, int k, Neighborhood& hood) const {
-  const ScanSearch::Searched searched = source_.nearest(points_, p, k, hood.neighbors);
+void NeighborhoodFinder::search(int p, int k, Neighborhood& hood, SearchBefore* before) const {
+  const ScanSearch::Searched searched =
+      source_.nearest(points_, p, k, hood.neighbors, NeighborOrder::ascending, before);
   hood.k = source_.isFixed() ? static_cast<int>(hood.neighbors.size()) : k;
   hood.radius = searched.radius;
   hood.cut = searched.cut;
@@ -61,7 +62,7 @@ void NeighborhoodFinder::find(int first, int count, GroupScratch& scratch, Buffe
     Neighborhood& hood = hoods[i];
     hood.grown = hood.split = hood.restored = hood.isolated = false;
     if (source_.search == nullptr) {
-      search(first + i, source_.k, hood);
+      search(first + i, source_.k, hood, nullptr);
       continue;
     }
     const auto row = found.begin() + static_cast<std::ptrdiff_t>(i) * source_.k;
@@ -84,7 +85,7 @@ bool NeighborhoodFinder::isUneven(const Neighborhood& hood) const {
 
 void NeighborhoodFinder::fit(int p, Neighborhood& hood, Offsets& offsets, SheetScratch& scratch) const {
   hood.axes = principalAxes(points_, p, hood.neighbors, offsets);
-  while (isUneven(hood) && query(p, std::min(2 * hood.k, mostNeighbors()), hood)) {
+  while (isUneven(hood) && query(p, std::min(2 * hood.k, mostNeighbors()), hood, scratch)) {
     hood.axes = principalAxes(points_, p, hood.neighbors);
     hood.grown = true;
   }
@@ -93,7 +94,7 @@ void NeighborhoodFinder::fit(int p, Neighborhood& hood, Offsets& offsets, SheetS
 }
 
 bool NeighborhoodFinder::grow(int p, int most, Neighborhood& hood, SheetScratch& scratch) const {
-  if (!query(p, std::min(2 * hood.k, most), hood)) return false;
+  if (!query(p, std::min(2 * hood.k, most), hood, scratch)) return false;
   if (splitsSheets() && (hood.split || (!hood.restored && !hood.grown))) keepSheet(p, hood.axes.normal, hood, scratch);
   return true;
 }

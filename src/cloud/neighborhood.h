@@ -29,6 +29,7 @@ struct SheetScratch {
   Buffer<double> heights, sorted;
   Buffer<Neighbor> all;  ///< before any were left out; empty while none were
   Neighborhood tried;
+  SearchBefore before;
 };
 
 /// Finds the neighbourhoods of points and fits planes to them.
@@ -53,8 +54,8 @@ class NeighborhoodFinder {
   int mostNeighbors() const;
 
  private:
-  void search(int p, int k, Neighborhood& hood) const;
-  bool query(int p, int k, Neighborhood& hood) const;
+  void search(int p, int k, Neighborhood& hood, SearchBefore* before) const;
+  bool query(int p, int k, Neighborhood& hood, SheetScratch& scratch) const;
   /// Rings would be taken for sheets.
   bool splitsSheets() const;
   bool isUneven(const Neighborhood& hood) const;

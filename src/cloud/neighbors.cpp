@@ -24,15 +24,35 @@ constexpr double least_square = 1e-290;  // of a distance; below, squares have n
 /// rounded terms. So the bound shown to FLANN is a little wider than the k-th distance, which is all the slack its
 /// rounding needs, and ties are decided here. L2_Simple adds the squared differences in the order x, y, z, so its
 /// distances are the same bits for any tree.
-class NearestSet final : public flann::ResultSet<double> {
+class NearestSet : public flann::ResultSet<double> {
  public:
-  NearestSet(int self, int k, Buffer<Neighbor>& found) : self_(self), k_(static_cast<std::size_t>(k)), found_(found) {
+  /// @param radius of a ball that holds k points beside the query point, or infinity
+  NearestSet(int self, int k, double radius, Buffer<Neighbor>& found)
+      : found_(found), k_(static_cast<std::size_t>(k)), self_(self) {
     found_.clear();
-    found_.reserve(k_ + 1);
+    setWorst(radius * radius);
   }
 
-  bool full() const override { return found_.size() == k_; }
+  bool full() const override { return found_.size() >= k_; }
   double worstDist() const override { return worst_; }
+
+ protected:
+  void setWorst(double squared_distance) {
+    worst_ = squared_distance * (1 + 1e-12) + std::numeric_limits<double>::denorm_min();
+  }
+
+  Buffer<Neighbor>& found_;
+  const std::size_t k_;
+  const int self_;
+
+ private:
+  double worst_ = 0;
+};
+
+/// Keeps them in order, which takes least for a few.
+class AscendingSet final : public NearestSet {
+ public:
+  using NearestSet::NearestSet;
 
   void addPoint(double squared_distance, size_t index) override {
     const Neighbor candidate{squared_distance, static_cast<int>(index)};
@@ -42,14 +62,29 @@ class NearestSet final : public flann::ResultSet<double> {
     found_.push_back(candidate);
     for (; place > 0 && candidate < found_[place - 1]; --place) found_[place] = found_[place - 1];
     found_[place] = candidate;
-    if (full()) worst_ = found_.back().squared_distance * (1 + 1e-12) + std::numeric_limits<double>::denorm_min();
+    if (full()) setWorst(found_.back().squared_distance);
+  }
+};
+
+/// Chooses them among twice as many now and then, which takes least for hundreds.
+class UnorderedSet final : public NearestSet {
+ public:
+  using NearestSet::NearestSet;
+
+  void addPoint(double squared_distance, size_t index) override {
+    if (static_cast<int>(index) == self_) return;
+    found_.push_back({squared_distance, static_cast<int>(index)});
+    if (found_.size() < 2 * k_) return;
+    choose();
+    setWorst(found_.back().squared_distance);
   }
 
- private:
-  int self_;
-  std::size_t k_;
-  Buffer<Neighbor>& found_;
-  double worst_ = std::numeric_limits<double>::infinity();
+  /// The largest comes last.
+  void choose() {
+    if (found_.size() < k_) return;
+    std::nth_element(found_.begin(), found_.begin() + static_cast<std::ptrdiff_t>(k_ - 1), found_.end());
+    found_.resize(k_);
+  }
 };
 
 /// All points in a ball whose radius shrinks to that of the k nearest of its centre plus a margin.
@@ -122,12 +157,28 @@ NeighborSearch::NeighborSearch(const PointsView& points) : points_(points) {
 
 NeighborSearch::~NeighborSearch() = default;
 
-void NeighborSearch::nearest(int p, int k, Buffer<Neighbor>& found) const {
+void NeighborSearch::nearest(int p, int k, Buffer<Neighbor>& found, NeighborOrder order, SearchBefore* before) const {
   const int available = static_cast<int>(points_.rows()) - 1;
-  NearestSet set(p, std::min(k, available), found);
-  if (k <= 0 || available <= 0) return;
+  k = std::min(k, available);
+  found.clear();
+  if (k <= 0) return;
   const ForeignMemory query;
-  tree_->index.findNeighbors(set, points_.row(p).data(), tree_->params);
+  const double* const point = points_.row(p).data();
+  const auto search = [&](double radius) {
+    if (order == NeighborOrder::ascending) {
+      AscendingSet set(p, k, radius, found);
+      tree_->index.findNeighbors(set, point, tree_->params);
+    } else {
+      UnorderedSet set(p, k, radius, found);
+      tree_->index.findNeighbors(set, point, tree_->params);
+      set.choose();
+    }
+  };
+  double radius = std::numeric_limits<double>::infinity();
+  if (before != nullptr && before->k >= k) radius = before->radius + (points_.row(p) - points_.row(before->p)).norm();
+  search(radius);
+  if (std::ssize(found) < k) search(std::numeric_limits<double>::infinity());  // the bound was lost in rounding
+  if (before != nullptr) *before = {p, k, std::sqrt(found.back().squared_distance)};
 }
 
 bool NeighborSearch::candidates(int first, int count, int k, Buffer<int>& found, Buffer<double>& bounds,

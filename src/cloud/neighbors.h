@@ -18,6 +18,14 @@ struct Neighbor {
   }
 };
 
+enum class NeighborOrder { ascending, any };
+
+/// What the search before has found, which bounds that for a point near by.
+struct SearchBefore {
+  int p = 0, k = 0;   ///< k = 0: there was none
+  double radius = 0;  ///< of the k nearest of p
+};
+
 /// Exact nearest neighbours by FLANN's KDTreeSingleIndex in double.
 class NeighborSearch : public InWorkspace {
  public:
@@ -29,9 +37,11 @@ class NeighborSearch : public InWorkspace {
   NeighborSearch(const NeighborSearch&) = delete;
   NeighborSearch& operator=(const NeighborSearch&) = delete;
 
-  /// The min(k, n - 1) points nearest to point p, itself left out by index, ascending by (distance, index).
-  /// `found` is overwritten and keeps its memory. Safe to call from several threads.
-  void nearest(int p, int k, Buffer<Neighbor>& found) const;
+  /// The min(k, n - 1) points nearest to point p, itself left out by index: the least by (distance, index),
+  /// the largest of them last. `found` is overwritten and keeps its memory. Safe to call from several threads.
+  /// @param before overwritten; null: the search takes somewhat longer
+  void nearest(int p, int k, Buffer<Neighbor>& found, NeighborOrder order = NeighborOrder::ascending,
+               SearchBefore* before = nullptr) const;
 
   /// All points that any of the points [first, first + count) has among its min(k, n - 1) nearest, and others near
   /// them. False, and nothing of use, where these are more than most_candidates, or so close that squares of

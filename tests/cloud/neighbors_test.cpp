@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <vector>
 
 #include "cloud/group_search.h"
 #include "cloud/morton.h"
@@ -36,12 +37,39 @@ TEST(Neighbors, EqualBruteForceWithTiesToTheSmallerIndex) {
 }
 
 /// Clouds with ties, lines, jumps between groups, an outlier, more points in a ball than a group may have, few points.
-TEST(Neighbors, OfEachAreThoseOfOne) {
+std::vector<shapes::Cloud> oddClouds() {
   shapes::Cloud crowd = shapes::sphere(3000);
   crowd.points.topRows(2000) *= 1e-9;
   crowd.points.row(2999) *= 1e12;
-  shapes::Cloud few = shapes::sphere(9);
-  for (const auto& cloud : {shapes::sphere(5000), shapes::squareLattice(70), shapes::lidar({}), crowd, few}) {
+  return {shapes::sphere(5000), shapes::squareLattice(70), shapes::lidar({}), crowd, shapes::sphere(9)};
+}
+
+TEST(Neighbors, AreTheSameInAnyOrderAndWhateverWasSearchedBefore) {
+  for (const auto& cloud : oddClouds()) {
+    std::vector<PointStatus> status;
+    std::vector<int> representative;
+    const RankedCloud ranked = rankPoints(cloud.points, status, representative);
+    const NeighborSearch search(ranked.points);
+    Buffer<Neighbor> expected, found;
+    SearchBefore before, unordered_before;
+    for (int p = 0; p < ranked.size(); p += 1 + p % 7) {  // not always the next one
+      const int k = 20 + p % 3 * 40;                      // sometimes more than the time before
+      search.nearest(p, k, expected);
+      search.nearest(p, k, found, NeighborOrder::ascending, &before);
+      const auto same = [](const Neighbor& a, const Neighbor& b) {
+        return a.index == b.index && a.squared_distance == b.squared_distance;
+      };
+      ASSERT_TRUE(std::equal(found.begin(), found.end(), expected.begin(), expected.end(), same)) << cloud.name << p;
+      search.nearest(p, k, found, NeighborOrder::any, &unordered_before);
+      ASSERT_TRUE(same(found.back(), expected.back()));
+      std::sort(found.begin(), found.end());
+      ASSERT_TRUE(std::equal(found.begin(), found.end(), expected.begin(), expected.end(), same)) << cloud.name << p;
+    }
+  }
+}
+
+TEST(Neighbors, OfEachAreThoseOfOne) {
+  for (const auto& cloud : oddClouds()) {
     std::vector<PointStatus> status;
     std::vector<int> representative;
     const RankedCloud ranked = rankPoints(cloud.points, status, representative);
