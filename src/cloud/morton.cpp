@@ -13,6 +13,7 @@ namespace tufted {
 namespace {
 
 constexpr std::int64_t block_size = 4096;
+constexpr int serial_sort = 2;  // threads up to which sorting by comparison on all of them takes longer
 constexpr double axis_cells = 1 << 21;
 constexpr double cells = 1 << 16;  // per median spread; so 2^21 cells reach over 32 spreads
 
@@ -39,6 +40,24 @@ struct Key {
   std::uint64_t code;
   int index;
 };
+
+/// Sorts by code, those of one code as they come, digit by digit from the last.
+void sortByCode(Buffer<Key>& keys) {
+  constexpr int digit_bits = 11, digits = 6;
+  constexpr std::uint64_t mask = (1 << digit_bits) - 1;
+  const auto digitOf = [](const Key& key, int d) { return key.code >> (d * digit_bits) & mask; };
+  Buffer<std::uint32_t> count(digits << digit_bits);
+  for (const Key& key : keys)
+    for (int d = 0; d < digits; ++d) ++count[(d << digit_bits) + digitOf(key, d)];
+  Buffer<Key> sorted(keys.size());
+  for (int d = 0; d < digits; ++d) {
+    std::uint32_t* const place = count.data() + (d << digit_bits);
+    if (place[digitOf(keys.front(), d)] == keys.size()) continue;  // the same digit everywhere
+    std::exclusive_scan(place, place + mask + 1, place, std::uint32_t{0});
+    for (const Key& key : keys) sorted[place[digitOf(key, d)]++] = key;
+    keys.swap(sorted);
+  }
+}
 
 }  // namespace
 
@@ -85,12 +104,17 @@ RankedCloud rankPoints(const Points& points, std::vector<PointStatus>& status, s
     }
     return a.index < b.index;
   };
-  if (workers.count() > 1 &&
-      std::ssize(keys) > block_size) {  // keys differ, so any way of sorting gives the same order
+  // Keys differ, so any way of sorting gives the same order.
+  if (workers.count() > serial_sort && std::ssize(keys) > block_size) {
     const auto threads = static_cast<__gnu_parallel::_ThreadIndex>(workers.count());
     __gnu_parallel::sort(keys.begin(), keys.end(), comesBefore, __gnu_parallel::multiway_mergesort_tag(threads));
-  } else {
-    std::sort(keys.begin(), keys.end(), comesBefore);
+  } else if (!keys.empty()) {
+    sortByCode(keys);
+    for (auto first = keys.begin(); first != keys.end();) {
+      const auto last = std::find_if(first + 1, keys.end(), [&](const Key& key) { return key.code != first->code; });
+      if (last - first > 1) std::sort(first, last, comesBefore);
+      first = last;
+    }
   }
 
   cloud.caller.reserve(keys.size());

@@ -86,9 +86,14 @@ std::int64_t dropTriangles(Stars& stars, const Workers& workers, const Test& tes
 
 void filterStars(Stars& stars, const PointsView& points, int k, Filter filter, const Workers& workers, Report& report) {
   if (stars.size() <= k + 1) return;
+  const bool any_isolated = std::any_of(stars.isolated.begin(), stars.isolated.end(), [](auto is) { return is != 0; });
+  // No triangle smaller than this is condemned, so that their corners need not be looked at.
+  const double harmless = *std::min_element(stars.reach.begin(), stars.reach.end());
   report.dropped_triangles += dropTriangles(stars, workers, [&](int p, int i) {
-    if (stars.isolated[stars.link[i]] != 0 || stars.isolated[stars.link[stars.after(p, i)]] != 0) return true;
-    return filter == Filter::radius ? isTooLarge(stars, p, i) : isImplausible(stars, points, p, i);
+    if (any_isolated && (stars.isolated[stars.link[i]] != 0 || stars.isolated[stars.link[stars.after(p, i)]] != 0))
+      return true;
+    if (filter == Filter::votes) return isImplausible(stars, points, p, i);
+    return stars.radius[i] > harmless && isTooLarge(stars, p, i);
   });
 }
 
