@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "algorithms/connected.h"
+#include "algorithms/greater.h"
 #include "algorithms/heat_directions.h"
 #include "algorithms/linear_system.h"
 #include "algorithms/memory_limit.h"
@@ -234,7 +235,7 @@ VectorXd DistanceSolver::queryAt(const std::vector<SurfacePoint>& sources, Dista
   state.shift(known, distance);
   if (report != nullptr) {
     made.iterations = std::max(made.iterations, solved.iterations);
-    made.residual = std::max(made.residual, solved.residual);
+    made.residual = greater(made.residual, solved.residual);
     made.seconds = watch.seconds();
     *report = made;
   }

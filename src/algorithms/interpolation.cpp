@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "algorithms/connected.h"
+#include "algorithms/greater.h"
 #include "algorithms/linear_system.h"
 #include "algorithms/pinned_system.h"
 #include "base/stage_clock.h"
@@ -66,7 +67,7 @@ class Refinement {
     if (report != nullptr) {
       const Eigen::RowVectorXd left = norms(missing(Eigen::MatrixXd::Ones(open_.rows(), open_.cols())));
       for (Eigen::Index c = 0; c < left.size(); ++c)
-        if (first[c] > 0) report->residual = std::max(report->residual, left[c] / first[c]);
+        if (first[c] > 0) report->residual = greater(report->residual, left[c] / first[c]);
     }
     Eigen::MatrixXd result = pinned_.values;
     for (const int i : pinned_.components.points)

@@ -11,6 +11,7 @@
 
 #include "algorithms/block_lanczos.h"
 #include "algorithms/connected.h"
+#include "algorithms/greater.h"
 #include "algorithms/inertia.h"
 #include "algorithms/linear_system.h"
 #include "algorithms/memory_limit.h"
@@ -159,6 +160,10 @@ void findVibrations(const Laplacian& laplacian, const Problem& problem, Index wa
   // Another step of the inverse takes out what rounding left of high frequencies, and fills in points without mass.
   MatrixXd x = apply(found.vectors) * found.values.cwiseInverse().asDiagonal();
   const Eigen::LLT<MatrixXd> gram(innerProducts(x, problem.mass, x, quiet));
+  if (gram.info() != Eigen::Success)
+    throw SolverFailure(
+        "spectrum: the eigenvectors found are not independent, so digits are wrong; L is too close to "
+        "singular, ask for fewer eigenvalues or set method to SolverMethod::cholesky");
   const MatrixXd combination = gram.matrixU().solve(MatrixXd::Identity(wanted, wanted));
   multiplyInPlace(x, combination, quiet);
   spectrum.values.tail(wanted) = found.values.cwiseInverse();
@@ -170,12 +175,13 @@ void measure(const Laplacian& laplacian, const Problem& problem, Spectrum& spect
   const Progress silent;
   const Workers workers(1, silent);
   const MatrixXd gram = innerProducts(spectrum.vectors, problem.mass, spectrum.vectors, workers);
-  spectrum.report.orthogonality = (gram - MatrixXd::Identity(gram.rows(), gram.cols())).cwiseAbs().maxCoeff();
+  spectrum.report.orthogonality =
+      (gram - MatrixXd::Identity(gram.rows(), gram.cols())).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
   for (Index c = 0; c < spectrum.values.size(); ++c) {
     if (spectrum.values[c] == 0) continue;
     const VectorXd weighted = spectrum.values[c] * problem.mass.cwiseProduct(spectrum.vectors.col(c));
     const double residual = (laplacian.L * spectrum.vectors.col(c) - weighted).norm() / weighted.norm();
-    spectrum.report.residual = std::max(spectrum.report.residual, residual);
+    spectrum.report.residual = greater(spectrum.report.residual, residual);
   }
 }
 

@@ -231,5 +231,15 @@ TEST(Solver, CancelsAtEveryCall) {
   }
 }
 
+TEST(Solver, ReportsNoSmallResidualWhereTheSolutionOverflows) {
+  SparseMatrix A(2, 2);
+  A.coeffRef(0, 0) = A.coeffRef(1, 1) = 2e-309;
+  A.coeffRef(0, 1) = A.coeffRef(1, 0) = -1e-309;
+  SolveReport report;
+  const MatrixXd x = Solver::positiveDefinite(A).solve(Eigen::MatrixXd::Ones(2, 9), &report);
+  EXPECT_FALSE(x.allFinite());
+  EXPECT_FALSE(report.residual <= 1) << report.residual;
+}
+
 }  // namespace
 }  // namespace tufted
