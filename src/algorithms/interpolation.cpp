@@ -109,7 +109,9 @@ class Refinement {
     }
     const auto wrong = largest.array() > stalled * range.array();
     if (is_last ? wrong.any() : (wrong && open_.array() == 0).any())
-      fail("corrections do not become small, so digits are wrong; the matrix is too close to singular");
+      fail(
+          "corrections do not become small, so digits are wrong; the matrix is too close to singular; set method to "
+          "SolverMethod::cholesky, or pin more points");
     open_ = (largest.array() > negligible * range.array()).select(open_, 0);
     last_ = largest;
   }
