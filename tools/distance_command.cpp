@@ -63,7 +63,7 @@ Results compute(Settings& settings, Operator& source) {
   settings.options.solver = source.solver();
   const tufted::DistanceSolver solver(source.laplacian, settings.options);
   tufted::DistanceReport made;
-  const tufted::VectorXd distance = solver.queryAt(sources, &made);
+  const tufted::VectorXd distance = solver.queryAt(sources, &made, source.progress);
   Results results;
   results.arrays = {{.name = "distance", .values = distance}};
   results.report["sources"] = nlohmann::ordered_json::array();

@@ -150,4 +150,40 @@ TEST_F(ApplicationCommands, GreenHasAColumnPerPoint) {
   expectRefusal({"green", cloud, "--source", "-1"}, "-1");
 }
 
+TEST_F(ApplicationCommands, StopAtCtrlCWhileTheySolve) {
+  // A strip so long that heat starts again many times.
+  const int squares = 20000;
+  std::string strip = "OFF\n" + std::to_string(2 * squares + 2) + ' ' + std::to_string(2 * squares) + " 0\n";
+  for (int i = 0; i <= squares; ++i) strip += std::to_string(i) + " 0 0\n" + std::to_string(i) + " 1 0\n";
+  for (int i = 0; i < 2 * squares; i += 2) {
+    const std::string a = ' ' + std::to_string(i), b = ' ' + std::to_string(i + 1), c = ' ' + std::to_string(i + 2),
+                      d = ' ' + std::to_string(i + 3);
+    strip += '3' + a + c + b + "\n3" + b + c + d + '\n';
+  }
+  run({"laplacian", dir_.write("strip.off", strip), "--format", "npz,ply,cover", "--out", in("strip")});
+  run({"laplacian", dir_.write("sphere.xyz", sphere(20000)), "--out", in("sphere")});
+  struct Case {
+    std::string folder, stage;
+    std::vector<std::string> arguments;
+  };
+  const std::vector<Case> cases = {{"strip", "directions", {"distance", "--source", "0"}},
+                                   {"strip", "analyse", {"distance", "--source", "0"}},
+                                   {"sphere", "analyse", {"interpolate", "--pin", "0=1", "--pin", "1=2"}},
+                                   {"sphere", "analyse", {"poisson", "--field", "x"}},
+                                   {"sphere", "analyse", {"poisson", "--field", "x", "--pin", "0=1"}},
+                                   {"sphere", "analyse", {"green", "--source", "0"}},
+                                   {"sphere", "eigenpairs", {"operators"}},
+                                   {"sphere", "eigenpairs", {"hks"}},
+                                   {"sphere", "eigenpairs", {"embed"}},
+                                   {"sphere", "eigenpairs", {"filter", "--positions"}}};
+  for (const Case& c : cases) {
+    std::vector<std::string> arguments = c.arguments;
+    arguments.insert(arguments.end(), {"--operator", in(c.folder), "--out", in("out")});
+    const Result result = interruptTufted(arguments, SIGINT, c.stage);
+    EXPECT_EQ(result.code, 130) << c.arguments[0] << ", " << c.stage;
+    EXPECT_FALSE(std::filesystem::exists(in("out"))) << c.arguments[0] << ", " << c.stage;
+    std::filesystem::remove_all(in("out"));
+  }
+}
+
 }  // namespace
