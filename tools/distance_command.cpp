@@ -9,6 +9,7 @@
 #include "operator.h"
 #include "options.h"
 #include "point_options.h"
+#include "reports.h"
 #include "tufted/distance.h"
 #include "tufted/errors.h"
 
@@ -70,8 +71,7 @@ Results compute(Settings& settings, Operator& source) {
   for (const tufted::SurfacePoint& point : sources)
     results.report["sources"].push_back({{"corners", point.corners}, {"weights", point.weights}});
   results.report["time_step"] = solver.timeStep();
-  results.report["report"] = {
-      {"rounds", made.rounds}, {"iterations", made.iterations}, {"residual", made.residual}, {"seconds", made.seconds}};
+  addReport(made, solver.report(), results);
   long long reached = 0;
   double farthest = 0;
   for (const double d : distance) {
@@ -81,7 +81,6 @@ Results compute(Settings& settings, Operator& source) {
   }
   results.summary.add("reached", "%lld of %lld, the farthest at %.6g", reached, static_cast<long long>(distance.size()),
                       farthest);
-  results.summary.add("query", "%d rounds of heat, residual %.1e, %.3g s", made.rounds, made.residual, made.seconds);
   return results;
 }
 

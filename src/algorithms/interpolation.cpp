@@ -46,7 +46,7 @@ class Refinement {
   }
 
   /// @param A its rows and columns of free points make the system
-  /// @param report gets the residual and the iterations, if not null
+  /// @param report gets all but the seconds, if not null
   Eigen::MatrixXd run(SparseMatrix A, SolveReport* report) {
     A.prune([&](Eigen::Index i, Eigen::Index j, double) { return pinned_.free[i] != 0 && pinned_.free[j] != 0; });
     const LinearSystem system = LinearSystem::positiveDefinite(names_, A, options_);
@@ -65,6 +65,7 @@ class Refinement {
       if (report != nullptr) report->iterations += solved.iterations;
     }
     if (report != nullptr) {
+      report->method = system.report().method;
       const Eigen::RowVectorXd left = norms(missing(Eigen::MatrixXd::Ones(open_.rows(), open_.cols())));
       for (Eigen::Index c = 0; c < left.size(); ++c)
         if (first[c] > 0) report->residual = greater(report->residual, left[c] / first[c]);

@@ -205,7 +205,7 @@ Eigen::MatrixXd LinearSystem::solve(const std::string& function, const Eigen::Re
     if (report != nullptr) result.residual = residualOf(right, left);
   });
   if (report != nullptr) {
-    *report = {};
+    *report = {.method = report_.method};
     for (const SolveReport& block : done) {
       report->iterations = std::max(report->iterations, block.iterations);
       report->residual = greater(report->residual, block.residual);

@@ -255,6 +255,25 @@ TEST(Distance, FailsTypedWhenItCannotBeSolved) {
   laplacian.L *= NAN;
   EXPECT_THROW(DistanceSolver{laplacian}, SolverFailure);
 }
+TEST(Distance, ReportsWhatItsFactorisationsTake) {
+  const Points disk = shapes::disk(2000).points;  // that ends: three systems
+  const Laplacian laplacian = pointCloudLaplacian(disk);
+  const SolverReport one = Solver::laplacian(laplacian).report();
+  const SolverReport all = DistanceSolver(laplacian).report();
+  EXPECT_EQ(all.method, one.method);
+  EXPECT_FALSE(all.iterative);
+  EXPECT_EQ(all.components, 1);
+  EXPECT_GT(all.seconds, 0);
+  EXPECT_GT(all.unknowns, 2 * one.unknowns + 1);
+  EXPECT_NEAR(static_cast<double>(all.bytes), 3.0 * static_cast<double>(one.bytes), 0.5 * one.bytes);
+  EXPECT_EQ(all.bytes, all.factor_bytes);
+  const SolverReport closed = DistanceSolver(laplacian, {.open_boundary = false}).report();
+  EXPECT_EQ(closed.unknowns, 2000 + 1999);
+  const SolverReport by_multigrid = DistanceSolver(laplacian, {.solver = {.method = SolverMethod::multigrid}}).report();
+  EXPECT_TRUE(by_multigrid.iterative);
+  EXPECT_EQ(by_multigrid.method.find(" and "), std::string::npos) << by_multigrid.method;
+}
+
 
 }  // namespace
 }  // namespace tufted
