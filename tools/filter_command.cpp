@@ -54,8 +54,7 @@ void check(Settings& settings, const Operator& source) {
 /// The eigenvectors of waves at least so long.
 tufted::Spectrum longWaves(const Operator& source, double wavelength, const tufted::SpectrumOptions& options) {
   const tufted::Laplacian& laplacian = source.laplacian;
-  const double most =
-      static_cast<double>((laplacian.M.array() > 0).count() - laplacian.report.components) - 1;  // see spectrum()
+  const double most = tufted::mostEigenpairs(laplacian, false);
   const double bound = std::pow(2 * std::numbers::pi / wavelength, 2);
   const double weyl = laplacian.M.sum() * bound / (4 * std::numbers::pi);  // about how many there are
   for (double count = 16 + 1.1 * weyl; weyl <= most && most >= 1; count *= 1.5) {
