@@ -62,7 +62,6 @@ TEST(Distance, IsFiniteAndMonotoneAtAHundredThousandEdges) {
   for (int i = 0; i < squares; ++i) {
     for (const int side : {0, 1}) ASSERT_LT(distance[2 * i + side], distance[2 * i + 2 + side]) << "after x = " << i;
   }
-  // Through every change of rounds: a straight wave stays straight.
   // A straight wave stays straight through all rounds.
   for (int i = 0; i <= squares; ++i) ASSERT_NEAR(distance[2 * i], i, 0.1);
 }
@@ -255,6 +254,7 @@ TEST(Distance, FailsTypedWhenItCannotBeSolved) {
   laplacian.L *= NAN;
   EXPECT_THROW(DistanceSolver{laplacian}, SolverFailure);
 }
+
 TEST(Distance, ReportsWhatItsFactorisationsTake) {
   const Points disk = shapes::disk(2000).points;  // that ends: three systems
   const Laplacian laplacian = pointCloudLaplacian(disk);
@@ -273,7 +273,6 @@ TEST(Distance, ReportsWhatItsFactorisationsTake) {
   EXPECT_TRUE(by_multigrid.iterative);
   EXPECT_EQ(by_multigrid.method.find(" and "), std::string::npos) << by_multigrid.method;
 }
-
 
 }  // namespace
 }  // namespace tufted
