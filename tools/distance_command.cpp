@@ -59,7 +59,7 @@ void check(Settings& settings, const Operator& source) {
 
 Results compute(Settings& settings, Operator& source) {
   std::vector<tufted::SurfacePoint> sources;
-  for (const Place& place : settings.places) sources.push_back(tufted::SurfacePoint::vertex(locate(place, source)));
+  for (const int point : locate(settings.places, source)) sources.push_back(tufted::SurfacePoint::vertex(point));
   sources.insert(sources.end(), settings.inside.begin(), settings.inside.end());
   settings.options.solver = source.solver();
   const tufted::DistanceSolver solver(source.laplacian, settings.options);

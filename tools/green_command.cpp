@@ -30,8 +30,7 @@ void check(Settings& settings, const Operator& source) {
 }
 
 Results compute(Settings& settings, Operator& source) {
-  std::vector<int> points;
-  for (const Place& place : settings.places) points.push_back(locate(place, source));
+  const std::vector<int> points = locate(settings.places, source);
   tufted::SolveReport made;
   Results results;
   results.arrays = {
