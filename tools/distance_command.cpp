@@ -61,7 +61,7 @@ Results compute(Settings& settings, Operator& source) {
   std::vector<tufted::SurfacePoint> sources;
   for (const int point : locate(settings.places, source)) sources.push_back(tufted::SurfacePoint::vertex(point));
   sources.insert(sources.end(), settings.inside.begin(), settings.inside.end());
-  settings.options.solver = source.solver();
+  settings.options.solver = source.solverOptions();
   const tufted::DistanceSolver solver(source.laplacian, settings.options);
   tufted::DistanceReport made;
   const tufted::VectorXd distance = solver.queryAt(sources, &made, source.progress);

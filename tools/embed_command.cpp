@@ -36,9 +36,9 @@ struct Settings {
 };
 
 Results compute(Settings& settings, Operator& source) {
-  const tufted::Spectrum spectrum =
-      tufted::spectrum(source.laplacian, settings.dimension,
-                       {.null_space = false, .threads = source.threads, .progress = source.progress});
+  tufted::SpectrumOptions options = source.spectrumOptions();
+  options.null_space = false;
+  const tufted::Spectrum spectrum = tufted::spectrum(source.laplacian, settings.dimension, options);
   Results results;
   results.arrays = {{.name = "embedding", .values = tufted::spectralEmbedding(spectrum, settings.embedding)},
                     {.name = "evals", .values = spectrum.values, .per_point = false}};

@@ -73,7 +73,8 @@ tufted::Spectrum longWaves(const Operator& source, double wavelength, const tuft
 
 Results compute(Settings& settings, Operator& source) {
   requireFinite(settings.values, source);
-  const tufted::SpectrumOptions options = {.null_space = false, .threads = source.threads, .progress = source.progress};
+  tufted::SpectrumOptions options = source.spectrumOptions();
+  options.null_space = false;
   const tufted::Spectrum spectrum = settings.wavelength ? longWaves(source, *settings.wavelength, options)
                                                         : tufted::spectrum(source.laplacian, settings.count, options);
   const Eigen::MatrixXd means = tufted::componentMeans(source.laplacian, settings.values);

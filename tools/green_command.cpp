@@ -34,7 +34,7 @@ Results compute(Settings& settings, Operator& source) {
   tufted::SolveReport made;
   Results results;
   results.arrays = {
-      {.name = "green", .values = tufted::greensFunction(source.laplacian, points, source.solver(), &made)}};
+      {.name = "green", .values = tufted::greensFunction(source.laplacian, points, source.solverOptions(), &made)}};
   results.report["sources"] = points;
   results.summary.add("points", "%zu", points.size());
   addReport(made, results);

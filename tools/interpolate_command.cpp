@@ -43,8 +43,8 @@ Results compute(Settings& settings, Operator& source) {
   const tufted::Pins pins = settings.placed.locate(source);
   const bool harmonic = settings.method == Method::harmonic;
   tufted::SolveReport made;
-  Eigen::MatrixXd values = harmonic ? tufted::harmonic(source.laplacian, pins, source.solver(), &made)
-                                    : tufted::biharmonic(source.laplacian, pins, source.solver(), &made);
+  Eigen::MatrixXd values = harmonic ? tufted::harmonic(source.laplacian, pins, source.solverOptions(), &made)
+                                    : tufted::biharmonic(source.laplacian, pins, source.solverOptions(), &made);
   const long long unreached = values.col(0).array().isNaN().count();
   Results results;
   results.arrays = {{.name = "values", .values = std::move(values)}};

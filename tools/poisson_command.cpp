@@ -51,14 +51,15 @@ Results compute(Settings& settings, Operator& source) {
     results.report["greatest_mean"] = greatest;
     results.summary.add("mean removed", "%.6g at most, of %lld components", greatest,
                         static_cast<long long>(source.laplacian.report.components));
-    results.arrays = {{.name = "u", .values = tufted::poisson(source.laplacian, settings.f, source.solver(), &made)},
-                      {.name = "mean", .values = std::move(mean)}};
+    results.arrays = {
+        {.name = "u", .values = tufted::poisson(source.laplacian, settings.f, source.solverOptions(), &made)},
+        {.name = "mean", .values = std::move(mean)}};
   } else {
     const tufted::Pins pins = settings.placed.locate(source);
     results.report["pins"] = pins.points.size();
     results.summary.add("pins", "%zu", pins.points.size());
     results.arrays = {
-        {.name = "u", .values = tufted::poisson(source.laplacian, settings.f, pins, source.solver(), &made)}};
+        {.name = "u", .values = tufted::poisson(source.laplacian, settings.f, pins, source.solverOptions(), &made)}};
   }
   addReport(made, results);
   return results;

@@ -27,13 +27,13 @@ FILE and the options of building are those of `tufted laplacian`; --operator tak
 struct Settings {
   OperatorSettings source;
   int count = 32;
-  tufted::SpectrumOptions options;
+  double tolerance = tufted::SpectrumOptions().tolerance;
 };
 
 Results compute(Settings& settings, Operator& source) {
-  settings.options.threads = source.threads;
-  settings.options.progress = source.progress;
-  tufted::Spectrum spectrum = tufted::spectrum(source.laplacian, settings.count, settings.options);
+  tufted::SpectrumOptions options = source.spectrumOptions();
+  options.tolerance = settings.tolerance;
+  tufted::Spectrum spectrum = tufted::spectrum(source.laplacian, settings.count, options);
   Results results;
   results.summary.add("eigenvalues", "%d, from %.6g to %.6g", settings.count, spectrum.values[0],
                       spectrum.values[settings.count - 1]);
@@ -46,9 +46,10 @@ Results compute(Settings& settings, Operator& source) {
 }  // namespace
 
 void addSpectrum(CLI::App& app, Run& run) {
-  const auto [command, settings] = addOperatorCommand<Settings>(app, run, "spectrum", description, footer, compute);
+  const auto [command, settings] =
+      addOperatorCommand<Settings>(app, run, "spectrum", description, footer, compute);
   addNumber(*command, "--count", settings->count, 1, std::numeric_limits<int>::max(), "Number of eigenvalues (32)")
       ->type_name("K");
-  addNumber(*command, "--tolerance", settings->options.tolerance, 1e-15, 0.5, "Relative accuracy of vectors (1e-10)")
+  addNumber(*command, "--tolerance", settings->tolerance, 1e-15, 0.5, "Relative accuracy of vectors (1e-10)")
       ->type_name("T");
 }
