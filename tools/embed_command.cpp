@@ -35,6 +35,10 @@ struct Settings {
   tufted::Embedding embedding = tufted::Embedding::commute;
 };
 
+void check(Settings& settings, const Operator& source) {
+  checkCount("--dimension", settings.dimension, source);
+}
+
 Results compute(Settings& settings, Operator& source) {
   tufted::SpectrumOptions options = source.spectrumOptions();
   options.null_space = false;
@@ -51,7 +55,7 @@ Results compute(Settings& settings, Operator& source) {
 }  // namespace
 
 void addEmbed(CLI::App& app, Run& run) {
-  const auto [command, settings] = addOperatorCommand<Settings>(app, run, "embed", description, footer, compute);
+  const auto [command, settings] = addOperatorCommand<Settings>(app, run, "embed", description, footer, compute, check);
   addNumber(*command, "--dimension", settings->dimension, 1, std::numeric_limits<int>::max(),
             "Number of coordinates (3)")
       ->type_name("D");

@@ -49,6 +49,7 @@ void check(Settings& settings, const Operator& source) {
       throw tufted::IoError(source.name + ": has no points, which --positions filters");
     settings.values = source.geometry.points;
   }
+  if (!settings.wavelength) checkCount("--count", settings.count, source);
 }
 
 /// The eigenvectors of waves at least so long.

@@ -118,6 +118,12 @@ void addOperatorOptions(CLI::App& command, OperatorSettings& settings) {
   });
 }
 
+void checkCount(const char* option, int count, const Operator& source) {
+  if (count >= source.points())
+    throw tufted::InvalidInput(std::string(option) + " = " + std::to_string(count) + ", must be less than " +
+                               std::to_string(source.points()) + ", the number of points");
+}
+
 int runWithOperator(OperatorSettings& settings, const Check& check, const Compute& compute) {
   ProgressBar bar;
   Operator source;

@@ -64,6 +64,9 @@ struct Operator {
   }
 };
 
+/// Refuses more eigenvalues than there can be. @throws InvalidInput naming the option
+void checkCount(const char* option, int count, const Operator& source);
+
 /// What a command found.
 struct Results {
   std::vector<tufted::ResultArray> arrays;

@@ -31,13 +31,14 @@ struct Settings {
 };
 
 /// What a folder may lack.
-void check(Settings&, const Operator& source) {
+void check(Settings& settings, const Operator& source) {
   const tufted::Geometry& geometry = source.geometry;
   if (source.points() > 0 && geometry.points.rows() == 0)
     throw tufted::IoError(source.name + ": has no points, which `tufted laplacian --format npz,ply` writes");
   if (source.laplacian.L.rows() > 0 && !geometry.is_mesh && source.laplacian.frames.normals.rows() == 0)
     throw tufted::IoError(source.name + ": has neither frames of a cloud nor the triangles of a mesh, which " +
                           "`tufted laplacian --format npz,ply` writes");
+  checkCount("--count", settings.count, source);
 }
 
 Results compute(Settings& settings, Operator& source) {

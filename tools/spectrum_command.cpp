@@ -30,6 +30,10 @@ struct Settings {
   double tolerance = tufted::SpectrumOptions().tolerance;
 };
 
+void check(Settings& settings, const Operator& source) {
+  checkCount("--count", settings.count, source);
+}
+
 Results compute(Settings& settings, Operator& source) {
   tufted::SpectrumOptions options = source.spectrumOptions();
   options.tolerance = settings.tolerance;
@@ -47,7 +51,7 @@ Results compute(Settings& settings, Operator& source) {
 
 void addSpectrum(CLI::App& app, Run& run) {
   const auto [command, settings] =
-      addOperatorCommand<Settings>(app, run, "spectrum", description, footer, compute);
+      addOperatorCommand<Settings>(app, run, "spectrum", description, footer, compute, check);
   addNumber(*command, "--count", settings->count, 1, std::numeric_limits<int>::max(), "Number of eigenvalues (32)")
       ->type_name("K");
   addNumber(*command, "--tolerance", settings->tolerance, 1e-15, 0.5, "Relative accuracy of vectors (1e-10)")

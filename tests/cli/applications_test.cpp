@@ -72,6 +72,18 @@ TEST_F(ApplicationCommands, PlacesAreCheckedBeforeTheBuild) {
   expectRefusal({"interpolate", cloud, "--normals", "--pin", "1=inf"}, "not finite");
 }
 
+TEST_F(ApplicationCommands, CountsAreCheckedBeforeTheBuild) {
+  const std::string cloud = dir_.write("sphere.xyz", sphere(100));
+  // A build with --normals fails, as the file has none.
+  for (const std::string command : {"spectrum", "hks", "operators"}) {
+    expectRefusal({command, cloud, "--normals", "--count", "99"}, "--normals", 1);
+    expectRefusal({command, cloud, "--normals", "--count", "100"}, "--count = 100, must be less than 100");
+  }
+  expectRefusal({"embed", cloud, "--normals", "--dimension", "100"}, "--dimension = 100");
+  expectRefusal({"filter", cloud, "--normals", "--positions"}, "--count = 100");
+  expectRefusal({"filter", cloud, "--normals", "--positions", "--wavelength", "1"}, "--normals", 1);
+}
+
 TEST_F(ApplicationCommands, DistanceFromAFolderIsThatOfABuild) {
   std::string points = sphere(300);
   points += points.substr(0, points.find('\n') + 1) + "nan 0 0\n";
