@@ -20,7 +20,8 @@ constexpr const char* description = "Low-pass filter of fields of the points, of
 
 constexpr const char* footer =
     R"(Keeps what the means over the connected components and the eigenvectors of the smallest positive eigenvalues
-hold: the first K, or those of waves at least W long (2 pi over the root of the eigenvalue, in the points' unit of length).
+hold: the first K, or those of waves at least W long (2 pi over the root of the eigenvalue, in the points' unit of
+length).
 
 Writes into DIR, renamed one after the other when all are complete:
   filtered.npy  N values, N x c for c columns, or N x 3 positions, float64; points that are not finite or isolated keep
