@@ -143,6 +143,22 @@ TEST(Solver, TakesMultigridWhereAFactorDoesNotFit) {
   EXPECT_LE((large.solve(b) - small.solve(b)).norm(), 1e-9 * large.solve(b).norm());
 }
 
+#ifdef TUFTED_WITH_GPL
+TEST(Solver, TakesNestedDissectionWhereItSavesWhatIsMissing) {
+  const Laplacian laplacian = pointCloudLaplacian(shapes::torus(20000).points, {.keep_cover = false});
+  const SolverReport first = Solver::laplacian(laplacian).report();
+  EXPECT_EQ(first.method, "Cholesky (CHOLMOD, AMD)");
+  const std::size_t limit = first.factor_bytes - 1;
+  const Solver dissected = Solver::laplacian(laplacian, {.memory_limit = limit});
+  EXPECT_EQ(dissected.report().method, "Cholesky (CHOLMOD, METIS)");
+  EXPECT_LE(dissected.report().factor_bytes, limit);
+  EXPECT_LT(dissected.report().nonzeros, first.nonzeros);
+  SolveReport report;
+  dissected.solve(laplacian.L * someValues(20000, 1), &report);
+  EXPECT_LE(report.residual, 1e-9);
+}
+#endif
+
 TEST(Solver, KeepsUnknownsOfAnyScaleApartByCholesky) {
   // Of diagonal entries from 1e-200 to 1e200 none disturbs the others.
   SparseMatrix A(5, 5);

@@ -162,6 +162,25 @@ TEST_F(ApplicationCommands, GreenHasAColumnPerPoint) {
   expectRefusal({"green", cloud, "--source", "-1"}, "-1");
 }
 
+TEST_F(ApplicationCommands, AdaptedTimeStepsFollowTheLargeTrianglesOfAnUnevenMesh) {
+  // A strip of squares, then of rectangles that get wider and wider.
+  const auto timeStep = [&](double growth, const std::string& unit) {
+    std::string strip = "OFF\n42 40 0\n";
+    double x = 0, width = 1;
+    for (int i = 0; i <= 20; ++i, x += width, width *= growth)
+      strip += std::to_string(x) + " 0 0\n" + std::to_string(x) + " 1 0\n";
+    for (int i = 0; i < 40; i += 2)
+      strip += "3 " + std::to_string(i) + ' ' + std::to_string(i + 2) + ' ' + std::to_string(i + 1) + "\n3 " +
+               std::to_string(i + 1) + ' ' + std::to_string(i + 2) + ' ' + std::to_string(i + 3) + '\n';
+    run({"distance", dir_.write("strip.off", strip), "--source", "0", "--time-unit", unit, "--out", in("out")});
+    return report("out")["time_step"].get<double>();
+  };
+  EXPECT_NEAR(timeStep(1, "mean"), 0.5 * (1 + 1 + 2) / 3, 1e-3);  // half the mean square of sides and diagonals
+  EXPECT_NEAR(timeStep(1, "adapted"), timeStep(1, "mean"), 1e-12);
+  EXPECT_GT(timeStep(1.5, "adapted"), 2 * timeStep(1.5, "mean"));
+  expectRefusal({"distance", in("strip.off"), "--source", "0", "--time-unit", "huge"}, "--time-unit");
+}
+
 TEST_F(ApplicationCommands, StopAtCtrlCWhileTheySolve) {
   // A strip so long that heat starts again many times.
   const int squares = 20000;
