@@ -14,7 +14,7 @@ namespace tufted {
 ///         point
 int nearestPoint(const Laplacian& laplacian, const Points& points, const Eigen::Vector3d& position);
 
-/// The same for many positions, by a search tree: O(log N) each after O(N log N).
+/// The same for many positions by a search tree: O(N log N), then O(log N) for each that is near the points.
 /// @param positions P x 3
 /// @return P
 std::vector<int> nearestPoints(const Laplacian& laplacian, const Points& points, const Points& positions);
