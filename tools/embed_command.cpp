@@ -23,7 +23,7 @@ Writes into DIR, renamed one after the other when all are complete:
   evals.npy      the D eigenvalues, 1 / length^2
   points.ply     the points with embedding_0, embedding_1, ... as fields of float32; points.pcd with --format pcd: a
                  field embedding of D values
-  report.json    iterations, residual, seconds
+  report.json    method, iterations, residual, seconds
 FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written.)";
 
 const std::map<std::string, tufted::Embedding> kinds_of_distance = {{"commute", tufted::Embedding::commute},

@@ -28,7 +28,7 @@ Writes into DIR, renamed one after the other when all are complete:
                 theirs, coincident ones have those of their representative
   points.ply    the points with the field filtered, float32; points.pcd with --format pcd. With --positions they are
                 where the filter put them, and have no normals.
-  report.json   number of eigenvectors, the shortest wave, iterations, residual, seconds
+  report.json   number of eigenvectors, the shortest wave, method, iterations, residual, seconds
 FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written.)";
 
 struct Settings {

@@ -27,7 +27,7 @@ Writes into DIR, renamed one after the other when all are complete:
   evals.npy    K eigenvalues that they were made of
   points.ply   the points with hks_0, hks_1, ... as fields of float32; points.pcd with --format pcd: a field hks of S
                values
-  report.json  iterations, residual, seconds
+  report.json  method, iterations, residual, seconds
 FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written.)";
 
 struct Settings {

@@ -21,7 +21,7 @@ Writes into DIR, renamed one after the other when all are complete:
   evecs.npy    N x K, float64; 0 at points that take no part, coincident ones as their representative
   points.ply   the points with evecs_0, evecs_1, ... as fields of float32; points.pcd with --format pcd: a field evecs
                of K values
-  report.json  iterations, residual, seconds
+  report.json  method, iterations, residual, seconds
 FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written.)";
 
 struct Settings {
