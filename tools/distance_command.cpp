@@ -9,6 +9,7 @@
 #include "operator.h"
 #include "options.h"
 #include "point_options.h"
+#include "reports.h"
 #include "tufted/distance.h"
 #include "tufted/errors.h"
 
@@ -23,7 +24,7 @@ isolated points). On meshes --face names a point inside a triangle by its baryce
 Writes into DIR, renamed one after the other when all are complete:
   distance.npy  N distances, float64
   points.ply    the points with the field distance, float32; points.pcd with --format pcd
-  report.json   sources, rounds, residual, seconds
+  report.json   sources, method, rounds, residual, seconds
 FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written with
 --format npz,ply,cover: the method needs the cover's triangles.)";
 
@@ -58,20 +59,19 @@ void check(Settings& settings, const Operator& source) {
 
 Results compute(Settings& settings, Operator& source) {
   std::vector<tufted::SurfacePoint> sources;
-  for (const Place& place : settings.places) sources.push_back(tufted::SurfacePoint::vertex(locate(place, source)));
+  for (const int point : locate(settings.places, source)) sources.push_back(tufted::SurfacePoint::vertex(point));
   sources.insert(sources.end(), settings.inside.begin(), settings.inside.end());
-  settings.options.solver = source.solver();
+  settings.options.solver = source.solverOptions();
   const tufted::DistanceSolver solver(source.laplacian, settings.options);
   tufted::DistanceReport made;
-  const tufted::VectorXd distance = solver.queryAt(sources, &made);
+  const tufted::VectorXd distance = solver.queryAt(sources, &made, source.progress);
   Results results;
   results.arrays = {{.name = "distance", .values = distance}};
   results.report["sources"] = nlohmann::ordered_json::array();
   for (const tufted::SurfacePoint& point : sources)
     results.report["sources"].push_back({{"corners", point.corners}, {"weights", point.weights}});
   results.report["time_step"] = solver.timeStep();
-  results.report["report"] = {
-      {"rounds", made.rounds}, {"iterations", made.iterations}, {"residual", made.residual}, {"seconds", made.seconds}};
+  addReport(made, solver.report(), results);
   long long reached = 0;
   double farthest = 0;
   for (const double d : distance) {
@@ -81,7 +81,6 @@ Results compute(Settings& settings, Operator& source) {
   }
   results.summary.add("reached", "%lld of %lld, the farthest at %.6g", reached, static_cast<long long>(distance.size()),
                       farthest);
-  results.summary.add("query", "%d rounds of heat, residual %.1e, %.3g s", made.rounds, made.residual, made.seconds);
   return results;
 }
 

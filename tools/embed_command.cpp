@@ -23,7 +23,7 @@ Writes into DIR, renamed one after the other when all are complete:
   evals.npy      the D eigenvalues, 1 / length^2
   points.ply     the points with embedding_0, embedding_1, ... as fields of float32; points.pcd with --format pcd: a
                  field embedding of D values
-  report.json    iterations, residual, seconds
+  report.json    method, iterations, residual, seconds
 FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written.)";
 
 const std::map<std::string, tufted::Embedding> kinds_of_distance = {{"commute", tufted::Embedding::commute},
@@ -35,10 +35,14 @@ struct Settings {
   tufted::Embedding embedding = tufted::Embedding::commute;
 };
 
+void check(Settings& settings, const Operator& source) {
+  checkCount("--dimension", settings.dimension, source);
+}
+
 Results compute(Settings& settings, Operator& source) {
-  const tufted::Spectrum spectrum =
-      tufted::spectrum(source.laplacian, settings.dimension,
-                       {.null_space = false, .threads = source.threads, .progress = source.progress});
+  tufted::SpectrumOptions options = source.spectrumOptions();
+  options.null_space = false;
+  const tufted::Spectrum spectrum = tufted::spectrum(source.laplacian, settings.dimension, options);
   Results results;
   results.arrays = {{.name = "embedding", .values = tufted::spectralEmbedding(spectrum, settings.embedding)},
                     {.name = "evals", .values = spectrum.values, .per_point = false}};
@@ -51,7 +55,7 @@ Results compute(Settings& settings, Operator& source) {
 }  // namespace
 
 void addEmbed(CLI::App& app, Run& run) {
-  const auto [command, settings] = addOperatorCommand<Settings>(app, run, "embed", description, footer, compute);
+  const auto [command, settings] = addOperatorCommand<Settings>(app, run, "embed", description, footer, compute, check);
   addNumber(*command, "--dimension", settings->dimension, 1, std::numeric_limits<int>::max(),
             "Number of coordinates (3)")
       ->type_name("D");

@@ -20,14 +20,15 @@ constexpr const char* description = "Low-pass filter of fields of the points, of
 
 constexpr const char* footer =
     R"(Keeps what the means over the connected components and the eigenvectors of the smallest positive eigenvalues
-hold: the first K, or those of waves at least W long (2 pi over the root of the eigenvalue, in the points' unit of length).
+hold: the first K, or those of waves at least W long (2 pi over the root of the eigenvalue, in the points' unit of
+length).
 
 Writes into DIR, renamed one after the other when all are complete:
   filtered.npy  N values, N x c for c columns, or N x 3 positions, float64; points that are not finite or isolated keep
                 theirs, coincident ones have those of their representative
   points.ply    the points with the field filtered, float32; points.pcd with --format pcd. With --positions they are
                 where the filter put them, and have no normals.
-  report.json   number of eigenvectors, the shortest wave, iterations, residual, seconds
+  report.json   number of eigenvectors, the shortest wave, method, iterations, residual, seconds
 FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written.)";
 
 struct Settings {
@@ -49,13 +50,13 @@ void check(Settings& settings, const Operator& source) {
       throw tufted::IoError(source.name + ": has no points, which --positions filters");
     settings.values = source.geometry.points;
   }
+  if (!settings.wavelength) checkCount("--count", settings.count, source);
 }
 
 /// The eigenvectors of waves at least so long.
 tufted::Spectrum longWaves(const Operator& source, double wavelength, const tufted::SpectrumOptions& options) {
   const tufted::Laplacian& laplacian = source.laplacian;
-  const double most =
-      static_cast<double>((laplacian.M.array() > 0).count() - laplacian.report.components) - 1;  // see spectrum()
+  const double most = tufted::mostEigenpairs(laplacian, false);
   const double bound = std::pow(2 * std::numbers::pi / wavelength, 2);
   const double weyl = laplacian.M.sum() * bound / (4 * std::numbers::pi);  // about how many there are
   for (double count = 16 + 1.1 * weyl; weyl <= most && most >= 1; count *= 1.5) {
@@ -74,7 +75,8 @@ tufted::Spectrum longWaves(const Operator& source, double wavelength, const tuft
 
 Results compute(Settings& settings, Operator& source) {
   requireFinite(settings.values, source);
-  const tufted::SpectrumOptions options = {.null_space = false, .threads = source.threads, .progress = source.progress};
+  tufted::SpectrumOptions options = source.spectrumOptions();
+  options.null_space = false;
   const tufted::Spectrum spectrum = settings.wavelength ? longWaves(source, *settings.wavelength, options)
                                                         : tufted::spectrum(source.laplacian, settings.count, options);
   const Eigen::MatrixXd means = tufted::componentMeans(source.laplacian, settings.values);

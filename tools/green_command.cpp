@@ -14,7 +14,7 @@ constexpr const char* description = "Green's function of points: L g = delta - M
 constexpr const char* footer = R"(Writes into DIR, renamed one after the other when all are complete:
   green.npy    N values, or N x c for c points, float64; 0 in other components, NaN at points that take no part
   points.ply   the points with the field green, float32; points.pcd with --format pcd
-  report.json  iterations, residual, seconds
+  report.json  method, iterations, residual, seconds
 FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written.)";
 
 struct Settings {
@@ -30,12 +30,11 @@ void check(Settings& settings, const Operator& source) {
 }
 
 Results compute(Settings& settings, Operator& source) {
-  std::vector<int> points;
-  for (const Place& place : settings.places) points.push_back(locate(place, source));
+  const std::vector<int> points = locate(settings.places, source);
   tufted::SolveReport made;
   Results results;
   results.arrays = {
-      {.name = "green", .values = tufted::greensFunction(source.laplacian, points, source.solver(), &made)}};
+      {.name = "green", .values = tufted::greensFunction(source.laplacian, points, source.solverOptions(), &made)}};
   results.report["sources"] = points;
   results.summary.add("points", "%zu", points.size());
   addReport(made, results);

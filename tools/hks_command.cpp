@@ -1,5 +1,9 @@
 #include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
 #include <limits>
+#include <string>
+#include <system_error>
 #include <vector>
 
 #include "command.h"
@@ -23,7 +27,7 @@ Writes into DIR, renamed one after the other when all are complete:
   evals.npy    K eigenvalues that they were made of
   points.ply   the points with hks_0, hks_1, ... as fields of float32; points.pcd with --format pcd: a field hks of S
                values
-  report.json  iterations, residual, seconds
+  report.json  method, iterations, residual, seconds
 FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written.)";
 
 struct Settings {
@@ -33,6 +37,19 @@ struct Settings {
   bool wave = false;
   std::vector<double> times;
 };
+
+/// A check; CLI11's own lets nan pass.
+std::string isTime(const std::string& text) {
+  double time = 0;
+  const char* const text_end = text.data() + text.size();
+  const auto [end, error] = std::from_chars(text.data(), text_end, time);
+  const bool is_number = error == std::errc() && end == text_end;
+  return is_number && time >= 0 && std::isfinite(time) ? "" : text + " is no time, must be finite and at least 0";
+}
+
+void check(Settings& settings, const Operator& source) {
+  checkCount("--count", settings.count, source);
+}
 
 /// The signature, and what it was sampled at.
 std::vector<tufted::ResultArray> signatures(const Settings& settings, const tufted::Spectrum& spectrum) {
@@ -48,8 +65,7 @@ std::vector<tufted::ResultArray> signatures(const Settings& settings, const tuft
 }
 
 Results compute(Settings& settings, Operator& source) {
-  const tufted::Spectrum spectrum =
-      tufted::spectrum(source.laplacian, settings.count, {.threads = source.threads, .progress = source.progress});
+  const tufted::Spectrum spectrum = tufted::spectrum(source.laplacian, settings.count, source.spectrumOptions());
   Results results;
   results.arrays = signatures(settings, spectrum);
   results.summary.add(settings.wave ? "energies" : "times", "%ld per point, of %d eigenvalues up to %.6g",
@@ -63,7 +79,7 @@ Results compute(Settings& settings, Operator& source) {
 }  // namespace
 
 void addHks(CLI::App& app, Run& run) {
-  const auto [command, settings] = addOperatorCommand<Settings>(app, run, "hks", description, footer, compute);
+  const auto [command, settings] = addOperatorCommand<Settings>(app, run, "hks", description, footer, compute, check);
   addNumber(*command, "--count", settings->count, 2, std::numeric_limits<int>::max(), "Number of eigenvalues (100)")
       ->type_name("K");
   CLI::Option* const samples =
@@ -75,7 +91,7 @@ void addHks(CLI::App& app, Run& run) {
                    "The times, separated by commas, in squares of the points' unit of length")
       ->delimiter(',')
       ->allow_extra_args(false)  // what follows may be FILE
-      ->check(CLI::NonNegativeNumber)
+      ->check(isTime)
       ->excludes(samples)
       ->excludes(wave)
       ->type_name("LIST");

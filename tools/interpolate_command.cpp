@@ -13,8 +13,8 @@ namespace {
 constexpr const char* description = "Carry values of some points over to all others.";
 
 constexpr const char* footer =
-    R"(Pins are given as INDEX=V or X,Y,Z=V (the point nearest to a position), with V1,V2,... for several values at once,
-or in text files. Several at one place give their mean.
+    R"(Pins are given as INDEX=V or X,Y,Z=V (the point nearest to a position), with V1,V2,... for several values at
+once, or in text files. Several at one place give their mean.
   harmonic    L u = 0 elsewhere: within the range of the pins, with peaks at them
   biharmonic  least bending: smooth at the pins, not bounded by them
 Points that no path joins to a pin are NaN.
@@ -22,7 +22,7 @@ Points that no path joins to a pin are NaN.
 Writes into DIR, renamed one after the other when all are complete:
   values.npy   N values or N x c, float64
   points.ply   the points with the field values, float32; points.pcd with --format pcd
-  report.json  iterations, residual, seconds
+  report.json  method, iterations, residual, seconds
 FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written.)";
 
 enum class Method { harmonic, biharmonic };
@@ -43,8 +43,8 @@ Results compute(Settings& settings, Operator& source) {
   const tufted::Pins pins = settings.placed.locate(source);
   const bool harmonic = settings.method == Method::harmonic;
   tufted::SolveReport made;
-  Eigen::MatrixXd values = harmonic ? tufted::harmonic(source.laplacian, pins, source.solver(), &made)
-                                    : tufted::biharmonic(source.laplacian, pins, source.solver(), &made);
+  Eigen::MatrixXd values = harmonic ? tufted::harmonic(source.laplacian, pins, source.solverOptions(), &made)
+                                    : tufted::biharmonic(source.laplacian, pins, source.solverOptions(), &made);
   const long long unreached = values.col(0).array().isNaN().count();
   Results results;
   results.arrays = {{.name = "values", .values = std::move(values)}};

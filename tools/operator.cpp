@@ -2,8 +2,11 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <charconv>
 #include <fstream>
+#include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <system_error>
 
 #include "interrupt.h"
@@ -16,6 +19,38 @@ namespace {
 
 const std::map<std::string, std::vector<tufted::Format>> copies = {
     {"ply", {tufted::Format::ply}}, {"pcd", {tufted::Format::pcd}}, {"none", {}}};
+
+const std::map<std::string, tufted::SolverMethod> methods = {{"automatic", tufted::SolverMethod::automatic},
+                                                             {"cholesky", tufted::SolverMethod::cholesky},
+                                                             {"multigrid", tufted::SolverMethod::multigrid}};
+
+/// CLI11's own takes -1 for the largest number.
+std::optional<std::size_t> parseBytes(const std::string& text) {
+  static const std::map<std::string, double> units = {{"", 1},         {"B", 1},       {"kB", 1e3},     {"MB", 1e6},
+                                                      {"GB", 1e9},     {"TB", 1e12},   {"KiB", 0x1p10}, {"MiB", 0x1p20},
+                                                      {"GiB", 0x1p30}, {"TiB", 0x1p40}};
+  double number = 0;
+  const char* const text_end = text.data() + text.size();
+  const auto [end, error] = std::from_chars(text.data(), text_end, number);
+  const auto unit = units.find(std::string(end, text_end));
+  if (error != std::errc() || unit == units.end()) return std::nullopt;
+  const double bytes = number * unit->second;
+  return bytes >= 1 && bytes < 0x1p63 ? std::optional(static_cast<std::size_t>(bytes)) : std::nullopt;
+}
+
+void addSolvingOptions(CLI::App& command, Solving& solving) {
+  addChoice(command, "--solver", solving.method, methods,
+            "How systems are solved; SolverMethod in messages (automatic: by a factor where it fits)");
+  const auto set = [&solving](const std::string& text) { solving.memory_limit = parseBytes(text).value(); };
+  const auto check = [](const std::string& text) {
+    return parseBytes(text) ? std::string() : text + " is no size such as 500MB or 2GiB";
+  };
+  command
+      .add_option_function<std::string>(
+          "--memory-limit", set, "For factors, as 500MB or 2GiB; memory_limit in messages (half of what is available)")
+      ->check(check)
+      ->type_name("SIZE");
+}
 
 /// The points that a former `tufted laplacian` wrote into its folder; none where it was told not to, whatever an
 /// earlier one left there.
@@ -72,6 +107,7 @@ void addOperatorOptions(CLI::App& command, OperatorSettings& settings) {
   addOut(command, settings.out);
   addChoice(command, "--format", settings.copies, copies, "Format of the copy of the points with the results (ply)");
   addBuildOptions(command, settings.build);
+  addSolvingOptions(command, settings.solving);
   std::vector<const CLI::Option*> unused = {command.get_option("--as"), command.get_option("--weld")};
   unused.insert(unused.end(), settings.build.cloud_only.begin(), settings.build.cloud_only.end());
   command.parse_complete_callback([file, folder, unused] {
@@ -82,10 +118,17 @@ void addOperatorOptions(CLI::App& command, OperatorSettings& settings) {
   });
 }
 
+void checkCount(const char* option, int count, const Operator& source) {
+  if (count >= source.points())
+    throw tufted::InvalidInput(std::string(option) + " = " + std::to_string(count) + ", must be less than " +
+                               std::to_string(source.points()) + ", the number of points");
+}
+
 int runWithOperator(OperatorSettings& settings, const Check& check, const Compute& compute) {
   ProgressBar bar;
   Operator source;
   source.name = settings.name();
+  source.solving = settings.solving;
   source.threads = settings.build.cloud.threads;
   source.progress = showOn(bar);
   const auto checkpoint = [] {

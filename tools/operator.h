@@ -16,8 +16,15 @@
 #include "tufted/io/results.h"
 #include "tufted/laplacian.h"
 #include "tufted/solver.h"
+#include "tufted/spectrum.h"
 
 // What the commands that use a Laplacian have in common: where it comes from and where results go.
+
+/// How systems are solved.
+struct Solving {
+  tufted::SolverMethod method = tufted::SolverMethod::automatic;
+  std::size_t memory_limit = 0;  ///< bytes; 0: as the library chooses
+};
 
 /// The options of such a command.
 struct OperatorSettings {
@@ -26,6 +33,7 @@ struct OperatorSettings {
   std::filesystem::path folder;  ///< of --operator
   std::filesystem::path out;
   Build build;
+  Solving solving;
   std::vector<tufted::Format> copies = {tufted::Format::ply};
   bool needs_cover = false;  ///< not only L and M
 
@@ -33,7 +41,7 @@ struct OperatorSettings {
   std::string name() const { return folder.empty() ? input.name() : folder.string(); }
 };
 
-/// Adds FILE or --operator, --out, --format and the options of building; checks that they fit together.
+/// Adds FILE or --operator, --out, --format and the options of building and of solving; checks that they fit together.
 void addOperatorOptions(CLI::App& command, OperatorSettings& settings);
 
 /// A Laplacian, and the points it belongs to.
@@ -41,14 +49,23 @@ struct Operator {
   std::string name;           ///< as messages call it
   tufted::Geometry geometry;  ///< 0 points: a folder without points.ply and points.pcd
   tufted::Laplacian laplacian;
+  Solving solving;
   int threads = 0;
   tufted::Progress progress;
 
   int points() const {
     return static_cast<int>(std::max<std::size_t>(geometry.points.rows(), laplacian.status.size()));
   }
-  tufted::SolverOptions solver() const { return {.threads = threads, .progress = progress}; }
+  tufted::SolverOptions solverOptions() const {
+    return {.method = solving.method, .memory_limit = solving.memory_limit, .threads = threads, .progress = progress};
+  }
+  tufted::SpectrumOptions spectrumOptions() const {
+    return {.method = solving.method, .memory_limit = solving.memory_limit, .threads = threads, .progress = progress};
+  }
 };
+
+/// Refuses more eigenvalues than there can be. @throws InvalidInput naming the option
+void checkCount(const char* option, int count, const Operator& source);
 
 /// What a command found.
 struct Results {

@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <chrono>
 #include <limits>
 
 #include "command.h"
@@ -19,7 +20,7 @@ constexpr const char* footer = R"(Writes into DIR, renamed one after the other w
                  gradY as _data, _indices, _indptr, _shape of csc matrices; float64. The cache of DiffusionNet has
                  these names; its file names are hashes, so load this one and hand on its arrays.
   points.ply     the points with the fields frames and evecs, float32; points.pcd with --format pcd
-  report.json    residual and seconds of the spectrum
+  report.json    iterations, residual and seconds of the spectrum, seconds of the gradients
 gradX and gradY are slopes along the axes of the frames, by least squares over the neighbours in L. Points that take no
 part have rows of zeros. FILE and the options of building are those of `tufted laplacian`; --operator takes what that
 has written, with the points (of meshes points.ply, which has the triangles).)";
@@ -30,26 +31,29 @@ struct Settings {
 };
 
 /// What a folder may lack.
-void check(Settings&, const Operator& source) {
+void check(Settings& settings, const Operator& source) {
   const tufted::Geometry& geometry = source.geometry;
   if (source.points() > 0 && geometry.points.rows() == 0)
     throw tufted::IoError(source.name + ": has no points, which `tufted laplacian --format npz,ply` writes");
   if (source.laplacian.L.rows() > 0 && !geometry.is_mesh && source.laplacian.frames.normals.rows() == 0)
     throw tufted::IoError(source.name + ": has neither frames of a cloud nor the triangles of a mesh, which " +
                           "`tufted laplacian --format npz,ply` writes");
+  checkCount("--count", settings.count, source);
 }
 
 Results compute(Settings& settings, Operator& source) {
   const tufted::Geometry& geometry = source.geometry;
+  const auto start = std::chrono::steady_clock::now();
   const tufted::Gradients gradients = geometry.is_mesh
                                           ? tufted::gradients(source.laplacian, geometry.points,
                                                               tufted::meshFrames(geometry.points, geometry.triangles))
                                           : tufted::gradients(source.laplacian, geometry.points);
-  const tufted::Spectrum spectrum =
-      tufted::spectrum(source.laplacian, settings.count, {.threads = source.threads, .progress = source.progress});
+  const std::chrono::duration<double> gradients_took = std::chrono::steady_clock::now() - start;
+  const tufted::Spectrum spectrum = tufted::spectrum(source.laplacian, settings.count, source.spectrumOptions());
   Results results;
   results.summary.add("eigenvalues", "%d", settings.count);
   addReport(spectrum.report, results);
+  results.report["gradients"] = {{"seconds", gradients_took.count()}};
   results.write = [&source, gradients, spectrum](const std::filesystem::path& dir,
                                                  const tufted::ResultOptions& options) {
     tufted::writeOperators(dir, source.laplacian, source.geometry, gradients, spectrum, options);

@@ -66,7 +66,5 @@ PlacedPins placePins(const PinOptions& options, int points) {
 }
 
 tufted::Pins PlacedPins::locate(const Operator& source) const {
-  tufted::Pins pins{{}, values};
-  for (const Place& place : places) pins.points.push_back(::locate(place, source));
-  return pins;
+  return {::locate(places, source), values};
 }

@@ -62,11 +62,22 @@ Place placeOf(const std::vector<double>& numbers, int points, const std::string&
   return place;
 }
 
-int locate(const Place& place, const Operator& source) {
-  if (place.index >= 0) return place.index;
+std::vector<int> locate(const std::vector<Place>& places, const Operator& source) {
+  std::vector<int> points;
+  std::vector<std::size_t> by_position;  // which of them are
+  for (const Place& place : places) {
+    if (place.index < 0) by_position.push_back(points.size());
+    points.push_back(place.index);
+  }
+  if (by_position.empty()) return points;
   if (source.geometry.points.rows() == 0)
     throw tufted::InvalidInput("a position needs points, and " + source.name + " has none");
-  return tufted::nearestPoint(source.laplacian, source.geometry.points, place.position);
+  tufted::Points positions(std::ssize(by_position), 3);
+  for (std::size_t k = 0; k < by_position.size(); ++k)
+    positions.row(static_cast<Eigen::Index>(k)) = places[by_position[k]].position;
+  const std::vector<int> nearest = tufted::nearestPoints(source.laplacian, source.geometry.points, positions);
+  for (std::size_t k = 0; k < by_position.size(); ++k) points[by_position[k]] = nearest[k];
+  return points;
 }
 
 std::vector<Place> NamedPoints::places(int points) const {

@@ -32,8 +32,8 @@ struct Place {
 /// @throws InvalidInput unless it is an index of one of so many points, or a finite position
 Place placeOf(const std::vector<double>& numbers, int points, const std::string& name);
 
-/// The point itself. @throws InvalidInput for a position where the source has no points
-int locate(const Place& place, const Operator& source);
+/// The points themselves. @throws InvalidInput for a position where the source has no points
+std::vector<int> locate(const std::vector<Place>& places, const Operator& source);
 
 /// Points that the user names with options.
 struct NamedPoints {

@@ -21,7 +21,7 @@ Writes into DIR, renamed one after the other when all are complete:
   u.npy        N values, or N x c for c columns of f, float64; NaN at points that take no part
   mean.npy     without pins: what was taken out of f at each point, in the same shape
   points.ply   the points with the fields u and mean, float32; points.pcd with --format pcd
-  report.json  the greatest mean taken out, iterations, residual, seconds
+  report.json  the greatest mean taken out, method, iterations, residual, seconds
 FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written.)";
 
 struct Settings {
@@ -51,14 +51,15 @@ Results compute(Settings& settings, Operator& source) {
     results.report["greatest_mean"] = greatest;
     results.summary.add("mean removed", "%.6g at most, of %lld components", greatest,
                         static_cast<long long>(source.laplacian.report.components));
-    results.arrays = {{.name = "u", .values = tufted::poisson(source.laplacian, settings.f, source.solver(), &made)},
-                      {.name = "mean", .values = std::move(mean)}};
+    results.arrays = {
+        {.name = "u", .values = tufted::poisson(source.laplacian, settings.f, source.solverOptions(), &made)},
+        {.name = "mean", .values = std::move(mean)}};
   } else {
     const tufted::Pins pins = settings.placed.locate(source);
     results.report["pins"] = pins.points.size();
     results.summary.add("pins", "%zu", pins.points.size());
     results.arrays = {
-        {.name = "u", .values = tufted::poisson(source.laplacian, settings.f, pins, source.solver(), &made)}};
+        {.name = "u", .values = tufted::poisson(source.laplacian, settings.f, pins, source.solverOptions(), &made)}};
   }
   addReport(made, results);
   return results;

@@ -1,9 +1,12 @@
 #pragma once
 
 #include "operator.h"
+#include "tufted/distance.h"
 #include "tufted/solver.h"
 #include "tufted/spectrum.h"
 
-/// Puts what was done into report.json, as its member "report", and into the summary.
+// Each puts what was done into report.json, as its member "report", and into the summary.
+
 void addReport(const tufted::SolveReport& report, Results& results);
 void addReport(const tufted::SpectrumReport& report, Results& results);
+void addReport(const tufted::DistanceReport& report, const tufted::SolverReport& solver, Results& results);

@@ -21,19 +21,23 @@ Writes into DIR, renamed one after the other when all are complete:
   evecs.npy    N x K, float64; 0 at points that take no part, coincident ones as their representative
   points.ply   the points with evecs_0, evecs_1, ... as fields of float32; points.pcd with --format pcd: a field evecs
                of K values
-  report.json  iterations, residual, seconds
+  report.json  method, iterations, residual, seconds
 FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written.)";
 
 struct Settings {
   OperatorSettings source;
   int count = 32;
-  tufted::SpectrumOptions options;
+  double tolerance = tufted::SpectrumOptions().tolerance;
 };
 
+void check(Settings& settings, const Operator& source) {
+  checkCount("--count", settings.count, source);
+}
+
 Results compute(Settings& settings, Operator& source) {
-  settings.options.threads = source.threads;
-  settings.options.progress = source.progress;
-  tufted::Spectrum spectrum = tufted::spectrum(source.laplacian, settings.count, settings.options);
+  tufted::SpectrumOptions options = source.spectrumOptions();
+  options.tolerance = settings.tolerance;
+  tufted::Spectrum spectrum = tufted::spectrum(source.laplacian, settings.count, options);
   Results results;
   results.summary.add("eigenvalues", "%d, from %.6g to %.6g", settings.count, spectrum.values[0],
                       spectrum.values[settings.count - 1]);
@@ -46,9 +50,10 @@ Results compute(Settings& settings, Operator& source) {
 }  // namespace
 
 void addSpectrum(CLI::App& app, Run& run) {
-  const auto [command, settings] = addOperatorCommand<Settings>(app, run, "spectrum", description, footer, compute);
+  const auto [command, settings] =
+      addOperatorCommand<Settings>(app, run, "spectrum", description, footer, compute, check);
   addNumber(*command, "--count", settings->count, 1, std::numeric_limits<int>::max(), "Number of eigenvalues (32)")
       ->type_name("K");
-  addNumber(*command, "--tolerance", settings->options.tolerance, 1e-15, 0.5, "Relative accuracy of vectors (1e-10)")
+  addNumber(*command, "--tolerance", settings->tolerance, 1e-15, 0.5, "Relative accuracy of vectors (1e-10)")
       ->type_name("T");
 }

@@ -89,6 +89,10 @@ class DistanceSolver {
   /// The time step t in use, in the points' unit squared.
   double timeStep() const;
 
+  /// What the constructor did: all systems together, and its seconds. Where only some are solved by multigrid,
+  /// `method` names both ways.
+  const SolverReport& report() const;
+
   DistanceSolver(DistanceSolver&&) noexcept;
   DistanceSolver& operator=(DistanceSolver&&) noexcept;
   ~DistanceSolver();

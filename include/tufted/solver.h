@@ -43,6 +43,7 @@ struct SolverReport {
 
 /// What a solve did.
 struct SolveReport {
+  std::string method;   ///< that of the solver, see SolverReport
   int iterations = 0;   ///< the most of any right side; 0 by Cholesky
   double residual = 0;  ///< greatest |b - A x| / |b| of any right side, Euclidean norms
   double seconds = 0;   ///< wall-clock

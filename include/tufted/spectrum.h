@@ -57,4 +57,9 @@ struct Spectrum {
 /// @throws Cancelled when `options.progress` returns false
 Spectrum spectrum(const Laplacian& laplacian, int k, const SpectrumOptions& options = {});
 
+/// The largest k that spectrum() takes, 0 where it takes none.
+/// @param null_space as SpectrumOptions::null_space
+/// @throws InvalidInput for arrays of the wrong size, or an M that spectrum() refuses
+int mostEigenpairs(const Laplacian& laplacian, bool null_space = true);
+
 }  // namespace tufted

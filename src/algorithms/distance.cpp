@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "algorithms/connected.h"
+#include "algorithms/greater.h"
 #include "algorithms/heat_directions.h"
 #include "algorithms/linear_system.h"
 #include "algorithms/memory_limit.h"
@@ -104,11 +105,26 @@ struct DistanceSolver::State {
   double time = 1;    ///< in units of 2^(2 exponent)
   int threads = 0;
   std::optional<const LinearSystem> closed, open, poisson;
+  SolverReport report;
 
+  void addReport(const SolverReport& added);
   Sources locate(const std::vector<SurfacePoint>& sources) const;
   std::vector<std::uint8_t> facesInside(const Sources& sources) const;
   void shift(const Sources& sources, VectorXd& distance) const;
 };
+
+void DistanceSolver::State::addReport(const SolverReport& added) {
+  if (report.method.empty())
+    report.method = added.method;
+  else if (report.method.find(added.method) == std::string::npos)
+    report.method += " and " + added.method;
+  report.unknowns += added.unknowns;
+  report.nonzeros += added.nonzeros;
+  report.bytes += added.bytes;
+  report.factor_bytes += added.factor_bytes;
+  report.components = std::max(report.components, added.components);
+  report.iterative |= added.iterative;
+}
 
 DistanceSolver::DistanceSolver(DistanceSolver&&) noexcept = default;
 DistanceSolver& DistanceSolver::operator=(DistanceSolver&&) noexcept = default;
@@ -116,6 +132,7 @@ DistanceSolver::~DistanceSolver() = default;
 
 DistanceSolver::DistanceSolver(const Laplacian& laplacian, const DistanceOptions& options) {
   checkArguments(laplacian, options);
+  const Stopwatch watch;
   auto state = std::make_unique<State>();
   const Workers workers(options.solver.threads, options.solver.progress);
   const double scale = laplacian.frames.normals.rows() > 0 ? 1.0 / 6 : 1.0 / 2;  // see Laplacian
@@ -149,11 +166,18 @@ DistanceSolver::DistanceSolver(const Laplacian& laplacian, const DistanceOptions
   state->closed.emplace(system(everywhere));
   if (ends) state->open.emplace(system(state->interior));
   state->poisson.emplace(LinearSystem::laplacian({.function = constructor, .matrix = "L"}, laplacian, one));
+  for (const auto* part : {&state->closed, &state->open, &state->poisson})
+    if (*part) state->addReport((*part)->report());
+  state->report.seconds = watch.seconds();
   state_ = std::move(state);
 }
 
 double DistanceSolver::timeStep() const {
   return std::ldexp(state_->time, 2 * state_->surface.exponent);
+}
+
+const SolverReport& DistanceSolver::report() const {
+  return state_->report;
 }
 
 Sources DistanceSolver::State::locate(const std::vector<SurfacePoint>& sources) const {
@@ -234,7 +258,7 @@ VectorXd DistanceSolver::queryAt(const std::vector<SurfacePoint>& sources, Dista
   state.shift(known, distance);
   if (report != nullptr) {
     made.iterations = std::max(made.iterations, solved.iterations);
-    made.residual = std::max(made.residual, solved.residual);
+    made.residual = greater(made.residual, solved.residual);
     made.seconds = watch.seconds();
     *report = made;
   }

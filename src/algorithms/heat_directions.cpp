@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "algorithms/greater.h"
+
 namespace tufted {
 namespace {
 
@@ -55,7 +57,7 @@ class Rounds {
     SolveReport solved;
     VectorXd u = system.solve(function_, heat, measure_ ? &solved : nullptr, progress_);
     report_.iterations = std::max(report_.iterations, solved.iterations);
-    report_.residual = std::max(report_.residual, solved.residual);
+    report_.residual = greater(report_.residual, solved.residual);
     return u;
   }
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "algorithms/connected.h"
+#include "algorithms/greater.h"
 #include "algorithms/linear_system.h"
 #include "algorithms/pinned_system.h"
 #include "base/stage_clock.h"
@@ -45,7 +46,7 @@ class Refinement {
   }
 
   /// @param A its rows and columns of free points make the system
-  /// @param report gets the residual and the iterations, if not null
+  /// @param report gets all but the seconds, if not null
   Eigen::MatrixXd run(SparseMatrix A, SolveReport* report) {
     A.prune([&](Eigen::Index i, Eigen::Index j, double) { return pinned_.free[i] != 0 && pinned_.free[j] != 0; });
     const LinearSystem system = LinearSystem::positiveDefinite(names_, A, options_);
@@ -64,9 +65,10 @@ class Refinement {
       if (report != nullptr) report->iterations += solved.iterations;
     }
     if (report != nullptr) {
+      report->method = system.report().method;
       const Eigen::RowVectorXd left = norms(missing(Eigen::MatrixXd::Ones(open_.rows(), open_.cols())));
       for (Eigen::Index c = 0; c < left.size(); ++c)
-        if (first[c] > 0) report->residual = std::max(report->residual, left[c] / first[c]);
+        if (first[c] > 0) report->residual = greater(report->residual, left[c] / first[c]);
     }
     Eigen::MatrixXd result = pinned_.values;
     for (const int i : pinned_.components.points)
@@ -108,7 +110,9 @@ class Refinement {
     }
     const auto wrong = largest.array() > stalled * range.array();
     if (is_last ? wrong.any() : (wrong && open_.array() == 0).any())
-      fail("corrections do not become small, so digits are wrong; the matrix is too close to singular");
+      fail(
+          "corrections do not become small, so digits are wrong; the matrix is too close to singular; set method to "
+          "SolverMethod::cholesky, or pin more points");
     open_ = (largest.array() > negligible * range.array()).select(open_, 0);
     last_ = largest;
   }

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "algorithms/greater.h"
 #include "algorithms/memory_limit.h"
 #include "base/number_text.h"
 #include "base/stage_clock.h"
@@ -173,7 +174,7 @@ double LinearSystem::residualOf(const Eigen::Ref<const Eigen::MatrixXd>& b,
   double greatest = 0;
   for (Eigen::Index c = 0; c < b.cols(); ++c) {
     const double size = right.col(c).norm();
-    if (size > 0) greatest = std::max(greatest, rest.col(c).norm() / size);
+    if (size > 0) greatest = greater(greatest, rest.col(c).norm() / size);
   }
   return greatest;
 }
@@ -204,10 +205,10 @@ Eigen::MatrixXd LinearSystem::solve(const std::string& function, const Eigen::Re
     if (report != nullptr) result.residual = residualOf(right, left);
   });
   if (report != nullptr) {
-    *report = {};
+    *report = {.method = report_.method};
     for (const SolveReport& block : done) {
       report->iterations = std::max(report->iterations, block.iterations);
-      report->residual = std::max(report->residual, block.residual);
+      report->residual = greater(report->residual, block.residual);
     }
     report->seconds = watch.seconds();
   }

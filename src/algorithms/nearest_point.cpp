@@ -3,31 +3,96 @@
 #include <limits>
 #include <string>
 
+#include "base/buffer.h"
+#include "cloud/neighbors.h"
 #include "tufted/check.h"
 #include "tufted/errors.h"
 
 namespace tufted {
+namespace {
 
-int nearestPoint(const Laplacian& laplacian, const Points& points, const Eigen::Vector3d& position) {
-  checkSizes("nearestPoint", laplacian);
+/// For fewer positions than this a tree is not worth its making.
+constexpr Eigen::Index worth_a_tree = 16;
+
+/// The active points, ascending.
+std::vector<int> activePoints(const std::string& function, const Laplacian& laplacian, const Points& points) {
+  checkSizes(function, laplacian);
   const auto n = static_cast<Eigen::Index>(laplacian.status.size());
   if (points.rows() != n) {
-    throw InvalidInput("nearestPoint: points has " + std::to_string(points.rows()) + " rows, must have " +
+    throw InvalidInput(function + ": points has " + std::to_string(points.rows()) + " rows, must have " +
                        std::to_string(n) + ", one per point of the Laplacian");
   }
-  if (!position.allFinite()) throw InvalidInput("nearestPoint: position is not finite, must be");
-  int nearest = -1;
-  double least = std::numeric_limits<double>::infinity();
+  std::vector<int> active;
   for (Eigen::Index i = 0; i < n; ++i) {
     if (laplacian.status[i] != PointStatus::active) continue;
-    const double distance = (points.row(i).transpose() - position).stableNorm();
-    if (nearest >= 0 && !(distance < least)) continue;
-    least = distance;
-    nearest = static_cast<int>(i);
+    if (!points.row(i).allFinite()) {
+      throw InvalidInput(function + ": point " + std::to_string(i) +
+                         " is not finite, must be: the Laplacian has it active");
+    }
+    active.push_back(static_cast<int>(i));
   }
-  if (nearest < 0)
-    throw InvalidInput("nearestPoint: none of the " + std::to_string(n) + " points is active, must be one");
-  return nearest;
+  if (active.empty())
+    throw InvalidInput(function + ": none of the " + std::to_string(n) + " points is active, must be one");
+  return active;
+}
+
+/// The nearest point seen so far, the first one where several are.
+class Nearest {
+ public:
+  explicit Nearest(const Points& points, const Eigen::RowVector3d& position) : points_(points), position_(position) {}
+
+  void consider(int i) {
+    const double distance = (points_.row(i) - position_).stableNorm();
+    if (index_ >= 0 && !(distance < least_ || (distance == least_ && i < index_))) return;
+    least_ = distance;
+    index_ = i;
+  }
+  int index() const { return index_; }
+
+ private:
+  const Points& points_;
+  Eigen::RowVector3d position_;
+  int index_ = -1;
+  double least_ = std::numeric_limits<double>::infinity();
+};
+
+int nearestOfAll(const Points& points, const std::vector<int>& active, const Eigen::RowVector3d& position) {
+  Nearest nearest(points, position);
+  for (const int i : active) nearest.consider(i);
+  return nearest.index();
+}
+
+}  // namespace
+
+int nearestPoint(const Laplacian& laplacian, const Points& points, const Eigen::Vector3d& position) {
+  const std::vector<int> active = activePoints("nearestPoint", laplacian, points);
+  if (!position.allFinite()) throw InvalidInput("nearestPoint: position is not finite, must be");
+  return nearestOfAll(points, active, position.transpose());
+}
+
+std::vector<int> nearestPoints(const Laplacian& laplacian, const Points& points, const Points& positions) {
+  const std::vector<int> active = activePoints("nearestPoints", laplacian, points);
+  for (Eigen::Index k = 0; k < positions.rows(); ++k) {
+    if (!positions.row(k).allFinite())
+      throw InvalidInput("nearestPoints: position " + std::to_string(k) + " is not finite, must be");
+  }
+  std::vector<int> result;
+  result.reserve(static_cast<std::size_t>(positions.rows()));
+  if (positions.rows() < worth_a_tree) {
+    for (const auto& position : positions.rowwise()) result.push_back(nearestOfAll(points, active, position));
+    return result;
+  }
+  const Points usable = points(active, Eigen::all);
+  const NeighborSearch search(usable);
+  Buffer<Neighbor> candidates;
+  for (const auto& position : positions.rowwise()) {
+    search.nearestTo(position, candidates);
+    Nearest nearest(points, position);
+    for (const Neighbor& candidate : candidates) nearest.consider(active[candidate.index]);
+    // So far away that squares overflow, all are looked at.
+    result.push_back(nearest.index() >= 0 ? nearest.index() : nearestOfAll(points, active, position));
+  }
+  return result;
 }
 
 }  // namespace tufted

@@ -11,6 +11,7 @@
 
 #include "algorithms/block_lanczos.h"
 #include "algorithms/connected.h"
+#include "algorithms/greater.h"
 #include "algorithms/inertia.h"
 #include "algorithms/linear_system.h"
 #include "algorithms/memory_limit.h"
@@ -27,10 +28,13 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-void checkArguments(const Laplacian& laplacian, const SpectrumOptions& options) {
-  checkSizes("spectrum", laplacian);
+void checkLaplacian(const std::string& function, const Laplacian& laplacian) {
+  checkSizes(function, laplacian);
   if (!laplacian.M.allFinite() || (laplacian.M.array() < 0).any())
-    throw InvalidInput("spectrum: M has values that are negative or not finite, must have none");
+    throw InvalidInput(function + ": M has values that are negative or not finite, must have none");
+}
+
+void checkOptions(const SpectrumOptions& options) {
   if (!(options.tolerance > 0 && options.tolerance < 1))
     throw InvalidInput("spectrum: tolerance = " + numberText(options.tolerance) + ", must lie in (0, 1)");
   if (options.max_iterations < 1)
@@ -61,6 +65,9 @@ struct Problem {
     std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return area[a] > area[b]; });
     usable = (mass.array() > 0).count();
   }
+
+  /// Above the largest number of pairs that can be asked for.
+  Index bound(bool null_space) const { return usable - (null_space ? 0 : std::ssize(order)); }
 };
 
 /// Columns `first` to the end: the constants of the components.
@@ -159,6 +166,10 @@ void findVibrations(const Laplacian& laplacian, const Problem& problem, Index wa
   // Another step of the inverse takes out what rounding left of high frequencies, and fills in points without mass.
   MatrixXd x = apply(found.vectors) * found.values.cwiseInverse().asDiagonal();
   const Eigen::LLT<MatrixXd> gram(innerProducts(x, problem.mass, x, quiet));
+  if (gram.info() != Eigen::Success)
+    throw SolverFailure(
+        "spectrum: the eigenvectors found are not independent, so digits are wrong; L is too close to "
+        "singular, ask for fewer eigenvalues or set method to SolverMethod::cholesky");
   const MatrixXd combination = gram.matrixU().solve(MatrixXd::Identity(wanted, wanted));
   multiplyInPlace(x, combination, quiet);
   spectrum.values.tail(wanted) = found.values.cwiseInverse();
@@ -170,22 +181,24 @@ void measure(const Laplacian& laplacian, const Problem& problem, Spectrum& spect
   const Progress silent;
   const Workers workers(1, silent);
   const MatrixXd gram = innerProducts(spectrum.vectors, problem.mass, spectrum.vectors, workers);
-  spectrum.report.orthogonality = (gram - MatrixXd::Identity(gram.rows(), gram.cols())).cwiseAbs().maxCoeff();
+  spectrum.report.orthogonality =
+      (gram - MatrixXd::Identity(gram.rows(), gram.cols())).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
   for (Index c = 0; c < spectrum.values.size(); ++c) {
     if (spectrum.values[c] == 0) continue;
     const VectorXd weighted = spectrum.values[c] * problem.mass.cwiseProduct(spectrum.vectors.col(c));
     const double residual = (laplacian.L * spectrum.vectors.col(c) - weighted).norm() / weighted.norm();
-    spectrum.report.residual = std::max(spectrum.report.residual, residual);
+    spectrum.report.residual = greater(spectrum.report.residual, residual);
   }
 }
 
 }  // namespace
 
 Spectrum spectrum(const Laplacian& laplacian, int k, const SpectrumOptions& options) {
-  checkArguments(laplacian, options);
+  checkLaplacian("spectrum", laplacian);
+  checkOptions(options);
   const Stopwatch watch;
   const Problem problem(laplacian);
-  const Index components = std::ssize(problem.order), bound = problem.usable - (options.null_space ? 0 : components);
+  const Index components = std::ssize(problem.order), bound = problem.bound(options.null_space);
   if (k < 1 || k >= bound)
     throw InvalidInput("spectrum: k = " + std::to_string(k) + ", must be at least 1 and less than " +
                        std::to_string(bound) + ", the number of active points of positive area" +
@@ -206,6 +219,11 @@ Spectrum spectrum(const Laplacian& laplacian, int k, const SpectrumOptions& opti
   result.vectors /= std::sqrt(problem.total);
   result.report.seconds = watch.seconds();
   return result;
+}
+
+int mostEigenpairs(const Laplacian& laplacian, bool null_space) {
+  checkLaplacian("mostEigenpairs", laplacian);
+  return static_cast<int>(std::max<Index>(Problem(laplacian).bound(null_space) - 1, 0));
 }
 
 }  // namespace tufted

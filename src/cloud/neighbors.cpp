@@ -87,6 +87,33 @@ class UnorderedSet final : public NearestSet {
   }
 };
 
+/// All points in a ball that shrinks to reach as far as the nearest and a little beyond: the roundings of squares,
+/// which lose digits where they underflow.
+class NearestTies final : public flann::ResultSet<double> {
+ public:
+  explicit NearestTies(Buffer<Neighbor>& found) : found_(found) { found_.clear(); }
+
+  bool full() const override { return true; }
+  double worstDist() const override { return worst_; }
+
+  void addPoint(double squared_distance, size_t index) override {
+    if (!(squared_distance < worst_)) return;
+    found_.push_back({squared_distance, static_cast<int>(index)});
+    worst_ = std::min(worst_, squared_distance * (1 + 1e-12) + 16 * std::numeric_limits<double>::denorm_min());
+  }
+
+  void finish() {
+    std::size_t kept = 0;
+    for (const Neighbor& candidate : found_)
+      if (candidate.squared_distance < worst_) found_[kept++] = candidate;
+    found_.resize(kept);
+  }
+
+ private:
+  Buffer<Neighbor>& found_;
+  double worst_ = std::numeric_limits<double>::infinity();
+};
+
 /// All points in a ball whose radius shrinks to that of the k nearest of its centre plus a margin.
 class ShrinkingBall final : public flann::ResultSet<double> {
  public:
@@ -179,6 +206,17 @@ void NeighborSearch::nearest(int p, int k, Buffer<Neighbor>& found, NeighborOrde
   search(radius);
   if (std::ssize(found) < k) search(std::numeric_limits<double>::infinity());  // the bound was lost in rounding
   if (before != nullptr) *before = {p, k, std::sqrt(found.back().squared_distance)};
+}
+
+void NeighborSearch::nearestTo(const Eigen::RowVector3d& position, Buffer<Neighbor>& found) const {
+  NearestTies ties(found);
+  if (!tree_) {
+    if (points_.rows() == 1) ties.addPoint((points_.row(0) - position).squaredNorm(), 0);
+    return;
+  }
+  const ForeignMemory query;
+  tree_->index.findNeighbors(ties, position.data(), tree_->params);
+  ties.finish();
 }
 
 bool NeighborSearch::candidates(int first, int count, int k, Buffer<int>& found, Buffer<double>& bounds,

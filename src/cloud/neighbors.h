@@ -43,6 +43,11 @@ class NeighborSearch : public InWorkspace {
   void nearest(int p, int k, Buffer<Neighbor>& found, NeighborOrder order = NeighborOrder::ascending,
                SearchBefore* before = nullptr) const;
 
+  /// All points that may be the nearest to a position: those whose squared distance is the least, and others within
+  /// its rounding. None where the squares overflow. Points need neither be distinct nor in Morton order for this.
+  /// @param[out] found in no order
+  void nearestTo(const Eigen::RowVector3d& position, Buffer<Neighbor>& found) const;
+
   /// All points that any of the points [first, first + count) has among its min(k, n - 1) nearest, and others near
   /// them. False, and nothing of use, where these are more than most_candidates, or so close that squares of
   /// their distances underflow.

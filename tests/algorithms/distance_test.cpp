@@ -62,7 +62,6 @@ TEST(Distance, IsFiniteAndMonotoneAtAHundredThousandEdges) {
   for (int i = 0; i < squares; ++i) {
     for (const int side : {0, 1}) ASSERT_LT(distance[2 * i + side], distance[2 * i + 2 + side]) << "after x = " << i;
   }
-  // Through every change of rounds: a straight wave stays straight.
   // A straight wave stays straight through all rounds.
   for (int i = 0; i <= squares; ++i) ASSERT_NEAR(distance[2 * i], i, 0.1);
 }
@@ -254,6 +253,25 @@ TEST(Distance, FailsTypedWhenItCannotBeSolved) {
   EXPECT_THROW(DistanceSolver{laplacian}, SolverFailure);
   laplacian.L *= NAN;
   EXPECT_THROW(DistanceSolver{laplacian}, SolverFailure);
+}
+
+TEST(Distance, ReportsWhatItsFactorisationsTake) {
+  const Points disk = shapes::disk(2000).points;  // that ends: three systems
+  const Laplacian laplacian = pointCloudLaplacian(disk);
+  const SolverReport one = Solver::laplacian(laplacian).report();
+  const SolverReport all = DistanceSolver(laplacian).report();
+  EXPECT_EQ(all.method, one.method);
+  EXPECT_FALSE(all.iterative);
+  EXPECT_EQ(all.components, 1);
+  EXPECT_GT(all.seconds, 0);
+  EXPECT_GT(all.unknowns, 2 * one.unknowns + 1);
+  EXPECT_NEAR(static_cast<double>(all.bytes), 3.0 * static_cast<double>(one.bytes), 0.5 * one.bytes);
+  EXPECT_EQ(all.bytes, all.factor_bytes);
+  const SolverReport closed = DistanceSolver(laplacian, {.open_boundary = false}).report();
+  EXPECT_EQ(closed.unknowns, 2000 + 1999);
+  const SolverReport by_multigrid = DistanceSolver(laplacian, {.solver = {.method = SolverMethod::multigrid}}).report();
+  EXPECT_TRUE(by_multigrid.iterative);
+  EXPECT_EQ(by_multigrid.method.find(" and "), std::string::npos) << by_multigrid.method;
 }
 
 }  // namespace

@@ -40,6 +40,7 @@ std::vector<Caller> callers(const Points& points) {
            [=](const Laplacian& laplacian) {
              nearestPoint(laplacian, points, {0, 0, 0});
            }},
+          {"nearestPoints", [=](const Laplacian& laplacian) { nearestPoints(laplacian, points, points); }},
           {"gradients", [=](const Laplacian& laplacian) { gradients(laplacian, points); }}};
 }
 
@@ -106,7 +107,7 @@ TEST(SolverFailure, NamesTheFunctionThatWasCalledAndTheMatrix) {
   nan.L.coeffRef(7, 7) = NAN;
   for (const Caller& caller : callers(points)) {
     const std::string& function = caller.function;
-    if (function == "filterSignals" || function == "nearestPoint" || function == "gradients") continue;
+    if (function == "filterSignals" || function.starts_with("nearestPoint") || function == "gradients") continue;
     for (const Laplacian* wrong : {&negative, &nan}) {
       if (wrong == &negative && function == "biharmonic") continue;  // whose matrix has a square of L
       const std::string said = failure([&] { caller.call(*wrong); });
@@ -129,6 +130,7 @@ TEST(SolverFailure, SaysWhatToChangeWhereIterationsDoNotSuffice) {
       {"DistanceSolver::query", [&] { distance.query({0}); }},
       {"harmonic", [&] { harmonic(laplacian, pins, few); }},
       {"poisson", [&] { poisson(laplacian, Eigen::MatrixXd(laplacian.L.col(0)), few); }},
+      {"poisson", [&] { poisson(laplacian, Eigen::MatrixXd(laplacian.L.col(0)), pins, few); }},
       {"greensFunction", [&] { greensFunction(laplacian, {0}, few); }}};
   for (const auto& [function, call] : calls) {
     const std::string said = failure(call);
@@ -141,6 +143,19 @@ TEST(SolverFailure, SaysWhatToChangeWhereIterationsDoNotSuffice) {
   const std::string said = failure([&] { spectrum(laplacian, 40, {.max_iterations = 2}); });
   EXPECT_EQ(said,
             "spectrum: max_iterations = 2 do not suffice for 39 eigenvalues to a tolerance of 1e-10; raise either");
+}
+
+TEST(SolverFailure, SaysWhatToChangeWhereCorrectionsStayLarge) {
+  // What is missing is told by differences, and rows that do not sum to 0 correct it by too little.
+  Laplacian laplacian = pointCloudLaplacian(shapes::sphere(1000).points);
+  laplacian.L.diagonal() *= 10;
+  const Pins pins{{0, 1}, Eigen::VectorXd{{0, 1}}};
+  for (const SolverMethod method : {SolverMethod::cholesky, SolverMethod::multigrid}) {
+    EXPECT_EQ(
+        failure([&] { harmonic(laplacian, pins, {.method = method}); }),
+        "harmonic: corrections do not become small, so digits are wrong; the matrix is too close to singular; set "
+        "method to SolverMethod::cholesky, or pin more points");
+  }
 }
 
 TEST(SolverFailure, SaysThatMultigridIsNotFitForBending) {
@@ -204,6 +219,14 @@ TEST(Progress, CancelsSolvesAndQueriesAtEveryCall) {
                               [&](const Progress& progress) { harmonic(laplacian, pins, options(progress)); });
     expectToCancelAtEveryCall("poisson", 5,
                               [&](const Progress& progress) { poisson(laplacian, f, options(progress)); });
+    expectToCancelAtEveryCall("poisson with pins", 5,
+                              [&](const Progress& progress) { poisson(laplacian, f, pins, options(progress)); });
+    if (!by_multigrid)
+      expectToCancelAtEveryCall("biharmonic", 5,
+                                [&](const Progress& progress) { biharmonic(laplacian, pins, options(progress)); });
+    expectToCancelAtEveryCall("DistanceSolver", by_multigrid ? 3 : 6, [&](const Progress& progress) {
+      DistanceSolver(laplacian, {.solver = options(progress)});
+    });
     expectToCancelAtEveryCall("green", 5,
                               [&](const Progress& progress) { greensFunction(laplacian, {0}, options(progress)); });
   }

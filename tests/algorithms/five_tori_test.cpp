@@ -6,6 +6,7 @@
 
 #include "shapes/random.h"
 #include "shapes/shapes.h"
+#include "support/defined_values.h"
 #include "tufted/tufted.h"
 
 namespace tufted {
@@ -51,15 +52,7 @@ class FiveTori : public testing::Test {
     return -1;
   }
   static bool isNowhere(int i) { return laplacian->status[i] == PointStatus::not_finite; }
-  /// Copies have the values of their representative.
-  static void expectCopies(const Eigen::MatrixXd& values) {
-    const Eigen::MatrixXd u = values.array().isNaN().select(-1e9, values);
-    for (int i = 0; i < n; ++i) {
-      if (laplacian->status[i] == PointStatus::coincident) {
-        ASSERT_EQ(u.row(i), u.row(laplacian->representative[i])) << i;
-      }
-    }
-  }
+  static void expectCopies(const Eigen::MatrixXd& values) { support::expectCopies(*laplacian, values); }
 
   static Points* points;
   static std::vector<int>* torus;

@@ -209,18 +209,6 @@ TEST(GreensFunction, IsThatOfTheSphere) {
   EXPECT_LE((laplacian.M.transpose() * g).cwiseAbs().maxCoeff(), 1e-12);
 }
 
-TEST(NearestPoint, IsTheFirstActiveOne) {
-  const Points points{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0.9, 0, 0}, {1, 0, 0}};
-  const Laplacian laplacian = meshLaplacian(points, Triangles{{0, 1, 2}, {0, 4, 2}});
-  EXPECT_EQ(nearestPoint(laplacian, points, {0.9, 0, 0}), 1);  // 3 is on no triangle
-  EXPECT_EQ(nearestPoint(laplacian, points, {1e10, 0, 0}), 1);
-  EXPECT_EQ(nearestPoint(laplacian, points, {1e300, 0, 0}), 0);  // all are as far
-  EXPECT_EQ(nearestPoint(laplacian, points, {-1, 2, 0}), 2);
-  EXPECT_THROW(nearestPoint(laplacian, points, {NAN, 0, 0}), InvalidInput);
-  EXPECT_THROW(nearestPoint(laplacian, points.topRows(3), {0, 0, 0}), InvalidInput);
-  EXPECT_THROW(nearestPoint(pointCloudLaplacian(Points(0, 3)), Points(0, 3), {0, 0, 0}), InvalidInput);
-}
-
 TEST(Interpolation, NamesWhatACallerGotWrong) {
   Points points = shapes::sphere(500).points;
   points.row(3).setConstant(NAN);

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "shapes/shapes.h"
+#include "support/defined_values.h"
 #include "tufted/tufted.h"
 
 namespace tufted {
@@ -31,16 +32,7 @@ class OddlyBuiltCloud : public testing::Test {
   static void SetUpTestSuite() { laplacian_ = new Laplacian(pointCloudLaplacian(oddCloud())); }
   static void TearDownTestSuite() { delete laplacian_; }
 
-  /// Finite everywhere, copies equal to their representative, 0 at points that are nowhere.
-  static void expectDefined(const MatrixXd& values) {
-    ASSERT_EQ(values.rows(), 5000);
-    EXPECT_TRUE(values.allFinite());
-    for (int i = 0; i < 5000; i += 10) {
-      EXPECT_TRUE(values.row(i + 3).isZero(0)) << i;
-      EXPECT_TRUE(values.row(i + 6).isZero(0)) << i;
-      EXPECT_EQ(values.row(i + 9), values.row(i + 1)) << i;
-    }
-  }
+  static void expectDefined(const MatrixXd& values) { support::expectDefined(*laplacian_, values, 0); }
 
   static const Laplacian* laplacian_;
 };

@@ -143,6 +143,22 @@ TEST(Solver, TakesMultigridWhereAFactorDoesNotFit) {
   EXPECT_LE((large.solve(b) - small.solve(b)).norm(), 1e-9 * large.solve(b).norm());
 }
 
+#ifdef TUFTED_WITH_GPL
+TEST(Solver, TakesNestedDissectionWhereItSavesWhatIsMissing) {
+  const Laplacian laplacian = pointCloudLaplacian(shapes::torus(20000).points, {.keep_cover = false});
+  const SolverReport first = Solver::laplacian(laplacian).report();
+  EXPECT_EQ(first.method, "Cholesky (CHOLMOD, AMD)");
+  const std::size_t limit = first.factor_bytes - 1;
+  const Solver dissected = Solver::laplacian(laplacian, {.memory_limit = limit});
+  EXPECT_EQ(dissected.report().method, "Cholesky (CHOLMOD, METIS)");
+  EXPECT_LE(dissected.report().factor_bytes, limit);
+  EXPECT_LT(dissected.report().nonzeros, first.nonzeros);
+  SolveReport report;
+  dissected.solve(laplacian.L * someValues(20000, 1), &report);
+  EXPECT_LE(report.residual, 1e-9);
+}
+#endif
+
 TEST(Solver, KeepsUnknownsOfAnyScaleApartByCholesky) {
   // Of diagonal entries from 1e-200 to 1e200 none disturbs the others.
   SparseMatrix A(5, 5);
@@ -229,6 +245,16 @@ TEST(Solver, CancelsAtEveryCall) {
     EXPECT_GE(all, 2);
     for (int stop = 1; stop <= all; ++stop) EXPECT_THROW(makeUntil(stop), Cancelled) << stop << " of " << all;
   }
+}
+
+TEST(Solver, ReportsNoSmallResidualWhereTheSolutionOverflows) {
+  SparseMatrix A(2, 2);
+  A.coeffRef(0, 0) = A.coeffRef(1, 1) = 2e-309;
+  A.coeffRef(0, 1) = A.coeffRef(1, 0) = -1e-309;
+  SolveReport report;
+  const MatrixXd x = Solver::positiveDefinite(A).solve(Eigen::MatrixXd::Ones(2, 9), &report);
+  EXPECT_FALSE(x.allFinite());
+  EXPECT_FALSE(report.residual <= 1) << report.residual;
 }
 
 }  // namespace

@@ -282,5 +282,29 @@ TEST(Spectrum, CancelsAtEveryCall) {
   EXPECT_GE(cancelled, all / 2);
 }
 
+TEST(MostEigenpairs, IsTheLargestCountThatSpectrumTakes) {
+  // Two tetrahedra, joined by a weight that is lost in rounding: to the report one component, to the spectrum two.
+  shapes::Mesh mesh = shapes::tetrahedron();
+  const Points one = mesh.points;
+  const Triangles triangles = mesh.triangles;
+  mesh.points.resize(8, 3);
+  mesh.points << one, one.rowwise() + Eigen::RowVector3d(9, 0, 0);
+  mesh.triangles.resize(8, 3);
+  mesh.triangles << triangles, triangles.array() + 4;
+  Laplacian laplacian = meshLaplacian(mesh.points, mesh.triangles);
+  laplacian.L.coeffRef(0, 4) = laplacian.L.coeffRef(4, 0) = -1e-20;
+  laplacian.L.makeCompressed();
+  laplacian.report.components = 1;
+  for (const bool null_space : {true, false}) {
+    const int most = mostEigenpairs(laplacian, null_space);
+    EXPECT_EQ(most, null_space ? 7 : 5);
+    EXPECT_EQ(spectrum(laplacian, most, {.null_space = null_space}).values.size(), most);
+    EXPECT_THROW(spectrum(laplacian, most + 1, {.null_space = null_space}), InvalidInput);
+  }
+  const Laplacian nothing = pointCloudLaplacian(Points(0, 3));
+  EXPECT_EQ(mostEigenpairs(nothing), 0);
+  EXPECT_EQ(mostEigenpairs(nothing, false), 0);
+}
+
 }  // namespace
 }  // namespace tufted

@@ -72,6 +72,18 @@ TEST_F(ApplicationCommands, PlacesAreCheckedBeforeTheBuild) {
   expectRefusal({"interpolate", cloud, "--normals", "--pin", "1=inf"}, "not finite");
 }
 
+TEST_F(ApplicationCommands, CountsAreCheckedBeforeTheBuild) {
+  const std::string cloud = dir_.write("sphere.xyz", sphere(100));
+  // A build with --normals fails, as the file has none.
+  for (const std::string command : {"spectrum", "hks", "operators"}) {
+    expectRefusal({command, cloud, "--normals", "--count", "99"}, "--normals", 1);
+    expectRefusal({command, cloud, "--normals", "--count", "100"}, "--count = 100, must be less than 100");
+  }
+  expectRefusal({"embed", cloud, "--normals", "--dimension", "100"}, "--dimension = 100");
+  expectRefusal({"filter", cloud, "--normals", "--positions"}, "--count = 100");
+  expectRefusal({"filter", cloud, "--normals", "--positions", "--wavelength", "1"}, "--normals", 1);
+}
+
 TEST_F(ApplicationCommands, DistanceFromAFolderIsThatOfABuild) {
   std::string points = sphere(300);
   points += points.substr(0, points.find('\n') + 1) + "nan 0 0\n";
@@ -148,6 +160,61 @@ TEST_F(ApplicationCommands, GreenHasAColumnPerPoint) {
   EXPECT_EQ(report("out")["sources"], nlohmann::json({3, 7}));
   expectRefusal({"green", cloud}, "no point is given");
   expectRefusal({"green", cloud, "--source", "-1"}, "-1");
+}
+
+TEST_F(ApplicationCommands, AdaptedTimeStepsFollowTheLargeTrianglesOfAnUnevenMesh) {
+  // A strip of squares, then of rectangles that get wider and wider.
+  const auto timeStep = [&](double growth, const std::string& unit) {
+    std::string strip = "OFF\n42 40 0\n";
+    double x = 0, width = 1;
+    for (int i = 0; i <= 20; ++i, x += width, width *= growth)
+      strip += std::to_string(x) + " 0 0\n" + std::to_string(x) + " 1 0\n";
+    for (int i = 0; i < 40; i += 2)
+      strip += "3 " + std::to_string(i) + ' ' + std::to_string(i + 2) + ' ' + std::to_string(i + 1) + "\n3 " +
+               std::to_string(i + 1) + ' ' + std::to_string(i + 2) + ' ' + std::to_string(i + 3) + '\n';
+    run({"distance", dir_.write("strip.off", strip), "--source", "0", "--time-unit", unit, "--out", in("out")});
+    return report("out")["time_step"].get<double>();
+  };
+  EXPECT_NEAR(timeStep(1, "mean"), 0.5 * (1 + 1 + 2) / 3, 1e-3);  // half the mean square of sides and diagonals
+  EXPECT_NEAR(timeStep(1, "adapted"), timeStep(1, "mean"), 1e-12);
+  EXPECT_GT(timeStep(1.5, "adapted"), 2 * timeStep(1.5, "mean"));
+  expectRefusal({"distance", in("strip.off"), "--source", "0", "--time-unit", "huge"}, "--time-unit");
+}
+
+TEST_F(ApplicationCommands, StopAtCtrlCWhileTheySolve) {
+  // A strip so long that heat starts again many times.
+  const int squares = 20000;
+  std::string strip = "OFF\n" + std::to_string(2 * squares + 2) + ' ' + std::to_string(2 * squares) + " 0\n";
+  for (int i = 0; i <= squares; ++i) strip += std::to_string(i) + " 0 0\n" + std::to_string(i) + " 1 0\n";
+  for (int i = 0; i < 2 * squares; i += 2) {
+    const std::string a = ' ' + std::to_string(i), b = ' ' + std::to_string(i + 1), c = ' ' + std::to_string(i + 2),
+                      d = ' ' + std::to_string(i + 3);
+    strip += '3' + a + c + b + "\n3" + b + c + d + '\n';
+  }
+  run({"laplacian", dir_.write("strip.off", strip), "--format", "npz,ply,cover", "--out", in("strip")});
+  run({"laplacian", dir_.write("sphere.xyz", sphere(20000)), "--out", in("sphere")});
+  struct Case {
+    std::string folder, stage;
+    std::vector<std::string> arguments;
+  };
+  const std::vector<Case> cases = {{"strip", "directions", {"distance", "--source", "0"}},
+                                   {"strip", "analyse", {"distance", "--source", "0"}},
+                                   {"sphere", "analyse", {"interpolate", "--pin", "0=1", "--pin", "1=2"}},
+                                   {"sphere", "analyse", {"poisson", "--field", "x"}},
+                                   {"sphere", "analyse", {"poisson", "--field", "x", "--pin", "0=1"}},
+                                   {"sphere", "analyse", {"green", "--source", "0"}},
+                                   {"sphere", "eigenpairs", {"operators"}},
+                                   {"sphere", "eigenpairs", {"hks"}},
+                                   {"sphere", "eigenpairs", {"embed"}},
+                                   {"sphere", "eigenpairs", {"filter", "--positions"}}};
+  for (const Case& c : cases) {
+    std::vector<std::string> arguments = c.arguments;
+    arguments.insert(arguments.end(), {"--operator", in(c.folder), "--out", in("out")});
+    const Result result = interruptTufted(arguments, SIGINT, c.stage);
+    EXPECT_EQ(result.code, 130) << c.arguments[0] << ", " << c.stage;
+    EXPECT_FALSE(std::filesystem::exists(in("out"))) << c.arguments[0] << ", " << c.stage;
+    std::filesystem::remove_all(in("out"));
+  }
 }
 
 }  // namespace

@@ -102,7 +102,7 @@ Result runProgram(const std::vector<std::string>& words) {
   return Process(words, "/dev/null").finish();
 }
 
-Result interruptTufted(const std::vector<std::string>& arguments, int signal) {
+Result interruptTufted(const std::vector<std::string>& arguments, int signal, const std::string& text) {
   const int terminal = posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
   if (terminal < 0 || grantpt(terminal) != 0 || unlockpt(terminal) != 0) throw std::runtime_error("no terminal");
   const int err = open(ptsname(terminal), O_RDWR | O_NOCTTY | O_CLOEXEC);
@@ -113,8 +113,10 @@ Result interruptTufted(const std::vector<std::string>& arguments, int signal) {
   close(out);
   close(err);
   Result result;
-  if (readSome(terminal, result.err)) kill(pid, signal);
-  while (readSome(terminal, result.err)) {
+  for (bool sent = false; readSome(terminal, result.err);) {
+    if (sent || result.err.find(text) == std::string::npos) continue;
+    kill(pid, signal);
+    sent = true;
   }
   close(terminal);
   result.code = wait(pid);

@@ -37,5 +37,6 @@ Result runTufted(const std::vector<std::string>& arguments, const std::string& i
 /// Runs any program; its arguments may name TUFTED_COMMAND.
 Result runProgram(const std::vector<std::string>& words);
 
-/// Runs the command with a terminal as stderr, and sends a signal as soon as something appears there.
-Result interruptTufted(const std::vector<std::string>& arguments, int signal = SIGINT);
+/// Runs the command with a terminal as stderr, and sends a signal as soon as a text appears there.
+/// @param text such as the name of a stage; empty: anything
+Result interruptTufted(const std::vector<std::string>& arguments, int signal = SIGINT, const std::string& text = "");

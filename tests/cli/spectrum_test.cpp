@@ -91,7 +91,6 @@ TEST_F(SpectrumCommand, MistakesAreOneLineAndTwo) {
   expectRefusal({"spectrum", "--operator", in("laplacian"), "--as", "mesh"}, "--as");
   expectRefusal({"spectrum", "--operator", in("laplacian"), "--weld"}, "--weld");
   expectRefusal({"spectrum", file, "--count", "0"}, "--count");
-  expectRefusal({"spectrum", file, "--count", "100"}, "k = 100");
   expectRefusal({"spectrum", file, "--tolerance", "2"}, "--tolerance");
   expectRefusal({"spectrum", file, "--format", "npz"}, "--format");
   const Result same = runTufted({"spectrum", "--operator", in("laplacian"), "--out", in("laplacian")});
@@ -143,7 +142,8 @@ TEST_F(SpectrumCommand, HksWritesSignaturesOfHeatAndOfWaves) {
   EXPECT_NE(readAll(dir_ / "wave/points.pcd").find(" wks "), std::string::npos);
   expectRefusal({"hks", file, "--times", "1", "--samples", "3"}, "--samples");
   expectRefusal({"hks", file, "--times", "1", "--wave"}, "--wave");
-  expectRefusal({"hks", file, "--times", "-1"}, "--times");
+  for (const char* times : {"-1", "nan", "1,nan", "inf", "1,x"})
+    expectRefusal({"hks", file, "--times", times}, "--times");
   expectRefusal({"hks", file, "--count", "1"}, "--count");
 }
 

@@ -35,6 +35,20 @@ class Subcommands : public testing::Test {
   nlohmann::json report(const std::string& folder) const {
     return nlohmann::json::parse(readAll(dir_ / folder / "report.json"));
   }
+  /// Expects report.json to say how the results were found, how well and how fast.
+  /// @param method that the name of the solver's begins with
+  /// @param iterates whether that takes iterations
+  void expectReport(const std::string& folder, const std::string& method, bool iterates) const {
+    const nlohmann::json made = report(folder)["report"];
+    const nlohmann::json solver = made.value("solver", made);
+    EXPECT_EQ(solver.value("method", "").find(method), 0u) << folder << made;
+    EXPECT_GT(solver.value("seconds", 0.0), 0) << folder << made;
+    ASSERT_TRUE(made["iterations"].is_number_integer()) << folder << made;
+    EXPECT_EQ(made["iterations"] > 0, iterates) << folder << made;
+    ASSERT_TRUE(made["residual"].is_number()) << folder << made;  // NaN is null
+    EXPECT_LE(made["residual"], 1e-8) << folder << made;
+    EXPECT_GT(made["seconds"], 0) << folder << made;
+  }
   /// The values of a .npy file of doubles.
   std::vector<double> values(const std::string& file) const {
     const std::string bytes = readAll(dir_ / file);

@@ -36,10 +36,11 @@ constexpr const char* name = "validate";
 constexpr const char* description = "Build L and M for files or whole folders and check everything that they promise.";
 
 constexpr const char* footer =
-    R"(Takes files, and folders with all that is below them and has a known extension; links to folders are followed. Each
-file has a process of its own, so that none can stop the run. Prints a line per file, in the order given:
+    R"(Takes files, and folders with all that is below them and has a known extension; links to folders are followed.
+Each file has a process of its own, so that none can stop the run. Prints a line per file, in the order given:
 
-  result   OK, REFUSED (the reader gives its reason; also a folder that cannot be listed) or FAILED (what broke, or how the process ended)
+  result   OK, REFUSED (the reader gives its reason; also a folder that cannot be listed) or FAILED (what broke, or how
+           the process ended)
   seconds  from the start of its process to its end: reading, building, checking
   MB       peak memory of its process
   nnz/row  stored entries of L per active point
