@@ -46,16 +46,10 @@ void sortByDirection(Buffer<PlanarPoint>& points, Buffer<Directed>& directed, Bu
 
 /// Whether link vertex b leaves the star: the diagonal (a, c) is Delaunay in the quadrilateral (p, a, b, c).
 bool isCutOff(int p, const PlanarPoint& a, const PlanarPoint& b, const PlanarPoint& c) {
+  const CircleSide side = sideOfCircle(a, b, c);
+  if (side == CircleSide::outside) return false;
   if (orientation(a, c) <= 0) return false;  // without b the gap would be pi or more
-  switch (sideOfCircle(a, b, c)) {
-    case CircleSide::inside:
-      return true;
-    case CircleSide::outside:
-      return false;
-    case CircleSide::tie:
-      break;
-  }
-  return std::min(a.index, c.index) < std::min(p, b.index);
+  return side == CircleSide::inside || std::min(a.index, c.index) < std::min(p, b.index);
 }
 
 }  // namespace

@@ -34,6 +34,12 @@ int orientation(const PlanarPoint& a, const PlanarPoint& b) {
   // Three roundings of at most half an ulp each; the second bound keeps clear of underflow.
   const double bound = 4e-16 * (std::abs(left) + std::abs(right));
   if (std::abs(determinant) > bound && bound > 1e-290) return determinant > 0 ? 1 : -1;
+  if (bound > 1e-270) {
+    // So nearly equal, the products have an exact difference, and what is left are their own roundings.
+    const double rest = std::fma(a.v, b.u, -right) - std::fma(a.u, b.v, -left);
+    if (determinant != rest) return determinant > rest ? 1 : -1;
+    if (rest == 0) return 0;
+  }
   const ForeignMemory exact;
   return static_cast<int>(CGAL::orientation(Kernel::Point_2(0, 0), toCgal(a), toCgal(b)));
 }

@@ -5,7 +5,9 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdint>
 
 #include "cloud/inverted_star.h"
 #include "cloud/morton.h"
@@ -162,6 +164,30 @@ TEST(DelaunayStar, IsRightForPointsOnTinyAndHugeScales) {
     ASSERT_EQ(star.link.size(), scaled_star.link.size()) << exponent;
     for (std::size_t i = 0; i < star.link.size(); ++i) EXPECT_EQ(star.link[i].index, scaled_star.link[i].index);
   }
+}
+
+__extension__ typedef __int128 Wide;
+
+TEST(Orientation, OfNearlyCollinearPointsIsTheSignOfTheExactDeterminant) {
+  shapes::Random random(3);
+  std::array<int, 3> seen = {};
+  for (int i = 0; i < 100000; ++i) {
+    // Whole numbers of up to 50 bits, whose products 128 bits hold: b is next to a multiple of a short vector, as a is.
+    const double size = std::ldexp(1, static_cast<int>(random.uniform(2, 24)));
+    const std::int64_t u = std::llround(random.uniform(-size, size)), v = std::llround(random.uniform(-size, size));
+    const std::int64_t s = std::llround(random.uniform(1, 1 << 24)), t = std::llround(random.uniform(1, 1 << 24));
+    const auto off = [&] { return std::llround(random.uniform(-1.4, 1.4)); };
+    const std::int64_t au = s * u + off(), av = s * v + off(), bu = t * u + off(), bv = t * v + off();
+    const Wide exact = static_cast<Wide>(au) * bv - static_cast<Wide>(av) * bu;
+    const int sign = exact > 0 ? 1 : exact < 0 ? -1 : 0;
+    ++seen[sign + 1];
+    for (const int exponent : {0, -440, -560, 300}) {  // the last but one has products that underflow
+      const auto scaled = [&](std::int64_t x) { return std::ldexp(static_cast<double>(x), exponent); };
+      ASSERT_EQ(orientation({scaled(au), scaled(av), 0}, {scaled(bu), scaled(bv), 0}), sign)
+          << au << ' ' << av << ' ' << bu << ' ' << bv << ' ' << exponent;
+    }
+  }
+  EXPECT_GT(*std::min_element(seen.begin(), seen.end()), 1000);
 }
 
 TEST(SideOfCircle, AgreesWithTheSignOfTheAngleSum) {
