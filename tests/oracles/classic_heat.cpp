@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <Eigen/SparseCholesky>
+#include <cmath>
 
 #include "oracles/oracles.h"
 
@@ -19,7 +20,9 @@ VectorXd classicHeatDistances(const Points& points, const Triangles& triangles, 
   for (Eigen::Index i = 0; i < points.rows(); ++i) heat.coeffRef(i, i) += operators.M[i];
   VectorXd delta = VectorXd::Zero(points.rows());
   delta[source] = 1;
-  const VectorXd u = Eigen::SimplicialLDLT<SparseMatrix>(heat).solve(delta);
+  const Eigen::SimplicialLDLT<SparseMatrix> heat_factor(heat);
+  if (heat_factor.info() != Eigen::Success) return VectorXd::Constant(points.rows(), NAN);
+  const VectorXd u = heat_factor.solve(delta);
 
   VectorXd divergence = VectorXd::Zero(points.rows());
   for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
@@ -44,7 +47,9 @@ VectorXd classicHeatDistances(const Points& points, const Triangles& triangles, 
   }
   grounded.prune([&](Eigen::Index i, Eigen::Index j, double) { return (i != source && j != source) || i == j; });
   divergence[source] = 0;
-  const VectorXd distance = Eigen::SimplicialLDLT<SparseMatrix>(grounded).solve(divergence);
+  const Eigen::SimplicialLDLT<SparseMatrix> grounded_factor(grounded);
+  if (grounded_factor.info() != Eigen::Success) return VectorXd::Constant(points.rows(), NAN);
+  const VectorXd distance = grounded_factor.solve(divergence);
   return distance.array() - distance[source];
 }
 
