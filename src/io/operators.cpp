@@ -20,16 +20,22 @@ void checkArguments(const Laplacian& laplacian, const Geometry& geometry, const 
                     const Spectrum& spectrum) {
   checkSizes("writeOperators", laplacian);
   const auto n = static_cast<Eigen::Index>(laplacian.status.size());
-  const auto check = [&](const char* name, Eigen::Index rows) {
-    if (rows != n)
-      throw InvalidInput("writeOperators: " + std::string(name) + " has " + std::to_string(rows) + " rows, must have " +
-                         std::to_string(n));
+  const auto check = [](const char* name, Eigen::Index size, const char* unit, Eigen::Index right) {
+    if (size != right)
+      throw InvalidInput("writeOperators: " + std::string(name) + " has " + std::to_string(size) + unit +
+                         ", must have " + std::to_string(right));
   };
-  check("geometry", geometry.points.rows());
-  check("gradients.X", gradients.X.rows());
-  check("gradients.Y", gradients.Y.rows());
-  check("gradients.frames", gradients.frames.normals.rows());
-  check("spectrum.vectors", spectrum.vectors.rows());
+  check("geometry", geometry.points.rows(), " rows", n);
+  for (const auto& [name, matrix] :
+       {std::pair("L", &laplacian.L), {"gradients.X", &gradients.X}, {"gradients.Y", &gradients.Y}}) {
+    check(name, matrix->rows(), " rows", n);
+    check(name, matrix->cols(), " columns", n);
+    if (!matrix->isCompressed()) throw InvalidInput("writeOperators: " + std::string(name) + " must be compressed");
+  }
+  check("gradients.frames.normals", gradients.frames.normals.rows(), " rows", n);
+  check("gradients.frames.tangents", gradients.frames.tangents.rows(), " rows", n);
+  check("spectrum.vectors", spectrum.vectors.rows(), " rows", n);
+  check("spectrum.vectors", spectrum.vectors.cols(), " columns", spectrum.values.size());
 }
 
 template <class T>

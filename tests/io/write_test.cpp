@@ -13,6 +13,7 @@
 #include "sample_laplacian.h"
 #include "temporary_dir.h"
 #include "tufted/errors.h"
+#include "tufted/io/operators.h"
 
 namespace {
 
@@ -175,6 +176,51 @@ TEST(WriteLaplacian, ArraysOfDifferentLengthAreTheCallersMistake) {
   laplacian.boundary.pop_back();
   EXPECT_THROW(tufted::writeLaplacian(dir / "out", laplacian, sampleGeometry()), tufted::InvalidInput);
   EXPECT_FALSE(std::filesystem::exists(dir / "out"));
+}
+
+TEST(WriteOperators, ArraysThatDoNotFitAreTheCallersMistake) {
+  const TemporaryDir dir;
+  const tufted::Laplacian laplacian = sampleLaplacian();
+  const tufted::Geometry geometry = sampleGeometry();
+  const Eigen::Index n = geometry.points.rows();
+  tufted::Gradients gradients;
+  gradients.X.resize(n, n);
+  gradients.Y.resize(n, n);
+  gradients.frames.normals.setZero(n, 3);
+  gradients.frames.tangents.setZero(n, 3);
+  tufted::Spectrum spectrum;
+  spectrum.values.setZero(2);
+  spectrum.vectors.setZero(n, 2);
+  const auto expectRefusal = [&](const std::string& word, const tufted::Geometry& points,
+                                 const tufted::Gradients& slopes, const tufted::Spectrum& pairs) {
+    try {
+      tufted::writeOperators(dir / "out", laplacian, points, slopes, pairs);
+      FAIL() << word;
+    } catch (const tufted::InvalidInput& error) {
+      EXPECT_NE(std::string(error.what()).find("writeOperators: " + word), std::string::npos) << error.what();
+    }
+  };
+  tufted::Geometry fewer_points = geometry;
+  fewer_points.points.conservativeResize(n - 1, 3);
+  expectRefusal("geometry has", fewer_points, gradients, spectrum);
+  tufted::Gradients wrong = gradients;
+  wrong.X.resize(n + 1, n);
+  expectRefusal("gradients.X has 5 rows", geometry, wrong, spectrum);
+  wrong = gradients;
+  wrong.Y.resize(n, n - 1);
+  expectRefusal("gradients.Y has 3 columns", geometry, wrong, spectrum);
+  wrong = gradients;
+  wrong.Y.coeffRef(0, 0) = 1;
+  wrong.Y.uncompress();
+  expectRefusal("gradients.Y must be compressed", geometry, wrong, spectrum);
+  wrong = gradients;
+  wrong.frames.tangents.resize(n - 1, 3);
+  expectRefusal("gradients.frames.tangents has", geometry, wrong, spectrum);
+  tufted::Spectrum fewer_pairs = spectrum;
+  fewer_pairs.vectors.conservativeResize(n, 1);
+  expectRefusal("spectrum.vectors has 1 columns", geometry, gradients, fewer_pairs);
+  EXPECT_FALSE(std::filesystem::exists(dir / "out"));
+  tufted::writeOperators(dir / "out", laplacian, geometry, gradients, spectrum);
 }
 
 TEST(ToJson, StatesEveryCountOfTheReport) {

@@ -22,7 +22,7 @@ namespace tufted {
 ///   evals, evecs   k and N x k, float64
 /// All numbers are those of the library bit for bit; the cache itself has float32. Beside it, as writeResults does,
 /// copies of the points with the fields frames and evecs, and report.json.
-/// @throws InvalidInput for arrays that differ in their number of points
+/// @throws InvalidInput for arrays that differ in their number of points or of eigenvalues, or are not compressed
 /// @throws IoError naming the path
 /// @throws Cancelled when `options.progress` returns false
 void writeOperators(const std::filesystem::path& dir, const Laplacian& laplacian, const Geometry& geometry,
