@@ -1,11 +1,14 @@
 #!/usr/bin/env python3
-"""Prints the table of README's section on speed and draws tools/figures/speed.svg, from what tufted_bench writes.
+"""Prints a table of speed and draws a figure, from files that tufted_bench writes.
 
-    build/release/tufted_bench --benchmark_filter='threads:1/' --benchmark_out=speed.json
-    tools/plot_speed.py speed.json tools/figures/speed.svg
+    mkdir -p out/speed
+    for case in $(build/release/tufted_bench --benchmark_list_tests --benchmark_filter='/sphere/.*/(clean|scan)/threads:1/'); do
+      build/release/tufted_bench --benchmark_filter="$case" --benchmark_out="out/speed/$(echo "$case" | tr / _).json"
+    done
+    tools/plot_speed.py out/speed/*.json tools/figures/speed.svg
 
-Each case alone in a process gives the peak that README names. The same numbers give the same bytes (with one version of
-matplotlib). Needs python3-matplotlib.
+Each case has a process of its own here, as the peak is that of the process. The same numbers give the same bytes (with
+one version of matplotlib). Needs python3-matplotlib.
 """
 import json
 import sys
@@ -29,17 +32,20 @@ LINES = {  # preset: label, colour, marker
 }
 
 
-def read(path):
+def read(paths):
     """Benchmarks of clouds on one thread by (cloud, preset)."""
+    runs = []
+    for path in paths:
+        with open(path) as file:
+            runs += json.load(file)["benchmarks"]
     cases = {}
-    with open(path) as file:
-        for run in json.load(file)["benchmarks"]:
-            parts = run["name"].split("/")
-            if parts[0] != "cloud" or run.get("run_type") == "aggregate" or "whole_per_flann" not in run:
-                continue
-            end = next(i for i, part in enumerate(parts) if part.startswith("threads:"))
-            start = next(i for i, part in enumerate(parts) if part in ("clean", "scan", "lidar"))
-            cases["/".join(parts[1:start]), "/".join(parts[start:end])] = run
+    for run in runs:
+        parts = run["name"].split("/")
+        if parts[0] != "cloud" or run.get("run_type") == "aggregate" or "whole_per_flann" not in run:
+            continue
+        end = next(i for i, part in enumerate(parts) if part.startswith("threads:"))
+        start = next(i for i, part in enumerate(parts) if part in ("clean", "scan", "lidar"))
+        cases["/".join(parts[1:start]), "/".join(parts[start:end])] = run
     return cases
 
 
@@ -70,8 +76,9 @@ def draw(cases, target):
     figure.savefig(target, metadata={"Date": None})
 
 
-def main(source, target):
-    cases = read(source)
+def main(*paths):
+    *sources, target = paths
+    cases = read(sources)
     print_table(cases)
     draw(cases, target)
 
