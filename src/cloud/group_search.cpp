@@ -13,7 +13,6 @@ namespace {
 constexpr int least_group = 4, most_group = 32;
 constexpr double widest_group = 2.5;  // diagonal of its box, in radii of a neighbourhood
 constexpr double likely = 1.08;       // times the squared radius of the point before: holds the k nearest most often
-constexpr double slack = 1 + 1e-12;   // bounds are rounded, what is selected must not be
 constexpr double nowhere = std::numeric_limits<double>::infinity();
 
 class GroupSearch {
@@ -79,7 +78,7 @@ class GroupSearch {
       bound = std::min(bound, before + (points_.row(p) - points_.row(p - 1)).norm());
       guess = likely * before * before;
     }
-    bound = bound * bound * slack + std::numeric_limits<double>::denorm_min();
+    bound = widened(bound * bound);
     int count = guess < bound ? takeWithin(p, guess) : 0;
     if (count < k_) count = takeWithin(p, bound);
     if (count >= k_)

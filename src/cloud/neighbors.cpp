@@ -37,9 +37,7 @@ class NearestSet : public flann::ResultSet<double> {
   double worstDist() const override { return worst_; }
 
  protected:
-  void setWorst(double squared_distance) {
-    worst_ = squared_distance * (1 + 1e-12) + std::numeric_limits<double>::denorm_min();
-  }
+  void setWorst(double squared_distance) { worst_ = widened(squared_distance); }
 
   Buffer<Neighbor>& found_;
   const std::size_t k_;
@@ -153,7 +151,7 @@ class ShrinkingBall final : public flann::ResultSet<double> {
 
   void setWorst() {
     const double radius = std::sqrt(nearest_.front()) + margin_;
-    worst_ = radius * radius * (1 + 1e-12) + std::numeric_limits<double>::denorm_min();
+    worst_ = widened(radius * radius);
   }
 
   double margin_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <limits>
 #include <memory>
 
 #include "base/buffer.h"
@@ -17,6 +18,11 @@ struct Neighbor {
     return a.squared_distance < b.squared_distance || (a.squared_distance == b.squared_distance && a.index < b.index);
   }
 };
+
+/// A bound on squared distances that holds however they were rounded.
+inline double widened(double squared_distance) {
+  return squared_distance * (1 + 1e-12) + std::numeric_limits<double>::denorm_min();
+}
 
 enum class NeighborOrder { ascending, any };
 
