@@ -72,12 +72,16 @@ std::int64_t dropTriangles(Stars& stars, const Workers& workers, const Test& tes
         for (int i = stars.offset[p]; i < stars.offset[p + 1]; ++i) visit(p, i);
     });
   };
-  forEachEntry([&](int p, int i) { condemned[i] = stars.hasTriangle(i) && test(p, i) ? 1 : 0; });
+  forEachEntry([&](int p, int i) {
+    if (!stars.hasTriangle(i) || !test(p, i)) return;
+    condemned[i] = 1;
+    dropped.fetch_add(1, std::memory_order_relaxed);
+  });
+  if (dropped == 0) return 0;
   forEachEntry([&](int p, int i) {
     if (condemned[i] == 0) return;
     stars.triangle[i] = 0;
     stars.ends[p] = 1;
-    dropped.fetch_add(1, std::memory_order_relaxed);
   });
   return dropped;
 }
