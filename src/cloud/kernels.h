@@ -38,6 +38,19 @@ struct OffsetSums {
   }
 };
 
+/// Symmetric 3 x 3 matrices without negative eigenvalues, one per lane.
+struct Covariances {
+  alignas(64) double xx[kernel_lane], xy[kernel_lane], xz[kernel_lane], yy[kernel_lane], yz[kernel_lane],
+      zz[kernel_lane];
+};
+
+/// Their eigenvalues, and the unit eigenvector of the smallest one.
+struct SmallestAxes {
+  alignas(64) double x[kernel_lane], y[kernel_lane], z[kernel_lane];
+  alignas(64) double smallest[kernel_lane], middle[kernel_lane], largest[kernel_lane];
+  alignas(64) double is_found[kernel_lane];  ///< 1; 0 where two eigenvalues lie too close for a closed form
+};
+
 /// Neighbours in the tangent plane of a point, which lies at the origin.
 struct PlanarOffsets {
   static constexpr int most = Offsets::most;
@@ -58,6 +71,16 @@ struct InvertedStar {
   double radius[most];
 };
 
+/// Triangles side by side: number i has the spokes i and i + 1, which start at one point, and the rim between their
+/// ends. Borrowed arrays of `count` numbers and room for whole lanes; those of the spokes have one lane more.
+struct Fans {
+  int count;
+  const double *spoke_x, *spoke_y, *spoke_z, *rim_x, *rim_y, *rim_z;  ///< vectors
+  double *spoke, *rim;                                                ///< lengths
+  double *area, *slack;                                               ///< of the triangle inequality
+  double *cotan_at_next, *cotan_at_own;                               ///< opposite spoke i, opposite spoke i + 1
+};
+
 /// The loops that a build spends its time in. They are compiled for every processor and once more for AVX-512; the
 /// operations are the same, and so are the bits.
 struct Kernels {
@@ -74,8 +97,11 @@ struct Kernels {
   double (*extent)(const Offsets& offsets);
   /// Adds those of the offsets times `unit`.
   void (*addSums)(const Offsets& offsets, double unit, OffsetSums& sums);
+  void (*findSmallest)(const Covariances& covariances, SmallestAxes& axes);
   /// The offsets times `unit` along the axes x and y.
   void (*project)(const Offsets& offsets, double unit, const double* x, const double* y, PlanarOffsets& planar);
+  /// The triangles of the fans, with `added` to all lengths; the formulas of intrinsic/geometry.h.
+  void (*measureFans)(const Fans& fans, double added);
   /// See wrapInverted().
   StarKind (*wrapInverted)(const PlanarOffsets& planar, InvertedStar& star);
 };

@@ -60,6 +60,52 @@ void addSums(const Offsets& offsets, double unit, OffsetSums& total) {
   for (int i = 0; i < 9; ++i) store(sums[i], &total.lanes[i * lane_size]);
 }
 
+constexpr double least_gap = 1e-3;  // between the two smallest eigenvalues over the largest, for the closed form
+constexpr int most_steps = 8;
+
+/// The smallest eigenvalue by Newton's method on the characteristic polynomial, which from 0 rises to its first root,
+/// and the eigenvector as a cross product.
+void findSmallest(const Covariances& given, SmallestAxes& axes) {
+  const Lane xx = load(given.xx), xy = load(given.xy), xz = load(given.xz);
+  const Lane yy = load(given.yy), yz = load(given.yz), zz = load(given.zz);
+  const Lane x_minor = yy * zz - yz * yz, trace = xx + yy + zz;
+  const Lane minors = x_minor + (xx * zz - xz * xz) + (xx * yy - xy * xy);
+  const Lane determinant = xx * x_minor - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
+  Lane smallest = all(0);
+  Mask converged = none();  // slowly towards a double root, or not at all
+  for (int step = 0; step < most_steps && countOf(converged) < lane_size; ++step) {
+    const Lane value = ((smallest - trace) * smallest + minors) * smallest - determinant;
+    const Lane slope = (all(3) * smallest - all(2) * trace) * smallest + minors;
+    const Lane change = value / slope;
+    smallest = select(converged, smallest, smallest - change);                     // each as if it were alone
+    converged = either(converged, isAtMost(absolute(change), all(1e-9) * trace));  // and quadratically it went further
+  }
+  const Lane rest = trace - smallest;  // sum and product of the other two
+  const Lane product = minors - smallest * rest;
+  const Lane root = squareRoot(most(all(0), rest * rest - all(4) * product));
+  const Lane middle = all(0.5) * (rest - root), largest = all(0.5) * (rest + root);
+  const Mask is_found = both(converged, isLess(all(least_gap) * largest, middle - smallest));
+
+  // Two rows of the matrix less the eigenvalue span what is perpendicular to the eigenvector.
+  const Lane xs = xx - smallest, ys = yy - smallest, zs = zz - smallest;
+  const Lane ax = xy * yz - xz * ys, ay = xz * xy - xs * yz, az = xs * ys - xy * xy;  // rows x and y
+  const Lane bx = ys * zs - yz * yz, by = yz * xz - xy * zs, bz = xy * yz - ys * xz;  // y and z
+  const Lane cx = yz * xz - zs * xy, cy = zs * xs - xz * xz, cz = xz * xy - yz * xs;  // z and x
+  const Lane a = ax * ax + ay * ay + az * az, b = bx * bx + by * by + bz * bz, c = cx * cx + cy * cy + cz * cz;
+  const Mask second = isLess(a, b), third = isLess(most(a, b), c);
+  const auto longest = [&](Lane of_a, Lane of_b, Lane of_c) { return select(third, of_c, select(second, of_b, of_a)); };
+  const Lane length = squareRoot(longest(a, b, c));
+  const Lane x = longest(ax, bx, cx) / length, y = longest(ay, by, cy) / length, z = longest(az, bz, cz) / length;
+  const Lane along = x * (xx * x + xy * y + xz * z) + y * (xy * x + yy * y + yz * z) + z * (xz * x + yz * y + zz * z);
+  store(x, axes.x);
+  store(y, axes.y);
+  store(z, axes.z);
+  store(most(all(0), along), axes.smallest);
+  store(middle, axes.middle);
+  store(largest, axes.largest);
+  store(select(is_found, all(1), all(0)), axes.is_found);
+}
+
 void project(const Offsets& offsets, double unit, const double* x, const double* y, PlanarOffsets& planar) {
   planar.count = offsets.count;
   const Lane scale = all(unit);
@@ -71,9 +117,42 @@ void project(const Offsets& offsets, double unit, const double* x, const double*
   }
 }
 
+TUFTED_INLINE Lane lengthOf(const double* x, const double* y, const double* z) {
+  const Lane a = load(x), b = load(y), c = load(z);
+  return squareRoot(a * a + b * b + c * c);
+}
+
+/// 4 A cot of the angle opposite a.
+TUFTED_INLINE Lane cotanNumerator(Lane a, Lane b, Lane c) {
+  const Lane shorter = least(b, c), longer = most(b, c);
+  return shorter * shorter + (longer - a) * (longer + a);
+}
+
+void measureFans(const Fans& given, double added) {
+  const Fans fans = given;  // a copy, which what is written below cannot change
+  for (int i = 0; i < fans.count + 1; i += lane_size)
+    store(lengthOf(fans.spoke_x + i, fans.spoke_y + i, fans.spoke_z + i) + all(added), fans.spoke + i);
+  for (int i = 0; i < fans.count; i += lane_size) {
+    const Lane own = load(fans.spoke + i), next = load(fans.spoke + i + 1);
+    const Lane rim = lengthOf(fans.rim_x + i, fans.rim_y + i, fans.rim_z + i) + all(added);
+    const Lane longer = most(own, next), shorter = least(own, next), rest = least(longer, rim);
+    const Lane a = most(longer, rim), b = most(shorter, rest), c = least(shorter, rest);
+    const Lane slack = c - (a - b);
+    const Lane square = (a + (b + c)) * slack * (c + (a - b)) * (a + (b - c));
+    const Lane area = select(isLess(all(0), square), all(0.25) * squareRoot(square), all(0));
+    const Lane inverse = all(1) / (all(4) * area);
+    store(rim, fans.rim + i);
+    store(slack, fans.slack + i);
+    store(area, fans.area + i);
+    store(cotanNumerator(own, next, rim) * inverse, fans.cotan_at_next + i);
+    store(cotanNumerator(next, own, rim) * inverse, fans.cotan_at_own + i);
+  }
+}
+
 }  // namespace
 
 extern const Kernels TUFTED_KERNELS;
-const Kernels TUFTED_KERNELS = {takeWithin, rankValues, extent, addSums, project, wrapInvertedLanes};
+const Kernels TUFTED_KERNELS = {takeWithin,   rankValues, extent,      addSums,
+                                findSmallest, project,    measureFans, wrapInvertedLanes};
 
 }  // namespace tufted

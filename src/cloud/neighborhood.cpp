@@ -2,6 +2,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <span>
 
@@ -83,8 +84,16 @@ bool NeighborhoodFinder::isUneven(const Neighborhood& hood) const {
   return static_cast<double>(far - hood.neighbors.begin()) > crowd * hood.k;
 }
 
-void NeighborhoodFinder::fit(int p, Neighborhood& hood, Offsets& offsets, SheetScratch& scratch) const {
-  hood.axes = principalAxes(points_, p, hood.neighbors, offsets);
+void NeighborhoodFinder::fitPlanes(int first, std::span<Neighborhood> hoods, std::span<Offsets> offsets) const {
+  std::array<Covariance, most_planes> covariances;
+  std::array<PrincipalAxes, most_planes> axes;
+  const auto count = static_cast<int>(hoods.size());
+  for (int i = 0; i < count; ++i) covariances[i] = covarianceOf(points_, first + i, hoods[i].neighbors, offsets[i]);
+  principalAxes(std::span(covariances).first(hoods.size()), axes);
+  for (int i = 0; i < count; ++i) hoods[i].axes = axes[i];
+}
+
+void NeighborhoodFinder::refine(int p, Neighborhood& hood, SheetScratch& scratch) const {
   while (isUneven(hood) && query(p, std::min(2 * hood.k, mostNeighbors()), hood, scratch)) {
     hood.axes = principalAxes(points_, p, hood.neighbors);
     hood.grown = true;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 
 #include "base/buffer.h"
 #include "base/point_buffer.h"
@@ -42,15 +43,20 @@ class NeighborhoodFinder {
   /// For each of `count` points from `first` on the caller's k neighbours, or the caller's own list.
   void find(int first, int count, GroupScratch& scratch, Buffer<Neighbor>& found, Neighborhood* hoods) const;
 
-  /// Doubles the neighbourhood while it says too little about the surface, fits the plane, and leaves other sheets out.
-  /// @param[out] offsets of the neighbours unless the neighbourhood has grown or was split
-  void fit(int p, Neighborhood& hood, Offsets& offsets, SheetScratch& scratch) const;
+  /// Fits planes to at most most_planes neighbourhoods of points from `first` on.
+  /// @param[out] offsets of the neighbours of each, if they are at most Offsets::most
+  static constexpr int most_planes = 16;
+  void fitPlanes(int first, std::span<Neighborhood> hoods, std::span<Offsets> offsets) const;
+
+  /// Doubles the neighbourhood while it says too little about the surface, with a plane fitted anew, and leaves other
+  /// sheets out.
+  void refine(int p, Neighborhood& hood, SheetScratch& scratch) const;
 
   /// Asks for twice as many neighbours, at most `most`; other sheets are left out as before, the plane stays as it is.
   /// False when there are no more to be had.
   bool grow(int p, int most, Neighborhood& hood, SheetScratch& scratch) const;
 
-  /// The most neighbours that fit() asks for.
+  /// The most neighbours that refine() asks for.
   int mostNeighbors() const;
 
  private:

@@ -19,8 +19,8 @@ namespace tufted {
 namespace {
 
 constexpr std::int64_t block_size = 1024;  // points per block: its neighbour lists stay in the second-level cache
-constexpr int group_size = 16;             // points whose frames come first, then their stars, from the same offsets
-constexpr double flat_share = 0.02;        // of the second variance, below which a neighbourhood is a plane
+constexpr int group_size = NeighborhoodFinder::most_planes;  // frames come first, then stars from the same offsets
+constexpr double flat_share = 0.02;  // of the second variance, below which a neighbourhood is a plane
 
 /// What one block of points leaves behind.
 struct BlockOfStars {
@@ -69,8 +69,8 @@ class StarBuilder {
     state.seconds[0] += watch.restart();
     for (int group = 0; group < count; group += group_size) {
       const int group_end = std::min(count, group + group_size);
-      for (int i = group; i < group_end; ++i)
-        fitFrame(first + i, state.hoods[i], state.offsets[i - group], state, block);
+      finder_.fitPlanes(first + group, {state.hoods.data() + group, state.hoods.data() + group_end}, state.offsets);
+      for (int i = group; i < group_end; ++i) takeFrame(first + i, state.hoods[i], state, block);
       state.seconds[1] += watch.restart();
       for (int i = group; i < group_end; ++i)
         wrapStar(first + i, state.hoods[i], state.offsets[i - group], state, block);
@@ -89,8 +89,8 @@ class StarBuilder {
 #endif
   }
 
-  void fitFrame(int p, Neighborhood& hood, Offsets& offsets, WorkerState& state, BlockOfStars& block) const {
-    finder_.fit(p, hood, offsets, state.sheets);
+  void takeFrame(int p, Neighborhood& hood, WorkerState& state, BlockOfStars& block) const {
+    finder_.refine(p, hood, state.sheets);
     state.grown_neighborhoods += hood.grown ? 1 : 0;
     state.split_neighborhoods += hood.split ? 1 : 0;
     state.isolated += hood.isolated ? 1 : 0;

@@ -15,7 +15,6 @@ Stars surfaceStars(const RankedCloud& cloud, const NeighborSource& source, const
   if (options.steps.isolate_outliers) isolateOutliers(stars, cloud, source, workers, report);
   clock.finish("outliers", 0);
   filterStars(stars, cloud.points, source.k, options.steps.filter, workers, report);
-  release(stars.radius);
   stars.disagrees = findDisagreement(stars, workers);
   countVotes(stars, stars.disagrees, workers, report);
   clock.finish("filter", 0);

@@ -12,50 +12,12 @@ namespace tufted {
 
 namespace {
 
-constexpr double least_gap = 1e-3;  // between the two smallest eigenvalues over the largest, for the closed form
-constexpr int most_steps = 8;
-
-/// Upper triangle of a symmetric matrix.
-struct Symmetric {
-  double xx, xy, xz, yy, yz, zz;
-
-  Eigen::Vector3d times(const Eigen::Vector3d& v) const {
-    return {xx * v.x() + xy * v.y() + xz * v.z(), xy * v.x() + yy * v.y() + yz * v.z(),
-            xz * v.x() + yz * v.y() + zz * v.z()};
-  }
-};
-
-/// The smallest eigenvalue of a covariance by Newton's method on the characteristic polynomial, which from 0 rises to
-/// its first root, and the eigenvector as a cross product. False where two eigenvalues lie too close for that.
-bool findSmallest(const Symmetric& a, PrincipalAxes& axes) {
-  const double yz_minor = a.yy * a.zz - a.yz * a.yz;
-  const double trace = a.xx + a.yy + a.zz;
-  const double minors = yz_minor + (a.xx * a.zz - a.xz * a.xz) + (a.xx * a.yy - a.xy * a.xy);
-  const double determinant = a.xx * yz_minor - a.xy * (a.xy * a.zz - a.yz * a.xz) + a.xz * (a.xy * a.yz - a.yy * a.xz);
-  double smallest = 0;
-  bool converged = false;  // slowly towards a double root, or not at all
-  for (int step = 0; step < most_steps && !converged; ++step) {
-    const double value = ((smallest - trace) * smallest + minors) * smallest - determinant;
-    const double slope = (3 * smallest - 2 * trace) * smallest + minors;
-    const double change = value / slope;
-    smallest -= change;
-    converged = std::abs(change) <= 1e-9 * trace;  // and quadratic convergence has gone further
-  }
-  if (!converged) return false;
-  const double rest = trace - smallest;  // sum and product of the other two
-  const double product = minors - smallest * rest;
-  const double root = std::sqrt(std::max(0.0, rest * rest - 4 * product));
-  const double middle = (rest - root) / 2, largest = (rest + root) / 2;
-  if (!(middle - smallest > least_gap * largest)) return false;
-
-  const Eigen::Vector3d x(a.xx - smallest, a.xy, a.xz), y(a.xy, a.yy - smallest, a.yz), z(a.xz, a.yz, a.zz - smallest);
-  const Eigen::Vector3d xy = x.cross(y), yz = y.cross(z), zx = z.cross(x);
-  const double xy_square = xy.squaredNorm(), yz_square = yz.squaredNorm(), zx_square = zx.squaredNorm();
-  const bool first = xy_square >= yz_square && xy_square >= zx_square;
-  const Eigen::Vector3d& longest = first ? xy : yz_square >= zx_square ? yz : zx;
-  axes.normal = longest / std::sqrt(first ? xy_square : std::max(yz_square, zx_square));
-  axes.variance = {std::max(0.0, axes.normal.dot(a.times(axes.normal))), middle, largest};
-  return true;
+/// By Eigen, where two eigenvalues lie close together.
+PrincipalAxes carefulAxes(const Covariance& a) {
+  Eigen::Matrix3d matrix;
+  matrix << a.xx, a.xy, a.xz, a.xy, a.yy, a.yz, a.xz, a.yz, a.zz;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(matrix);
+  return {solver.eigenvectors().col(0), solver.eigenvalues(), a.extent};
 }
 
 }  // namespace
@@ -73,12 +35,7 @@ void takeOffsets(const PointsView& points, int p, std::span<const Neighbor> neig
   for (int i = offsets.count; i < toLanes(offsets.count); ++i) offsets.x[i] = offsets.y[i] = offsets.z[i] = 0;
 }
 
-PrincipalAxes principalAxes(const PointsView& points, int p, std::span<const Neighbor> neighbors) {
-  Offsets offsets;
-  return principalAxes(points, p, neighbors, offsets);
-}
-
-PrincipalAxes principalAxes(const PointsView& points, int p, std::span<const Neighbor> neighbors, Offsets& offsets) {
+Covariance covarianceOf(const PointsView& points, int p, std::span<const Neighbor> neighbors, Offsets& offsets) {
   const Kernels& kernel = kernels();
   const bool is_one_part = neighbors.size() <= Offsets::most;
   if (is_one_part) takeOffsets(points, p, neighbors, offsets);
@@ -93,24 +50,57 @@ PrincipalAxes principalAxes(const PointsView& points, int p, std::span<const Nei
   // The extent as a power of two keeps squares in range at any scale, exactly.
   double extent = 0;
   forEachPart([&] { extent = std::max(extent, kernel.extent(offsets)); });
-  if (extent == 0) return {Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Zero()};
+  if (extent == 0) return {};
   const double power = magnitudeOf(extent), unit = 1 / power;
   OffsetSums sums;
   forEachPart([&] { kernel.addSums(offsets, unit, sums); });
 
   const double share = 1 / static_cast<double>(neighbors.size() + 1);  // p adds nothing but itself
   const double x = sums.sum(0) * share, y = sums.sum(1) * share, z = sums.sum(2) * share;
-  const Symmetric covariance{sums.sum(3) * share - x * x, sums.sum(4) * share - x * y, sums.sum(5) * share - x * z,
-                             sums.sum(6) * share - y * y, sums.sum(7) * share - y * z, sums.sum(8) * share - z * z};
-  PrincipalAxes axes;
-  if (!findSmallest(covariance, axes)) {
-    Eigen::Matrix3d matrix;
-    matrix << covariance.xx, covariance.xy, covariance.xz, covariance.xy, covariance.yy, covariance.yz, covariance.xz,
-        covariance.yz, covariance.zz;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(matrix);
-    axes = {solver.eigenvectors().col(0), solver.eigenvalues()};
+  return {sums.sum(3) * share - x * x,
+          sums.sum(4) * share - x * y,
+          sums.sum(5) * share - x * z,
+          sums.sum(6) * share - y * y,
+          sums.sum(7) * share - y * z,
+          sums.sum(8) * share - z * z,
+          power};
+}
+
+void principalAxes(std::span<const Covariance> covariances, std::span<PrincipalAxes> axes) {
+  const Kernels& kernel = kernels();
+  for (std::size_t first = 0; first < covariances.size(); first += kernel_lane) {
+    const auto part = covariances.subspan(first, std::min<std::size_t>(kernel_lane, covariances.size() - first));
+    Covariances lanes;
+    SmallestAxes found;
+    for (std::size_t i = 0; i < kernel_lane; ++i) {
+      const Covariance& a = part[std::min(i, part.size() - 1)];
+      lanes.xx[i] = a.xx;
+      lanes.xy[i] = a.xy;
+      lanes.xz[i] = a.xz;
+      lanes.yy[i] = a.yy;
+      lanes.yz[i] = a.yz;
+      lanes.zz[i] = a.zz;
+    }
+    kernel.findSmallest(lanes, found);
+    for (std::size_t i = 0; i < part.size(); ++i) {
+      PrincipalAxes& of_part = axes[first + i];
+      if (part[i].extent == 0)
+        of_part = {Eigen::Vector3d::UnitZ(), Eigen::Vector3d::Zero()};
+      else if (found.is_found[i] != 0)
+        of_part = {{found.x[i], found.y[i], found.z[i]},
+                   {found.smallest[i], found.middle[i], found.largest[i]},
+                   part[i].extent};
+      else
+        of_part = carefulAxes(part[i]);
+    }
   }
-  axes.extent = power;
+}
+
+PrincipalAxes principalAxes(const PointsView& points, int p, std::span<const Neighbor> neighbors) {
+  Offsets offsets;
+  const Covariance covariance = covarianceOf(points, p, neighbors, offsets);
+  PrincipalAxes axes;
+  principalAxes({&covariance, 1}, {&axes, 1});
   return axes;
 }
 

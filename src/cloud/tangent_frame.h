@@ -20,10 +20,18 @@ struct PrincipalAxes {
 /// Positions relative to p of at most Offsets::most points.
 void takeOffsets(const PointsView& points, int p, std::span<const Neighbor> neighbors, Offsets& offsets);
 
-/// PCA of p and its neighbours about their centroid, from coordinates relative to p, so that the distance from the
-/// origin does not matter.
+/// Covariance of p and its neighbours about their centroid, from coordinates relative to p, so that the distance from
+/// the origin does not matter.
+struct Covariance {
+  double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  ///< in units of `extent` squared
+  double extent = 0;                                      ///< see PrincipalAxes; 0 where all are at one place
+};
+
 /// @param[out] offsets of the neighbours, if they are at most Offsets::most
-PrincipalAxes principalAxes(const PointsView& points, int p, std::span<const Neighbor> neighbors, Offsets& offsets);
+Covariance covarianceOf(const PointsView& points, int p, std::span<const Neighbor> neighbors, Offsets& offsets);
+
+/// Of each covariance; those of one do not depend on the others.
+void principalAxes(std::span<const Covariance> covariances, std::span<PrincipalAxes> axes);
 PrincipalAxes principalAxes(const PointsView& points, int p, std::span<const Neighbor> neighbors);
 
 /// One scan line only: the second axis has less than a tenth of the first one's variance.

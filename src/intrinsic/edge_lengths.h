@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cmath>
 
 #include "base/point_buffer.h"
@@ -14,6 +15,12 @@ struct EdgeLengths {
   double added = 0;
 
   double operator()(int a, int b) const {
+    const auto [x, y, z] = offset(a, b);
+    return std::sqrt(x * x + y * y + z * z) + added;
+  }
+
+  /// From b to a; the other way round the same bits but for the sign.
+  std::array<double, 3> offset(int a, int b) const {
     const double *p = points.data() + 3 * std::ptrdiff_t{a}, *q = points.data() + 3 * std::ptrdiff_t{b};
     double x = p[0] - q[0], y = p[1] - q[1], z = p[2] - q[2];
     if (move.rows() > 0) {
@@ -22,7 +29,7 @@ struct EdgeLengths {
       y += m[1] - n[1];
       z += m[2] - n[2];
     }
-    return std::sqrt(x * x + y * y + z * z) + added;
+    return {x, y, z};
   }
 };
 

@@ -26,9 +26,10 @@ inline double triangleArea(double a, double b, double c) {
   return square > 0 ? 0.25 * std::sqrt(square) : 0;
 }
 
-/// b^2 + c^2 - a^2; negative exactly where the angle opposite a is obtuse.
+/// b^2 + c^2 - a^2; negative exactly where the angle opposite a is obtuse, and the same bits with b and c exchanged.
 inline double cotanNumerator(double a, double b, double c) {
-  return b * b + (c - a) * (c + a);
+  const double shorter = std::min(b, c), longer = std::max(b, c);
+  return shorter * shorter + (longer - a) * (longer + a);
 }
 
 /// Cotangent of the angle opposite a. Infinite or NaN in a triangle of no area.

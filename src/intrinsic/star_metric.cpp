@@ -1,15 +1,18 @@
 #include "intrinsic/star_metric.h"
 
 #include <algorithm>
+#include <array>
 #include <limits>
+#include <utility>
 
 #include "base/buffer.h"
-#include "intrinsic/geometry.h"
+#include "cloud/kernels.h"
 
 namespace tufted {
 namespace {
 
 constexpr std::int64_t block_size = 8192;
+constexpr int batch = 128;  // triangles that are measured together, from the first-level cache
 
 /// Sums over one block of stars, so that they have the same bits for any number of threads.
 struct BlockSums {
@@ -17,37 +20,91 @@ struct BlockSums {
   std::int64_t triangles = 0;
 };
 
+/// The arrays of Fans.
+class FanBuffer {
+ public:
+  void clear() { fans_.count = 0; }
+  int count() const { return fans_.count; }
+  const Fans& fans() const { return fans_; }
+
+  /// The triangles of star p, and one more between the last spoke and the first once more.
+  void add(const Stars& stars, const EdgeLengths& length, int p) {
+    const int begin = stars.offset[p], end = stars.offset[p + 1];
+    if (begin == end) return;
+    reserve(fans_.count + end - begin + 1);
+    int at = fans_.count;
+    const auto put = [this, &at](const std::array<double, 3>& spoke, const std::array<double, 3>& rim) {
+      for (int c = 0; c < 3; ++c) {
+        given_[c][at] = spoke[c];
+        given_[3 + c][at] = rim[c];
+      }
+      ++at;
+    };
+    const std::array<double, 3> first = length.offset(stars.link[begin], p);
+    for (int i = begin; i < end; ++i) {
+      const int q = stars.link[i], next = stars.link[stars.after(p, i)];
+      put(length.offset(q, p), length.offset(next, q));
+    }
+    put(first, {});
+    fans_.count = at;
+  }
+
+ private:
+  void reserve(int count) {
+    const auto room = static_cast<std::size_t>(toLanes(count) + kernel_lane);
+    if (given_[0].size() >= room) return;
+    for (auto& values : given_) values.resize(2 * room);
+    for (auto& values : found_) values.resize(2 * room);
+    fans_ = {fans_.count,      given_[0].data(), given_[1].data(), given_[2].data(), given_[3].data(),
+             given_[4].data(), given_[5].data(), found_[0].data(), found_[1].data(), found_[2].data(),
+             found_[3].data(), found_[4].data(), found_[5].data()};
+  }
+
+  std::array<Buffer<double>, 6> given_, found_;
+  Fans fans_{};
+};
+
 class StarMeasurer {
  public:
   StarMeasurer(const Stars& stars, const EdgeLengths& length, StarMetric& metric)
       : stars_(stars), length_(length), metric_(metric) {}
 
-  void measure(int p, Buffer<double>& spokes, BlockSums& sums) const {
+  void measure(int begin, int end, FanBuffer& buffer, BlockSums& sums) const {
+    for (int p = begin; p < end;) {
+      const int first = p;
+      buffer.clear();
+      for (; p < end && buffer.count() < batch; ++p) buffer.add(stars_, length_, p);
+      if (buffer.count() > 0) kernels_.measureFans(buffer.fans(), length_.added);
+      int at = 0;
+      for (int q = first; q < p; ++q) {
+        take(q, buffer.fans(), at, sums);
+        const int spokes = stars_.offset[q + 1] - stars_.offset[q];
+        at += spokes > 0 ? spokes + 1 : 0;
+      }
+    }
+  }
+
+ private:
+  /// @param at the first triangle of star p in the fans
+  void take(int p, const Fans& fans, int at, BlockSums& sums) const {
     const int begin = stars_.offset[p], end = stars_.offset[p + 1];
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    spokes.clear();
-    for (int i = begin; i < end; ++i) spokes.push_back(length_(p, stars_.link[i]));
-    double area = 0, first = nan,
-           before = nan;  // cotangents opposite spokes: at b in the first triangle, at a in the last
+    double area = 0, first = nan, before = nan;  // cotangents opposite spokes, in the first and the last triangle
     bool is_flat = false;
-    for (int i = begin; i < end; ++i) {
+    for (int i = begin; i < end; ++i, ++at) {
       if (!stars_.hasTriangle(i)) {
         metric_.cotan_sum[i] = before = nan;
         continue;
       }
-      const int next = stars_.after(p, i);
-      const double pa = spokes[i - begin], pb = spokes[next - begin];
-      const double ab = length_(stars_.link[i], stars_.link[next]);
-      const double own_area = triangleArea(pa, pb, ab), inverse = 1 / (4 * own_area);
-      const double at_b = cotanNumerator(pa, pb, ab) * inverse;  // opposite the spoke to a
-      if (i == begin) first = at_b;
-      metric_.cotan_sum[i] = before + at_b;
-      before = cotanNumerator(pb, pa, ab) * inverse;
-      area += own_area;
-      is_flat |= !(own_area > 0);
-      sums.length += pa + pb + ab;
-      sums.square += pa * pa + pb * pb + ab * ab;
-      sums.least_slack = std::min(sums.least_slack, triangleSlack(pa, pb, ab));
+      if (i == begin) first = fans.cotan_at_next[at];
+      metric_.cotan_sum[i] = before + fans.cotan_at_next[at];
+      before = fans.cotan_at_own[at];
+      area += fans.area[at];
+      is_flat |= !(fans.area[at] > 0);
+      const double own = fans.spoke[at], next = fans.spoke[at + 1], rim = fans.rim[at];
+      sums.length += own + next + rim;
+      sums.square += own * own + next * next + rim * rim;
+      sums.least_slack = std::min(sums.least_slack, fans.slack[at]);
       ++sums.triangles;
     }
     if (begin < end) metric_.cotan_sum[begin] = before + first;  // the triangle before the first spoke is the last
@@ -55,24 +112,25 @@ class StarMeasurer {
     metric_.is_flat[p] = is_flat ? 1 : 0;
   }
 
- private:
   const Stars& stars_;
   const EdgeLengths& length_;
+  const Kernels& kernels_ = kernels();
   StarMetric& metric_;
 };
 
 }  // namespace
 
-StarMetric measureStars(const Stars& stars, const EdgeLengths& length, const Workers& workers) {
+StarMetric measureStars(const Stars& stars, const EdgeLengths& length, Buffer<double> memory, const Workers& workers) {
   StarMetric metric;
+  metric.cotan_sum = std::move(memory);
   metric.cotan_sum.resize(stars.link.size());
   metric.area.resize(stars.size());
   metric.is_flat.resize(stars.size());
   Buffer<BlockSums> sums((stars.size() + block_size - 1) / block_size);
   const StarMeasurer measurer(stars, length, metric);
   workers.forBlocks("lengths", stars.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
-    Buffer<double> spokes;
-    for (int p = static_cast<int>(begin); p < end; ++p) measurer.measure(p, spokes, sums[begin / block_size]);
+    FanBuffer buffer;
+    measurer.measure(static_cast<int>(begin), static_cast<int>(end), buffer, sums[begin / block_size]);
   });
   BlockSums all;
   for (const BlockSums& sum : sums) {

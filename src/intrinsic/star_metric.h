@@ -19,6 +19,7 @@ struct StarMetric {
   MeanLengths mean;              ///< over all sides of all triangles
 };
 
-StarMetric measureStars(const Stars& stars, const EdgeLengths& length, const Workers& workers);
+/// @param memory for cotan_sum, whatever is in it: new pages cost more than what is written to them
+StarMetric measureStars(const Stars& stars, const EdgeLengths& length, Buffer<double> memory, const Workers& workers);
 
 }  // namespace tufted

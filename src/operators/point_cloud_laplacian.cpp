@@ -130,6 +130,7 @@ void takeAreas(const Buffer<double>& areas, const Buffer<int>& caller, int expon
 void finishFromCover(Stars stars, const RankedCloud& cloud, const CloudOptions& options, const Workers& workers,
                      StageClock& clock, Laplacian& result) {
   const PointBuffer move = std::move(stars.move);
+  release(stars.radius);
   std::shared_ptr<IntrinsicTriangulation> cover = takeCover(result);
   addStars(stars, options.gluing, *cover, workers);
   stars = {};

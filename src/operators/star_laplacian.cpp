@@ -1,7 +1,9 @@
 #include "operators/star_laplacian.h"
 
 #include <mutex>
+#include <utility>
 
+#include "base/buffer.h"
 #include "intrinsic/partial_cover.h"
 #include "operators/star_rows.h"
 
@@ -20,20 +22,20 @@ class StarUnion final : public CoverSource {
         cover_(stars_, length_, pools_) {}
 
   /// Lengths, mollified (Section 4.5).
-  StarMetric measure(double delta, const Workers& workers) {
-    StarMetric metric = measureStars(stars_, length_, workers);
+  StarMetric measure(double delta, Buffer<double> memory, const Workers& workers) {
+    StarMetric metric = measureStars(stars_, length_, std::move(memory), workers);
     const double missing = delta * metric.mean.length - metric.least_slack;
     if (!(missing > 0)) return metric;
     length_.added = missing;
     const MeanLengths mean = metric.mean;
-    metric = measureStars(stars_, length_, workers);
+    metric = measureStars(stars_, length_, std::move(metric.cotan_sum), workers);
     metric.mean = mean;
     return metric;
   }
 
   FlipCounts flip(const StarMetric& metric, const Workers& workers) { return cover_.flipToDelaunay(metric, workers); }
 
-  void assemble(StarMetric& metric, const Workers& workers, Laplacian& result) const {
+  void assemble(const StarMetric& metric, const Workers& workers, Laplacian& result) const {
     assembleStars(stars_, metric, cover_, length_, cloud_.caller, size_, 1.0 / 2 / 3, workers, result);
   }
 
@@ -65,13 +67,14 @@ class StarUnion final : public CoverSource {
 void finishFromStars(Stars stars, RankedCloud cloud, const CloudOptions& options, const Workers& workers,
                      StageClock& clock, Laplacian& result) {
   const int exponent = cloud.exponent;
+  Buffer<double> memory = std::move(stars.radius);
   BuildFigures figures{.triangles = stars.triangles()};
   const auto stars_and_cover =
       std::allocate_shared<StarUnion>(WorkspaceAllocator<StarUnion>(), std::move(stars), std::move(cloud),
                                       static_cast<int>(result.status.size()), workers);
   clock.finish("cover", 0);
 
-  StarMetric metric = stars_and_cover->measure(options.mollify, workers);
+  const StarMetric metric = stars_and_cover->measure(options.mollify, std::move(memory), workers);
   figures.mean = metric.mean;
   figures.mollify_length = stars_and_cover->mollifyLength();
   clock.finish("lengths", bytesOf(metric.cotan_sum) + bytesOf(metric.area));

@@ -20,42 +20,15 @@ constexpr std::int64_t block_size = 8192;
 
 class StarAssembler {
  public:
-  StarAssembler(const Stars& stars, StarMetric& metric, const PartialCover& cover, const EdgeLengths& length,
+  StarAssembler(const Stars& stars, const StarMetric& metric, const PartialCover& cover, const EdgeLengths& length,
                 double scale, const Workers& workers)
-      : stars_(stars),
-        weight_(metric.cotan_sum),
-        metric_(metric),
-        cover_(cover),
-        length_(length),
-        scale_(scale),
-        workers_(workers) {}
+      : stars_(stars), metric_(metric), cover_(cover), length_(length), scale_(scale), workers_(workers) {}
 
   /// Points whose edges among each other are summed over faces.
   void setMixed() {
     mixed_ = stars_.disagrees;
     for (int p = 0; p < stars_.size(); ++p)
       mixed_[p] |= metric_.is_flat[p] | static_cast<std::uint8_t>(cover_.isFlipped(p));
-  }
-
-  /// The weights of edges with an unmixed end, in the entries of unmixed stars. Where both ends are unmixed, that of
-  /// the smaller one.
-  void weighSpokes() {
-    workers_.forBlocks("assemble", stars_.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
-      for (int p = static_cast<int>(begin); p < end; ++p) {
-        if (mixed_[p] != 0) continue;
-        for (int i = stars_.offset[p]; i < stars_.offset[p + 1]; ++i)
-          weight_[i] *= 3 * scale_;  // 2 sheets, 3 stars, 1/2
-      }
-    });
-    workers_.forBlocks("assemble", stars_.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
-      for (int p = static_cast<int>(begin); p < end; ++p) {
-        if (mixed_[p] != 0) continue;
-        for (int i = stars_.offset[p]; i < stars_.offset[p + 1]; ++i) {
-          const int q = stars_.link[i];
-          if (q < p && mixed_[q] == 0) weight_[i] = weight_[entryOf(stars_, q, p)];
-        }
-      }
-    });
   }
 
   /// The weights of edges between mixed points. Forgets the areas of faces, which cotangents are made of.
@@ -85,21 +58,29 @@ class StarAssembler {
     return mixed_[p] == 0 ? own : own + mixed_rows_.offset[p + 1] - mixed_rows_.offset[p];
   }
 
-  /// Calls visit(q, weight) for every edge of p.
+  /// Calls visit(q, weight) for every edge of p. Where both ends are unmixed, their stars have the same two triangles
+  /// there, and the weight has the same bits from either.
   template <class Visit>
   void forEachInRow(int p, const Visit& visit) const {
     const bool is_mixed = mixed_[p] != 0;
     for (int i = stars_.offset[p]; i < stars_.offset[p + 1]; ++i) {
       const int q = stars_.link[i];
       if (!is_mixed) {
-        visit(q, weight_[i]);
+        visit(q, spokeWeight(i));
       } else if (mixed_[q] == 0) {
-        visit(q, weight_[entryOf(stars_, q, p)]);
+        visit(q, spokeWeight(entryOf(stars_, q, p)));
       }
     }
     if (!is_mixed) return;
     for (int i = mixed_rows_.offset[p]; i < mixed_rows_.offset[p + 1]; ++i)
       visit(mixed_rows_.entries[i].column, mixed_rows_.entries[i].weight);
+  }
+
+  /// The sum of all weights of p, the negative ones too.
+  double diagonal(int p) const {
+    double sum = 0;
+    forEachInRow(p, [&sum](int, double weight) { sum += weight; });
+    return sum;
   }
 
   /// A third of each face's area to each corner (Section 3.3), by rank.
@@ -191,8 +172,10 @@ class StarAssembler {
     return edges;
   }
 
+  /// Of the spoke to link vertex i of an unmixed star.
+  double spokeWeight(int i) const { return 3 * scale_ * metric_.cotan_sum[i]; }  // 2 sheets, 3 stars, 1/2
+
   const Stars& stars_;
-  Buffer<double>& weight_;  ///< per link entry, of unmixed stars
   const StarMetric& metric_;
   const PartialCover& cover_;
   const EdgeLengths& length_;
@@ -213,27 +196,22 @@ struct Clamped {
 
 }  // namespace
 
-void assembleStars(const Stars& stars, StarMetric& metric, const PartialCover& cover, const EdgeLengths& length,
+void assembleStars(const Stars& stars, const StarMetric& metric, const PartialCover& cover, const EdgeLengths& length,
                    const Buffer<int>& caller, int size, double scale, const Workers& workers, Laplacian& result) {
   Report& report = result.report;
   const int n = stars.size();
   StarAssembler assembler(stars, metric, cover, length, scale, workers);
   assembler.setMixed();
   const Buffer<double> mass = assembler.lumpAreas(report);
-  assembler.weighSpokes();
   assembler.weighFaces();
 
   // Columns of L in the caller's numbering: their sizes, then what is in them.
-  Buffer<double> diagonal(static_cast<std::size_t>(n));
   Buffer<int> count(static_cast<std::size_t>(size));
   Buffer<Clamped> clamped((n + block_size - 1) / block_size);
   workers.forBlocks("assemble", n, block_size, [&](std::int64_t begin, std::int64_t end, int) {
     for (int p = static_cast<int>(begin); p < end; ++p) {
       int positive = 0;
-      assembler.forEachInRow(p, [&](int, double weight) {
-        diagonal[p] += weight;
-        positive += weight > 0 ? 1 : 0;
-      });
+      assembler.forEachInRow(p, [&](int, double weight) { positive += weight > 0 ? 1 : 0; });
       count[caller[p]] = positive > 0 ? positive + 1 : 0;
     }
   });
@@ -261,7 +239,8 @@ void assembleStars(const Stars& stars, StarMetric& metric, const PartialCover& c
           column.add(caller[q], -weight);
         } else if (weight < 0 && p < q) {
           // Negative weights within 1e-9 of the larger diagonal are rounding; all are left out.
-          const double larger = std::max(diagonal[p], diagonal[q]), relative = larger > 0 ? -weight / larger : INFINITY;
+          const double larger = std::max(assembler.diagonal(p), assembler.diagonal(q));
+          const double relative = larger > 0 ? -weight / larger : INFINITY;
           Clamped& block = clamped[begin / block_size];
           ++(relative <= weight_rounding ? block.small : block.large);
           block.largest = std::max(block.largest, relative);

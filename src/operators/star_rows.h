@@ -14,9 +14,8 @@ namespace tufted {
 ///
 /// An edge with an agreeing end that no flip came near has the same two angles opposite it in all its six copies, so
 /// that its weight is read off one star. Only edges between two other points are summed over the faces of the cover.
-/// @param metric its sums of cotangents are overwritten
 /// @param scale of one face, see finishLaplacian()
-void assembleStars(const Stars& stars, StarMetric& metric, const PartialCover& cover, const EdgeLengths& length,
+void assembleStars(const Stars& stars, const StarMetric& metric, const PartialCover& cover, const EdgeLengths& length,
                    const Buffer<int>& caller, int size, double scale, const Workers& workers, Laplacian& result);
 
 }  // namespace tufted

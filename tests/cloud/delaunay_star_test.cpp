@@ -81,41 +81,6 @@ TEST(DelaunayStar, OfTheShortCutIsThatOfTheExactWay) {
   EXPECT_GT(with_ties, 1000);
 }
 
-TEST(Kernels, HaveTheSameBitsOnAnyProcessor) {
-  const Points points = shapes::withNoise(shapes::sphere(65), 0.3).points;
-  Buffer<Neighbor> neighbors;
-  for (int q = 1; q < 65; ++q) neighbors.push_back({0, q});
-  for (const std::size_t count : {1, 7, 8, 9, 30, 64}) {
-    Offsets offsets;
-    takeOffsets(points, 0, std::span(neighbors).first(count), offsets);
-    EXPECT_EQ(kernels().extent(offsets), portableKernels().extent(offsets));
-    OffsetSums sums, portable_sums;
-    kernels().addSums(offsets, 0.25, sums);
-    portableKernels().addSums(offsets, 0.25, portable_sums);
-    for (int i = 0; i < 9; ++i) EXPECT_EQ(sums.sum(i), portable_sums.sum(i));
-    const Eigen::Vector3d x(0.6, 0.8, 0.1), y(-0.8, 0.6, 0.2);
-    PlanarOffsets planar, portable;
-    kernels().project(offsets, 0.25, x.data(), y.data(), planar);
-    portableKernels().project(offsets, 0.25, x.data(), y.data(), portable);
-    for (std::size_t i = 0; i < count; ++i) {
-      EXPECT_EQ(planar.u[i], portable.u[i]);
-      EXPECT_EQ(planar.v[i], portable.v[i]);
-    }
-  }
-}
-
-TEST(Kernels, GiveTheSameLaplacianOnAnyProcessor) {
-  for (const auto& cloud : {shapes::withNoise(shapes::sphere(3000), 0.01), shapes::squareLattice(40)}) {
-    const Laplacian expected = pointCloudLaplacian(cloud.points);
-    chooseKernels(&portableKernels());
-    const Laplacian portable = pointCloudLaplacian(cloud.points);
-    chooseKernels(nullptr);
-    ASSERT_EQ(portable.L.nonZeros(), expected.L.nonZeros());
-    EXPECT_EQ((portable.L - expected.L).norm(), 0);
-    EXPECT_EQ(portable.M, expected.M);
-  }
-}
-
 TEST(DelaunayStar, OfALatticeTakesTheDiagonalOfTheSmallestIndex) {
   // The unit square around its corner p = 0 or with p as the largest index.
   const Buffer<PlanarPoint> square = {{1, 0, 1}, {0, 1, 2}, {1, 1, 3}};

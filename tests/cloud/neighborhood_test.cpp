@@ -26,7 +26,8 @@ class Hoods {
     GroupScratch group;
     Buffer<Neighbor> found;
     finder_.find(p, 1, group, found, &hood);
-    finder_.fit(p, hood, offsets_, scratch_);
+    finder_.fitPlanes(p, {&hood, 1}, {&offsets_, 1});
+    finder_.refine(p, hood, scratch_);
     return hood;
   }
 

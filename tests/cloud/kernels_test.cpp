@@ -1,0 +1,133 @@
+#include "cloud/kernels.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "base/buffer.h"
+#include "cloud/tangent_frame.h"
+#include "intrinsic/geometry.h"
+#include "shapes/random.h"
+#include "shapes/shapes.h"
+#include "tufted/laplacian.h"
+
+namespace tufted {
+namespace {
+
+TEST(Kernels, HaveTheSameBitsOnAnyProcessor) {
+  const Points points = shapes::withNoise(shapes::sphere(65), 0.3).points;
+  Buffer<Neighbor> neighbors;
+  for (int q = 1; q < 65; ++q) neighbors.push_back({0, q});
+  for (const std::size_t count : {1, 7, 8, 9, 30, 64}) {
+    Offsets offsets;
+    takeOffsets(points, 0, std::span(neighbors).first(count), offsets);
+    EXPECT_EQ(kernels().extent(offsets), portableKernels().extent(offsets));
+    OffsetSums sums, portable_sums;
+    kernels().addSums(offsets, 0.25, sums);
+    portableKernels().addSums(offsets, 0.25, portable_sums);
+    for (int i = 0; i < 9; ++i) EXPECT_EQ(sums.sum(i), portable_sums.sum(i));
+    const Eigen::Vector3d x(0.6, 0.8, 0.1), y(-0.8, 0.6, 0.2);
+    PlanarOffsets planar, portable;
+    kernels().project(offsets, 0.25, x.data(), y.data(), planar);
+    portableKernels().project(offsets, 0.25, x.data(), y.data(), portable);
+    for (std::size_t i = 0; i < count; ++i) {
+      EXPECT_EQ(planar.u[i], portable.u[i]);
+      EXPECT_EQ(planar.v[i], portable.v[i]);
+    }
+  }
+}
+
+TEST(Kernels, FindAxesOfEachMatrixAsIfItWereAlone) {
+  shapes::Random random(5);
+  std::vector<Covariance> covariances;
+  Buffer<Neighbor> neighbors;
+  for (int q = 1; q < 31; ++q) neighbors.push_back({0, q});
+  Offsets offsets;
+  for (int i = 0; i < 21; ++i) {  // flat, round, on a line, in one place
+    Points points(31, 3);
+    for (double& x : points.reshaped()) x = random.normal();
+    points.col(2) *= std::array{0.01, 1.0, 0.3}[i % 3];
+    points.rightCols(2) *= i == 7 ? 0 : 1;
+    points *= i == 11 ? 0 : 1;
+    covariances.push_back(covarianceOf(points, 0, neighbors, offsets));
+  }
+  const auto axesOf = [](std::span<const Covariance> some) {
+    std::vector<PrincipalAxes> axes(some.size());
+    principalAxes(some, axes);
+    return axes;
+  };
+  const std::vector<PrincipalAxes> together = axesOf(covariances);
+  chooseKernels(&portableKernels());
+  const std::vector<PrincipalAxes> portable = axesOf(covariances);
+  chooseKernels(nullptr);
+  for (std::size_t i = 0; i < covariances.size(); ++i) {
+    const PrincipalAxes alone = axesOf({&covariances[i], 1}).front();
+    for (const PrincipalAxes& axes : {together[i], portable[i]}) {
+      EXPECT_EQ(axes.normal, alone.normal) << i;
+      EXPECT_EQ(axes.variance, alone.variance) << i;
+      EXPECT_EQ(axes.extent, alone.extent) << i;
+    }
+  }
+}
+
+TEST(Kernels, MeasureTrianglesByTheFormulasOfGeometry) {
+  constexpr int count = 37;
+  constexpr double added = 0.25;
+  constexpr std::size_t room = 64;
+  shapes::Random random(6);
+  std::array<std::vector<double>, 6> given, found, portable;
+  for (auto& values : given) {
+    values.resize(room);
+    for (double& x : values) x = random.normal();
+  }
+  for (int axis = 0; axis < 3; ++axis) {
+    for (int i = 0; i < count; ++i) given[3 + axis][i] = given[axis][i + 1] - given[axis][i];
+    given[axis][4] = given[axis][3];  // a triangle of no area
+    given[3 + axis][3] = 0;
+  }
+  const auto measure = [&](const Kernels& kernel, double more, auto& result) {
+    for (auto& values : result) values.assign(room, 0);
+    kernel.measureFans(
+        {count, given[0].data(), given[1].data(), given[2].data(), given[3].data(), given[4].data(), given[5].data(),
+         result[0].data(), result[1].data(), result[2].data(), result[3].data(), result[4].data(), result[5].data()},
+        more);
+  };
+  for (const double more : {0.0, added}) {
+    measure(kernels(), more, found);
+    measure(portableKernels(), more, portable);
+    for (int i = 0; i < count; ++i) {
+      const auto length = [&](int from, int at) {
+        const double x = given[from][at], y = given[from + 1][at], z = given[from + 2][at];
+        return std::sqrt(x * x + y * y + z * z) + more;
+      };
+      const double own = length(0, i), next = length(0, i + 1), rim = length(3, i), area = triangleArea(own, next, rim);
+      EXPECT_EQ(found[0][i], own);
+      EXPECT_EQ(found[1][i], rim);
+      EXPECT_EQ(found[2][i], area);
+      EXPECT_EQ(found[3][i], triangleSlack(own, next, rim));
+      EXPECT_EQ(area == 0, more == 0 && i == 3);
+      if (area == 0) continue;
+      EXPECT_EQ(found[4][i], cotanNumerator(own, next, rim) * (1 / (4 * area)));
+      EXPECT_EQ(found[5][i], cotanNumerator(next, own, rim) * (1 / (4 * area)));
+      for (int r = 0; r < 6; ++r) EXPECT_EQ(found[r][i], portable[r][i]) << r << " " << i;
+    }
+  }
+}
+
+TEST(Kernels, GiveTheSameLaplacianOnAnyProcessor) {
+  for (const auto& cloud : {shapes::withNoise(shapes::sphere(3000), 0.01), shapes::squareLattice(40)}) {
+    const Laplacian expected = pointCloudLaplacian(cloud.points);
+    chooseKernels(&portableKernels());
+    const Laplacian portable = pointCloudLaplacian(cloud.points);
+    chooseKernels(nullptr);
+    ASSERT_EQ(portable.L.nonZeros(), expected.L.nonZeros());
+    EXPECT_EQ((portable.L - expected.L).norm(), 0);
+    EXPECT_EQ(portable.M, expected.M);
+  }
+}
+
+}  // namespace
+}  // namespace tufted
