@@ -3,7 +3,7 @@
 // Arithmetic on eight numbers at once, for the sources of kernels only. Includes no header with functions of others: a
 // copy of one that is compiled for one kind of processor could be linked into code for another.
 #include <cstdint>
-#ifdef TUFTED_WIDE_LANES
+#if defined(TUFTED_WIDE_LANES) || defined(__SSE2__)
 #include <immintrin.h>
 #endif
 
@@ -18,12 +18,20 @@ constexpr int lane_size = 8, float_lane_size = 16;
 
 using Lane = __m512d;
 using Mask = __mmask8;  // a bit for each number
+using Part = Lane;      // see below
+constexpr int part_size = lane_size;
 
 TUFTED_INLINE Lane all(double value) {
   return _mm512_set1_pd(value);
 }
 TUFTED_INLINE Lane load(const double* values) {
   return _mm512_loadu_pd(values);
+}
+TUFTED_INLINE Part loadPart(const double* values) {
+  return load(values);
+}
+TUFTED_INLINE Part allOfPart(double value) {
+  return all(value);
 }
 TUFTED_INLINE void store(Lane a, double* values) {
   _mm512_storeu_pd(values, a);
@@ -123,6 +131,9 @@ struct Lane {
 struct Mask {
   PairMask of[pairs];
 };
+// Loops that treat each number alone go by what fits in a register: a lane at a time would fill all of them.
+using Part = Pair;
+constexpr int part_size = 2;
 
 template <class Result, class A, class Each>
 TUFTED_INLINE Result forPairs(const A& a, const Each& each) {
@@ -158,6 +169,23 @@ TUFTED_INLINE Lane all(double value) {
   for (Pair& pair : lane.of) pair = Pair{value, value};
   return lane;
 }
+TUFTED_INLINE Part loadPart(const double* values) {
+  Part part;
+  __builtin_memcpy(&part, values, sizeof(part));
+  return part;
+}
+TUFTED_INLINE void store(Part a, double* values) {
+  __builtin_memcpy(values, &a, sizeof(a));
+}
+TUFTED_INLINE Part allOfPart(double value) {
+  return Part{value, value};
+}
+TUFTED_INLINE PairMask isLess(Part a, Part b) {
+  return a < b;
+}
+TUFTED_INLINE Part select(PairMask mask, Part a, Part b) {
+  return mask ? a : b;
+}
 TUFTED_INLINE Lane load(const double* values) {
   Lane lane;
   __builtin_memcpy(&lane, values, sizeof(lane));
@@ -166,17 +194,46 @@ TUFTED_INLINE Lane load(const double* values) {
 TUFTED_INLINE void store(const Lane& a, double* values) {
   __builtin_memcpy(values, &a, sizeof(a));
 }
+#ifdef __SSE2__  // what the compiler makes of the others takes up to three times as long
+TUFTED_INLINE Pair squareRoot(Pair x) {
+  return _mm_sqrt_pd(x);
+}
+TUFTED_INLINE Pair least(Pair x, Pair y) {
+  return _mm_min_pd(x, y);
+}
+TUFTED_INLINE Pair most(Pair x, Pair y) {
+  return _mm_max_pd(x, y);
+}
+/// Bit i is number i's.
+TUFTED_INLINE unsigned bitsOf(PairMask mask) {
+  return static_cast<unsigned>(_mm_movemask_pd(reinterpret_cast<Pair>(mask)));
+}
+#else
+TUFTED_INLINE Pair squareRoot(Pair x) {
+  return Pair{__builtin_sqrt(x[0]), __builtin_sqrt(x[1])};
+}
+TUFTED_INLINE Pair least(Pair x, Pair y) {
+  return x < y ? x : y;
+}
+TUFTED_INLINE Pair most(Pair x, Pair y) {
+  return x > y ? x : y;
+}
+TUFTED_INLINE unsigned bitsOf(PairMask mask) {
+  return static_cast<unsigned>(mask[0] & 1) | static_cast<unsigned>(mask[1] & 2);
+}
+#endif
+
 TUFTED_INLINE Lane absolute(Lane a) {
-  return forPairs<Lane>(a, [](Pair x) { return x < -x ? -x : x; });
+  return forPairs<Lane>(a, [](Pair x) { return most(x, -x); });
 }
 TUFTED_INLINE Lane squareRoot(Lane a) {
-  return forPairs<Lane>(a, [](Pair x) { return Pair{__builtin_sqrt(x[0]), __builtin_sqrt(x[1])}; });
+  return forPairs<Lane>(a, [](Pair x) { return squareRoot(x); });
 }
 TUFTED_INLINE Lane least(Lane a, Lane b) {
-  return forPairs<Lane>(a, b, [](Pair x, Pair y) { return x < y ? x : y; });
+  return forPairs<Lane>(a, b, [](Pair x, Pair y) { return least(x, y); });
 }
 TUFTED_INLINE Lane most(Lane a, Lane b) {
-  return forPairs<Lane>(a, b, [](Pair x, Pair y) { return x > y ? x : y; });
+  return forPairs<Lane>(a, b, [](Pair x, Pair y) { return most(x, y); });
 }
 TUFTED_INLINE double least(Lane a) {
   double value = a.of[0][0];
@@ -202,10 +259,15 @@ TUFTED_INLINE Mask either(Mask a, Mask b) {
 TUFTED_INLINE Mask none() {
   return {};
 }
+TUFTED_INLINE unsigned bitsOf(const Mask& mask) {
+  unsigned bits = 0;
+  for (int i = 0; i < pairs; ++i) bits |= bitsOf(mask.of[i]) << (2 * i);
+  return bits;
+}
 TUFTED_INLINE bool any(const Mask& mask) {
   PairMask found = {};
   for (const PairMask& pair : mask.of) found |= pair;
-  return (found[0] | found[1]) != 0;
+  return bitsOf(found) != 0;
 }
 TUFTED_INLINE Lane select(Mask mask, Lane a, Lane b) {
   Lane result;
@@ -229,19 +291,19 @@ TUFTED_INLINE int countOf(const Mask& mask) {
 }
 
 template <class Value>
-TUFTED_INLINE void squeezeEach(const Mask& chosen, const Value* values, Value* to) {
+TUFTED_INLINE void squeezeEach(unsigned chosen, const Value* values, Value* to) {
   for (int i = 0; i < lane_size; ++i) {  // without a branch: which are chosen cannot be foreseen
     *to = values[i];
-    to -= chosen.of[i / 2][i % 2];
+    to += chosen >> i & 1U;
   }
 }
 TUFTED_INLINE void squeeze(const Mask& chosen, const Lane& a, double* to) {
   double values[lane_size];
   store(a, values);
-  squeezeEach(chosen, values, to);
+  squeezeEach(bitsOf(chosen), values, to);
 }
 TUFTED_INLINE void squeeze(const Mask& chosen, const int* a, int* to) {
-  squeezeEach(chosen, a, to);
+  squeezeEach(bitsOf(chosen), a, to);
 }
 
 TUFTED_INLINE void storeFloats(const Lane& a, float* to) {

@@ -11,16 +11,34 @@ int takeWithin(const Candidates& candidates, const double* point, int p, double 
                int* index) {
   // Copies, which what is written below cannot change.
   const auto [count, ranks, px, py, pz] = candidates;
-  const Lane x = all(point[0]), y = all(point[1]), z = all(point[2]), limit = all(bound);
+  const Part x = allOfPart(point[0]), y = allOfPart(point[1]), z = allOfPart(point[2]);
+  const auto squares = [&](int i) {
+    const Part dx = x - loadPart(px + i), dy = y - loadPart(py + i), dz = z - loadPart(pz + i);
+    return dx * dx + dy * dy + dz * dz;
+  };
   int found = 0;
+#ifdef TUFTED_WIDE_LANES
+  const Lane limit = all(bound);
   for (int i = 0; i < count; i += lane_size) {
-    const Lane dx = x - load(px + i), dy = y - load(py + i), dz = z - load(pz + i);
-    const Lane squares = dx * dx + dy * dy + dz * dz;
-    const Mask taken = both(isAtMost(squares, limit), differ(ranks + i, p));
-    squeeze(taken, squares, squared_distance + found);
+    const Lane square = squares(i);
+    const Mask taken = both(isAtMost(square, limit), differ(ranks + i, p));
+    squeeze(taken, square, squared_distance + found);
     squeeze(taken, ranks + i, index + found);
     found += countOf(taken);
   }
+#else
+  constexpr int some = 8 * lane_size;
+  alignas(64) double square[some];
+  for (int first = 0; first < count; first += some) {
+    const int end = count - first < some ? count - first : some;
+    for (int i = 0; i < end; i += part_size) store(squares(first + i), square + i);
+    for (int i = 0; i < end; ++i) {  // without a branch: which are within cannot be foreseen
+      squared_distance[found] = square[i];
+      index[found] = ranks[first + i];
+      found += (square[i] <= bound ? 1 : 0) & (ranks[first + i] != p ? 1 : 0);
+    }
+  }
+#endif
   return found;
 }
 
@@ -42,22 +60,25 @@ double extent(const Offsets& offsets) {
 }
 
 void addSums(const Offsets& offsets, double unit, OffsetSums& total) {
-  const Lane scale = all(unit);
-  Lane sums[9];
-  for (int i = 0; i < 9; ++i) sums[i] = load(&total.lanes[i * lane_size]);
-  for (int i = 0; i < offsets.count; i += lane_size) {
-    const Lane x = load(&offsets.x[i]) * scale, y = load(&offsets.y[i]) * scale, z = load(&offsets.z[i]) * scale;
-    sums[0] = sums[0] + x;
-    sums[1] = sums[1] + y;
-    sums[2] = sums[2] + z;
-    sums[3] = sums[3] + x * x;
-    sums[4] = sums[4] + x * y;
-    sums[5] = sums[5] + x * z;
-    sums[6] = sums[6] + y * y;
-    sums[7] = sums[7] + y * z;
-    sums[8] = sums[8] + z * z;
+  const Part scale = allOfPart(unit);
+  for (int part = 0; part < lane_size; part += part_size) {
+    Part sums[9];
+    for (int i = 0; i < 9; ++i) sums[i] = loadPart(&total.lanes[i * lane_size + part]);
+    for (int i = part; i < offsets.count; i += lane_size) {
+      const Part x = loadPart(&offsets.x[i]) * scale, y = loadPart(&offsets.y[i]) * scale,
+                 z = loadPart(&offsets.z[i]) * scale;
+      sums[0] = sums[0] + x;
+      sums[1] = sums[1] + y;
+      sums[2] = sums[2] + z;
+      sums[3] = sums[3] + x * x;
+      sums[4] = sums[4] + x * y;
+      sums[5] = sums[5] + x * z;
+      sums[6] = sums[6] + y * y;
+      sums[7] = sums[7] + y * z;
+      sums[8] = sums[8] + z * z;
+    }
+    for (int i = 0; i < 9; ++i) store(sums[i], &total.lanes[i * lane_size + part]);
   }
-  for (int i = 0; i < 9; ++i) store(sums[i], &total.lanes[i * lane_size]);
 }
 
 constexpr double least_gap = 1e-3;  // between the two smallest eigenvalues over the largest, for the closed form
@@ -108,39 +129,41 @@ void findSmallest(const Covariances& given, SmallestAxes& axes) {
 
 void project(const Offsets& offsets, double unit, const double* x, const double* y, PlanarOffsets& planar) {
   planar.count = offsets.count;
-  const Lane scale = all(unit);
-  const Lane x0 = all(x[0]), x1 = all(x[1]), x2 = all(x[2]), y0 = all(y[0]), y1 = all(y[1]), y2 = all(y[2]);
-  for (int i = 0; i < offsets.count; i += lane_size) {
-    const Lane dx = load(&offsets.x[i]) * scale, dy = load(&offsets.y[i]) * scale, dz = load(&offsets.z[i]) * scale;
+  const Part scale = allOfPart(unit);
+  const Part x0 = allOfPart(x[0]), x1 = allOfPart(x[1]), x2 = allOfPart(x[2]), y0 = allOfPart(y[0]),
+             y1 = allOfPart(y[1]), y2 = allOfPart(y[2]);
+  for (int i = 0; i < offsets.count; i += part_size) {
+    const Part dx = loadPart(&offsets.x[i]) * scale, dy = loadPart(&offsets.y[i]) * scale,
+               dz = loadPart(&offsets.z[i]) * scale;
     store(dx * x0 + dy * x1 + dz * x2, &planar.u[i]);
     store(dx * y0 + dy * y1 + dz * y2, &planar.v[i]);
   }
 }
 
-TUFTED_INLINE Lane lengthOf(const double* x, const double* y, const double* z) {
-  const Lane a = load(x), b = load(y), c = load(z);
+TUFTED_INLINE Part lengthOf(const double* x, const double* y, const double* z) {
+  const Part a = loadPart(x), b = loadPart(y), c = loadPart(z);
   return squareRoot(a * a + b * b + c * c);
 }
 
 /// 4 A cot of the angle opposite a.
-TUFTED_INLINE Lane cotanNumerator(Lane a, Lane b, Lane c) {
-  const Lane shorter = least(b, c), longer = most(b, c);
+TUFTED_INLINE Part cotanNumerator(Part a, Part b, Part c) {
+  const Part shorter = least(b, c), longer = most(b, c);
   return shorter * shorter + (longer - a) * (longer + a);
 }
 
 void measureFans(const Fans& given, double added) {
   const Fans fans = given;  // a copy, which what is written below cannot change
-  for (int i = 0; i < fans.count + 1; i += lane_size)
-    store(lengthOf(fans.spoke_x + i, fans.spoke_y + i, fans.spoke_z + i) + all(added), fans.spoke + i);
-  for (int i = 0; i < fans.count; i += lane_size) {
-    const Lane own = load(fans.spoke + i), next = load(fans.spoke + i + 1);
-    const Lane rim = lengthOf(fans.rim_x + i, fans.rim_y + i, fans.rim_z + i) + all(added);
-    const Lane longer = most(own, next), shorter = least(own, next), rest = least(longer, rim);
-    const Lane a = most(longer, rim), b = most(shorter, rest), c = least(shorter, rest);
-    const Lane slack = c - (a - b);
-    const Lane square = (a + (b + c)) * slack * (c + (a - b)) * (a + (b - c));
-    const Lane area = select(isLess(all(0), square), all(0.25) * squareRoot(square), all(0));
-    const Lane inverse = all(1) / (all(4) * area);
+  for (int i = 0; i < fans.count + 1; i += part_size)
+    store(lengthOf(fans.spoke_x + i, fans.spoke_y + i, fans.spoke_z + i) + allOfPart(added), fans.spoke + i);
+  for (int i = 0; i < fans.count; i += part_size) {
+    const Part own = loadPart(fans.spoke + i), next = loadPart(fans.spoke + i + 1);
+    const Part rim = lengthOf(fans.rim_x + i, fans.rim_y + i, fans.rim_z + i) + allOfPart(added);
+    const Part longer = most(own, next), shorter = least(own, next), rest = least(longer, rim);
+    const Part a = most(longer, rim), b = most(shorter, rest), c = least(shorter, rest);
+    const Part slack = c - (a - b);
+    const Part square = (a + (b + c)) * slack * (c + (a - b)) * (a + (b - c));
+    const Part area = select(isLess(allOfPart(0), square), allOfPart(0.25) * squareRoot(square), allOfPart(0));
+    const Part inverse = allOfPart(1) / (allOfPart(4) * area);
     store(rim, fans.rim + i);
     store(slack, fans.slack + i);
     store(area, fans.area + i);
