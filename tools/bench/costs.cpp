@@ -1,19 +1,33 @@
 #include "bench/costs.h"
 
 #include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <stdexcept>
 
 namespace tufted::bench {
 namespace {
 
-double peakBytes() {
-  rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
+double peakBytes(const rusage& usage) {
   return 1024.0 * static_cast<double>(usage.ru_maxrss);
 }
 
 }  // namespace
+
+void Costs::measurePeak(const std::function<void()>& build) {
+  const pid_t child = fork();
+  if (child == 0) {
+    build();
+    _exit(0);
+  }
+  int status = 0;
+  rusage usage{};
+  if (child < 0 || wait4(child, &status, 0, &usage) != child || status != 0)
+    throw std::runtime_error("the build whose peak was asked for has failed");
+  peak_bytes_ = peakBytes(usage);
+}
 
 void Costs::addBuild(double seconds, const Report& report) {
   addSeconds("whole", seconds);
@@ -21,7 +35,6 @@ void Costs::addBuild(double seconds, const Report& report) {
     addSeconds(stage.name, stage.seconds);
     bytes_[stage.name] = stage.bytes;
   }
-  peak_bytes_ = peakBytes();
 }
 
 double Costs::medianSeconds(const std::string& name) const {
@@ -41,7 +54,9 @@ void Costs::publish(benchmark::State& state) const {
     if (bytes > 0) state.counters["B:" + name] = static_cast<double>(bytes);
   }
   state.counters["B_per_item"] = sum / items;
-  state.counters["peak_B_per_item"] = peak_bytes_ / items;
+  rusage usage{};
+  getrusage(RUSAGE_SELF, &usage);
+  state.counters["peak_B_per_item"] = (peak_bytes_ > 0 ? peak_bytes_ : peakBytes(usage)) / items;
   state.counters["us_per_item"] = 1e6 * medianSeconds("whole") / items;
 }
 

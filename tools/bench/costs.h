@@ -4,6 +4,7 @@
 
 #include <cstdint>
 #include <ctime>
+#include <functional>
 #include <map>
 #include <string>
 #include <vector>
@@ -38,12 +39,14 @@ class BuildStopwatch {
 ///   s:<stage>       seconds
 ///   B:<stage>       bytes that the stage leaves behind
 ///   B_per_item      sum of these per point (clouds) or triangle (meshes)
-///   peak_B_per_item highest resident memory of the process so far, per item; of this case only if it ran alone
+///   peak_B_per_item highest resident memory, per item, of a process that builds once, or else of this one so far
 class Costs {
  public:
   /// @param items points or triangles
   explicit Costs(std::int64_t items) : items_(items) {}
 
+  /// Builds once on one thread in a process that holds what this one holds by now.
+  void measurePeak(const std::function<void()>& build);
   void addBuild(double seconds, const Report& report);
   /// A measurement beside the stages of the build.
   void addSeconds(const std::string& name, double seconds) { seconds_[name].push_back(seconds); }
