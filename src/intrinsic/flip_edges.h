@@ -12,6 +12,14 @@ namespace tufted {
 
 constexpr double flip_below = -1e-10;  // on cot + cot; ties of cocircular quadrilaterals stay
 
+/// Equation 2. An edge with both sides in one triangle is Delaunay: its two opposite angles sum to less than pi. So is
+/// one without an obtuse angle, which takes no roots to see.
+template <class Triangulation>
+bool isDelaunay(const Triangulation& t, int side, int mate) {
+  return side / 3 == mate / 3 || !(isOppositeObtuse(t, side) || isOppositeObtuse(t, mate)) ||
+         !(oppositeCotan(t, side) + oppositeCotan(t, mate) < flip_below);
+}
+
 /// Length of the other diagonal, from a layout of both triangles in the plane with the common edge on the x axis
 /// (Fisher et al. 2007): it stays accurate where the law of cosines cancels.
 template <class Triangulation>
@@ -94,8 +102,7 @@ FlipCounts flipEdges(Cover& cover, const Buffer<int>& seeds, const Workers& work
     const int side = queue.back(), mate = t.glue[side];
     queue.pop_back();
     state[side] &= static_cast<std::uint8_t>(~queued_flag);
-    // Equation 2. An edge with both sides in one triangle is Delaunay: its two opposite angles sum to less than pi.
-    if (side / 3 == mate / 3 || !(oppositeCotan(t, side) + oppositeCotan(t, mate) < flip_below)) continue;
+    if (isDelaunay(t, side, mate)) continue;
     if (state[side] >= most_flips) {
       ++counts.failures;
       continue;

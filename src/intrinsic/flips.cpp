@@ -18,17 +18,13 @@ class WholeCover {
   IntrinsicTriangulation& cover_;
 };
 
-/// Whether the angle opposite the side is obtuse; an edge that is not Delaunay has one on at least one side.
-bool isOppositeObtuse(const IntrinsicTriangulation& t, int side) {
-  return cotanNumerator(t.length[side], t.length[nextSide(side)], t.length[previousSide(side)]) < 0;
-}
-
 /// The sides, one per edge, that are not Delaunay at the start, in order.
 Buffer<int> findSeeds(const IntrinsicTriangulation& cover, const Workers& workers) {
   Buffer<Buffer<int>> found((cover.size() + block_size - 1) / block_size);
   workers.forBlocks("flips", cover.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
     for (int side = static_cast<int>(3 * begin); side < 3 * end; ++side) {
       const int mate = cover.glue[side];
+      // An edge that is not Delaunay has an obtuse angle on at least one side.
       if (isOppositeObtuse(cover, side) && oppositeCotan(cover, side) + oppositeCotan(cover, mate) < flip_below)
         found[begin / block_size].push_back(std::min(side, mate));
     }

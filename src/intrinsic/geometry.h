@@ -37,10 +37,15 @@ inline double oppositeCotan(double a, double b, double c) {
   return cotanNumerator(a, b, c) / (4 * triangleArea(a, b, c));
 }
 
-/// The same for `side` in its face.
+/// The same for `side` in its face, and whether that angle is obtuse.
 template <class Triangulation>
 double oppositeCotan(const Triangulation& t, int side) {
   return oppositeCotan(t.length[side], t.length[nextSide(side)], t.length[previousSide(side)]);
+}
+
+template <class Triangulation>
+bool isOppositeObtuse(const Triangulation& t, int side) {
+  return cotanNumerator(t.length[side], t.length[nextSide(side)], t.length[previousSide(side)]) < 0;
 }
 
 template <class Triangulation>

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <utility>
 
 #include "base/buffer.h"
 #include "base/parallel.h"
@@ -24,6 +25,8 @@ class PartialCover {
 
   /// The faces of the stars that are present; 2 t and 2 t + 1 are front and back of a triangle until they are flipped.
   const CoverBuffer& faces() const { return cover_; }
+  /// The lengths of their sides, with which faces() and complete() are lost.
+  Buffer<double> takeLengths() { return std::move(cover_.length); }
   bool isPresent(int p) const { return first_[p] >= 0; }
   /// Whether a face at p was flipped.
   bool isFlipped(int p) const { return flipped_[p] != 0; }

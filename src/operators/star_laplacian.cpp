@@ -35,8 +35,11 @@ class StarUnion final : public CoverSource {
 
   FlipCounts flip(const StarMetric& metric, const Workers& workers) { return cover_.flipToDelaunay(metric, workers); }
 
-  void assemble(const StarMetric& metric, const Workers& workers, Laplacian& result) const {
-    assembleStars(stars_, metric, cover_, length_, cloud_.caller, size_, 1.0 / 2 / 3, workers, result);
+  /// @param keep_cover whether cover() will be asked for
+  void assemble(const StarMetric& metric, bool keep_cover, const Workers& workers, Laplacian& result) {
+    Buffer<double> lengths = keep_cover ? cover_.faces().length : cover_.takeLengths();
+    assembleStars(stars_, metric, cover_, std::move(lengths), length_, cloud_.caller, size_, 1.0 / 2 / 3, workers,
+                  result);
   }
 
   const IntrinsicTriangulation& cover() const override {
@@ -82,7 +85,7 @@ void finishFromStars(Stars stars, RankedCloud cloud, const CloudOptions& options
   figures.flips = stars_and_cover->flip(metric, workers);
   clock.finish("flips", stars_and_cover->bytes());
 
-  stars_and_cover->assemble(metric, workers, result);
+  stars_and_cover->assemble(metric, options.keep_cover, workers, result);
   finishResult(figures, exponent, result);
   if (options.keep_cover) result.cover_source = stars_and_cover;
   clock.finish("matrices", bytesOfMatrices(result));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numeric>
 #include <string>
+#include <utility>
 
 #include "base/buffer.h"
 #include "base/disjoint_sets.h"
@@ -20,9 +21,15 @@ constexpr std::int64_t block_size = 8192;
 
 class StarAssembler {
  public:
-  StarAssembler(const Stars& stars, const StarMetric& metric, const PartialCover& cover, const EdgeLengths& length,
-                double scale, const Workers& workers)
-      : stars_(stars), metric_(metric), cover_(cover), length_(length), scale_(scale), workers_(workers) {}
+  StarAssembler(const Stars& stars, const StarMetric& metric, const PartialCover& cover, Buffer<double> side_length,
+                const EdgeLengths& length, double scale, const Workers& workers)
+      : stars_(stars),
+        metric_(metric),
+        cover_(cover),
+        length_(length),
+        scale_(scale),
+        workers_(workers),
+        side_cotan_(std::move(side_length)) {}
 
   /// Points whose edges among each other are summed over faces.
   void setMixed() {
@@ -31,10 +38,10 @@ class StarAssembler {
       mixed_[p] |= metric_.is_flat[p] | static_cast<std::uint8_t>(cover_.isFlipped(p));
   }
 
-  /// The weights of edges between mixed points. Forgets the areas of faces, which cotangents are made of.
+  /// The weights of edges between mixed points. Forgets the cotangents.
   void weighFaces() {
     Rows terms = collectTerms();
-    release(face_area_);
+    release(side_cotan_);
     const Buffer<int> edges = mergeTerms(terms);
     const auto forBoth = [&](const auto& visit) {
       for (int p = 0; p < stars_.size(); ++p) {
@@ -83,9 +90,9 @@ class StarAssembler {
     return sum;
   }
 
-  /// A third of each face's area to each corner (Section 3.3), by rank.
+  /// A third of each face's area to each corner (Section 3.3), by rank. Finds the cotangents for weighFaces() too.
   Buffer<double> lumpAreas(Report& report) {
-    face_area_ = faceAreas(cover_.faces(), workers_);
+    const Buffer<double> face_area = toCotans(side_cotan_, workers_);
     Buffer<double> mass(static_cast<std::size_t>(stars_.size()));
     for (int p = 0; p < stars_.size(); ++p)
       if (mixed_[p] == 0) mass[p] = 2 * scale_ * metric_.area[p];  // 2 sheets, 3 stars, a third
@@ -99,7 +106,7 @@ class StarAssembler {
     });
     const CoverBuffer& faces = cover_.faces();
     for (int f = 0; f < static_cast<int>(faces.size()); ++f) {
-      const double area = face_area_[f];
+      const double area = face_area[f];
       report.degenerate_faces += area > 0 ? 0 : 1;
       for (const int corner : faces.faces[f]) add(corner, scale_ * area / 3);
     }
@@ -138,11 +145,11 @@ class StarAssembler {
       term(a, b, [&] { return onBothSheets(a, b, p); });
     });
     const CoverBuffer& faces = cover_.faces();
-    const auto cotan = [&](int side) { return finiteCotan(faces, face_area_, side); };
     for (int side = 0; side < static_cast<int>(3 * faces.size()); ++side) {
       const int mate = faces.glue[side];
       if (mate != unglued && mate < side) continue;
-      term(tail(faces, side), head(faces, side), [&] { return cotan(side) + (mate == unglued ? 0 : cotan(mate)); });
+      term(tail(faces, side), head(faces, side),
+           [&] { return side_cotan_[side] + (mate == unglued ? 0 : side_cotan_[mate]); });
     }
   }
 
@@ -182,8 +189,8 @@ class StarAssembler {
   const double scale_;
   const Workers& workers_;
   Buffer<std::uint8_t> mixed_;
-  Buffer<double> face_area_;  ///< of the faces of the cover
-  Rows mixed_rows_;           ///< edges between mixed points, from both ends
+  Buffer<double> side_cotan_;  ///< of the angles opposite the sides of the cover, first their lengths
+  Rows mixed_rows_;            ///< edges between mixed points, from both ends
 };
 
 constexpr int ahead = 16;  // columns
@@ -196,11 +203,12 @@ struct Clamped {
 
 }  // namespace
 
-void assembleStars(const Stars& stars, const StarMetric& metric, const PartialCover& cover, const EdgeLengths& length,
-                   const Buffer<int>& caller, int size, double scale, const Workers& workers, Laplacian& result) {
+void assembleStars(const Stars& stars, const StarMetric& metric, const PartialCover& cover, Buffer<double> side_length,
+                   const EdgeLengths& length, const Buffer<int>& caller, int size, double scale, const Workers& workers,
+                   Laplacian& result) {
   Report& report = result.report;
   const int n = stars.size();
-  StarAssembler assembler(stars, metric, cover, length, scale, workers);
+  StarAssembler assembler(stars, metric, cover, std::move(side_length), length, scale, workers);
   assembler.setMixed();
   const Buffer<double> mass = assembler.lumpAreas(report);
   assembler.weighFaces();

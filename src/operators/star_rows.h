@@ -14,8 +14,10 @@ namespace tufted {
 ///
 /// An edge with an agreeing end that no flip came near has the same two angles opposite it in all its six copies, so
 /// that its weight is read off one star. Only edges between two other points are summed over the faces of the cover.
+/// @param side_length of the sides of the faces that are present; whatever the cover itself says
 /// @param scale of one face, see finishLaplacian()
-void assembleStars(const Stars& stars, const StarMetric& metric, const PartialCover& cover, const EdgeLengths& length,
-                   const Buffer<int>& caller, int size, double scale, const Workers& workers, Laplacian& result);
+void assembleStars(const Stars& stars, const StarMetric& metric, const PartialCover& cover, Buffer<double> side_length,
+                   const EdgeLengths& length, const Buffer<int>& caller, int size, double scale, const Workers& workers,
+                   Laplacian& result);
 
 }  // namespace tufted
