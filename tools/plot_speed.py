@@ -7,7 +7,7 @@
     done
     tools/plot_speed.py out/speed/*.json tools/figures/speed.svg
 
-Each case has a process of its own here, as the peak is that of the process. The same numbers give the same bytes (with
+Each case has a process of its own here, as what others leave behind counts in its peak. The same numbers give the same bytes (with
 one version of matplotlib). Needs python3-matplotlib.
 """
 import json

@@ -1,7 +1,8 @@
 #pragma once
 
-// Arithmetic on eight numbers at once, for the sources of kernels only. Includes no header with functions of others: a
-// copy of one that is compiled for one kind of processor could be linked into code for another.
+// Arithmetic on eight numbers at once, a Lane, for the sources of kernels only. Loops that treat each number alone go
+// by Parts, which fill one register: a lane of several would fill all of them. Includes no header with functions of
+// others: a copy of one that is compiled for one kind of processor could be linked into code for another.
 #include <cstdint>
 #if defined(TUFTED_WIDE_LANES) || defined(__SSE2__)
 #include <immintrin.h>
@@ -18,7 +19,7 @@ constexpr int lane_size = 8, float_lane_size = 16;
 
 using Lane = __m512d;
 using Mask = __mmask8;  // a bit for each number
-using Part = Lane;      // see below
+using Part = Lane;
 constexpr int part_size = lane_size;
 
 TUFTED_INLINE Lane all(double value) {
@@ -131,7 +132,6 @@ struct Lane {
 struct Mask {
   PairMask of[pairs];
 };
-// Loops that treat each number alone go by what fits in a register: a lane at a time would fill all of them.
 using Part = Pair;
 constexpr int part_size = 2;
 
@@ -194,7 +194,7 @@ TUFTED_INLINE Lane load(const double* values) {
 TUFTED_INLINE void store(const Lane& a, double* values) {
   __builtin_memcpy(values, &a, sizeof(a));
 }
-#ifdef __SSE2__  // what the compiler makes of the others takes up to three times as long
+#ifdef __SSE2__  // what the compiler makes of the generic ones below takes longer
 TUFTED_INLINE Pair squareRoot(Pair x) {
   return _mm_sqrt_pd(x);
 }
@@ -203,6 +203,9 @@ TUFTED_INLINE Pair least(Pair x, Pair y) {
 }
 TUFTED_INLINE Pair most(Pair x, Pair y) {
   return _mm_max_pd(x, y);
+}
+TUFTED_INLINE Pair absolute(Pair x) {
+  return _mm_andnot_pd(Pair{-0.0, -0.0}, x);
 }
 /// Bit i is number i's.
 TUFTED_INLINE unsigned bitsOf(PairMask mask) {
@@ -218,13 +221,16 @@ TUFTED_INLINE Pair least(Pair x, Pair y) {
 TUFTED_INLINE Pair most(Pair x, Pair y) {
   return x > y ? x : y;
 }
+TUFTED_INLINE Pair absolute(Pair x) {
+  return Pair{__builtin_fabs(x[0]), __builtin_fabs(x[1])};
+}
 TUFTED_INLINE unsigned bitsOf(PairMask mask) {
   return static_cast<unsigned>(mask[0] & 1) | static_cast<unsigned>(mask[1] & 2);
 }
 #endif
 
 TUFTED_INLINE Lane absolute(Lane a) {
-  return forPairs<Lane>(a, [](Pair x) { return most(x, -x); });
+  return forPairs<Lane>(a, [](Pair x) { return absolute(x); });
 }
 TUFTED_INLINE Lane squareRoot(Lane a) {
   return forPairs<Lane>(a, [](Pair x) { return squareRoot(x); });
@@ -277,11 +283,6 @@ TUFTED_INLINE Lane select(Mask mask, Lane a, Lane b) {
 TUFTED_INLINE Mask firstOf(int count) {
   Mask mask;
   for (int i = 0; i < pairs; ++i) mask.of[i] = PairMask{2 * i, 2 * i + 1} < PairMask{count, count};
-  return mask;
-}
-TUFTED_INLINE Mask differ(const int* values, int value) {
-  Mask mask;
-  for (int i = 0; i < pairs; ++i) mask.of[i] = PairMask{values[2 * i], values[2 * i + 1]} != PairMask{value, value};
   return mask;
 }
 TUFTED_INLINE int countOf(const Mask& mask) {

@@ -33,7 +33,7 @@ bool agreeOn(const Stars& stars, int p, int i) {
   return j >= 0 && here.areThoseOf(Sides(stars, q, j));
 }
 
-/// Compares the stars of one block with those of their link vertices, where both are of the block once.
+/// Compares the stars of one block with those of their link vertices; two of the block once.
 class BlockComparison {
  public:
   BlockComparison(const Stars& stars, int begin, int end, Buffer<std::uint8_t>& disagrees)
@@ -70,7 +70,7 @@ class BlockComparison {
   const Stars& stars_;
   const int begin_, end_;
   Buffer<std::uint8_t>& disagrees_;
-  Buffer<int> agreed_;  ///< how many link vertices before each agree with it
+  Buffer<int> agreed_;  ///< with each: link vertices of the block before it
 };
 
 }  // namespace

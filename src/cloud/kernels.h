@@ -51,7 +51,7 @@ struct SmallestAxes {
   alignas(64) double is_found[kernel_lane];  ///< 1; 0 where two eigenvalues lie too close for a closed form
 };
 
-/// Neighbours in the tangent plane of a point, which lies at the origin.
+/// Neighbours in the tangent plane of a point, which lies at the origin; anything behind them.
 struct PlanarOffsets {
   static constexpr int most = Offsets::most;
   int count = 0;
@@ -97,6 +97,7 @@ struct Kernels {
   double (*extent)(const Offsets& offsets);
   /// Adds those of the offsets times `unit`.
   void (*addSums)(const Offsets& offsets, double unit, OffsetSums& sums);
+  /// Each as if it were alone.
   void (*findSmallest)(const Covariances& covariances, SmallestAxes& axes);
   /// The offsets times `unit` along the axes x and y.
   void (*project)(const Offsets& offsets, double unit, const double* x, const double* y, PlanarOffsets& planar);

@@ -27,7 +27,7 @@ int takeWithin(const Candidates& candidates, const double* point, int p, double 
     found += countOf(taken);
   }
 #else
-  constexpr int some = 8 * lane_size;
+  constexpr int some = 8 * lane_size;  // distances at a time
   alignas(64) double square[some];
   for (int first = 0; first < count; first += some) {
     const int end = count - first < some ? count - first : some;

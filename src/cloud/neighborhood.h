@@ -43,9 +43,10 @@ class NeighborhoodFinder {
   /// For each of `count` points from `first` on the caller's k neighbours, or the caller's own list.
   void find(int first, int count, GroupScratch& scratch, Buffer<Neighbor>& found, Neighborhood* hoods) const;
 
-  /// Fits planes to at most most_planes neighbourhoods of points from `first` on.
-  /// @param[out] offsets of the neighbours of each, if they are at most Offsets::most
   static constexpr int most_planes = 16;
+  /// Fits planes to at most most_planes neighbourhoods of points from `first` on.
+  /// @param[out] offsets of the neighbours of each, if they are at most Offsets::most; until refine() has them grow or
+  /// splits them
   void fitPlanes(int first, std::span<Neighborhood> hoods, std::span<Offsets> offsets) const;
 
   /// Doubles the neighbourhood while it says too little about the surface, with a plane fitted anew, and leaves other

@@ -22,7 +22,7 @@ struct Stars {
   Buffer<int> offset;             ///< n + 1
   Buffer<int> link;               ///< ranks
   Buffer<std::uint8_t> triangle;  ///< per link entry, 0 where there is none
-  Buffer<double> radius;          ///< circumradius in the tangent plane, per link entry
+  Buffer<double> radius;          ///< circumradius in the tangent plane, per link entry, until the cover is built
   Buffer<double> reach;           ///< n, r_k: distance to the last neighbour before a star grows
   Buffer<std::uint8_t> ends;      ///< n, 1 where the surface ends at p: an open star or a lost triangle
   Buffer<std::uint8_t>

@@ -1,6 +1,5 @@
 #include "cloud/surface_stars.h"
 
-#include "base/buffer.h"
 #include "base/stage_clock.h"
 #include "cloud/agreement.h"
 #include "cloud/outliers.h"

@@ -3,7 +3,6 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 
 #include "base/point_buffer.h"
 #include "base/power_of_two.h"

@@ -25,7 +25,7 @@ class PartialCover {
 
   /// The faces of the stars that are present; 2 t and 2 t + 1 are front and back of a triangle until they are flipped.
   const CoverBuffer& faces() const { return cover_; }
-  /// The lengths of their sides, with which faces() and complete() are lost.
+  /// The lengths of their sides. faces() has none afterwards, and complete() must not be called.
   Buffer<double> takeLengths() { return std::move(cover_.length); }
   bool isPresent(int p) const { return first_[p] >= 0; }
   /// Whether a face at p was flipped.

@@ -27,7 +27,7 @@ class FanBuffer {
   int count() const { return fans_.count; }
   const Fans& fans() const { return fans_; }
 
-  /// The triangles of star p, and one more between the last spoke and the first once more.
+  /// The triangles of star p, then the first spoke once more, which begins a triangle that nobody reads.
   void add(const Stars& stars, const EdgeLengths& length, int p) {
     const int begin = stars.offset[p], end = stars.offset[p + 1];
     if (begin == end) return;

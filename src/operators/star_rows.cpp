@@ -21,12 +21,11 @@ constexpr std::int64_t block_size = 8192;
 
 class StarAssembler {
  public:
-  StarAssembler(const Stars& stars, const StarMetric& metric, const PartialCover& cover, Buffer<double> side_length,
-                const EdgeLengths& length, double scale, const Workers& workers)
-      : stars_(stars),
-        metric_(metric),
-        cover_(cover),
-        length_(length),
+  StarAssembler(const GluedStars& glued, Buffer<double> side_length, double scale, const Workers& workers)
+      : stars_(glued.stars),
+        metric_(glued.metric),
+        cover_(glued.cover),
+        length_(glued.length),
         scale_(scale),
         workers_(workers),
         side_cotan_(std::move(side_length)) {}
@@ -203,12 +202,11 @@ struct Clamped {
 
 }  // namespace
 
-void assembleStars(const Stars& stars, const StarMetric& metric, const PartialCover& cover, Buffer<double> side_length,
-                   const EdgeLengths& length, const Buffer<int>& caller, int size, double scale, const Workers& workers,
-                   Laplacian& result) {
+void assembleStars(const GluedStars& glued, Buffer<double> side_length, const Buffer<int>& caller, int size,
+                   double scale, const Workers& workers, Laplacian& result) {
   Report& report = result.report;
-  const int n = stars.size();
-  StarAssembler assembler(stars, metric, cover, std::move(side_length), length, scale, workers);
+  const int n = glued.stars.size();
+  StarAssembler assembler(glued, std::move(side_length), scale, workers);
   assembler.setMixed();
   const Buffer<double> mass = assembler.lumpAreas(report);
   assembler.weighFaces();

@@ -10,6 +10,7 @@
 #include <cstdint>
 
 #include "cloud/inverted_star.h"
+#include "cloud/kernels.h"
 #include "cloud/morton.h"
 #include "cloud/neighbors.h"
 #include "cloud/tangent_frame.h"
@@ -17,7 +18,6 @@
 #include "shapes/random.h"
 #include "shapes/shapes.h"
 #include "support/compare_stars.h"
-#include "tufted/laplacian.h"
 
 namespace tufted {
 namespace {

@@ -84,9 +84,8 @@ TEST(Kernels, MeasureTrianglesByTheFormulasOfGeometry) {
     for (double& x : values) x = random.normal();
   }
   for (int axis = 0; axis < 3; ++axis) {
-    for (int i = 0; i < count; ++i) given[3 + axis][i] = given[axis][i + 1] - given[axis][i];
     given[axis][4] = given[axis][3];  // a triangle of no area
-    given[3 + axis][3] = 0;
+    for (int i = 0; i < count; ++i) given[3 + axis][i] = given[axis][i + 1] - given[axis][i];
   }
   const auto measure = [&](const Kernels& kernel, double more, auto& result) {
     for (auto& values : result) values.assign(room, 0);
@@ -109,10 +108,11 @@ TEST(Kernels, MeasureTrianglesByTheFormulasOfGeometry) {
       EXPECT_EQ(found[2][i], area);
       EXPECT_EQ(found[3][i], triangleSlack(own, next, rim));
       EXPECT_EQ(area == 0, more == 0 && i == 3);
-      if (area == 0) continue;
+      for (int r = 0; r < 4; ++r) EXPECT_EQ(found[r][i], portable[r][i]) << r << " " << i;
+      if (area == 0) continue;  // NaN
       EXPECT_EQ(found[4][i], cotanNumerator(own, next, rim) * (1 / (4 * area)));
       EXPECT_EQ(found[5][i], cotanNumerator(next, own, rim) * (1 / (4 * area)));
-      for (int r = 0; r < 6; ++r) EXPECT_EQ(found[r][i], portable[r][i]) << r << " " << i;
+      for (int r = 4; r < 6; ++r) EXPECT_EQ(found[r][i], portable[r][i]) << r << " " << i;
     }
   }
 }

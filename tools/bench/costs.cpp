@@ -19,7 +19,11 @@ double peakBytes(const rusage& usage) {
 void Costs::measurePeak(const std::function<void()>& build) {
   const pid_t child = fork();
   if (child == 0) {
-    build();
+    try {
+      build();
+    } catch (...) {
+      _exit(1);
+    }
     _exit(0);
   }
   int status = 0;

@@ -39,7 +39,7 @@ class BuildStopwatch {
 ///   s:<stage>       seconds
 ///   B:<stage>       bytes that the stage leaves behind
 ///   B_per_item      sum of these per point (clouds) or triangle (meshes)
-///   peak_B_per_item highest resident memory, per item, of a process that builds once, or else of this one so far
+///   peak_B_per_item highest resident memory, per item, of the process of measurePeak(), or else of this one so far
 class Costs {
  public:
   /// @param items points or triangles

@@ -1,6 +1,6 @@
 // tufted_bench: what a build costs, per stage. All flags are Google Benchmark's own, for instance
-//   tufted_bench --benchmark_filter='cloud/star/star/1000000/threads:1' --benchmark_out=costs.json
-// Peak memory is a figure of the process: run one case alone to read it.
+//   tufted_bench --benchmark_filter='cloud/sphere/1000000/clean/threads:1' --benchmark_out=costs.json
+// What earlier cases leave behind counts as peak memory: run one case alone to read it.
 #include "bench/costs.h"
 
 int main(int argc, char** argv) {
