@@ -9,33 +9,32 @@ static_assert(lane_size == kernel_lane, "arrays are filled up to the lanes that 
 
 int takeWithin(const Candidates& candidates, const double* point, int p, double bound, double* squared_distance,
                int* index) {
-  // Copies, which what is written below cannot change.
-  const auto [count, ranks, px, py, pz] = candidates;
+  const Candidates given = candidates;  // a copy, which what is written below cannot change
   const Part x = allOfPart(point[0]), y = allOfPart(point[1]), z = allOfPart(point[2]);
   const auto squares = [&](int i) {
-    const Part dx = x - loadPart(px + i), dy = y - loadPart(py + i), dz = z - loadPart(pz + i);
+    const Part dx = x - loadPart(given.x + i), dy = y - loadPart(given.y + i), dz = z - loadPart(given.z + i);
     return dx * dx + dy * dy + dz * dz;
   };
   int found = 0;
 #ifdef TUFTED_WIDE_LANES
   const Lane limit = all(bound);
-  for (int i = 0; i < count; i += lane_size) {
+  for (int i = 0; i < given.count; i += lane_size) {
     const Lane square = squares(i);
-    const Mask taken = both(isAtMost(square, limit), differ(ranks + i, p));
+    const Mask taken = both(isAtMost(square, limit), differ(given.index + i, p));
     squeeze(taken, square, squared_distance + found);
-    squeeze(taken, ranks + i, index + found);
+    squeeze(taken, given.index + i, index + found);
     found += countOf(taken);
   }
 #else
   constexpr int some = 8 * lane_size;  // distances at a time
   alignas(64) double square[some];
-  for (int first = 0; first < count; first += some) {
-    const int end = count - first < some ? count - first : some;
+  for (int first = 0; first < given.count; first += some) {
+    const int end = given.count - first < some ? given.count - first : some;
     for (int i = 0; i < end; i += part_size) store(squares(first + i), square + i);
     for (int i = 0; i < end; ++i) {  // without a branch: which are within cannot be foreseen
       squared_distance[found] = square[i];
-      index[found] = ranks[first + i];
-      found += (square[i] <= bound ? 1 : 0) & (ranks[first + i] != p ? 1 : 0);
+      index[found] = given.index[first + i];
+      found += (square[i] <= bound ? 1 : 0) & (given.index[first + i] != p ? 1 : 0);
     }
   }
 #endif
