@@ -43,19 +43,20 @@ class BlockComparison {
     for (int p = begin_; p < end_; ++p) {
       int before = 0;  // link vertices that were compared with p if it is in their link
       for (int i = stars_.offset[p]; i < stars_.offset[p + 1]; ++i) {
-        const int q = stars_.link[i];
-        if (q >= begin_ && q < p)
+        if (isEarlier(stars_.link[i], p))
           ++before;
         else
           compare(p, i);
       }
       if (before == agreed_[p - begin_]) continue;
       for (int i = stars_.offset[p]; i < stars_.offset[p + 1]; ++i)
-        if (stars_.link[i] >= begin_ && stars_.link[i] < p) compare(p, i);
+        if (isEarlier(stars_.link[i], p)) compare(p, i);
     }
   }
 
  private:
+  bool isEarlier(int q, int p) const { return q >= begin_ && q < p; }
+
   void compare(int p, int i) {
     const int q = stars_.link[i];
     if (agreeOn(stars_, p, i)) {

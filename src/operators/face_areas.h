@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 
 #include "base/buffer.h"
@@ -9,14 +10,20 @@
 
 namespace tufted {
 
+/// Visits all faces, in any order.
+template <class Visit>
+void forEachFace(std::int64_t faces, const Workers& workers, const Visit& visit) {
+  constexpr std::int64_t block_size = 8192;
+  workers.forBlocks("assemble", faces, block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    for (int f = static_cast<int>(begin); f < end; ++f) visit(f);
+  });
+}
+
 /// Of every face of an IntrinsicTriangulation or a CoverBuffer.
 template <class Triangulation>
 Buffer<double> faceAreas(const Triangulation& t, const Workers& workers) {
-  constexpr std::int64_t block_size = 8192;
   Buffer<double> areas(static_cast<std::size_t>(t.size()));
-  workers.forBlocks("assemble", std::ssize(areas), block_size, [&](std::int64_t begin, std::int64_t end, int) {
-    for (int f = static_cast<int>(begin); f < end; ++f) areas[f] = faceArea(t, f);
-  });
+  forEachFace(std::ssize(areas), workers, [&](int f) { areas[f] = faceArea(t, f); });
   return areas;
 }
 
@@ -34,17 +41,15 @@ double finiteCotan(const Triangulation& t, const Buffer<double>& areas, int side
 
 /// Three lengths per face become the cotangents of the angles opposite. Returns the areas.
 inline Buffer<double> toCotans(Buffer<double>& lengths, const Workers& workers) {
-  constexpr std::int64_t block_size = 8192;
   Buffer<double> areas(lengths.size() / 3);
-  workers.forBlocks("assemble", std::ssize(areas), block_size, [&](std::int64_t begin, std::int64_t end, int) {
-    for (auto f = static_cast<std::size_t>(begin); f < static_cast<std::size_t>(end); ++f) {
-      double* const side = lengths.data() + 3 * f;
-      const double a = side[0], b = side[1], c = side[2];
-      areas[f] = triangleArea(a, b, c);
-      side[0] = finiteCotan(cotanNumerator(a, b, c) / (4 * areas[f]));
-      side[1] = finiteCotan(cotanNumerator(b, c, a) / (4 * areas[f]));
-      side[2] = finiteCotan(cotanNumerator(c, a, b) / (4 * areas[f]));
-    }
+  forEachFace(std::ssize(areas), workers, [&](int f) {
+    double* const side = lengths.data() + 3 * std::ptrdiff_t{f};
+    const double a = side[0], b = side[1], c = side[2];
+    areas[f] = triangleArea(a, b, c);
+    const double scale = 4 * areas[f];
+    side[0] = finiteCotan(cotanNumerator(a, b, c) / scale);
+    side[1] = finiteCotan(cotanNumerator(b, c, a) / scale);
+    side[2] = finiteCotan(cotanNumerator(c, a, b) / scale);
   });
   return areas;
 }
