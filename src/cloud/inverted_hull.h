@@ -7,7 +7,7 @@ namespace tufted {
 namespace {
 
 constexpr int most_given = PlanarOffsets::most;
-constexpr int near_part = 16, most_rounds = 3, missing = -1;
+constexpr int near_part = 16, most_rounds = 4, missing = -1;
 /// The sine of the angle between circles from which on they differ: far wider than the tie band of sideOfCircle().
 constexpr double distinct = 1e-7;
 constexpr double inside = 1e-5;
@@ -123,12 +123,12 @@ TUFTED_INLINE void removeReflex(Ring& first, Ring& second, Ring*& hull) {
   hull = ring;
 }
 
-enum class Verdict { certain, tied, incomplete, doubtful };
+enum class Verdict { certain, tied, incomplete, open, doubtful };
 
 /// Whether the hull is beyond doubt that of all points, with the origin inside and no tie among the circles. Where
 /// points that were not `given` are outside of it or too near, it is incomplete and `given` becomes what the hull must
 /// be made of. Where only points that were given are too near, the star is tied and has as `link` all that may be in
-/// it.
+/// it. Where the origin is not inside, or too near to the hull, it is open.
 ///
 /// Between two vertices of the hull, in direction, whatever link the careful routine is left with turns inwards at the
 /// one and comes back at the other. Where no point is seen from either of them at less than the angle `distinct` to
@@ -136,7 +136,8 @@ enum class Verdict { certain, tied, incomplete, doubtful };
 /// and the vertices of the hull, which turn by more than that, are not. Points are asked to keep `inside` instead,
 /// which also holds for the edge that is left when tied vertices of the hull are removed.
 TUFTED_INLINE Verdict judge(const Inverted& points, Ring& hull, Subset& given, InvertedStar& star) {
-  if (hull.size < 3 || hull.size > InvertedStar::most) return Verdict::doubtful;
+  if (hull.size < 3) return Verdict::open;
+  if (hull.size > InvertedStar::most) return Verdict::doubtful;
   hull.close(toLanes(hull.size) - hull.size + 2);
   // A point is left of the edge from a to b where across . point < 1.
   alignas(64) double across_x[InvertedStar::most], across_y[InvertedStar::most];
@@ -164,10 +165,10 @@ TUFTED_INLINE Verdict judge(const Inverted& points, Ring& hull, Subset& given, I
     most_size = most(most_size, a);
     store(all(0.5) / squareRoot(square), star.radius + i);
   }
-  if (any(is_open)) return Verdict::doubtful;
+  if (any(is_open)) return Verdict::open;
   const double size = most(most_size), ratio = size / __builtin_sqrt(least(inner_square));
   const double limit = 1 - 2 * inside * ratio - rounding * size * size / least(least_cross);
-  if (!(limit > 0)) return Verdict::doubtful;
+  if (!(limit > 0)) return Verdict::open;
 
   alignas(64) double gauge[most_given];  // the largest across . point
   for (int i = 0; i < points.count; i += lane_size) {
@@ -210,23 +211,32 @@ TUFTED_INLINE Verdict judge(const Inverted& points, Ring& hull, Subset& given, I
   return Verdict::tied;
 }
 
+TUFTED_INLINE void giveFirst(const Inverted& points, int count, Subset& given) {
+  given.size = count;
+  for (int i = 0; i < count; i += lane_size) {
+    store(load(points.x + i), given.x + i);
+    store(load(points.y + i), given.y + i);
+    for (int j = i; j < i + lane_size; ++j) given.of[j] = j;
+  }
+}
+
 StarKind wrapInvertedLanes(const PlanarOffsets& planar, InvertedStar& star) {
   if (planar.count < 3) return StarKind::unknown;
   Inverted points;
   if (!invert(planar, points)) return StarKind::unknown;
   Subset given;
-  given.size = points.count < near_part ? points.count : near_part;
-  for (int i = 0; i < given.size; i += lane_size) {
-    store(load(points.x + i), given.x + i);
-    store(load(points.y + i), given.y + i);
-    for (int j = i; j < i + lane_size; ++j) given.of[j] = j;
-  }
+  giveFirst(points, points.count < near_part ? points.count : near_part, given);
   Verdict verdict = Verdict::incomplete;
   for (int round = 0; round < most_rounds && verdict == Verdict::incomplete; ++round) {
     Ring first, second, *hull = nullptr;
+    const bool are_all = given.size == points.count;
     sortByDirection(given, first);
     removeReflex(first, second, hull);
     verdict = judge(points, *hull, given, star);
+    if (verdict == Verdict::open && !are_all) {
+      giveFirst(points, points.count, given);
+      verdict = Verdict::incomplete;
+    }
   }
   if (verdict == Verdict::certain) return StarKind::closed;
   return verdict == Verdict::tied ? StarKind::tied : StarKind::unknown;
