@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "base/buffer.h"
 #include "tufted/options.h"
 
 namespace tufted {
@@ -44,5 +45,19 @@ class Workers {
   int count_;
   const Progress& progress_;
 };
+
+/// All numbers in [0, size) that pass the test, ascending.
+template <class Test>
+Buffer<int> numbersWhere(std::string_view stage, int size, const Workers& workers, const Test& test) {
+  constexpr std::int64_t block_size = 8192;
+  Buffer<Buffer<int>> parts(static_cast<std::size_t>((size + block_size - 1) / block_size));
+  workers.forBlocks(stage, size, block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    for (int i = static_cast<int>(begin); i < end; ++i)
+      if (test(i)) parts[begin / block_size].push_back(i);
+  });
+  Buffer<int> numbers;
+  for (const Buffer<int>& part : parts) numbers.insert(numbers.end(), part.begin(), part.end());
+  return numbers;
+}
 
 }  // namespace tufted

@@ -35,14 +35,17 @@ StarPools::StarPools(const Stars& stars, const PointsView& points, const Workers
 
 void StarPools::collect(const Workers& workers) {
   const int n = stars_.size();
+  const Buffer<int> near = numbersWhere("glue", n, workers, [this](int p) {  // the others have no side in a pool
+    const auto first = stars_.link.begin() + stars_.offset[p], last = stars_.link.begin() + stars_.offset[p + 1];
+    return std::any_of(first, last, [this](int q) { return stars_.disagrees[q] != 0; });
+  });
   const auto forEachPooled = [&](const auto& visit) {
-    for (int p = 0; p < n; ++p) {
+    for (const int p : near) {
       forEachOpenSide(stars_, p, [&](const StarSide& side) {
         if (isPooled(side)) visit(side, std::minmax({tail(stars_, side), head(stars_, side)}));
       });
     }
   };
-  workers.report("glue", 0);
   offset_.assign(static_cast<std::size_t>(n) + 1, 0);
   forEachPooled([&](const StarSide&, const auto& ends) { ++offset_[ends.first + 1]; });
   std::partial_sum(offset_.begin(), offset_.end(), offset_.begin());

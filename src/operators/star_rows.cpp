@@ -33,8 +33,16 @@ class StarAssembler {
   /// Points whose edges among each other are summed over faces.
   void setMixed() {
     mixed_ = stars_.disagrees;
-    for (int p = 0; p < stars_.size(); ++p)
-      mixed_[p] |= metric_.is_flat[p] | static_cast<std::uint8_t>(cover_.isFlipped(p));
+    workers_.forBlocks("assemble", stars_.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+      for (int p = static_cast<int>(begin); p < end; ++p)
+        mixed_[p] |= metric_.is_flat[p] | static_cast<std::uint8_t>(cover_.isFlipped(p));
+    });
+    absent_ = numbersWhere("assemble", stars_.size(), workers_, [this](int p) {
+      if (cover_.isPresent(p)) return false;
+      return mixed_[p] != 0 ||
+             std::any_of(stars_.link.begin() + stars_.offset[p], stars_.link.begin() + stars_.offset[p + 1],
+                         [this](int q) { return mixed_[q] != 0; });
+    });
   }
 
   /// The weights of edges between mixed points. Forgets the cotangents.
@@ -93,8 +101,10 @@ class StarAssembler {
   Buffer<double> lumpAreas(Report& report) {
     const Buffer<double> face_area = toCotans(side_cotan_, workers_);
     Buffer<double> mass(static_cast<std::size_t>(stars_.size()));
-    for (int p = 0; p < stars_.size(); ++p)
-      if (mixed_[p] == 0) mass[p] = 2 * scale_ * metric_.area[p];  // 2 sheets, 3 stars, a third
+    workers_.forBlocks("assemble", stars_.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+      for (int p = static_cast<int>(begin); p < end; ++p)
+        if (mixed_[p] == 0) mass[p] = 2 * scale_ * metric_.area[p];  // 2 sheets, 3 stars, a third
+    });
     const auto add = [&](int p, double share) {
       if (mixed_[p] != 0) mass[p] += share;
     };
@@ -116,8 +126,7 @@ class StarAssembler {
   /// Visits the triangles that have a mixed corner, in stars that are absent from the cover.
   template <class Visit>
   void forEachAbsentTriangle(const Visit& visit) const {
-    for (int p = 0; p < stars_.size(); ++p) {
-      if (cover_.isPresent(p)) continue;
+    for (const int p : absent_) {
       for (int i = stars_.offset[p]; i < stars_.offset[p + 1]; ++i) {
         if (!stars_.hasTriangle(i)) continue;
         const int a = stars_.link[i], b = stars_.link[stars_.after(p, i)];
@@ -188,16 +197,19 @@ class StarAssembler {
   const double scale_;
   const Workers& workers_;
   Buffer<std::uint8_t> mixed_;
+  Buffer<int> absent_;         ///< stars that are absent from the cover, of mixed points and next to them
   Buffer<double> side_cotan_;  ///< of the angles opposite the sides of the cover, first their lengths
   Rows mixed_rows_;            ///< edges between mixed points, from both ends
 };
 
 constexpr int ahead = 16;  // columns
 
-/// What clamping did to one block of rows.
-struct Clamped {
-  std::int64_t small = 0, large = 0;
-  double largest = 0;
+/// What is counted in one block of rows.
+struct RowBlock {
+  std::int64_t clamped_small = 0, clamped_large = 0;
+  double largest_clamped = 0;
+  std::int64_t components = 0;                 ///< of the edges within the block
+  Buffer<std::pair<int, int>> edges_to_other;  ///< to points of earlier blocks
 };
 
 }  // namespace
@@ -213,7 +225,7 @@ void assembleStars(const GluedStars& glued, Buffer<double> side_length, const Bu
 
   // Columns of L in the caller's numbering: their sizes, then what is in them.
   Buffer<int> count(static_cast<std::size_t>(size));
-  Buffer<Clamped> clamped((n + block_size - 1) / block_size);
+  Buffer<RowBlock> blocks((n + block_size - 1) / block_size);
   workers.forBlocks("assemble", n, block_size, [&](std::int64_t begin, std::int64_t end, int) {
     for (int p = static_cast<int>(begin); p < end; ++p) {
       int positive = 0;
@@ -233,7 +245,9 @@ void assembleStars(const GluedStars& glued, Buffer<double> side_length, const Bu
   std::partial_sum(count.begin(), count.end(), L.outerIndexPtr() + 1);
   release(count);
   result.M.setZero(size);
+  DisjointSets sets(n);  // those of one block are united by one thread
   workers.forBlocks("assemble", n, block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    RowBlock& block = blocks[begin / block_size];
     Column column;
     for (int p = static_cast<int>(begin); p < end; ++p) {
       if (p + 2 * ahead < n) prefetchColumns(L, caller[p + 2 * ahead], caller[p + ahead]);
@@ -243,16 +257,20 @@ void assembleStars(const GluedStars& glued, Buffer<double> side_length, const Bu
         if (weight > 0) {
           sum += weight;
           column.add(caller[q], -weight);
+          if (q >= begin && q < p)
+            block.components -= sets.unite(p, q) ? 1 : 0;
+          else if (q < begin)
+            block.edges_to_other.emplace_back(p, q);
         } else if (weight < 0 && p < q) {
           // Negative weights within 1e-9 of the larger diagonal are rounding; all are left out.
           const double larger = std::max(assembler.diagonal(p), assembler.diagonal(q));
           const double relative = larger > 0 ? -weight / larger : INFINITY;
-          Clamped& block = clamped[begin / block_size];
-          ++(relative <= weight_rounding ? block.small : block.large);
-          block.largest = std::max(block.largest, relative);
+          ++(relative <= weight_rounding ? block.clamped_small : block.clamped_large);
+          block.largest_clamped = std::max(block.largest_clamped, relative);
         }
       });
       if (column.isEmpty()) continue;  // no row, no mass: the point takes no part
+      ++block.components;
       result.M[caller[p]] = mass[p];
       column.add(caller[p], sum);
       const int place = L.outerIndexPtr()[caller[p]];
@@ -260,19 +278,12 @@ void assembleStars(const GluedStars& glued, Buffer<double> side_length, const Bu
     }
   });
 
-  DisjointSets sets(n);
-  for (int p = 0; p < n; ++p) {
-    bool has_edges = false;
-    assembler.forEachInRow(p, [&](int q, double weight) {
-      has_edges |= weight > 0;
-      if (weight > 0 && q < p && sets.unite(p, q)) --report.components;
-    });
-    report.components += has_edges ? 1 : 0;
-  }
-  for (const Clamped& block : clamped) {
-    report.clamped_weights += block.small;
-    report.clamped_large += block.large;
-    report.largest_clamped = std::max(report.largest_clamped, block.largest);
+  for (const RowBlock& block : blocks) {
+    report.clamped_weights += block.clamped_small;
+    report.clamped_large += block.clamped_large;
+    report.largest_clamped = std::max(report.largest_clamped, block.largest_clamped);
+    report.components += block.components;
+    for (const auto& [p, q] : block.edges_to_other) report.components -= sets.unite(p, q) ? 1 : 0;
   }
   report.nonzeros = entries;
 }
