@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "base/parallel.h"
 #include "base/power_of_two.h"
 #include "tufted/types.h"
 
@@ -20,6 +21,6 @@ struct Scaling {
 
 /// Scaling of the finite rows. Rows that are not finite, or more than 1e70 median spreads or 1e152 from the centre,
 /// get PointStatus::not_finite in `status` (resized to N; all others active).
-Scaling measureScaling(const Points& points, std::vector<PointStatus>& status);
+Scaling measureScaling(const Points& points, std::vector<PointStatus>& status, const Workers& workers);
 
 }  // namespace tufted

@@ -104,7 +104,6 @@ CloudDescription describeCloud(const Points& points, const CloudOptions& options
   const Stopwatch watch;
   std::vector<PointStatus> status;
   std::vector<int> representative;
-  workers.report("order", 0);
   const RankedCloud cloud = rankPoints(points, status, representative, workers);
   workers.report("tree", 0);
   const NeighborGraph graph = findNeighbors(cloud, options.neighbors, workers);

@@ -58,8 +58,7 @@ void buildMeshLaplacian(const Points& points, const Triangles& triangles, const 
   StageClock clock(report);
   const int n = static_cast<int>(points.rows());
 
-  workers.report("scale", 0);
-  const Scaling scaling = measureScaling(points, result.status);
+  const Scaling scaling = measureScaling(points, result.status, workers);
   const PowerOfTwo to_scaled = scaling.toScaled();
   PointBuffer scaled(n);
   for (int i = 0; i < n; ++i) {

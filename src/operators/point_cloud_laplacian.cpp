@@ -158,7 +158,6 @@ void buildCloudLaplacian(const Points& points, const CloudOptions& options, Clou
   Report& report = result.report;
   StageClock clock(report);
 
-  workers.report("order", 0);
   RankedCloud cloud = rankPoints(points, result.status, result.representative, workers);
   if (cloud.size() > most_triangles / 6) tooMany(cloud.size(), 6 * static_cast<std::int64_t>(cloud.size()));
   clock.finish("order", static_cast<std::size_t>(cloud.size()) * (3 * sizeof(double) + sizeof(int)));

@@ -102,23 +102,5 @@ TEST(Neighbors, AreAllOthersWhenThereAreFewer) {
   EXPECT_EQ(found[1].squared_distance, 9);
 }
 
-TEST(Rank, DoesNotDependOnTheCallersOrder) {
-  const auto lattice = shapes::squareLattice(40);
-  std::vector<PointStatus> status;
-  std::vector<int> representative;
-  const RankedCloud a = rankPoints(lattice.points, status, representative);
-  const RankedCloud b = rankPoints(shapes::shuffled(lattice).points, status, representative);
-  EXPECT_EQ(a.points.all(), b.points.all());
-}
-
-TEST(Rank, NamesTheLowestIndexOfCoincidentPoints) {
-  Points points(5, 3);
-  points << 1, 2, 3, 0, 0, 0, 1, 2, 3, -0.0, 0, 0, 1, 2, 3;
-  std::vector<PointStatus> status;
-  std::vector<int> representative;
-  EXPECT_EQ(rankPoints(points, status, representative).size(), 2);
-  EXPECT_EQ(representative, (std::vector<int>{0, 1, 0, 1, 0}));
-}
-
 }  // namespace
 }  // namespace tufted
