@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <new>
+#include <utility>
 #include <vector>
 
 #include "base/workspace.h"
@@ -42,6 +43,33 @@ class WorkspaceAllocator {
 /// The arrays of the stages of a build: vectors whose memory a LaplacianBuilder keeps for its next frame.
 template <class T>
 using Buffer = std::vector<T, WorkspaceAllocator<T>>;
+
+/// Leaves new values as the memory has them, so that each thread is the first to touch what it writes.
+template <class T>
+class UninitializedAllocator : public WorkspaceAllocator<T> {
+ public:
+  template <class U>
+  struct rebind {
+    using other = UninitializedAllocator<U>;
+  };
+
+  UninitializedAllocator() = default;
+  template <class U>
+  UninitializedAllocator(const UninitializedAllocator<U>&) {
+  }  // NOLINT(google-explicit-constructor): allocators convert
+
+  template <class U, class... Arguments>
+  void construct(U* place, Arguments&&... arguments) {
+    if constexpr (sizeof...(Arguments) == 0)
+      ::new (static_cast<void*>(place)) U;
+    else
+      ::new (static_cast<void*>(place)) U(std::forward<Arguments>(arguments)...);
+  }
+};
+
+/// A Buffer that is resized without setting anything to 0: for large arrays that are written as a whole.
+template <class T>
+using RawBuffer = std::vector<T, UninitializedAllocator<T>>;
 
 /// Gives the memory back, which `values = {}` and clear() keep.
 template <class Array>

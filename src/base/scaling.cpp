@@ -25,7 +25,7 @@ std::uint64_t ordinalOf(double x) {
 }
 
 /// The value that `rank` others come before. Overwrites the values.
-double select(Buffer<double>& values, std::size_t rank) {
+double select(RawBuffer<double>& values, std::size_t rank) {
   // By the leading bits first, which takes two passes and leaves few.
   auto last = values.end();
   if (values.size() > few) {
@@ -63,7 +63,7 @@ Scaling measureScaling(const Points& points, std::vector<PointStatus>& status, c
   if (usable == 0) return scaling;
 
   workers.forBlocks("scale", 3, 1, [&](std::int64_t axis, std::int64_t, int) {
-    Buffer<double> values;
+    RawBuffer<double> values;
     values.reserve(usable);
     for (Eigen::Index i = 0; i < n; ++i)
       if (status[i] == PointStatus::active) values.push_back(points(i, axis));
@@ -73,7 +73,7 @@ Scaling measureScaling(const Points& points, std::vector<PointStatus>& status, c
   const auto deviation = [&](Eigen::Index i) {
     return (points.row(i) - scaling.center.transpose()).cwiseAbs().maxCoeff();
   };
-  Buffer<double> values(static_cast<std::size_t>(n));
+  RawBuffer<double> values(static_cast<std::size_t>(n));
   forAll([&](std::int64_t i, int) { values[i] = status[i] == PointStatus::active ? deviation(i) : 0; });
   // Points at the centre itself say nothing about the spread; many copies of one point must not make it 0.
   const auto zeros = static_cast<std::size_t>(std::count(values.begin(), values.end(), 0.0));

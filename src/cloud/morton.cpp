@@ -49,11 +49,11 @@ constexpr int lowest_bit = 22;
 constexpr std::int64_t least_part = 1 << 16;  // keys
 
 /// Sorts by the code from lowest_bit on, those where it is the same as they come, digit by digit from the last.
-void sortByHighBits(Buffer<Key>& keys, const Workers& workers) {
+void sortByHighBits(RawBuffer<Key>& keys, const Workers& workers) {
   const std::int64_t size = std::ssize(keys);
   const std::int64_t part = std::max(least_part, (size + workers.count() - 1) / workers.count());
   const std::int64_t parts = (size + part - 1) / part;
-  Buffer<Key> sorted(keys.size());
+  RawBuffer<Key> sorted(keys.size());
   Buffer<std::array<std::uint32_t, buckets>> place(static_cast<std::size_t>(parts));
   for (int bit = lowest_bit; bit < 3 * axis_bits; bit += digit_bits) {
     const auto digitOf = [bit](const Key& key) { return key.code >> bit & (buckets - 1); };
@@ -75,7 +75,7 @@ void sortByHighBits(Buffer<Key>& keys, const Workers& workers) {
 
 /// Sorts what sortByHighBits() could not tell apart.
 template <class Less>
-void sortByRest(Buffer<Key>& keys, const Workers& workers, const Less& less) {
+void sortByRest(RawBuffer<Key>& keys, const Workers& workers, const Less& less) {
   const auto high = [&](std::int64_t i) { return keys[i].code >> lowest_bit; };
   const std::int64_t size = std::ssize(keys);
   Buffer<std::int64_t> start;  // of parts, each of whole runs
@@ -154,7 +154,7 @@ RankedCloud rankPoints(const Points& points, std::vector<PointStatus>& status, s
                                                     [](const auto& a, const auto& b) { return a.min(b).eval(); });
   corner = corner.max(all_lowest);
 
-  Buffer<Key> keys(cloud.caller.size());
+  RawBuffer<Key> keys(cloud.caller.size());
   forAll([&](std::int64_t i, int) {
     const int index = cloud.caller[i];
     keys[i] = {mortonCode(scaled(index) - corner), index};

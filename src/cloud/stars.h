@@ -19,16 +19,16 @@ namespace tufted {
 /// stands for the triangle (p, link[i], successor of i). There is none at the last link vertex of an open star, and
 /// where a filter dropped it.
 struct Stars {
-  Buffer<int> offset;             ///< n + 1
-  Buffer<int> link;               ///< ranks
-  Buffer<std::uint8_t> triangle;  ///< per link entry, 0 where there is none
-  Buffer<double> radius;          ///< circumradius in the tangent plane, per link entry, until the cover is built
-  Buffer<double> reach;           ///< n, r_k: distance to the last neighbour before a star grows
-  Buffer<std::uint8_t> ends;      ///< n, 1 where the surface ends at p: an open star or a lost triangle
-  Buffer<std::uint8_t>
+  Buffer<int> offset;                ///< n + 1
+  RawBuffer<int> link;               ///< ranks
+  RawBuffer<std::uint8_t> triangle;  ///< per link entry, 0 where there is none
+  RawBuffer<double> radius;          ///< circumradius in the tangent plane, per link entry, until the cover is built
+  RawBuffer<double> reach;           ///< n, r_k: distance to the last neighbour before a star grows
+  RawBuffer<std::uint8_t> ends;      ///< n, 1 where the surface ends at p: an open star or a lost triangle
+  RawBuffer<std::uint8_t>
       isolated;  ///< n, 1 for points without a star: outliers, and where all neighbours are of other sheets
   Buffer<std::uint8_t> disagrees;  ///< n, see findDisagreement(); empty before the filter has run
-  Buffer<std::uint8_t> flat;       ///< n, 1 where the neighbourhood is next to a plane
+  RawBuffer<std::uint8_t> flat;    ///< n, 1 where the neighbourhood is next to a plane
   PointBuffer normals;             ///< n x 3
   PointBuffer move;                ///< n x 3, from each point to where lengths are measured; 0 x 3: no point moves
 

@@ -120,7 +120,8 @@ class StarMeasurer {
 
 }  // namespace
 
-StarMetric measureStars(const Stars& stars, const EdgeLengths& length, Buffer<double> memory, const Workers& workers) {
+StarMetric measureStars(const Stars& stars, const EdgeLengths& length, RawBuffer<double> memory,
+                        const Workers& workers) {
   StarMetric metric;
   metric.cotan_sum = std::move(memory);
   metric.cotan_sum.resize(stars.link.size());

@@ -12,14 +12,15 @@ namespace tufted {
 
 /// What the lengths of the edges say about every star.
 struct StarMetric {
-  Buffer<double> cotan_sum;      ///< per link entry: of the two angles opposite the spoke, NaN without two triangles
-  Buffer<double> area;           ///< n, of the star's triangles
-  Buffer<std::uint8_t> is_flat;  ///< n, 1 where a triangle of the star has no area
-  double least_slack = 0;        ///< of the triangle inequality, over all triangles
-  MeanLengths mean;              ///< over all sides of all triangles
+  RawBuffer<double> cotan_sum;      ///< per link entry: of the two angles opposite the spoke, NaN without two triangles
+  RawBuffer<double> area;           ///< n, of the star's triangles
+  RawBuffer<std::uint8_t> is_flat;  ///< n, 1 where a triangle of the star has no area
+  double least_slack = 0;           ///< of the triangle inequality, over all triangles
+  MeanLengths mean;                 ///< over all sides of all triangles
 };
 
 /// @param memory for cotan_sum, whatever is in it: new pages cost more than what is written to them
-StarMetric measureStars(const Stars& stars, const EdgeLengths& length, Buffer<double> memory, const Workers& workers);
+StarMetric measureStars(const Stars& stars, const EdgeLengths& length, RawBuffer<double> memory,
+                        const Workers& workers);
 
 }  // namespace tufted

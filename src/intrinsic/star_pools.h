@@ -73,7 +73,7 @@ class StarPools {
 
   const Stars& stars_;
   Buffer<int> offset_;  ///< n + 1, by smaller vertex
-  Buffer<Pooled> pooled_;
+  RawBuffer<Pooled> pooled_;
 };
 
 }  // namespace tufted

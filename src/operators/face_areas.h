@@ -40,8 +40,8 @@ double finiteCotan(const Triangulation& t, const Buffer<double>& areas, int side
 }
 
 /// Three lengths per face become the cotangents of the angles opposite. Returns the areas.
-inline Buffer<double> toCotans(Buffer<double>& lengths, const Workers& workers) {
-  Buffer<double> areas(lengths.size() / 3);
+inline RawBuffer<double> toCotans(Buffer<double>& lengths, const Workers& workers) {
+  RawBuffer<double> areas(lengths.size() / 3);
   forEachFace(std::ssize(areas), workers, [&](int f) {
     double* const side = lengths.data() + 3 * std::ptrdiff_t{f};
     const double a = side[0], b = side[1], c = side[2];

@@ -94,8 +94,8 @@ void describePoints(const Stars& stars, const Buffer<Boundary>& boundary, const 
                     const Workers& workers, Laplacian& result) {
   const auto n = static_cast<Eigen::Index>(result.status.size());
   result.boundary.assign(result.status.size(), Boundary::none);
-  result.frames.normals.setZero(n, 3);
-  result.frames.tangents.setZero(n, 3);
+  result.frames.normals.resize(n, 3);
+  result.frames.tangents.resize(n, 3);
   workers.forBlocks("boundary", stars.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
     for (std::int64_t p = begin; p < end; ++p) {
       const int i = cloud.caller[p];
@@ -105,10 +105,14 @@ void describePoints(const Stars& stars, const Buffer<Boundary>& boundary, const 
     }
   });
   for (Eigen::Index i = 0; i < n; ++i) {
-    if (result.status[i] != PointStatus::coincident) continue;
-    const int same = result.representative[i];
-    result.frames.normals.row(i) = result.frames.normals.row(same);
-    result.frames.tangents.row(i) = result.frames.tangents.row(same);
+    if (result.status[i] == PointStatus::coincident) {
+      const int same = result.representative[i];
+      result.frames.normals.row(i) = result.frames.normals.row(same);
+      result.frames.tangents.row(i) = result.frames.tangents.row(same);
+    } else if (result.status[i] == PointStatus::not_finite) {
+      result.frames.normals.row(i).setZero();
+      result.frames.tangents.row(i).setZero();
+    }
   }
 }
 

@@ -14,7 +14,7 @@ struct Entry {
 /// Rows of entries, one after the other.
 struct Rows {
   Buffer<int> offset;  ///< one more than rows
-  Buffer<Entry> entries;
+  RawBuffer<Entry> entries;
 };
 
 /// Sorts entries by column and sums those of equal columns, in the order given, to the front. Returns where they end.

@@ -22,7 +22,7 @@ class StarUnion final : public CoverSource {
         cover_(stars_, length_, pools_) {}
 
   /// Lengths, mollified (Section 4.5).
-  StarMetric measure(double delta, Buffer<double> memory, const Workers& workers) {
+  StarMetric measure(double delta, RawBuffer<double> memory, const Workers& workers) {
     StarMetric metric = measureStars(stars_, length_, std::move(memory), workers);
     const double missing = delta * metric.mean.length - metric.least_slack;
     if (!(missing > 0)) return metric;
@@ -70,7 +70,7 @@ class StarUnion final : public CoverSource {
 void finishFromStars(Stars stars, RankedCloud cloud, const CloudOptions& options, const Workers& workers,
                      StageClock& clock, Laplacian& result) {
   const int exponent = cloud.exponent;
-  Buffer<double> memory = std::move(stars.radius);
+  RawBuffer<double> memory = std::move(stars.radius);
   BuildFigures figures{.triangles = stars.triangles()};
   const auto stars_and_cover =
       std::allocate_shared<StarUnion>(WorkspaceAllocator<StarUnion>(), std::move(stars), std::move(cloud),

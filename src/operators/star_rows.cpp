@@ -98,12 +98,12 @@ class StarAssembler {
   }
 
   /// A third of each face's area to each corner (Section 3.3), by rank. Finds the cotangents for weighFaces() too.
-  Buffer<double> lumpAreas(Report& report) {
-    const Buffer<double> face_area = toCotans(side_cotan_, workers_);
-    Buffer<double> mass(static_cast<std::size_t>(stars_.size()));
+  RawBuffer<double> lumpAreas(Report& report) {
+    const RawBuffer<double> face_area = toCotans(side_cotan_, workers_);
+    RawBuffer<double> mass(static_cast<std::size_t>(stars_.size()));
     workers_.forBlocks("assemble", stars_.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
       for (int p = static_cast<int>(begin); p < end; ++p)
-        if (mixed_[p] == 0) mass[p] = 2 * scale_ * metric_.area[p];  // 2 sheets, 3 stars, a third
+        mass[p] = mixed_[p] == 0 ? 2 * scale_ * metric_.area[p] : 0;  // 2 sheets, 3 stars, a third
     });
     const auto add = [&](int p, double share) {
       if (mixed_[p] != 0) mass[p] += share;
@@ -220,7 +220,7 @@ void assembleStars(const GluedStars& glued, Buffer<double> side_length, const Bu
   const int n = glued.stars.size();
   StarAssembler assembler(glued, std::move(side_length), scale, workers);
   assembler.setMixed();
-  const Buffer<double> mass = assembler.lumpAreas(report);
+  const RawBuffer<double> mass = assembler.lumpAreas(report);
   assembler.weighFaces();
 
   // Columns of L in the caller's numbering: their sizes, then what is in them.
