@@ -9,22 +9,6 @@ namespace {
 
 constexpr std::int64_t block_size = 8192;
 
-/// The neighbours of link vertex i of star p in the link, if there is a triangle towards both.
-struct Sides {
-  int left = -1, right = -1;
-
-  Sides(const Stars& stars, int p, int i) {
-    const int previous = before(stars, p, i);
-    if (stars.hasTriangle(previous)) left = stars.link[previous];
-    if (stars.hasTriangle(i)) right = stars.link[stars.after(p, i)];
-  }
-  bool areWhole() const { return left >= 0 && right >= 0; }
-  /// Either way round: the sign of normals is arbitrary.
-  bool areThoseOf(const Sides& other) const {
-    return (left == other.left && right == other.right) || (left == other.right && right == other.left);
-  }
-};
-
 /// Whether the stars of p and of link vertex i have the same two triangles at their edge.
 bool agreeOn(const Stars& stars, int p, int i) {
   const Sides here(stars, p, i);

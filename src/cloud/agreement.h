@@ -28,4 +28,21 @@ inline int before(const Stars& stars, int p, int i) {
   return i == stars.offset[p] ? stars.offset[p + 1] - 1 : i - 1;
 }
 
+/// The neighbours of link vertex i of star p in the link, if there is a triangle towards both.
+struct Sides {
+  int left = -1, right = -1;
+
+  Sides(const Stars& stars, int p, int i) {
+    const int previous = before(stars, p, i);
+    if (stars.hasTriangle(previous)) left = stars.link[previous];
+    if (stars.hasTriangle(i)) right = stars.link[stars.after(p, i)];
+  }
+  bool has(int q) const { return q == left || q == right; }
+  bool areWhole() const { return left >= 0 && right >= 0; }
+  /// Either way round: the sign of normals is arbitrary.
+  bool areThoseOf(const Sides& other) const {
+    return (left == other.left && right == other.right) || (left == other.right && right == other.left);
+  }
+};
+
 }  // namespace tufted

@@ -9,6 +9,7 @@
 
 #include "base/buffer.h"
 #include "base/point_buffer.h"
+#include "cloud/agreement.h"
 
 namespace tufted {
 namespace {
@@ -30,6 +31,20 @@ bool contains(const Stars& stars, int a, int b, int c) {
 int otherVotes(const Stars& stars, int p, int i) {
   const int a = stars.link[i], b = stars.link[stars.after(p, i)];
   return (contains(stars, a, b, p) ? 1 : 0) + (contains(stars, b, p, a) ? 1 : 0);
+}
+
+/// The same for every triangle of star p, with one look at the star of each link vertex.
+/// @param[out] votes one per link entry
+void countOtherVotes(const Stars& stars, int p, Buffer<int>& votes) {
+  const int first = stars.offset[p], last = stars.offset[p + 1];
+  votes.assign(static_cast<std::size_t>(last - first), 0);
+  for (int i = first; i < last; ++i) {
+    const int q = stars.link[i], j = entryOf(stars, q, p), previous = before(stars, p, i);
+    if (j < 0) continue;
+    const Sides there(stars, q, j);
+    if (there.has(stars.link[stars.after(p, i)])) ++votes[i - first];
+    if (there.has(stars.link[previous])) ++votes[previous - first];
+  }
 }
 
 /// Circumradius in space; infinite for a triangle without area.
@@ -105,9 +120,16 @@ void countVotes(const Stars& stars, const Buffer<std::uint8_t>& disagrees, const
   std::array<std::atomic<std::int64_t>, 3> copies = {};
   workers.forBlocks("votes", stars.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
     std::array<std::int64_t, 3> found = {};
+    Buffer<int> others;
     for (int p = static_cast<int>(begin); p < end; ++p) {
-      for (int i = stars.offset[p]; i < stars.offset[p + 1]; ++i)
-        if (stars.hasTriangle(i)) ++found[disagrees[p] != 0 ? otherVotes(stars, p, i) : 2];
+      const int first = stars.offset[p], last = stars.offset[p + 1];
+      if (disagrees[p] == 0) {
+        found[2] += last - first;
+        continue;
+      }
+      countOtherVotes(stars, p, others);
+      for (int i = first; i < last; ++i)
+        if (stars.hasTriangle(i)) ++found[others[i - first]];
     }
     for (int v = 0; v < 3; ++v) copies[v] += found[v];
   });
