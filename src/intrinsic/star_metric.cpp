@@ -6,62 +6,17 @@
 #include <utility>
 
 #include "base/buffer.h"
-#include "cloud/kernels.h"
+#include "intrinsic/fan_buffer.h"
 
 namespace tufted {
 namespace {
 
 constexpr std::int64_t block_size = 8192;
-constexpr int batch = 128;  // triangles that are measured together, from the first-level cache
 
 /// Sums over one block of stars, so that they have the same bits for any number of threads.
 struct BlockSums {
   double length = 0, square = 0, least_slack = std::numeric_limits<double>::infinity();
   std::int64_t triangles = 0;
-};
-
-/// The arrays of Fans.
-class FanBuffer {
- public:
-  void clear() { fans_.count = 0; }
-  int count() const { return fans_.count; }
-  const Fans& fans() const { return fans_; }
-
-  /// The triangles of star p, then the first spoke once more, which begins a triangle that nobody reads.
-  void add(const Stars& stars, const EdgeLengths& length, int p) {
-    const int begin = stars.offset[p], end = stars.offset[p + 1];
-    if (begin == end) return;
-    reserve(fans_.count + end - begin + 1);
-    int at = fans_.count;
-    const auto put = [this, &at](const std::array<double, 3>& spoke, const std::array<double, 3>& rim) {
-      for (int c = 0; c < 3; ++c) {
-        given_[c][at] = spoke[c];
-        given_[3 + c][at] = rim[c];
-      }
-      ++at;
-    };
-    const std::array<double, 3> first = length.offset(stars.link[begin], p);
-    for (int i = begin; i < end; ++i) {
-      const int q = stars.link[i], next = stars.link[stars.after(p, i)];
-      put(length.offset(q, p), length.offset(next, q));
-    }
-    put(first, {});
-    fans_.count = at;
-  }
-
- private:
-  void reserve(int count) {
-    const auto room = static_cast<std::size_t>(toLanes(count) + kernel_lane);
-    if (given_[0].size() >= room) return;
-    for (auto& values : given_) values.resize(2 * room);
-    for (auto& values : found_) values.resize(2 * room);
-    fans_ = {fans_.count,      given_[0].data(), given_[1].data(), given_[2].data(), given_[3].data(),
-             given_[4].data(), given_[5].data(), found_[0].data(), found_[1].data(), found_[2].data(),
-             found_[3].data(), found_[4].data(), found_[5].data()};
-  }
-
-  std::array<Buffer<double>, 6> given_, found_;
-  Fans fans_{};
 };
 
 class StarMeasurer {
@@ -70,18 +25,7 @@ class StarMeasurer {
       : stars_(stars), length_(length), metric_(metric) {}
 
   void measure(int begin, int end, FanBuffer& buffer, BlockSums& sums) const {
-    for (int p = begin; p < end;) {
-      const int first = p;
-      buffer.clear();
-      for (; p < end && buffer.count() < batch; ++p) buffer.add(stars_, length_, p);
-      if (buffer.count() > 0) kernels_.measureFans(buffer.fans(), length_.added);
-      int at = 0;
-      for (int q = first; q < p; ++q) {
-        take(q, buffer.fans(), at, sums);
-        const int spokes = stars_.offset[q + 1] - stars_.offset[q];
-        at += spokes > 0 ? spokes + 1 : 0;
-      }
-    }
+    forEachFan(stars_, length_, begin, end, buffer, [&](int p, const Fans& fans, int at) { take(p, fans, at, sums); });
   }
 
  private:
@@ -114,7 +58,6 @@ class StarMeasurer {
 
   const Stars& stars_;
   const EdgeLengths& length_;
-  const Kernels& kernels_ = kernels();
   StarMetric& metric_;
 };
 
