@@ -15,6 +15,7 @@ namespace {
 constexpr int most_growth = 8;      // a neighbourhood grows to at most 8 k
 constexpr double crowd = 0.4;       // of the neighbours within half the radius; on an even surface it is a quarter
 constexpr double sheet_gap = 0.25;  // of the reach, between the heights of two sheets
+constexpr std::array<double, few_neighbors.size()> flatter = {0.1, 0.5};  // than all, planes of few
 constexpr int most_splits = 3;
 constexpr std::size_t least_sheet = 3, least_plane = 9;  // points, p included
 constexpr double flat_sheet = 0.1, flat_few = 0.05;      // of the second variance; found by many, by two neighbours
@@ -91,6 +92,16 @@ void NeighborhoodFinder::fitPlanes(int first, std::span<Neighborhood> hoods, std
   for (int i = 0; i < count; ++i) covariances[i] = covarianceOf(points_, first + i, hoods[i].neighbors, offsets[i]);
   principalAxes(std::span(covariances).first(hoods.size()), axes);
   for (int i = 0; i < count; ++i) hoods[i].axes = axes[i];
+  if (!splitsSheets()) return;
+  for (std::size_t j = 0; j < few_neighbors.size(); ++j) {
+    for (int i = 0; i < count; ++i) {
+      const std::span<const Neighbor> all = hoods[i].neighbors;
+      Offsets of_few;
+      covariances[i] = covarianceOf(points_, first + i, all.first(std::min(all.size(), few_neighbors[j])), of_few);
+    }
+    principalAxes(std::span(covariances).first(hoods.size()), axes);
+    for (int i = 0; i < count; ++i) hoods[i].axes_of_few[j] = axes[i];
+  }
 }
 
 void NeighborhoodFinder::refine(int p, Neighborhood& hood, SheetScratch& scratch) const {
@@ -138,12 +149,10 @@ void NeighborhoodFinder::splitSheets(int p, Neighborhood& hood, SheetScratch& sc
   if (hood.neighbors.empty()) return;
   const PrincipalAxes before = hood.axes;
   scratch.all.clear();
-  // Between two sheets the plane of all neighbours stands across them; that of the nearest few does not.
-  for (const std::size_t few : {8, 13}) {
-    if (hood.neighbors.size() <= few) break;
-    const PrincipalAxes axes = principalAxes(points_, p, std::span(hood.neighbors).first(few));
-    const double share = few == 8 ? 0.1 : 0.5;
-    if (!(flatness(axes) < share * flatness(before) && axes.variance[0] < 0.05 * axes.variance[1])) continue;
+  for (std::size_t j = 0; j < few_neighbors.size(); ++j) {
+    if (hood.neighbors.size() <= few_neighbors[j]) break;
+    const PrincipalAxes& axes = hood.axes_of_few[j];
+    if (!(flatness(axes) < flatter[j] * flatness(before) && axes.variance[0] < 0.05 * axes.variance[1])) continue;
     if (!keepSheet(p, axes.normal, hood, scratch)) continue;
     hood.axes = principalAxes(points_, p, hood.neighbors);
     break;

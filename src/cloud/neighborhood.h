@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <span>
 
 #include "base/buffer.h"
@@ -11,18 +12,22 @@
 
 namespace tufted {
 
+/// Between two sheets the plane of all neighbours stands across them; that of the nearest few does not.
+constexpr std::array<std::size_t, 2> few_neighbors = {8, 13};
+
 /// The neighbours of one point and the plane through them.
 struct Neighborhood {
   Buffer<Neighbor> neighbors;  ///< ascending; those of other sheets left out
   PrincipalAxes axes;
-  std::int64_t cut = 0;   ///< left out because the surface jumps in between
-  int k = 0;              ///< neighbours asked for
-  double radius = 0;      ///< distance to the last of them
-  double reach = 0;       ///< the radius that the plane was fitted in, S(p)
-  bool grown = false;     ///< the plane was fitted to more than the caller's k
-  bool split = false;     ///< neighbours of another sheet were left out
-  bool restored = false;  ///< there were some, but without them there is no plane
-  bool isolated = false;  ///< next to all neighbours belong to other sheets
+  std::array<PrincipalAxes, few_neighbors.size()> axes_of_few;  ///< of the first few, where there are more of them
+  std::int64_t cut = 0;                                         ///< left out because the surface jumps in between
+  int k = 0;                                                    ///< neighbours asked for
+  double radius = 0;                                            ///< distance to the last of them
+  double reach = 0;                                             ///< the radius that the plane was fitted in, S(p)
+  bool grown = false;                                           ///< the plane was fitted to more than the caller's k
+  bool split = false;                                           ///< neighbours of another sheet were left out
+  bool restored = false;                                        ///< there were some, but without them there is no plane
+  bool isolated = false;                                        ///< next to all neighbours belong to other sheets
 };
 
 /// Memory that one worker reuses from point to point.
@@ -44,7 +49,8 @@ class NeighborhoodFinder {
   void find(int first, int count, GroupScratch& scratch, Buffer<Neighbor>& found, Neighborhood* hoods) const;
 
   static constexpr int most_planes = 16;
-  /// Fits planes to at most most_planes neighbourhoods of points from `first` on.
+  /// Fits planes to at most most_planes neighbourhoods of points from `first` on, and to the first few of each where
+  /// sheets are split.
   /// @param[out] offsets of the neighbours of each, if they are at most Offsets::most; until refine() has them grow or
   /// splits them
   void fitPlanes(int first, std::span<Neighborhood> hoods, std::span<Offsets> offsets) const;
