@@ -4,6 +4,7 @@
 #include <span>
 
 #include "base/point_buffer.h"
+#include "cloud/kernels.h"
 #include "cloud/neighbors.h"
 #include "tufted/types.h"
 
@@ -19,8 +20,9 @@ struct HeightFit {
 /// Least squares over {1, u, v, u^2, u v, v^2}.
 /// @param normal unit length
 /// @param reach radius of the neighbourhood, which is the unit of the fit
+/// @param taken the offsets of just these neighbours, or null
 HeightFit fitHeights(const PointsView& points, int p, std::span<const Neighbor> neighbors,
-                     const Eigen::Vector3d& normal, double reach);
+                     const Eigen::Vector3d& normal, double reach, const Offsets* taken = nullptr);
 
 /// Whether a neighbourhood is noise around a surface rather than curved: the residuals of the fit are more than a fifth
 /// of the smallest variance. An exact plane is not.

@@ -38,6 +38,11 @@ struct OffsetSums {
   }
 };
 
+/// Sums over neighbours with the coordinates u, v in a plane and the height h over it.
+struct HeightSums {
+  double u, v, uu, uv, vv, uuu, uuv, uvv, vvv, uuuu, uuuv, uuvv, uvvv, vvvv, h, hu, hv, huu, huv, hvv, hh;
+};
+
 /// Symmetric 3 x 3 matrices without negative eigenvalues, one per lane.
 struct Covariances {
   alignas(64) double xx[kernel_lane], xy[kernel_lane], xz[kernel_lane], yy[kernel_lane], yz[kernel_lane],
@@ -97,6 +102,8 @@ struct Kernels {
   double (*extent)(const Offsets& offsets);
   /// Adds those of the offsets times `unit`.
   void (*addSums)(const Offsets& offsets, double unit, OffsetSums& sums);
+  /// Adds those of the offsets along the axes of u, v and h, which are given one after the other.
+  void (*addHeights)(const Offsets& offsets, const double* axes, HeightSums& sums);
   /// Each as if it were alone.
   void (*findSmallest)(const Covariances& covariances, SmallestAxes& axes);
   /// The offsets times `unit` along the axes x and y.

@@ -80,6 +80,43 @@ void addSums(const Offsets& offsets, double unit, OffsetSums& total) {
   }
 }
 
+/// HeightSums in lanes, each in a register as far as there are any.
+struct HeightParts {
+  Part u, v, uu, uv, vv, uuu, uuv, uvv, vvv, uuuu, uuuv, uuvv, uvvv, vvvv, h, hu, hv, huu, huv, hvv, hh;
+};
+
+void addHeights(const Offsets& offsets, const double* axes, HeightSums& total) {
+  constexpr int numbers = sizeof(HeightSums) / sizeof(double);
+  alignas(64) double lanes[numbers * lane_size];
+  for (int part = 0; part < lane_size; part += part_size) {
+    const Part zero = allOfPart(0);
+    HeightParts sum = {zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero,
+                       zero, zero, zero, zero, zero, zero, zero, zero, zero, zero};
+    for (int i = part; i < offsets.count; i += lane_size) {
+      const Part x = loadPart(&offsets.x[i]), y = loadPart(&offsets.y[i]), z = loadPart(&offsets.z[i]);
+      const auto along = [&](const double* axis) {
+        return x * allOfPart(axis[0]) + y * allOfPart(axis[1]) + z * allOfPart(axis[2]);
+      };
+      const Part u = along(axes), v = along(axes + 3), h = along(axes + 6);
+      const Part uu = u * u, uv = u * v, vv = v * v;
+      sum = {sum.u + u,          sum.v + v,          sum.uu + uu,        sum.uv + uv,        sum.vv + vv,
+             sum.uuu + uu * u,   sum.uuv + uu * v,   sum.uvv + u * vv,   sum.vvv + vv * v,   sum.uuuu + uu * uu,
+             sum.uuuv + uu * uv, sum.uuvv + uu * vv, sum.uvvv + uv * vv, sum.vvvv + vv * vv, sum.h + h,
+             sum.hu + h * u,     sum.hv + h * v,     sum.huu + h * uu,   sum.huv + h * uv,   sum.hvv + h * vv,
+             sum.hh + h * h};
+    }
+    double* to = lanes + part;
+    const auto put = [&to](const auto&... number) { (..., (store(number, to), to += lane_size)); };
+    put(sum.u, sum.v, sum.uu, sum.uv, sum.vv, sum.uuu, sum.uuv, sum.uvv, sum.vvv, sum.uuuu, sum.uuuv, sum.uuvv,
+        sum.uvvv, sum.vvvv, sum.h, sum.hu, sum.hv, sum.huu, sum.huv, sum.hvv, sum.hh);
+  }
+  double* const to = &total.u;
+  for (int n = 0; n < numbers; ++n) {
+    const double* s = &lanes[n * lane_size];
+    to[n] += ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
+  }
+}
+
 constexpr double least_gap = 1e-3;  // between the two smallest eigenvalues over the largest, for the closed form
 constexpr int most_steps = 8;
 
@@ -174,7 +211,7 @@ void measureFans(const Fans& given, double added) {
 }  // namespace
 
 extern const Kernels TUFTED_KERNELS;
-const Kernels TUFTED_KERNELS = {takeWithin,   rankValues, extent,      addSums,
+const Kernels TUFTED_KERNELS = {takeWithin,   rankValues, extent,      addSums,          addHeights,
                                 findSmallest, project,    measureFans, wrapInvertedLanes};
 
 }  // namespace tufted

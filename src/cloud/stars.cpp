@@ -70,7 +70,8 @@ class StarBuilder {
     for (int group = 0; group < count; group += group_size) {
       const int group_end = std::min(count, group + group_size);
       finder_.fitPlanes(first + group, {state.hoods.data() + group, state.hoods.data() + group_end}, state.offsets);
-      for (int i = group; i < group_end; ++i) takeFrame(first + i, state.hoods[i], state, block);
+      for (int i = group; i < group_end; ++i)
+        takeFrame(first + i, state.hoods[i], state.offsets[i - group], state, block);
       state.seconds[1] += watch.restart();
       for (int i = group; i < group_end; ++i)
         wrapStar(first + i, state.hoods[i], state.offsets[i - group], state, block);
@@ -89,7 +90,12 @@ class StarBuilder {
 #endif
   }
 
-  void takeFrame(int p, Neighborhood& hood, WorkerState& state, BlockOfStars& block) const {
+  /// Whether the offsets that were taken first are those of the neighbourhood.
+  static bool isAsFound(const Neighborhood& hood) {
+    return !hood.grown && !hood.split && hood.neighbors.size() <= Offsets::most;
+  }
+
+  void takeFrame(int p, Neighborhood& hood, const Offsets& offsets, WorkerState& state, BlockOfStars& block) const {
     finder_.refine(p, hood, state.sheets);
     state.grown_neighborhoods += hood.grown ? 1 : 0;
     state.split_neighborhoods += hood.split ? 1 : 0;
@@ -99,12 +105,12 @@ class StarBuilder {
     stars_.reach[p] = hood.reach;
     stars_.isolated[p] = hood.isolated ? 1 : 0;
     stars_.flat[p] = hood.axes.variance[0] < flat_share * hood.axes.variance[1] ? 1 : 0;
-    if (options_.steps.lengths == Lengths::denoised) findSurface(p, hood, block);
+    if (options_.steps.lengths == Lengths::denoised) findSurface(p, hood, isAsFound(hood) ? &offsets : nullptr, block);
   }
 
   /// Moves p onto the surface through its neighbours if they are noise around one, and keeps them for a second look.
-  void findSurface(int p, const Neighborhood& hood, BlockOfStars& block) const {
-    const HeightFit fit = fitHeights(cloud_.points, p, hood.neighbors, hood.axes.normal, hood.reach);
+  void findSurface(int p, const Neighborhood& hood, const Offsets* taken, BlockOfStars& block) const {
+    const HeightFit fit = fitHeights(cloud_.points, p, hood.neighbors, hood.axes.normal, hood.reach, taken);
     const double variance = hood.axes.variance[0] * hood.axes.extent * hood.axes.extent;
     if (!isNoisy(fit, variance, hood.reach)) return;
     stars_.move.row(p) = fit.height * hood.axes.normal.transpose();
@@ -144,8 +150,7 @@ class StarBuilder {
     int most = 2 * hood.k;
     if (thorough) most = hood.k >= finder_.mostNeighbors() ? hood.k : std::max(2 * source_.k, most);
     int open_tries = thorough && !source_.isGraded() ? 2 : 0;  // graded neighbours reach past the star as it is
-    const bool is_first = !hood.grown && !hood.split && hood.neighbors.size() <= Offsets::most;
-    project(p, hood, unit, is_first ? &offsets : nullptr, state);
+    project(p, hood, unit, isAsFound(hood) ? &offsets : nullptr, state);
     for (;;) {
       if (star.closed) {
         if (2 * star.largestCircumradius() <= hood.radius * unit || !finder_.grow(p, most, hood, state.sheets)) return;

@@ -38,21 +38,17 @@ Covariance covarianceOf(const PointsView& points, int p, std::span<const Neighbo
   const Kernels& kernel = kernels();
   const bool is_one_part = neighbors.size() <= Offsets::most;
   if (is_one_part) takeOffsets(points, p, neighbors, offsets);
-  const auto forEachPart = [&](const auto& visit) {
+  const auto forAll = [&](const auto& visit) {
     if (is_one_part) return visit();
-    for (std::size_t first = 0; first < neighbors.size(); first += Offsets::most) {
-      const std::size_t count = std::min<std::size_t>(Offsets::most, neighbors.size() - first);
-      takeOffsets(points, p, neighbors.subspan(first, count), offsets);
-      visit();
-    }
+    forEachPart(points, p, neighbors, offsets, visit);
   };
   // The extent as a power of two keeps squares in range at any scale, exactly.
   double extent = 0;
-  forEachPart([&] { extent = std::max(extent, kernel.extent(offsets)); });
+  forAll([&] { extent = std::max(extent, kernel.extent(offsets)); });
   if (extent == 0) return {};
   const double power = magnitudeOf(extent), unit = 1 / power;
   OffsetSums sums;
-  forEachPart([&] { kernel.addSums(offsets, unit, sums); });
+  forAll([&] { kernel.addSums(offsets, unit, sums); });
 
   const double share = 1 / static_cast<double>(neighbors.size() + 1);  // p adds nothing but itself
   const double x = sums.sum(0) * share, y = sums.sum(1) * share, z = sums.sum(2) * share;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <algorithm>
 #include <span>
 
 #include "base/point_buffer.h"
@@ -19,6 +20,16 @@ struct PrincipalAxes {
 
 /// Positions relative to p of at most Offsets::most points.
 void takeOffsets(const PointsView& points, int p, std::span<const Neighbor> neighbors, Offsets& offsets);
+
+/// Calls visit() for the neighbours of p, as many at a time as `offsets` holds.
+template <class Visit>
+void forEachPart(const PointsView& points, int p, std::span<const Neighbor> neighbors, Offsets& offsets,
+                 const Visit& visit) {
+  for (; !neighbors.empty(); neighbors = neighbors.subspan(offsets.count)) {
+    takeOffsets(points, p, neighbors.first(std::min<std::size_t>(Offsets::most, neighbors.size())), offsets);
+    visit();
+  }
+}
 
 /// Covariance of p and its neighbours about their centroid, from coordinates relative to p, so that the distance from
 /// the origin does not matter.

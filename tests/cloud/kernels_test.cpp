@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <span>
@@ -29,6 +30,12 @@ TEST(Kernels, HaveTheSameBitsOnAnyProcessor) {
     kernels().addSums(offsets, 0.25, sums);
     portableKernels().addSums(offsets, 0.25, portable_sums);
     for (int i = 0; i < 9; ++i) EXPECT_EQ(sums.sum(i), portable_sums.sum(i));
+    const Eigen::Matrix3d axes{{0.6, -0.8, 0.1}, {0.8, 0.6, 0.3}, {0.1, 0.2, -0.7}};
+    HeightSums heights{}, portable_heights{};
+    kernels().addHeights(offsets, axes.data(), heights);
+    portableKernels().addHeights(offsets, axes.data(), portable_heights);
+    constexpr auto numbers = sizeof(HeightSums) / sizeof(double);
+    EXPECT_TRUE(std::equal(&heights.u, &heights.u + numbers, &portable_heights.u));
     const Eigen::Vector3d x(0.6, 0.8, 0.1), y(-0.8, 0.6, 0.2);
     PlanarOffsets planar, portable;
     kernels().project(offsets, 0.25, x.data(), y.data(), planar);
