@@ -55,8 +55,7 @@ class UninitializedAllocator : public WorkspaceAllocator<T> {
 
   UninitializedAllocator() = default;
   template <class U>
-  UninitializedAllocator(const UninitializedAllocator<U>&) {
-  }  // NOLINT(google-explicit-constructor): allocators convert
+  UninitializedAllocator(const UninitializedAllocator<U>&) {}  // NOLINT: allocators convert
 
   template <class U, class... Arguments>
   void construct(U* place, Arguments&&... arguments) {
