@@ -32,6 +32,22 @@ bool isSheet(const Neighborhood& hood, const PrincipalAxes& before, double flat)
          flatness(hood.axes) < 0.25 * flatness(before);
 }
 
+/// How far one comes from 0, in the direction of `sign`, over gaps of at most `gap` between the heights, the farthest
+/// of which lies at `end`. Each round goes as far as one gap reaches, and two go farther than that: there are few.
+double farthestReached(const Buffer<double>& heights, double sign, double gap, double end) {
+  double reached = 0;
+  while (end - reached > gap) {
+    double next = reached;
+    for (const double height : heights) {
+      const double ahead = sign * height;
+      next = ahead - reached <= gap && ahead > next ? ahead : next;
+    }
+    if (next == reached) return reached;
+    reached = next;
+  }
+  return end;
+}
+
 }  // namespace
 
 bool NeighborhoodFinder::splitsSheets() const {
@@ -123,20 +139,20 @@ bool NeighborhoodFinder::keepSheet(int p, const Eigen::Vector3d& normal, Neighbo
                                    SheetScratch& scratch) const {
   if (hood.neighbors.empty()) return false;
   const double gap = sheet_gap * hood.reach;
-  scratch.heights.clear();
-  for (const Neighbor& q : hood.neighbors)
-    scratch.heights.push_back((points_.row(q.index) - points_.row(p)).dot(normal.transpose()));
-  // Heights within one gap of p are all reached from it.
-  const auto isNear = [gap](double height) { return std::abs(height) <= gap; };
-  if (std::all_of(scratch.heights.begin(), scratch.heights.end(), isNear)) return false;
-  scratch.sorted = scratch.heights;
-  std::sort(scratch.sorted.begin(), scratch.sorted.end());
-  const auto above = std::lower_bound(scratch.sorted.begin(), scratch.sorted.end(), 0.0);
-  double highest = 0, lowest = 0;
-  for (auto height = above; height != scratch.sorted.end() && *height - highest <= gap; ++height) highest = *height;
-  for (auto height = above; height != scratch.sorted.begin() && lowest - *(height - 1) <= gap; --height)
-    lowest = *(height - 1);
-  if (lowest <= scratch.sorted.front() && highest >= scratch.sorted.back()) return false;
+  const double* const origin = points_.row(p).data();
+  scratch.heights.resize(hood.neighbors.size());
+  double top = 0, bottom = 0;
+  for (std::size_t i = 0; i < hood.neighbors.size(); ++i) {
+    const double* const q = points_.row(hood.neighbors[i].index).data();
+    const double height =
+        (q[0] - origin[0]) * normal[0] + ((q[1] - origin[1]) * normal[1] + (q[2] - origin[2]) * normal[2]);
+    scratch.heights[i] = height;
+    top = std::max(top, height);
+    bottom = std::min(bottom, height);
+  }
+  const double highest = farthestReached(scratch.heights, 1, gap, top);
+  const double lowest = -farthestReached(scratch.heights, -1, gap, -bottom);
+  if (lowest <= bottom && highest >= top) return false;
   if (scratch.all.empty()) scratch.all = hood.neighbors;
   std::size_t kept = 0;
   for (std::size_t i = 0; i < hood.neighbors.size(); ++i)

@@ -32,7 +32,7 @@ struct Neighborhood {
 
 /// Memory that one worker reuses from point to point.
 struct SheetScratch {
-  Buffer<double> heights, sorted;
+  Buffer<double> heights;
   Buffer<Neighbor> all;  ///< before any were left out; empty while none were
   Neighborhood tried;
   SearchBefore before;
