@@ -43,6 +43,19 @@ struct HeightSums {
   double u, v, uu, uv, vv, uuu, uuv, uvv, vvv, uuuu, uuuv, uuvv, uvvv, vvvv, h, hu, hv, huu, huv, hvv, hh;
 };
 
+/// Positions relative to a point, filled up to whole lanes with zeros, and room for the heights of each. Borrowed.
+struct Reliefs {
+  int count;
+  const double *x, *y, *z;
+  double* height;
+};
+
+/// Heights that are reached from 0 over gaps of a bounded size, and the extremes of all.
+struct Reached {
+  double lowest, highest;
+  double bottom, top;
+};
+
 /// Symmetric 3 x 3 matrices without negative eigenvalues, one per lane.
 struct Covariances {
   alignas(64) double xx[kernel_lane], xy[kernel_lane], xz[kernel_lane], yy[kernel_lane], yz[kernel_lane],
@@ -104,6 +117,8 @@ struct Kernels {
   void (*addSums)(const Offsets& offsets, double unit, OffsetSums& sums);
   /// Adds those of the offsets along the axes of u, v and h, which are given one after the other.
   void (*addHeights)(const Offsets& offsets, const double* axes, HeightSums& sums);
+  /// Heights along `normal`, and which of them are reached over gaps of at most `gap`.
+  Reached (*reachHeights)(const Reliefs& points, const double* normal, double gap);
   /// Each as if it were alone.
   void (*findSmallest)(const Covariances& covariances, SmallestAxes& axes);
   /// The offsets times `unit` along the axes x and y.

@@ -117,6 +117,39 @@ void addHeights(const Offsets& offsets, const double* axes, HeightSums& total) {
   }
 }
 
+/// How far one comes from 0, in the direction of `sign`, over gaps of at most `gap` between the heights, the farthest
+/// of which lies at `end`. Each round goes as far as one gap reaches, and two go farther than that: there are few.
+double farthestReached(const Reliefs& points, double sign, double gap, double end) {
+  double reached = 0;
+  while (end - reached > gap) {
+    Lane next = all(reached);
+    for (int i = 0; i < points.count; i += lane_size) {
+      const Lane ahead = all(sign) * load(points.height + i);
+      next = select(both(isAtMost(ahead - all(reached), all(gap)), isLess(next, ahead)), ahead, next);
+    }
+    const double farthest = most(next);
+    if (farthest == reached) return reached;
+    reached = farthest;
+  }
+  return end;
+}
+
+Reached reachHeights(const Reliefs& given, const double* normal, double gap) {
+  const Reliefs points = given;  // a copy, which what is written below cannot change
+  const Lane x = all(normal[0]), y = all(normal[1]), z = all(normal[2]);
+  Lane top = all(0), bottom = all(0);
+  for (int i = 0; i < points.count; i += lane_size) {
+    const Lane height = load(points.x + i) * x + (load(points.y + i) * y + load(points.z + i) * z);
+    store(height, points.height + i);
+    top = most(top, height);
+    bottom = least(bottom, height);
+  }
+  Reached reached{0, 0, least(bottom), most(top)};
+  reached.highest = farthestReached(points, 1, gap, reached.top);
+  reached.lowest = -farthestReached(points, -1, gap, -reached.bottom);
+  return reached;
+}
+
 constexpr double least_gap = 1e-3;  // between the two smallest eigenvalues over the largest, for the closed form
 constexpr int most_steps = 8;
 
@@ -211,7 +244,7 @@ void measureFans(const Fans& given, double added) {
 }  // namespace
 
 extern const Kernels TUFTED_KERNELS;
-const Kernels TUFTED_KERNELS = {takeWithin,   rankValues, extent,      addSums,          addHeights,
-                                findSmallest, project,    measureFans, wrapInvertedLanes};
+const Kernels TUFTED_KERNELS = {takeWithin,   rankValues,   extent,  addSums,     addHeights,
+                                reachHeights, findSmallest, project, measureFans, wrapInvertedLanes};
 
 }  // namespace tufted

@@ -32,22 +32,6 @@ bool isSheet(const Neighborhood& hood, const PrincipalAxes& before, double flat)
          flatness(hood.axes) < 0.25 * flatness(before);
 }
 
-/// How far one comes from 0, in the direction of `sign`, over gaps of at most `gap` between the heights, the farthest
-/// of which lies at `end`. Each round goes as far as one gap reaches, and two go farther than that: there are few.
-double farthestReached(const Buffer<double>& heights, double sign, double gap, double end) {
-  double reached = 0;
-  while (end - reached > gap) {
-    double next = reached;
-    for (const double height : heights) {
-      const double ahead = sign * height;
-      next = ahead - reached <= gap && ahead > next ? ahead : next;
-    }
-    if (next == reached) return reached;
-    reached = next;
-  }
-  return end;
-}
-
 }  // namespace
 
 bool NeighborhoodFinder::splitsSheets() const {
@@ -135,23 +119,31 @@ bool NeighborhoodFinder::grow(int p, int most, Neighborhood& hood, SheetScratch&
   return true;
 }
 
+void SheetPositions::take(const PointsView& points, int p, std::span<const Neighbor> neighbors) {
+  const auto room = static_cast<std::size_t>(toLanes(static_cast<int>(neighbors.size())));
+  for (auto* axis : {&x, &y, &z}) axis->assign(room, 0);
+  const double* const origin = points.row(p).data();
+  for (std::size_t i = 0; i < neighbors.size(); ++i) {
+    const double* const q = points.row(neighbors[i].index).data();
+    x[i] = q[0] - origin[0];
+    y[i] = q[1] - origin[1];
+    z[i] = q[2] - origin[2];
+  }
+}
+
 bool NeighborhoodFinder::keepSheet(int p, const Eigen::Vector3d& normal, Neighborhood& hood,
                                    SheetScratch& scratch) const {
+  scratch.positions.take(points_, p, hood.neighbors);
+  return keepSheet(scratch.positions, normal, hood, scratch);
+}
+
+bool NeighborhoodFinder::keepSheet(const SheetPositions& positions, const Eigen::Vector3d& normal, Neighborhood& hood,
+                                   SheetScratch& scratch) const {
   if (hood.neighbors.empty()) return false;
-  const double gap = sheet_gap * hood.reach;
-  const double* const origin = points_.row(p).data();
-  scratch.heights.resize(hood.neighbors.size());
-  double top = 0, bottom = 0;
-  for (std::size_t i = 0; i < hood.neighbors.size(); ++i) {
-    const double* const q = points_.row(hood.neighbors[i].index).data();
-    const double height =
-        (q[0] - origin[0]) * normal[0] + ((q[1] - origin[1]) * normal[1] + (q[2] - origin[2]) * normal[2]);
-    scratch.heights[i] = height;
-    top = std::max(top, height);
-    bottom = std::min(bottom, height);
-  }
-  const double highest = farthestReached(scratch.heights, 1, gap, top);
-  const double lowest = -farthestReached(scratch.heights, -1, gap, -bottom);
+  scratch.heights.resize(positions.x.size());
+  const Reliefs reliefs{static_cast<int>(positions.x.size()), positions.x.data(), positions.y.data(),
+                        positions.z.data(), scratch.heights.data()};
+  const auto [lowest, highest, bottom, top] = kernels().reachHeights(reliefs, normal.data(), sheet_gap * hood.reach);
   if (lowest <= bottom && highest >= top) return false;
   if (scratch.all.empty()) scratch.all = hood.neighbors;
   std::size_t kept = 0;
@@ -165,16 +157,19 @@ void NeighborhoodFinder::splitSheets(int p, Neighborhood& hood, SheetScratch& sc
   if (hood.neighbors.empty()) return;
   const PrincipalAxes before = hood.axes;
   scratch.all.clear();
+  scratch.positions_of_all.take(points_, p, hood.neighbors);
   for (std::size_t j = 0; j < few_neighbors.size(); ++j) {
     if (hood.neighbors.size() <= few_neighbors[j]) break;
     const PrincipalAxes& axes = hood.axes_of_few[j];
     if (!(flatness(axes) < flatter[j] * flatness(before) && axes.variance[0] < 0.05 * axes.variance[1])) continue;
-    if (!keepSheet(p, axes.normal, hood, scratch)) continue;
+    if (!keepSheet(scratch.positions_of_all, axes.normal, hood, scratch)) continue;
     hood.axes = principalAxes(points_, p, hood.neighbors);
     break;
   }
   for (int i = 0; i < most_splits; ++i) {
-    if (!keepSheet(p, hood.axes.normal, hood, scratch)) break;
+    const bool is_cut = scratch.all.empty() ? keepSheet(scratch.positions_of_all, hood.axes.normal, hood, scratch)
+                                            : keepSheet(p, hood.axes.normal, hood, scratch);
+    if (!is_cut) break;
     hood.axes = principalAxes(points_, p, hood.neighbors);
   }
   if (scratch.all.empty()) {
@@ -202,7 +197,7 @@ bool NeighborhoodFinder::findSheet(int p, const PrincipalAxes& before, Neighborh
       const Eigen::Vector3d normal = u.cross(v);
       if (!(normal.norm() > least_sine * u.norm() * v.norm())) continue;
       tried.neighbors = scratch.all;
-      if (!keepSheet(p, normal.normalized(), tried, scratch)) continue;
+      if (!keepSheet(scratch.positions_of_all, normal.normalized(), tried, scratch)) continue;
       tried.axes = principalAxes(points_, p, tried.neighbors);
       if (keepSheet(p, tried.axes.normal, tried, scratch)) tried.axes = principalAxes(points_, p, tried.neighbors);
       if (!isSheet(tried, before, flat_few) || tried.neighbors.size() <= hood.neighbors.size()) continue;

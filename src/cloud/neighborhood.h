@@ -30,8 +30,16 @@ struct Neighborhood {
   bool isolated = false;                                        ///< next to all neighbours belong to other sheets
 };
 
+/// Neighbours relative to their point, filled up to whole lanes with zeros.
+struct SheetPositions {
+  Buffer<double> x, y, z;
+
+  void take(const PointsView& points, int p, std::span<const Neighbor> neighbors);
+};
+
 /// Memory that one worker reuses from point to point.
 struct SheetScratch {
+  SheetPositions positions, positions_of_all;
   Buffer<double> heights;
   Buffer<Neighbor> all;  ///< before any were left out; empty while none were
   Neighborhood tried;
@@ -75,6 +83,9 @@ class NeighborhoodFinder {
   /// Keeps the neighbours whose heights along `normal` are reached from p over gaps of at most a quarter of the reach.
   /// True if some were left out.
   bool keepSheet(int p, const Eigen::Vector3d& normal, Neighborhood& hood, SheetScratch& scratch) const;
+  /// @param positions of these neighbours
+  bool keepSheet(const SheetPositions& positions, const Eigen::Vector3d& normal, Neighborhood& hood,
+                 SheetScratch& scratch) const;
   void splitSheets(int p, Neighborhood& hood, SheetScratch& scratch) const;
   /// For where the planes of several neighbours stand across two sheets: the largest sheet along a plane through p and
   /// two of the nearest four. False, and the neighbourhood as it was before any were left out, if there is none.

@@ -80,6 +80,45 @@ TEST(Kernels, FindAxesOfEachMatrixAsIfItWereAlone) {
   }
 }
 
+/// By sorting: from 0 upwards, as long as the next height is at most `gap` away.
+double climb(std::vector<double> heights, double gap) {
+  std::sort(heights.begin(), heights.end());
+  double reached = 0;
+  for (const double height : heights)
+    if (height > reached && height - reached <= gap) reached = height;
+  return reached;
+}
+
+TEST(Kernels, ReachHeightsOverGapsThatAreNotTooWide) {
+  shapes::Random random(8);
+  const Eigen::Vector3d normal = Eigen::Vector3d(2, -1, 2) / 3;
+  int ends = 0;
+  for (int count = 0; count < 120; ++count) {
+    Points points(count, 3);
+    for (double& x : points.reshaped()) x = random.normal();
+    const int room = toLanes(count);
+    Buffer<double> x(room), y(room), z(room), height(room);
+    std::vector<double> up, down;
+    for (int i = 0; i < count; ++i) {
+      x[i] = points(i, 0), y[i] = points(i, 1), z[i] = points(i, 2);
+      up.push_back(x[i] * normal[0] + (y[i] * normal[1] + z[i] * normal[2]));
+      down.push_back(-up.back());
+    }
+    const double gap = 4.0 / (count + 1);
+    for (const Kernels* kernel : {&portableKernels(), &kernels()}) {
+      const Reached reached =
+          kernel->reachHeights({room, x.data(), y.data(), z.data(), height.data()}, normal.data(), gap);
+      EXPECT_EQ(reached.highest, climb(up, gap)) << count;
+      EXPECT_EQ(reached.lowest, -climb(down, gap)) << count;
+      EXPECT_EQ(reached.top, std::max(0.0, count > 0 ? *std::max_element(up.begin(), up.end()) : 0)) << count;
+      EXPECT_EQ(reached.bottom, -std::max(0.0, count > 0 ? *std::max_element(down.begin(), down.end()) : 0)) << count;
+      EXPECT_TRUE(std::equal(up.begin(), up.end(), height.begin()));
+      ends += reached.highest < reached.top && reached.lowest > reached.bottom ? 1 : 0;
+    }
+  }
+  EXPECT_GT(ends, 20);  // gaps on both sides
+}
+
 TEST(Kernels, MeasureTrianglesByTheFormulasOfGeometry) {
   constexpr int count = 37;
   constexpr double added = 0.25;
