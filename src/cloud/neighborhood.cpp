@@ -110,7 +110,13 @@ void NeighborhoodFinder::refine(int p, Neighborhood& hood, SheetScratch& scratch
     hood.grown = true;
   }
   hood.reach = hood.radius;
-  if (splitsSheets()) splitSheets(p, hood, scratch);
+  if (!splitsSheets()) return;
+  if (hood.grown) {  // a scan may know other ways to the nearest few by now
+    const std::span<const Neighbor> all = hood.neighbors;
+    for (std::size_t j = 0; j < few_neighbors.size(); ++j)
+      hood.axes_of_few[j] = principalAxes(points_, p, all.first(std::min(all.size(), few_neighbors[j])));
+  }
+  splitSheets(p, hood, scratch);
 }
 
 bool NeighborhoodFinder::grow(int p, int most, Neighborhood& hood, SheetScratch& scratch) const {
