@@ -32,6 +32,11 @@ bool isSheet(const Neighborhood& hood, const PrincipalAxes& before, double flat)
          flatness(hood.axes) < 0.25 * flatness(before);
 }
 
+/// The first few neighbours, or all where there are fewer.
+std::span<const Neighbor> nearestOf(const Neighborhood& hood, std::size_t few) {
+  return std::span(hood.neighbors).first(std::min(hood.neighbors.size(), few));
+}
+
 }  // namespace
 
 bool NeighborhoodFinder::splitsSheets() const {
@@ -95,9 +100,8 @@ void NeighborhoodFinder::fitPlanes(int first, std::span<Neighborhood> hoods, std
   if (!splitsSheets()) return;
   for (std::size_t j = 0; j < few_neighbors.size(); ++j) {
     for (int i = 0; i < count; ++i) {
-      const std::span<const Neighbor> all = hoods[i].neighbors;
       Offsets of_few;
-      covariances[i] = covarianceOf(points_, first + i, all.first(std::min(all.size(), few_neighbors[j])), of_few);
+      covariances[i] = covarianceOf(points_, first + i, nearestOf(hoods[i], few_neighbors[j]), of_few);
     }
     principalAxes(std::span(covariances).first(hoods.size()), axes);
     for (int i = 0; i < count; ++i) hoods[i].axes_of_few[j] = axes[i];
@@ -112,9 +116,8 @@ void NeighborhoodFinder::refine(int p, Neighborhood& hood, SheetScratch& scratch
   hood.reach = hood.radius;
   if (!splitsSheets()) return;
   if (hood.grown) {  // a scan may know other ways to the nearest few by now
-    const std::span<const Neighbor> all = hood.neighbors;
     for (std::size_t j = 0; j < few_neighbors.size(); ++j)
-      hood.axes_of_few[j] = principalAxes(points_, p, all.first(std::min(all.size(), few_neighbors[j])));
+      hood.axes_of_few[j] = principalAxes(points_, p, nearestOf(hood, few_neighbors[j]));
   }
   splitSheets(p, hood, scratch);
 }
