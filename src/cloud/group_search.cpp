@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "base/buffer.h"
 #include "base/point_buffer.h"
@@ -15,87 +16,41 @@ constexpr double widest_group = 2.5;  // diagonal of its box, in radii of a neig
 constexpr double likely = 1.08;       // times the squared radius of the point before: holds the k nearest most often
 constexpr double nowhere = std::numeric_limits<double>::infinity();
 
-class GroupSearch {
+/// The candidates of a group, from which its points take their neighbours.
+class GroupCandidates {
  public:
-  GroupSearch(const NeighborSearch& search, const PointsView& points, int k, const Kernels& kernels,
-              GroupScratch& scratch)
-      : search_(search), points_(points), k_(k), kernels_(kernels), scratch_(scratch) {}
+  GroupCandidates(const PointsView& points, const Kernels& kernels, GroupScratch& scratch)
+      : points_(points), kernels_(kernels), scratch_(scratch) {}
 
-  /// How many points from `first` on, of `count`, lie close enough together.
-  int groupAt(int first, int count, double radius) const {
-    Eigen::RowVector3d lowest = points_.row(first), highest = lowest;
-    int size = 1;
-    for (; size < std::min(count, most_group); ++size) {
-      lowest = lowest.cwiseMin(points_.row(first + size));
-      highest = highest.cwiseMax(points_.row(first + size));
-      if (size >= least_group && (highest - lowest).norm() > widest_group * radius) break;
-    }
-    return size;
-  }
-
-  void find(int first, int count, Neighbor* found) {
-    if (count == 1) {
-      search_.nearest(first, k_, scratch_.sorted);
-      std::copy(scratch_.sorted.begin(), scratch_.sorted.end(), found);
-    } else if (!gather(first, count)) {
-      find(first, count / 2, found);
-      find(first + count / 2, count - count / 2, rowOf(found, count / 2));
-    } else {
-      for (int i = 0; i < count; ++i) select(first, i, found);
-    }
-  }
-
-  Neighbor* rowOf(Neighbor* found, int i) const { return found + static_cast<std::ptrdiff_t>(i) * k_; }
-  double radiusOf(const Neighbor* row) const { return std::sqrt(row[k_ - 1].squared_distance); }
-
- private:
-  bool gather(int first, int count) {
-    Buffer<int>& candidate = scratch_.candidate;
-    if (!search_.candidates(first, count, k_, candidate, scratch_.bounds, center_, reach_)) return false;
-    const int size = static_cast<int>(candidate.size()), room = toLanes(size);
-    candidate.resize(room);
+  void gather(const SearchedGroup& group) {
+    const auto ranks = std::span<const int>(scratch_.known).subspan(group.begin, group.end - group.begin);
+    scratch_.gathered = group.first;
+    const int size = static_cast<int>(ranks.size()), room = toLanes(size);
+    scratch_.candidate.resize(room);
     for (auto* axis : {&scratch_.x, &scratch_.y, &scratch_.z}) axis->resize(room);
     for (int i = 0; i < size; ++i) {
-      const double* point = points_.row(candidate[i]).data();
+      const double* point = points_.row(ranks[i]).data();
+      scratch_.candidate[i] = ranks[i];
       scratch_.x[i] = point[0];
       scratch_.y[i] = point[1];
       scratch_.z[i] = point[2];
     }
     for (int i = size; i < room; ++i) scratch_.x[i] = scratch_.y[i] = scratch_.z[i] = nowhere;
-    candidates_ = {room, candidate.data(), scratch_.x.data(), scratch_.y.data(), scratch_.z.data()};
     scratch_.squared.resize(room + kernel_lane);
     scratch_.index.resize(room + kernel_lane);
-    return true;
-  }
-
-  /// The k nearest of point i of the group, whose earlier points are done.
-  void select(int first, int i, Neighbor* found) {
-    const int p = first + i;
-    // By the neighbours of the centre or, most often nearer, by those of the point before.
-    double bound = reach_ + (points_.row(p) - center_).norm(), guess = nowhere;
-    if (i > 0) {
-      const double before = radiusOf(rowOf(found, i - 1));
-      bound = std::min(bound, before + (points_.row(p) - points_.row(p - 1)).norm());
-      guess = likely * before * before;
-    }
-    bound = widened(bound * bound);
-    int count = guess < bound ? takeWithin(p, guess) : 0;
-    if (count < k_) count = takeWithin(p, bound);
-    if (count >= k_)
-      takeNearest(count, rowOf(found, i));
-    else
-      find(p, 1, rowOf(found, i));  // the squares of its distances underflow, and no bound on them holds
   }
 
   int takeWithin(int p, double bound) {
-    return kernels_.takeWithin(candidates_, points_.row(p).data(), p, bound, scratch_.squared.data(),
+    const Candidates candidates{static_cast<int>(scratch_.x.size()), scratch_.candidate.data(), scratch_.x.data(),
+                                scratch_.y.data(), scratch_.z.data()};
+    return kernels_.takeWithin(candidates, points_.row(p).data(), p, bound, scratch_.squared.data(),
                                scratch_.index.data());
   }
 
   /// The k least by (distance, index) of what was taken, in order, and anything behind them, where the next row will be
   /// or the end's spare room is. Where no two distances are one float, each goes to the place that says how many are
   /// less.
-  void takeNearest(int count, Neighbor* row) {
+  void takeNearest(int count, int k, Neighbor* row) {
     const int room = toLanes(count);
     std::fill(scratch_.squared.begin() + count, scratch_.squared.begin() + room, nowhere);
     scratch_.rounded.resize(room + 2 * kernel_lane);
@@ -117,17 +72,87 @@ class GroupSearch {
     for (int i = 1; i < count; ++i)
       for (int j = i; j > 0 && scratch_.sorted[j] < scratch_.sorted[j - 1]; --j)
         std::swap(scratch_.sorted[j], scratch_.sorted[j - 1]);
-    std::copy_n(scratch_.sorted.begin(), k_, row);
+    std::copy_n(scratch_.sorted.begin(), k, row);
+  }
+
+ private:
+  PointsView points_;
+  const Kernels& kernels_;
+  GroupScratch& scratch_;
+};
+
+class GroupSearch {
+ public:
+  GroupSearch(const NeighborSearch& search, const PointsView& points, int k, const Kernels& kernels,
+              GroupScratch& scratch)
+      : search_(search), points_(points), k_(k), candidates_(points, kernels, scratch), scratch_(scratch) {
+    scratch_.groups.clear();
+    scratch_.known.clear();
+  }
+
+  /// How many points from `first` on, of `count`, lie close enough together.
+  int groupAt(int first, int count, double radius) const {
+    Eigen::RowVector3d lowest = points_.row(first), highest = lowest;
+    int size = 1;
+    for (; size < std::min(count, most_group); ++size) {
+      lowest = lowest.cwiseMin(points_.row(first + size));
+      highest = highest.cwiseMax(points_.row(first + size));
+      if (size >= least_group && (highest - lowest).norm() > widest_group * radius) break;
+    }
+    return size;
+  }
+
+  void find(int first, int count, Neighbor* found) {
+    if (count == 1) {
+      search_.nearest(first, k_, scratch_.sorted);
+      std::copy(scratch_.sorted.begin(), scratch_.sorted.end(), found);
+    } else if (!gather(first, count)) {
+      find(first, count / 2, found);
+      find(first + count / 2, count - count / 2, rowOf(found, count / 2));
+    } else {
+      const SearchedBall ball = scratch_.groups.back().ball;
+      for (int i = 0; i < count; ++i) select(first, i, ball, found);
+    }
+  }
+
+  Neighbor* rowOf(Neighbor* found, int i) const { return found + static_cast<std::ptrdiff_t>(i) * k_; }
+  double radiusOf(const Neighbor* row) const { return std::sqrt(row[k_ - 1].squared_distance); }
+
+ private:
+  bool gather(int first, int count) {
+    SearchedGroup group{first, count, {}, scratch_.known.size(), 0};
+    if (!search_.candidates(first, count, k_, scratch_.candidate, scratch_.bounds, group.ball)) return false;
+    scratch_.known.insert(scratch_.known.end(), scratch_.candidate.begin(), scratch_.candidate.end());
+    group.end = scratch_.known.size();
+    scratch_.groups.push_back(group);
+    candidates_.gather(group);
+    return true;
+  }
+
+  /// The k nearest of point i of the group, whose earlier points are done.
+  void select(int first, int i, const SearchedBall& ball, Neighbor* found) {
+    const int p = first + i;
+    // By the neighbours of the centre or, most often nearer, by those of the point before.
+    double bound = ball.reach + (points_.row(p) - ball.center).norm(), guess = nowhere;
+    if (i > 0) {
+      const double before = radiusOf(rowOf(found, i - 1));
+      bound = std::min(bound, before + (points_.row(p) - points_.row(p - 1)).norm());
+      guess = likely * before * before;
+    }
+    bound = widened(bound * bound);
+    int count = guess < bound ? candidates_.takeWithin(p, guess) : 0;
+    if (count < k_) count = candidates_.takeWithin(p, bound);
+    if (count >= k_)
+      candidates_.takeNearest(count, k_, rowOf(found, i));
+    else
+      find(p, 1, rowOf(found, i));  // the squares of its distances underflow, and no bound on them holds
   }
 
   const NeighborSearch& search_;
   PointsView points_;
   const int k_;
-  const Kernels& kernels_;
+  GroupCandidates candidates_;
   GroupScratch& scratch_;
-  Candidates candidates_{};  ///< of the group
-  Eigen::RowVector3d center_;
-  double reach_ = 0;  ///< see NeighborSearch::candidates
 };
 
 }  // namespace
@@ -147,6 +172,26 @@ void nearestOfEach(const NeighborSearch& search, const PointsView& points, int f
     i += size;
   }
   found.resize(found.size() - NeighborSearch::most_candidates);
+}
+
+bool nearestOfKnown(const PointsView& points, int p, int k, double likely, const Kernels& kernels,
+                    GroupScratch& scratch, Buffer<Neighbor>& found) {
+  const auto after = std::partition_point(scratch.groups.begin(), scratch.groups.end(),
+                                          [p](const SearchedGroup& group) { return group.first <= p; });
+  if (after == scratch.groups.begin()) return false;
+  const SearchedGroup& group = *(after - 1);
+  const double room = group.ball.radius - (points.row(p) - group.ball.center).norm();
+  if (p >= group.first + group.count || !(room > 0)) return false;
+  GroupCandidates candidates(points, kernels, scratch);
+  if (scratch.gathered != group.first) candidates.gather(group);
+  const double bound = room * room * (1 - 1e-12);
+  int count = likely < bound ? candidates.takeWithin(p, likely) : 0;
+  if (count < k) count = candidates.takeWithin(p, bound);
+  if (count < k) return false;
+  found.resize(static_cast<std::size_t>(count));
+  candidates.takeNearest(count, k, found.data());
+  found.resize(static_cast<std::size_t>(k));
+  return true;
 }
 
 }  // namespace tufted

@@ -8,13 +8,23 @@
 
 namespace tufted {
 
-/// Memory that one worker reuses from group to group.
+/// Points whose neighbours were found together.
+struct SearchedGroup {
+  int first, count;
+  SearchedBall ball;
+  std::size_t begin, end;  ///< of its candidates in GroupScratch::known
+};
+
+/// Memory that one worker reuses from group to group, and the groups of its last call of nearestOfEach().
 struct GroupScratch {
-  Buffer<int> candidate;   ///< ranks of those of the group, filled up to whole lanes
-  Buffer<double> x, y, z;  ///< where they are
-  Buffer<double> bounds;   ///< see NeighborSearch::candidates
-  Buffer<double> squared;  ///< squared distances of those near one point
-  Buffer<int> index;       ///< their ranks
+  Buffer<SearchedGroup> groups;  ///< in the order of their points
+  Buffer<int> known;             ///< ranks of the candidates of each
+  int gathered = -1;             ///< the point whose group's candidates were gathered last
+  Buffer<int> candidate;         ///< ranks of those of one group, filled up to whole lanes
+  Buffer<double> x, y, z;        ///< where they are
+  Buffer<double> bounds;         ///< see NeighborSearch::candidates
+  Buffer<double> squared;        ///< squared distances of those near one point
+  Buffer<int> index;             ///< their ranks
   Buffer<float> rounded;
   Buffer<int> place, taken;
   Buffer<Neighbor> sorted;
@@ -29,5 +39,13 @@ struct GroupScratch {
 /// @param found count rows of min(k, n - 1), one after the other; overwritten
 void nearestOfEach(const NeighborSearch& search, const PointsView& points, int first, int count, int k,
                    const Kernels& kernels, GroupScratch& scratch, Buffer<Neighbor>& found);
+
+/// The k nearest of p, one of the points that nearestOfEach() was called for last, among the candidates of its group:
+/// most often they hold twice as many neighbours as were asked for. False, and nothing of use, where they might not.
+/// @param k less than n
+/// @param likely a squared distance that there are most often k points within, and few more
+/// @param found as by NeighborSearch::nearest
+bool nearestOfKnown(const PointsView& points, int p, int k, double likely, const Kernels& kernels,
+                    GroupScratch& scratch, Buffer<Neighbor>& found);
 
 }  // namespace tufted

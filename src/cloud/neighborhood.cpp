@@ -12,9 +12,10 @@
 namespace tufted {
 namespace {
 
-constexpr int most_growth = 8;      // a neighbourhood grows to at most 8 k
-constexpr double crowd = 0.4;       // of the neighbours within half the radius; on an even surface it is a quarter
-constexpr double sheet_gap = 0.25;  // of the reach, between the heights of two sheets
+constexpr int most_growth = 8;       // a neighbourhood grows to at most 8 k
+constexpr double more_likely = 1.2;  // times the square that holds more neighbours where they are spread evenly
+constexpr double crowd = 0.4;        // of the neighbours within half the radius; on an even surface it is a quarter
+constexpr double sheet_gap = 0.25;   // of the reach, between the heights of two sheets
 constexpr std::array<double, few_neighbors.size()> flatter = {0.1, 0.5};  // than all, planes of few
 constexpr int most_splits = 3;
 constexpr std::size_t least_sheet = 3, least_plane = 9;  // points, p included
@@ -47,36 +48,38 @@ int NeighborhoodFinder::mostNeighbors() const {
   return most_growth * source_.k;
 }
 
-bool NeighborhoodFinder::query(int p, int k, Neighborhood& hood, SheetScratch& scratch) const {
+bool NeighborhoodFinder::query(int p, int k, Neighborhood& hood, HoodScratch& scratch) const {
   k = std::min(k, static_cast<int>(points_.rows()) - 1);
   if (source_.isFixed() || k <= hood.k) return false;
-  search(p, k, hood, &scratch.before);
+  const double likely = more_likely * k / hood.k * hood.radius * hood.radius;
+  if (source_.search != nullptr && nearestOfKnown(points_, p, k, likely, kernels(), scratch.group, hood.neighbors)) {
+    const double radius = std::sqrt(hood.neighbors.back().squared_distance);
+    scratch.before = {p, k, radius};
+    take(k, {radius, 0}, hood);
+  } else {
+    take(k, source_.nearest(points_, p, k, hood.neighbors, NeighborOrder::ascending, &scratch.before), hood);
+  }
   return true;
 }
 
-void NeighborhoodFinder::search(int p, int k, Neighborhood& hood, SearchBefore* before) const {
-  const ScanSearch::Searched searched =
-      source_.nearest(points_, p, k, hood.neighbors, NeighborOrder::ascending, before);
+void NeighborhoodFinder::take(int k, const ScanSearch::Searched& searched, Neighborhood& hood) const {
   hood.k = source_.isFixed() ? static_cast<int>(hood.neighbors.size()) : k;
   hood.radius = searched.radius;
   hood.cut = searched.cut;
 }
 
-void NeighborhoodFinder::find(int first, int count, GroupScratch& scratch, Buffer<Neighbor>& found,
-                              Neighborhood* hoods) const {
-  if (source_.search != nullptr) source_.nearestOfEach(points_, first, count, scratch, found);
+void NeighborhoodFinder::find(int first, int count, HoodScratch& scratch, Neighborhood* hoods) const {
+  if (source_.search != nullptr) source_.nearestOfEach(points_, first, count, scratch.group, scratch.found);
   for (int i = 0; i < count; ++i) {
     Neighborhood& hood = hoods[i];
     hood.grown = hood.split = hood.restored = hood.isolated = false;
     if (source_.search == nullptr) {
-      search(first + i, source_.k, hood, nullptr);
+      take(source_.k, source_.nearest(points_, first + i, source_.k, hood.neighbors), hood);
       continue;
     }
-    const auto row = found.begin() + static_cast<std::ptrdiff_t>(i) * source_.k;
+    const auto row = scratch.found.begin() + static_cast<std::ptrdiff_t>(i) * source_.k;
     hood.neighbors.assign(row, row + source_.k);
-    hood.k = source_.k;
-    hood.radius = source_.k > 0 ? std::sqrt(hood.neighbors.back().squared_distance) : 0;
-    hood.cut = 0;
+    take(source_.k, {source_.k > 0 ? std::sqrt(hood.neighbors.back().squared_distance) : 0, 0}, hood);
   }
 }
 
@@ -108,7 +111,7 @@ void NeighborhoodFinder::fitPlanes(int first, std::span<Neighborhood> hoods, std
   }
 }
 
-void NeighborhoodFinder::refine(int p, Neighborhood& hood, SheetScratch& scratch) const {
+void NeighborhoodFinder::refine(int p, Neighborhood& hood, HoodScratch& scratch) const {
   while (isUneven(hood) && query(p, std::min(2 * hood.k, mostNeighbors()), hood, scratch)) {
     hood.axes = principalAxes(points_, p, hood.neighbors);
     hood.grown = true;
@@ -122,7 +125,7 @@ void NeighborhoodFinder::refine(int p, Neighborhood& hood, SheetScratch& scratch
   splitSheets(p, hood, scratch);
 }
 
-bool NeighborhoodFinder::grow(int p, int most, Neighborhood& hood, SheetScratch& scratch) const {
+bool NeighborhoodFinder::grow(int p, int most, Neighborhood& hood, HoodScratch& scratch) const {
   if (!query(p, std::min(2 * hood.k, most), hood, scratch)) return false;
   if (splitsSheets() && (hood.split || (!hood.restored && !hood.grown))) keepSheet(p, hood.axes.normal, hood, scratch);
   return true;
@@ -141,13 +144,13 @@ void SheetPositions::take(const PointsView& points, int p, std::span<const Neigh
 }
 
 bool NeighborhoodFinder::keepSheet(int p, const Eigen::Vector3d& normal, Neighborhood& hood,
-                                   SheetScratch& scratch) const {
+                                   HoodScratch& scratch) const {
   scratch.positions.take(points_, p, hood.neighbors);
   return keepSheet(scratch.positions, normal, hood, scratch);
 }
 
 bool NeighborhoodFinder::keepSheet(const SheetPositions& positions, const Eigen::Vector3d& normal, Neighborhood& hood,
-                                   SheetScratch& scratch) const {
+                                   HoodScratch& scratch) const {
   if (hood.neighbors.empty()) return false;
   scratch.heights.resize(positions.x.size());
   const Reliefs reliefs{static_cast<int>(positions.x.size()), positions.x.data(), positions.y.data(),
@@ -162,7 +165,7 @@ bool NeighborhoodFinder::keepSheet(const SheetPositions& positions, const Eigen:
   return true;
 }
 
-void NeighborhoodFinder::splitSheets(int p, Neighborhood& hood, SheetScratch& scratch) const {
+void NeighborhoodFinder::splitSheets(int p, Neighborhood& hood, HoodScratch& scratch) const {
   if (hood.neighbors.empty()) return;
   const PrincipalAxes before = hood.axes;
   scratch.all.clear();
@@ -192,8 +195,7 @@ void NeighborhoodFinder::splitSheets(int p, Neighborhood& hood, SheetScratch& sc
   }
 }
 
-bool NeighborhoodFinder::findSheet(int p, const PrincipalAxes& before, Neighborhood& hood,
-                                   SheetScratch& scratch) const {
+bool NeighborhoodFinder::findSheet(int p, const PrincipalAxes& before, Neighborhood& hood, HoodScratch& scratch) const {
   if (scratch.all.empty()) scratch.all = hood.neighbors;
   Neighborhood& tried = scratch.tried;
   tried = hood;

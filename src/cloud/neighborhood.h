@@ -38,7 +38,9 @@ struct SheetPositions {
 };
 
 /// Memory that one worker reuses from point to point.
-struct SheetScratch {
+struct HoodScratch {
+  GroupScratch group;
+  Buffer<Neighbor> found;
   SheetPositions positions, positions_of_all;
   Buffer<double> heights;
   Buffer<Neighbor> all;  ///< before any were left out; empty while none were
@@ -53,8 +55,9 @@ class NeighborhoodFinder {
   NeighborhoodFinder(const PointsView& points, const NeighborSource& source, const CloudOptions& options)
       : points_(points), source_(source), options_(options) {}
 
-  /// For each of `count` points from `first` on the caller's k neighbours, or the caller's own list.
-  void find(int first, int count, GroupScratch& scratch, Buffer<Neighbor>& found, Neighborhood* hoods) const;
+  /// For each of `count` points from `first` on the caller's k neighbours, or the caller's own list. What is asked of
+  /// these points later with the same scratch takes least time.
+  void find(int first, int count, HoodScratch& scratch, Neighborhood* hoods) const;
 
   static constexpr int most_planes = 16;
   /// Fits planes to at most most_planes neighbourhoods of points from `first` on, and to the first few of each where
@@ -65,31 +68,31 @@ class NeighborhoodFinder {
 
   /// Doubles the neighbourhood while it says too little about the surface, with a plane fitted anew, and leaves other
   /// sheets out.
-  void refine(int p, Neighborhood& hood, SheetScratch& scratch) const;
+  void refine(int p, Neighborhood& hood, HoodScratch& scratch) const;
 
   /// Asks for twice as many neighbours, at most `most`; other sheets are left out as before, the plane stays as it is.
   /// False when there are no more to be had.
-  bool grow(int p, int most, Neighborhood& hood, SheetScratch& scratch) const;
+  bool grow(int p, int most, Neighborhood& hood, HoodScratch& scratch) const;
 
   /// The most neighbours that refine() asks for.
   int mostNeighbors() const;
 
  private:
-  void search(int p, int k, Neighborhood& hood, SearchBefore* before) const;
-  bool query(int p, int k, Neighborhood& hood, SheetScratch& scratch) const;
+  void take(int k, const ScanSearch::Searched& searched, Neighborhood& hood) const;
+  bool query(int p, int k, Neighborhood& hood, HoodScratch& scratch) const;
   /// Rings would be taken for sheets.
   bool splitsSheets() const;
   bool isUneven(const Neighborhood& hood) const;
   /// Keeps the neighbours whose heights along `normal` are reached from p over gaps of at most a quarter of the reach.
   /// True if some were left out.
-  bool keepSheet(int p, const Eigen::Vector3d& normal, Neighborhood& hood, SheetScratch& scratch) const;
+  bool keepSheet(int p, const Eigen::Vector3d& normal, Neighborhood& hood, HoodScratch& scratch) const;
   /// @param positions of these neighbours
   bool keepSheet(const SheetPositions& positions, const Eigen::Vector3d& normal, Neighborhood& hood,
-                 SheetScratch& scratch) const;
-  void splitSheets(int p, Neighborhood& hood, SheetScratch& scratch) const;
+                 HoodScratch& scratch) const;
+  void splitSheets(int p, Neighborhood& hood, HoodScratch& scratch) const;
   /// For where the planes of several neighbours stand across two sheets: the largest sheet along a plane through p and
   /// two of the nearest four. False, and the neighbourhood as it was before any were left out, if there is none.
-  bool findSheet(int p, const PrincipalAxes& before, Neighborhood& hood, SheetScratch& scratch) const;
+  bool findSheet(int p, const PrincipalAxes& before, Neighborhood& hood, HoodScratch& scratch) const;
 
   PointsView points_;
   const NeighborSource& source_;

@@ -218,12 +218,12 @@ void NeighborSearch::nearestTo(const Eigen::RowVector3d& position, Buffer<Neighb
 }
 
 bool NeighborSearch::candidates(int first, int count, int k, Buffer<int>& found, Buffer<double>& bounds,
-                                Eigen::RowVector3d& center, double& reach) const {
+                                SearchedBall& ball) const {
   const int n = static_cast<int>(points_.rows());
   const auto group = points_.middleRows(first, count);
   const Eigen::RowVector3d lowest = group.colwise().minCoeff(), highest = group.colwise().maxCoeff();
-  center = lowest + (highest - lowest) / 2;
-  const double radius = std::sqrt((group.rowwise() - center).rowwise().squaredNorm().maxCoeff());
+  ball.center = lowest + (highest - lowest) / 2;
+  const double spread = std::sqrt((group.rowwise() - ball.center).rowwise().squaredNorm().maxCoeff());
 
   // A point of the group is not its own neighbour, so k + 1 nearest of the centre hold k neighbours of it. Points near
   // on the curve bound their distance to begin with.
@@ -231,17 +231,18 @@ bool NeighborSearch::candidates(int first, int count, int k, Buffer<int>& found,
   const int begin = std::max(0, std::min(first + count / 2 - wanted, n - 2 * wanted));
   const int end = std::min(n, begin + 2 * wanted);
   bounds.clear();
-  for (int q = begin; q < end; ++q) bounds.push_back((points_.row(q) - center).squaredNorm());
+  for (int q = begin; q < end; ++q) bounds.push_back((points_.row(q) - ball.center).squaredNorm());
   std::nth_element(bounds.begin(), bounds.begin() + (wanted - 1), bounds.end());
   std::swap(bounds.front(), bounds[wanted - 1]);
   bounds.resize(static_cast<std::size_t>(wanted));
 
   found.clear();
-  ShrinkingBall ball(2 * radius, bounds, found);
+  ShrinkingBall set(2 * spread, bounds, found);
   const ForeignMemory query;
-  tree_->index.findNeighbors(ball, center.data(), tree_->params);
-  reach = std::sqrt(bounds.front());
-  return !ball.isTooFull() && bounds.front() > least_square;
+  tree_->index.findNeighbors(set, ball.center.data(), tree_->params);
+  ball.reach = std::sqrt(bounds.front());
+  ball.radius = ball.reach + 2 * spread;
+  return !set.isTooFull() && bounds.front() > least_square;
 }
 
 std::size_t NeighborSearch::bytes() const {

@@ -32,6 +32,13 @@ struct SearchBefore {
   double radius = 0;  ///< of the k nearest of p
 };
 
+/// Where NeighborSearch::candidates has looked.
+struct SearchedBall {
+  Eigen::RowVector3d center;
+  double radius = 0;  ///< every point within is a candidate
+  double reach = 0;   ///< a point q of the group has at least k neighbours within reach + distance(q, center)
+};
+
 /// Exact nearest neighbours by FLANN's KDTreeSingleIndex in double.
 class NeighborSearch : public InWorkspace {
  public:
@@ -59,10 +66,8 @@ class NeighborSearch : public InWorkspace {
   /// their distances underflow.
   /// @param[out] found ranks
   /// @param bounds scratch
-  /// @param[out] center of the points' box
-  /// @param[out] reach a point q of them has at least k neighbours within reach + distance(q, center)
-  bool candidates(int first, int count, int k, Buffer<int>& found, Buffer<double>& bounds, Eigen::RowVector3d& center,
-                  double& reach) const;
+  /// @param[out] ball around the middle of the points' box
+  bool candidates(int first, int count, int k, Buffer<int>& found, Buffer<double>& bounds, SearchedBall& ball) const;
 
   std::size_t bytes() const;
 

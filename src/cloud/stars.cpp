@@ -34,11 +34,9 @@ struct BlockOfStars {
 
 /// Memory, counts and times of one worker.
 struct WorkerState {
-  GroupScratch group;
-  Buffer<Neighbor> found;
   Buffer<Neighborhood> hoods;
   std::array<Offsets, group_size> offsets;
-  SheetScratch sheets;
+  HoodScratch hood;
   Neighborhood saved_hood;
   DelaunayStar saved_star;
   Buffer<PlanarPoint> planar;
@@ -65,7 +63,7 @@ class StarBuilder {
     const int first = static_cast<int>(begin);
     state.hoods.resize(std::max<std::size_t>(state.hoods.size(), count));
     Stopwatch watch;
-    finder_.find(first, count, state.group, state.found, state.hoods.data());
+    finder_.find(first, count, state.hood, state.hoods.data());
     state.seconds[0] += watch.restart();
     for (int group = 0; group < count; group += group_size) {
       const int group_end = std::min(count, group + group_size);
@@ -96,7 +94,7 @@ class StarBuilder {
   }
 
   void takeFrame(int p, Neighborhood& hood, const Offsets& offsets, WorkerState& state, BlockOfStars& block) const {
-    finder_.refine(p, hood, state.sheets);
+    finder_.refine(p, hood, state.hood);
     state.grown_neighborhoods += hood.grown ? 1 : 0;
     state.split_neighborhoods += hood.split ? 1 : 0;
     state.isolated += hood.isolated ? 1 : 0;
@@ -153,7 +151,7 @@ class StarBuilder {
     project(p, hood, unit, isAsFound(hood) ? &offsets : nullptr, state);
     for (;;) {
       if (star.closed) {
-        if (2 * star.largestCircumradius() <= hood.radius * unit || !finder_.grow(p, most, hood, state.sheets)) return;
+        if (2 * star.largestCircumradius() <= hood.radius * unit || !finder_.grow(p, most, hood, state.hood)) return;
         ++state.grown_stars;
         project(p, hood, unit, nullptr, state);
         if (!thorough) return;
@@ -162,7 +160,7 @@ class StarBuilder {
       if (open_tries == 0) return;
       state.saved_star = star;
       state.saved_hood = hood;
-      while (!star.closed && open_tries-- > 0 && finder_.grow(p, 2 * hood.k, hood, state.sheets))
+      while (!star.closed && open_tries-- > 0 && finder_.grow(p, 2 * hood.k, hood, state.hood))
         project(p, hood, unit, nullptr, state);
       open_tries = 0;
       if (!star.closed) {

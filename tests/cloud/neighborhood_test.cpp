@@ -23,9 +23,7 @@ class Hoods {
 
   Neighborhood at(int p) {
     Neighborhood hood;
-    GroupScratch group;
-    Buffer<Neighbor> found;
-    finder_.find(p, 1, group, found, &hood);
+    finder_.find(p, 1, scratch_, &hood);
     finder_.fitPlanes(p, {&hood, 1}, {&offsets_, 1});
     finder_.refine(p, hood, scratch_);
     return hood;
@@ -37,7 +35,7 @@ class Hoods {
   NeighborSource source_;
   NeighborhoodFinder finder_;
   Offsets offsets_;
-  SheetScratch scratch_;
+  HoodScratch scratch_;
 };
 
 /// n points of the unit square at height z, p = row 0 in its middle.
