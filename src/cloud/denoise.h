@@ -3,10 +3,7 @@
 #include <Eigen/Core>
 #include <span>
 
-#include "base/point_buffer.h"
 #include "cloud/kernels.h"
-#include "cloud/neighbors.h"
-#include "tufted/types.h"
 
 namespace tufted {
 
@@ -17,12 +14,18 @@ struct HeightFit {
   bool is_valid = false;  ///< false with fewer than 9 points, p included, or where they lie on a conic
 };
 
-/// Least squares over {1, u, v, u^2, u v, v^2}.
+/// What a fit is made from.
+struct HeightMoments {
+  HeightSums sums{};  ///< in units of the reach
+  int count = 0;      ///< points, p included
+  double reach = 0;   ///< radius of the neighbourhood
+};
+
 /// @param normal unit length
-/// @param reach radius of the neighbourhood, which is the unit of the fit
-/// @param taken the offsets of just these neighbours, or null
-HeightFit fitHeights(const PointsView& points, int p, std::span<const Neighbor> neighbors,
-                     const Eigen::Vector3d& normal, double reach, const Offsets* taken = nullptr);
+HeightMoments heightMoments(const Offsets& neighbors, const Eigen::Vector3d& normal, double reach);
+
+/// Least squares over {1, u, v, u^2, u v, v^2}, each as if it were alone.
+void fitHeights(std::span<const HeightMoments> moments, std::span<HeightFit> fits);
 
 /// Whether a neighbourhood is noise around a surface rather than curved: the residuals of the fit are more than a fifth
 /// of the smallest variance. An exact plane is not.

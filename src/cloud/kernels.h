@@ -20,11 +20,10 @@ struct Candidates {
   const double *x, *y, *z;
 };
 
-/// The neighbours of a point relative to it, or some of them, filled up to whole lanes with zeros.
+/// The neighbours of a point relative to it, or some of them, filled up to whole lanes with zeros. Borrowed.
 struct Offsets {
-  static constexpr int most = 64;
-  int count = 0;
-  alignas(64) double x[most], y[most], z[most];
+  int count;
+  const double *x, *y, *z;
 };
 
 /// Sums over neighbours, in lanes: x, y, z, and the products xx, xy, xz, yy, yz, zz.
@@ -43,11 +42,18 @@ struct HeightSums {
   double u, v, uu, uv, vv, uuu, uuv, uvv, vvv, uuuu, uuuv, uuvv, uvvv, vvvv, h, hu, hv, huu, huv, hvv, hh;
 };
 
-/// Positions relative to a point, filled up to whole lanes with zeros, and room for the heights of each. Borrowed.
-struct Reliefs {
-  int count;
-  const double *x, *y, *z;
-  double* height;
+/// Normal equations of height fits, one per lane.
+struct HeightSystems {
+  static constexpr int numbers = sizeof(HeightSums) / sizeof(double);
+  alignas(64) double sums[numbers][kernel_lane];  ///< in the order of HeightSums
+  alignas(64) double count[kernel_lane];          ///< points, that of height 0 at the origin included
+};
+
+/// Their solutions.
+struct HeightSolutions {
+  alignas(64) double height[kernel_lane];     ///< of the quadratic over the origin
+  alignas(64) double explained[kernel_lane];  ///< of the sum of squared heights
+  alignas(64) double least_pivot[kernel_lane], most_pivot[kernel_lane];
 };
 
 /// Heights that are reached from 0 over gaps of a bounded size, and the extremes of all.
@@ -71,7 +77,7 @@ struct SmallestAxes {
 
 /// Neighbours in the tangent plane of a point, which lies at the origin; anything behind them.
 struct PlanarOffsets {
-  static constexpr int most = Offsets::most;
+  static constexpr int most = 64;
   int count = 0;
   alignas(64) double u[most], v[most];
 };
@@ -117,11 +123,14 @@ struct Kernels {
   void (*addSums)(const Offsets& offsets, double unit, OffsetSums& sums);
   /// Adds those of the offsets along the axes of u, v and h, which are given one after the other.
   void (*addHeights)(const Offsets& offsets, const double* axes, HeightSums& sums);
+  /// Each as if it were alone.
+  void (*solveHeights)(const HeightSystems& systems, HeightSolutions& solutions);
   /// Heights along `normal`, and which of them are reached over gaps of at most `gap`.
-  Reached (*reachHeights)(const Reliefs& points, const double* normal, double gap);
+  /// @param[out] heights room for whole lanes
+  Reached (*reachHeights)(const Offsets& offsets, const double* normal, double gap, double* heights);
   /// Each as if it were alone.
   void (*findSmallest)(const Covariances& covariances, SmallestAxes& axes);
-  /// The offsets times `unit` along the axes x and y.
+  /// The offsets, at most PlanarOffsets::most, times `unit` along the axes x and y.
   void (*project)(const Offsets& offsets, double unit, const double* x, const double* y, PlanarOffsets& planar);
   /// The triangles of the fans, with `added` to all lengths; the formulas of intrinsic/geometry.h.
   void (*measureFans)(const Fans& fans, double added);

@@ -86,7 +86,7 @@ struct HeightParts {
 };
 
 void addHeights(const Offsets& offsets, const double* axes, HeightSums& total) {
-  constexpr int numbers = sizeof(HeightSums) / sizeof(double);
+  constexpr int numbers = HeightSystems::numbers;
   alignas(64) double lanes[numbers * lane_size];
   for (int part = 0; part < lane_size; part += part_size) {
     const Part zero = allOfPart(0);
@@ -117,14 +117,53 @@ void addHeights(const Offsets& offsets, const double* axes, HeightSums& total) {
   }
 }
 
+/// By L D L^T of the lower triangle.
+void solveHeights(const HeightSystems& systems, HeightSolutions& solutions) {
+  enum { u, v, uu, uv, vv, uuu, uuv, uvv, vvv, uuuu, uuuv, uuvv, uvvv, vvvv, h, hu, hv, huu, huv, hvv };
+  constexpr int size = 6;
+  constexpr int lower[size][size] = {
+      {},  // the count
+      {u, uu}, {v, uv, vv}, {uu, uuu, uuv, uuuu}, {uv, uuv, uvv, uuuv, uuvv}, {vv, uvv, vvv, uuvv, uvvv, vvvv}};
+  Lane gram[size][size], pivot[size], solution[size];
+  for (int i = 0; i < size; ++i)
+    for (int j = 0; j <= i; ++j) gram[i][j] = load(i + j == 0 ? systems.count : systems.sums[lower[i][j]]);
+  for (int j = 0; j < size; ++j) {
+    pivot[j] = gram[j][j];
+    for (int k = 0; k < j; ++k) pivot[j] = pivot[j] - gram[j][k] * gram[j][k] * pivot[k];
+    const Lane inverse = all(1) / pivot[j];
+    for (int i = j + 1; i < size; ++i) {
+      for (int k = 0; k < j; ++k) gram[i][j] = gram[i][j] - gram[i][k] * gram[j][k] * pivot[k];
+      gram[i][j] = gram[i][j] * inverse;
+    }
+  }
+  for (int i = 0; i < size; ++i) {
+    solution[i] = load(systems.sums[h + i]);
+    for (int k = 0; k < i; ++k) solution[i] = solution[i] - gram[i][k] * solution[k];
+  }
+  Lane explained = all(0), smallest = pivot[0], largest = pivot[0];
+  for (int i = size - 1; i >= 0; --i) {
+    solution[i] = solution[i] / pivot[i];
+    for (int k = i + 1; k < size; ++k) solution[i] = solution[i] - gram[k][i] * solution[k];
+  }
+  for (int i = 0; i < size; ++i) {
+    explained = explained + solution[i] * load(systems.sums[h + i]);
+    smallest = least(smallest, pivot[i]);
+    largest = most(largest, pivot[i]);
+  }
+  store(solution[0], solutions.height);
+  store(explained, solutions.explained);
+  store(smallest, solutions.least_pivot);
+  store(largest, solutions.most_pivot);
+}
+
 /// How far one comes from 0, in the direction of `sign`, over gaps of at most `gap` between the heights, the farthest
 /// of which lies at `end`. Each round goes as far as one gap reaches, and two go farther than that: there are few.
-double farthestReached(const Reliefs& points, double sign, double gap, double end) {
+double farthestReached(const double* heights, int count, double sign, double gap, double end) {
   double reached = 0;
   while (end - reached > gap) {
     Lane next = all(reached);
-    for (int i = 0; i < points.count; i += lane_size) {
-      const Lane ahead = all(sign) * load(points.height + i);
+    for (int i = 0; i < count; i += lane_size) {
+      const Lane ahead = all(sign) * load(heights + i);
       next = select(both(isAtMost(ahead - all(reached), all(gap)), isLess(next, ahead)), ahead, next);
     }
     const double farthest = most(next);
@@ -134,19 +173,19 @@ double farthestReached(const Reliefs& points, double sign, double gap, double en
   return end;
 }
 
-Reached reachHeights(const Reliefs& given, const double* normal, double gap) {
-  const Reliefs points = given;  // a copy, which what is written below cannot change
+Reached reachHeights(const Offsets& given, const double* normal, double gap, double* heights) {
+  const Offsets offsets = given;  // a copy, which what is written below cannot change
   const Lane x = all(normal[0]), y = all(normal[1]), z = all(normal[2]);
   Lane top = all(0), bottom = all(0);
-  for (int i = 0; i < points.count; i += lane_size) {
-    const Lane height = load(points.x + i) * x + (load(points.y + i) * y + load(points.z + i) * z);
-    store(height, points.height + i);
+  for (int i = 0; i < offsets.count; i += lane_size) {
+    const Lane height = load(offsets.x + i) * x + (load(offsets.y + i) * y + load(offsets.z + i) * z);
+    store(height, heights + i);
     top = most(top, height);
     bottom = least(bottom, height);
   }
   Reached reached{0, 0, least(bottom), most(top)};
-  reached.highest = farthestReached(points, 1, gap, reached.top);
-  reached.lowest = -farthestReached(points, -1, gap, -reached.bottom);
+  reached.highest = farthestReached(heights, offsets.count, 1, gap, reached.top);
+  reached.lowest = -farthestReached(heights, offsets.count, -1, gap, -reached.bottom);
   return reached;
 }
 
@@ -244,7 +283,7 @@ void measureFans(const Fans& given, double added) {
 }  // namespace
 
 extern const Kernels TUFTED_KERNELS;
-const Kernels TUFTED_KERNELS = {takeWithin,   rankValues,   extent,  addSums,     addHeights,
+const Kernels TUFTED_KERNELS = {takeWithin,   rankValues,   extent,  addSums,     addHeights,       solveHeights,
                                 reachHeights, findSmallest, project, measureFans, wrapInvertedLanes};
 
 }  // namespace tufted

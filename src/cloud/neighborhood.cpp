@@ -33,9 +33,44 @@ bool isSheet(const Neighborhood& hood, const PrincipalAxes& before, double flat)
          flatness(hood.axes) < 0.25 * flatness(before);
 }
 
-/// The first few neighbours, or all where there are fewer.
-std::span<const Neighbor> nearestOf(const Neighborhood& hood, std::size_t few) {
-  return std::span(hood.neighbors).first(std::min(hood.neighbors.size(), few));
+/// Of the first few neighbours, or of all where there are fewer.
+Covariance covarianceOfFew(const Offsets& neighbors, int few, OffsetBuffer& first) {
+  if (neighbors.count <= few) return covarianceOf(neighbors);
+  first.takeFirst(neighbors, few);
+  return covarianceOf(first.view());
+}
+
+/// Whether all neighbours are reached from p, along `normal`, over gaps of at most a quarter of the reach. Leaves their
+/// heights, and which of them are.
+bool isOneSheet(const Offsets& neighbors, const Eigen::Vector3d& normal, double reach, HoodScratch& scratch) {
+  scratch.heights.resize(static_cast<std::size_t>(toLanes(neighbors.count)));
+  scratch.sheet = kernels().reachHeights(neighbors, normal.data(), sheet_gap * reach, scratch.heights.data());
+  return scratch.sheet.lowest <= scratch.sheet.bottom && scratch.sheet.highest >= scratch.sheet.top;
+}
+
+bool isReached(std::size_t i, const HoodScratch& scratch) {
+  return scratch.heights[i] >= scratch.sheet.lowest && scratch.heights[i] <= scratch.sheet.highest;
+}
+
+/// How many of the `count` neighbours last looked at are reached.
+std::size_t countReached(std::size_t count, const HoodScratch& scratch) {
+  std::size_t reached = 0;
+  for (std::size_t i = 0; i < count; ++i) reached += isReached(i, scratch) ? 1 : 0;
+  return reached;
+}
+
+/// Those of them that are.
+/// @param[out] sheet, offsets_of_sheet may be the neighbours themselves
+void takeSheet(const Buffer<Neighbor>& neighbors, const OffsetBuffer& offsets, const HoodScratch& scratch,
+               Buffer<Neighbor>& sheet, OffsetBuffer& offsets_of_sheet) {
+  offsets_of_sheet.takeKept(offsets, [&scratch](std::size_t i) { return isReached(i, scratch); });
+  sheet.resize(neighbors.size());
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < neighbors.size(); ++i) {
+    sheet[kept] = neighbors[i];
+    kept += isReached(i, scratch) ? 1 : 0;
+  }
+  sheet.resize(kept);
 }
 
 }  // namespace
@@ -48,7 +83,7 @@ int NeighborhoodFinder::mostNeighbors() const {
   return most_growth * source_.k;
 }
 
-bool NeighborhoodFinder::query(int p, int k, Neighborhood& hood, HoodScratch& scratch) const {
+bool NeighborhoodFinder::query(int p, int k, Neighborhood& hood, OffsetBuffer& offsets, HoodScratch& scratch) const {
   k = std::min(k, static_cast<int>(points_.rows()) - 1);
   if (source_.isFixed() || k <= hood.k) return false;
   const double likely = more_likely * k / hood.k * hood.radius * hood.radius;
@@ -59,6 +94,7 @@ bool NeighborhoodFinder::query(int p, int k, Neighborhood& hood, HoodScratch& sc
   } else {
     take(k, source_.nearest(points_, p, k, hood.neighbors, NeighborOrder::ascending, &scratch.before), hood);
   }
+  offsets.take(points_, p, hood.neighbors);
   return true;
 }
 
@@ -93,111 +129,92 @@ bool NeighborhoodFinder::isUneven(const Neighborhood& hood) const {
   return static_cast<double>(far - hood.neighbors.begin()) > crowd * hood.k;
 }
 
-void NeighborhoodFinder::fitPlanes(int first, std::span<Neighborhood> hoods, std::span<Offsets> offsets) const {
+void NeighborhoodFinder::fitPlanes(int first, std::span<Neighborhood> hoods, std::span<OffsetBuffer> offsets,
+                                   HoodScratch& scratch) const {
   std::array<Covariance, most_planes> covariances;
   std::array<PrincipalAxes, most_planes> axes;
   const auto count = static_cast<int>(hoods.size());
-  for (int i = 0; i < count; ++i) covariances[i] = covarianceOf(points_, first + i, hoods[i].neighbors, offsets[i]);
+  for (int i = 0; i < count; ++i) {
+    offsets[i].take(points_, first + i, hoods[i].neighbors);
+    covariances[i] = covarianceOf(offsets[i].view());
+  }
   principalAxes(std::span(covariances).first(hoods.size()), axes);
   for (int i = 0; i < count; ++i) hoods[i].axes = axes[i];
   if (!splitsSheets()) return;
   for (std::size_t j = 0; j < few_neighbors.size(); ++j) {
-    for (int i = 0; i < count; ++i) {
-      Offsets of_few;
-      covariances[i] = covarianceOf(points_, first + i, nearestOf(hoods[i], few_neighbors[j]), of_few);
-    }
+    for (int i = 0; i < count; ++i) covariances[i] = covarianceOfFew(offsets[i].view(), few_neighbors[j], scratch.few);
     principalAxes(std::span(covariances).first(hoods.size()), axes);
     for (int i = 0; i < count; ++i) hoods[i].axes_of_few[j] = axes[i];
   }
 }
 
-void NeighborhoodFinder::refine(int p, Neighborhood& hood, HoodScratch& scratch) const {
-  while (isUneven(hood) && query(p, std::min(2 * hood.k, mostNeighbors()), hood, scratch)) {
-    hood.axes = principalAxes(points_, p, hood.neighbors);
+void NeighborhoodFinder::refine(int p, Neighborhood& hood, OffsetBuffer& offsets, HoodScratch& scratch) const {
+  while (isUneven(hood) && query(p, std::min(2 * hood.k, mostNeighbors()), hood, offsets, scratch)) {
+    hood.axes = principalAxes(offsets.view());
     hood.grown = true;
   }
   hood.reach = hood.radius;
   if (!splitsSheets()) return;
   if (hood.grown) {  // a scan may know other ways to the nearest few by now
-    for (std::size_t j = 0; j < few_neighbors.size(); ++j)
-      hood.axes_of_few[j] = principalAxes(points_, p, nearestOf(hood, few_neighbors[j]));
+    for (std::size_t j = 0; j < few_neighbors.size(); ++j) {
+      const Covariance covariance = covarianceOfFew(offsets.view(), few_neighbors[j], scratch.few);
+      principalAxes({&covariance, 1}, {&hood.axes_of_few[j], 1});
+    }
   }
-  splitSheets(p, hood, scratch);
+  splitSheets(p, hood, offsets, scratch);
 }
 
-bool NeighborhoodFinder::grow(int p, int most, Neighborhood& hood, HoodScratch& scratch) const {
-  if (!query(p, std::min(2 * hood.k, most), hood, scratch)) return false;
-  if (splitsSheets() && (hood.split || (!hood.restored && !hood.grown))) keepSheet(p, hood.axes.normal, hood, scratch);
+bool NeighborhoodFinder::grow(int p, int most, Neighborhood& hood, OffsetBuffer& offsets, HoodScratch& scratch) const {
+  if (!query(p, std::min(2 * hood.k, most), hood, offsets, scratch)) return false;
+  if (splitsSheets() && (hood.split || (!hood.restored && !hood.grown)))
+    keepSheet(hood.axes.normal, hood, offsets, scratch);
   return true;
 }
 
-void SheetPositions::take(const PointsView& points, int p, std::span<const Neighbor> neighbors) {
-  const auto room = static_cast<std::size_t>(toLanes(static_cast<int>(neighbors.size())));
-  for (auto* axis : {&x, &y, &z}) axis->assign(room, 0);
-  const double* const origin = points.row(p).data();
-  for (std::size_t i = 0; i < neighbors.size(); ++i) {
-    const double* const q = points.row(neighbors[i].index).data();
-    x[i] = q[0] - origin[0];
-    y[i] = q[1] - origin[1];
-    z[i] = q[2] - origin[2];
+bool NeighborhoodFinder::keepSheet(const Eigen::Vector3d& normal, Neighborhood& hood, OffsetBuffer& offsets,
+                                   HoodScratch& scratch) const {
+  if (hood.neighbors.empty() || isOneSheet(offsets.view(), normal, hood.reach, scratch)) return false;
+  if (scratch.all.empty()) {
+    scratch.all = hood.neighbors;
+    scratch.offsets_of_all = offsets;
   }
-}
-
-bool NeighborhoodFinder::keepSheet(int p, const Eigen::Vector3d& normal, Neighborhood& hood,
-                                   HoodScratch& scratch) const {
-  scratch.positions.take(points_, p, hood.neighbors);
-  return keepSheet(scratch.positions, normal, hood, scratch);
-}
-
-bool NeighborhoodFinder::keepSheet(const SheetPositions& positions, const Eigen::Vector3d& normal, Neighborhood& hood,
-                                   HoodScratch& scratch) const {
-  if (hood.neighbors.empty()) return false;
-  scratch.heights.resize(positions.x.size());
-  const Reliefs reliefs{static_cast<int>(positions.x.size()), positions.x.data(), positions.y.data(),
-                        positions.z.data(), scratch.heights.data()};
-  const auto [lowest, highest, bottom, top] = kernels().reachHeights(reliefs, normal.data(), sheet_gap * hood.reach);
-  if (lowest <= bottom && highest >= top) return false;
-  if (scratch.all.empty()) scratch.all = hood.neighbors;
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < hood.neighbors.size(); ++i)
-    if (scratch.heights[i] >= lowest && scratch.heights[i] <= highest) hood.neighbors[kept++] = hood.neighbors[i];
-  hood.neighbors.resize(kept);
+  takeSheet(hood.neighbors, offsets, scratch, hood.neighbors, offsets);
   return true;
 }
 
-void NeighborhoodFinder::splitSheets(int p, Neighborhood& hood, HoodScratch& scratch) const {
+void NeighborhoodFinder::splitSheets(int p, Neighborhood& hood, OffsetBuffer& offsets, HoodScratch& scratch) const {
   if (hood.neighbors.empty()) return;
   const PrincipalAxes before = hood.axes;
   scratch.all.clear();
-  scratch.positions_of_all.take(points_, p, hood.neighbors);
   for (std::size_t j = 0; j < few_neighbors.size(); ++j) {
-    if (hood.neighbors.size() <= few_neighbors[j]) break;
+    if (std::ssize(hood.neighbors) <= few_neighbors[j]) break;
     const PrincipalAxes& axes = hood.axes_of_few[j];
     if (!(flatness(axes) < flatter[j] * flatness(before) && axes.variance[0] < 0.05 * axes.variance[1])) continue;
-    if (!keepSheet(scratch.positions_of_all, axes.normal, hood, scratch)) continue;
-    hood.axes = principalAxes(points_, p, hood.neighbors);
+    if (!keepSheet(axes.normal, hood, offsets, scratch)) continue;
+    hood.axes = principalAxes(offsets.view());
     break;
   }
-  for (int i = 0; i < most_splits; ++i) {
-    const bool is_cut = scratch.all.empty() ? keepSheet(scratch.positions_of_all, hood.axes.normal, hood, scratch)
-                                            : keepSheet(p, hood.axes.normal, hood, scratch);
-    if (!is_cut) break;
-    hood.axes = principalAxes(points_, p, hood.neighbors);
-  }
+  for (int i = 0; i < most_splits && keepSheet(hood.axes.normal, hood, offsets, scratch); ++i)
+    hood.axes = principalAxes(offsets.view());
   if (scratch.all.empty()) {
-    hood.split = flatness(before) > flat_sheet && findSheet(p, before, hood, scratch);
+    hood.split = flatness(before) > flat_sheet && findSheet(p, before, hood, offsets, scratch);
   } else if (hood.neighbors.size() + 1 <= least_sheet) {
     hood.isolated = true;
-  } else if (isSheet(hood, before, flat_sheet) || findSheet(p, before, hood, scratch)) {
+  } else if (isSheet(hood, before, flat_sheet) || findSheet(p, before, hood, offsets, scratch)) {
     hood.split = true;
   } else {
     hood.restored = true;
   }
 }
 
-bool NeighborhoodFinder::findSheet(int p, const PrincipalAxes& before, Neighborhood& hood, HoodScratch& scratch) const {
-  if (scratch.all.empty()) scratch.all = hood.neighbors;
+bool NeighborhoodFinder::findSheet(int p, const PrincipalAxes& before, Neighborhood& hood, OffsetBuffer& offsets,
+                                   HoodScratch& scratch) const {
+  if (scratch.all.empty()) {
+    scratch.all = hood.neighbors;
+    scratch.offsets_of_all = offsets;
+  }
   Neighborhood& tried = scratch.tried;
+  OffsetBuffer& offsets_of_tried = scratch.offsets_of_tried;
   tried = hood;
   hood.neighbors.clear();
   const std::size_t corners = std::min(scratch.all.size(), most_corners);
@@ -207,17 +224,22 @@ bool NeighborhoodFinder::findSheet(int p, const PrincipalAxes& before, Neighborh
       const Eigen::Vector3d v = points_.row(scratch.all[j].index) - points_.row(p);
       const Eigen::Vector3d normal = u.cross(v);
       if (!(normal.norm() > least_sine * u.norm() * v.norm())) continue;
-      tried.neighbors = scratch.all;
-      if (!keepSheet(scratch.positions_of_all, normal.normalized(), tried, scratch)) continue;
-      tried.axes = principalAxes(points_, p, tried.neighbors);
-      if (keepSheet(p, tried.axes.normal, tried, scratch)) tried.axes = principalAxes(points_, p, tried.neighbors);
+      if (isOneSheet(scratch.offsets_of_all.view(), normal.normalized(), hood.reach, scratch)) continue;
+      const std::size_t reached = countReached(scratch.all.size(), scratch);  // which the second cut makes fewer
+      if (reached + 1 < least_plane || reached <= hood.neighbors.size()) continue;
+      takeSheet(scratch.all, scratch.offsets_of_all, scratch, tried.neighbors, offsets_of_tried);
+      tried.axes = principalAxes(offsets_of_tried.view());
+      if (keepSheet(tried.axes.normal, tried, offsets_of_tried, scratch))
+        tried.axes = principalAxes(offsets_of_tried.view());
       if (!isSheet(tried, before, flat_few) || tried.neighbors.size() <= hood.neighbors.size()) continue;
       hood.neighbors.swap(tried.neighbors);
+      std::swap(offsets, offsets_of_tried);
       hood.axes = tried.axes;
     }
   }
   if (!hood.neighbors.empty()) return true;
   hood.neighbors = scratch.all;
+  offsets = scratch.offsets_of_all;
   hood.axes = before;
   return false;
 }

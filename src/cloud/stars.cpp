@@ -10,9 +10,11 @@
 #include "base/point_buffer.h"
 #include "base/power_of_two.h"
 #include "cloud/delaunay_star.h"
-#include "cloud/denoise.h"
 #include "cloud/inverted_star.h"
 #include "cloud/neighborhood.h"
+#include "cloud/offsets.h"
+#include "cloud/star_gap.h"
+#include "cloud/surface_moves.h"
 #include "cloud/tangent_frame.h"
 
 namespace tufted {
@@ -27,15 +29,14 @@ struct BlockOfStars {
   Buffer<int> link;
   Buffer<std::uint8_t> triangle;
   Buffer<double> radius;
-  Buffer<int> noisy;              ///< ranks
-  Buffer<std::size_t> noisy_end;  ///< where the neighbours of each end in `noisy_neighbors`
-  Buffer<int> noisy_neighbors;    ///< ranks
+  NoisyPoints noisy;
 };
 
 /// Memory, counts and times of one worker.
 struct WorkerState {
   Buffer<Neighborhood> hoods;
-  std::array<Offsets, group_size> offsets;
+  std::array<OffsetBuffer, group_size> offsets;
+  FitScratch fits;
   HoodScratch hood;
   Neighborhood saved_hood;
   DelaunayStar saved_star;
@@ -50,8 +51,7 @@ struct WorkerState {
 class StarBuilder {
  public:
   StarBuilder(const RankedCloud& cloud, const NeighborSource& source, const CloudOptions& options, Stars& stars)
-      : cloud_(cloud),
-        source_(source),
+      : source_(source),
         options_(options),
         finder_(cloud.points, source, options),
         wrap_(options.delaunay == Delaunay::star ? delaunayStar : cgalBackend()),
@@ -67,9 +67,11 @@ class StarBuilder {
     state.seconds[0] += watch.restart();
     for (int group = 0; group < count; group += group_size) {
       const int group_end = std::min(count, group + group_size);
-      finder_.fitPlanes(first + group, {state.hoods.data() + group, state.hoods.data() + group_end}, state.offsets);
-      for (int i = group; i < group_end; ++i)
-        takeFrame(first + i, state.hoods[i], state.offsets[i - group], state, block);
+      const std::span hoods(state.hoods.data() + group, state.hoods.data() + group_end);
+      finder_.fitPlanes(first + group, hoods, state.offsets, state.hood);
+      for (int i = group; i < group_end; ++i) takeFrame(first + i, state.hoods[i], state.offsets[i - group], state);
+      if (options_.steps.lengths == Lengths::denoised)
+        moveNoisyPoints(first + group, hoods, state.offsets, state.fits, stars_.move, block.noisy);
       state.seconds[1] += watch.restart();
       for (int i = group; i < group_end; ++i)
         wrapStar(first + i, state.hoods[i], state.offsets[i - group], state, block);
@@ -88,13 +90,8 @@ class StarBuilder {
 #endif
   }
 
-  /// Whether the offsets that were taken first are those of the neighbourhood.
-  static bool isAsFound(const Neighborhood& hood) {
-    return !hood.grown && !hood.split && hood.neighbors.size() <= Offsets::most;
-  }
-
-  void takeFrame(int p, Neighborhood& hood, const Offsets& offsets, WorkerState& state, BlockOfStars& block) const {
-    finder_.refine(p, hood, state.hood);
+  void takeFrame(int p, Neighborhood& hood, OffsetBuffer& offsets, WorkerState& state) const {
+    finder_.refine(p, hood, offsets, state.hood);
     state.grown_neighborhoods += hood.grown ? 1 : 0;
     state.split_neighborhoods += hood.split ? 1 : 0;
     state.isolated += hood.isolated ? 1 : 0;
@@ -103,65 +100,69 @@ class StarBuilder {
     stars_.reach[p] = hood.reach;
     stars_.isolated[p] = hood.isolated ? 1 : 0;
     stars_.flat[p] = hood.axes.variance[0] < flat_share * hood.axes.variance[1] ? 1 : 0;
-    if (options_.steps.lengths == Lengths::denoised) findSurface(p, hood, isAsFound(hood) ? &offsets : nullptr, block);
   }
 
-  /// Moves p onto the surface through its neighbours if they are noise around one, and keeps them for a second look.
-  void findSurface(int p, const Neighborhood& hood, const Offsets* taken, BlockOfStars& block) const {
-    const HeightFit fit = fitHeights(cloud_.points, p, hood.neighbors, hood.axes.normal, hood.reach, taken);
-    const double variance = hood.axes.variance[0] * hood.axes.extent * hood.axes.extent;
-    if (!isNoisy(fit, variance, hood.reach)) return;
-    stars_.move.row(p) = fit.height * hood.axes.normal.transpose();
-    block.noisy.push_back(p);
-    for (const Neighbor& q : hood.neighbors) block.noisy_neighbors.push_back(q.index);
-    block.noisy_end.push_back(block.noisy_neighbors.size());
-  }
-
-  /// The star among the neighbours projected to the tangent plane of p, times `unit`.
-  /// @param taken the offsets of just these neighbours, or null
-  void project(int p, const Neighborhood& hood, double unit, const Offsets* taken, WorkerState& state) const {
+  /// Calls visit(planar, neighbors) for the neighbours projected to the tangent plane of p, times `unit`, as many at a
+  /// time as `planar` holds, until it returns false.
+  template <class Visit>
+  void projectParts(const Neighborhood& hood, double unit, const Offsets& offsets, const Visit& visit) const {
     const Eigen::Vector3d x = tangentOf(hood.axes.normal), y = hood.axes.normal.cross(x);
-    const std::span<const Neighbor> neighbors = hood.neighbors;
-    Offsets part_of_them;
     PlanarOffsets planar;
-    state.planar.clear();
-    for (std::size_t first = 0; first < neighbors.size(); first += Offsets::most) {
-      const auto part = neighbors.subspan(first, std::min<std::size_t>(Offsets::most, neighbors.size() - first));
-      if (taken == nullptr) takeOffsets(cloud_.points, p, part, part_of_them);
-      kernels_.project(taken != nullptr ? *taken : part_of_them, unit, x.data(), y.data(), planar);
-      const bool is_whole = part.size() == neighbors.size();
-      if (is_whole && has_short_cut_) {
-        const StarKind kind = wrapInverted(kernels_, planar, part, state.star, state.planar);
-        if (kind == StarKind::closed) return;
-        if (kind == StarKind::tied) break;
-      }
-      for (int i = 0; i < planar.count; ++i) state.planar.push_back({planar.u[i], planar.v[i], part[i].index});
+    for (int first = 0; first < offsets.count; first += PlanarOffsets::most) {
+      const int count = std::min(offsets.count - first, PlanarOffsets::most);
+      kernels_.project({count, offsets.x + first, offsets.y + first, offsets.z + first}, unit, x.data(), y.data(),
+                       planar);
+      if (!visit(planar, std::span<const Neighbor>(hood.neighbors).subspan(first, count))) break;
     }
-    wrap_(state.planar, p, state.scratch, state.star);
+  }
+
+  /// The star among the neighbours.
+  void wrap(int p, const Neighborhood& hood, double unit, const Offsets& offsets, WorkerState& state) const {
+    state.planar.clear();
+    StarKind kind = StarKind::unknown;
+    projectParts(hood, unit, offsets, [&](const PlanarOffsets& planar, std::span<const Neighbor> neighbors) {
+      if (planar.count == offsets.count && has_short_cut_)
+        kind = wrapInverted(kernels_, planar, neighbors, state.star, state.planar);
+      if (kind != StarKind::unknown) return false;
+      for (int i = 0; i < planar.count; ++i) state.planar.push_back({planar.u[i], planar.v[i], neighbors[i].index});
+      return true;
+    });
+    if (kind != StarKind::closed) wrap_(state.planar, p, state.scratch, state.star);
+  }
+
+  /// Whether the star among more neighbours than before has a gap for certain.
+  bool staysOpen(StarGap gap, const Neighborhood& hood, double unit, const Offsets& offsets) const {
+    projectParts(hood, unit, offsets, [&](const PlanarOffsets& planar, std::span<const Neighbor>) {
+      gap.narrow(planar);
+      return true;
+    });
+    return gap.isOpen();
   }
 
   /// Wraps the star and looks further where what was found is no proof that the star is right: a circle of a closed
   /// star leaves the ball that was searched, or the star is open and might not be among more neighbours.
-  void wrapUntilCertain(int p, Neighborhood& hood, double unit, const Offsets& offsets, WorkerState& state) const {
+  void wrapUntilCertain(int p, Neighborhood& hood, double unit, OffsetBuffer& offsets, WorkerState& state) const {
     const bool thorough = options_.steps.star_search == StarSearch::thorough;
     DelaunayStar& star = state.star;
     int most = 2 * hood.k;
     if (thorough) most = hood.k >= finder_.mostNeighbors() ? hood.k : std::max(2 * source_.k, most);
     int open_tries = thorough && !source_.isGraded() ? 2 : 0;  // graded neighbours reach past the star as it is
-    project(p, hood, unit, isAsFound(hood) ? &offsets : nullptr, state);
+    wrap(p, hood, unit, offsets.view(), state);
     for (;;) {
       if (star.closed) {
-        if (2 * star.largestCircumradius() <= hood.radius * unit || !finder_.grow(p, most, hood, state.hood)) return;
+        if (2 * star.largestCircumradius() <= hood.radius * unit || !finder_.grow(p, most, hood, offsets, state.hood))
+          return;
         ++state.grown_stars;
-        project(p, hood, unit, nullptr, state);
+        wrap(p, hood, unit, offsets.view(), state);
         if (!thorough) return;
         continue;
       }
       if (open_tries == 0) return;
       state.saved_star = star;
       state.saved_hood = hood;
-      while (!star.closed && open_tries-- > 0 && finder_.grow(p, 2 * hood.k, hood, state.hood))
-        project(p, hood, unit, nullptr, state);
+      const StarGap gap(star);
+      while (!star.closed && open_tries-- > 0 && finder_.grow(p, 2 * hood.k, hood, offsets, state.hood))
+        if (!staysOpen(gap, hood, unit, offsets.view())) wrap(p, hood, unit, offsets.view(), state);
       open_tries = 0;
       if (!star.closed) {
         star = state.saved_star;
@@ -173,7 +174,7 @@ class StarBuilder {
     }
   }
 
-  void wrapStar(int p, Neighborhood& hood, const Offsets& offsets, WorkerState& state, BlockOfStars& block) const {
+  void wrapStar(int p, Neighborhood& hood, OffsetBuffer& offsets, WorkerState& state, BlockOfStars& block) const {
     // A power of two near the reach, so that the predicates meet numbers near 1 and scaling rounds nothing.
     const double unit = magnitudeOf(hood.reach);
     DelaunayStar& star = state.star;
@@ -203,7 +204,6 @@ class StarBuilder {
     }
   }
 
-  const RankedCloud& cloud_;
   const NeighborSource& source_;
   const CloudOptions& options_;
   NeighborhoodFinder finder_;
@@ -212,36 +212,6 @@ class StarBuilder {
   bool has_short_cut_;
   Stars& stars_;
 };
-
-/// Fits the surface of noisy points once more, to points that lie on it by now. Positions are taken relative to the
-/// point, so that the distance from the origin does not matter.
-void refineSurface(const PointsView& points, Stars& stars, const Buffer<BlockOfStars>& blocks, const Workers& workers) {
-  const PointBuffer first = stars.move;
-  const auto refine = [&](const BlockOfStars& block, PointBuffer& local, Buffer<Neighbor>& neighbors) {
-    std::size_t begin = 0;
-    for (std::size_t i = 0; i < block.noisy.size(); begin = block.noisy_end[i++]) {
-      const int p = block.noisy[i];
-      const auto count = static_cast<int>(block.noisy_end[i] - begin);
-      local.resize(count + 1);
-      local.row(0) = first.row(p);
-      neighbors.clear();
-      for (int j = 1; j <= count; ++j) {
-        const int q = block.noisy_neighbors[begin + j - 1];
-        local.row(j) = points.row(q) - points.row(p) + first.row(q);
-        neighbors.push_back({0, j});
-      }
-      const Eigen::Vector3d normal = principalAxes(local, 0, neighbors).normal;
-      const HeightFit fit = fitHeights(local, 0, neighbors, normal, stars.reach[p]);
-      if (fit.is_valid) stars.move.row(p) += fit.height * normal.transpose();
-    }
-  };
-  workers.forBlocks("surface", static_cast<std::int64_t>(blocks.size()), 1,
-                    [&](std::int64_t begin, std::int64_t end, int) {
-                      PointBuffer local;
-                      Buffer<Neighbor> neighbors;
-                      for (std::int64_t b = begin; b < end; ++b) refine(blocks[b], local, neighbors);
-                    });
-}
 
 }  // namespace
 
@@ -274,8 +244,15 @@ Stars buildStars(const RankedCloud& cloud, const NeighborSource& source, const C
     builder.build(begin, end, states[worker], blocks[begin / block_size]);
   });
 
-  for (const BlockOfStars& block : blocks) report.denoised += static_cast<std::int64_t>(block.noisy.size());
-  if (report.denoised > 0) refineSurface(cloud.points, stars, blocks, workers);
+  for (const BlockOfStars& block : blocks) report.denoised += std::ssize(block.noisy.rank);
+  if (report.denoised > 0) {
+    const PointBuffer moved = stars.move;
+    workers.forBlocks("surface", std::ssize(blocks), 1, [&](std::int64_t begin, std::int64_t end, int worker) {
+      WorkerState& state = states[worker];
+      for (std::int64_t b = begin; b < end; ++b)
+        moveOnceMore(cloud.points, moved, blocks[b].noisy, stars.reach, state.offsets, state.fits, stars.move);
+    });
+  }
 
   std::partial_sum(stars.offset.begin(), stars.offset.end(), stars.offset.begin());
   stars.link.resize(stars.offset.back());

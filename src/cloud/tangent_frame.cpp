@@ -6,6 +6,7 @@
 
 #include "base/point_buffer.h"
 #include "base/power_of_two.h"
+#include "cloud/offsets.h"
 
 namespace tufted {
 
@@ -21,36 +22,16 @@ PrincipalAxes carefulAxes(const Covariance& a) {
 
 }  // namespace
 
-void takeOffsets(const PointsView& points, int p, std::span<const Neighbor> neighbors, Offsets& offsets) {
-  const double* all = points.data();
-  const double* origin = all + 3 * std::ptrdiff_t{p};
-  offsets.count = static_cast<int>(neighbors.size());
-  for (int i = 0; i < offsets.count; ++i) {
-    const double* point = all + 3 * std::ptrdiff_t{neighbors[i].index};
-    offsets.x[i] = point[0] - origin[0];
-    offsets.y[i] = point[1] - origin[1];
-    offsets.z[i] = point[2] - origin[2];
-  }
-  for (int i = offsets.count; i < toLanes(offsets.count); ++i) offsets.x[i] = offsets.y[i] = offsets.z[i] = 0;
-}
-
-Covariance covarianceOf(const PointsView& points, int p, std::span<const Neighbor> neighbors, Offsets& offsets) {
+Covariance covarianceOf(const Offsets& neighbors) {
   const Kernels& kernel = kernels();
-  const bool is_one_part = neighbors.size() <= Offsets::most;
-  if (is_one_part) takeOffsets(points, p, neighbors, offsets);
-  const auto forAll = [&](const auto& visit) {
-    if (is_one_part) return visit();
-    forEachPart(points, p, neighbors, offsets, visit);
-  };
   // The extent as a power of two keeps squares in range at any scale, exactly.
-  double extent = 0;
-  forAll([&] { extent = std::max(extent, kernel.extent(offsets)); });
+  const double extent = kernel.extent(neighbors);
   if (extent == 0) return {};
-  const double power = magnitudeOf(extent), unit = 1 / power;
+  const double power = magnitudeOf(extent);
   OffsetSums sums;
-  forAll([&] { kernel.addSums(offsets, unit, sums); });
+  kernel.addSums(neighbors, 1 / power, sums);
 
-  const double share = 1 / static_cast<double>(neighbors.size() + 1);  // p adds nothing but itself
+  const double share = 1 / static_cast<double>(neighbors.count + 1);  // p adds nothing but itself
   const double x = sums.sum(0) * share, y = sums.sum(1) * share, z = sums.sum(2) * share;
   return {sums.sum(3) * share - x * x,
           sums.sum(4) * share - x * y,
@@ -91,12 +72,17 @@ void principalAxes(std::span<const Covariance> covariances, std::span<PrincipalA
   }
 }
 
-PrincipalAxes principalAxes(const PointsView& points, int p, std::span<const Neighbor> neighbors) {
-  Offsets offsets;
-  const Covariance covariance = covarianceOf(points, p, neighbors, offsets);
+PrincipalAxes principalAxes(const Offsets& neighbors) {
+  const Covariance covariance = covarianceOf(neighbors);
   PrincipalAxes axes;
   principalAxes({&covariance, 1}, {&axes, 1});
   return axes;
+}
+
+PrincipalAxes principalAxes(const PointsView& points, int p, std::span<const Neighbor> neighbors) {
+  OffsetBuffer offsets;
+  offsets.take(points, p, neighbors);
+  return principalAxes(offsets.view());
 }
 
 bool liesOnOneLine(const PrincipalAxes& axes) {

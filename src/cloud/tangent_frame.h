@@ -1,7 +1,6 @@
 #pragma once
 
 #include <Eigen/Core>
-#include <algorithm>
 #include <span>
 
 #include "base/point_buffer.h"
@@ -18,19 +17,6 @@ struct PrincipalAxes {
   double extent = 1;         ///< a power of two near the neighbourhood's extent
 };
 
-/// Positions relative to p of at most Offsets::most points.
-void takeOffsets(const PointsView& points, int p, std::span<const Neighbor> neighbors, Offsets& offsets);
-
-/// Calls visit() for the neighbours of p, as many at a time as `offsets` holds.
-template <class Visit>
-void forEachPart(const PointsView& points, int p, std::span<const Neighbor> neighbors, Offsets& offsets,
-                 const Visit& visit) {
-  for (; !neighbors.empty(); neighbors = neighbors.subspan(offsets.count)) {
-    takeOffsets(points, p, neighbors.first(std::min<std::size_t>(Offsets::most, neighbors.size())), offsets);
-    visit();
-  }
-}
-
 /// Covariance of p and its neighbours about their centroid, from coordinates relative to p, so that the distance from
 /// the origin does not matter.
 struct Covariance {
@@ -38,11 +24,11 @@ struct Covariance {
   double extent = 0;                                      ///< see PrincipalAxes; 0 where all are at one place
 };
 
-/// @param[out] offsets of the neighbours, if they are at most Offsets::most
-Covariance covarianceOf(const PointsView& points, int p, std::span<const Neighbor> neighbors, Offsets& offsets);
+Covariance covarianceOf(const Offsets& neighbors);
 
 /// Of each covariance; those of one do not depend on the others.
 void principalAxes(std::span<const Covariance> covariances, std::span<PrincipalAxes> axes);
+PrincipalAxes principalAxes(const Offsets& neighbors);
 PrincipalAxes principalAxes(const PointsView& points, int p, std::span<const Neighbor> neighbors);
 
 /// One scan line only: the second axis has less than a tenth of the first one's variance.

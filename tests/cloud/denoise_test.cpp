@@ -6,6 +6,7 @@
 #include <Eigen/Geometry>
 #include <cmath>
 
+#include "cloud/offsets.h"
 #include "cloud/tangent_frame.h"
 #include "shapes/random.h"
 
@@ -30,8 +31,13 @@ Buffer<Neighbor> allOthers(const Points& points) {
   return neighbors;
 }
 
-HeightFit fitAll(const Points& points) {
-  return fitHeights(points, 0, allOthers(points), Eigen::Vector3d::UnitZ(), 1.5);
+HeightFit fitAll(const Points& points, const Eigen::Vector3d& normal = Eigen::Vector3d::UnitZ()) {
+  OffsetBuffer offsets;
+  offsets.take(points, 0, allOthers(points));
+  const HeightMoments moments = heightMoments(offsets.view(), normal, 1.5);
+  HeightFit fit;
+  fitHeights({&moments, 1}, {&fit, 1});
+  return fit;
 }
 
 TEST(HeightFit, OfAQuadricIsTheQuadric) {
@@ -67,7 +73,7 @@ TEST(Noise, IsWhatNoCurvatureExplains) {
   const auto isNoisySurface = [](const auto& height) {
     const Points points = surface(30, height);
     const PrincipalAxes axes = principalAxes(points, 0, allOthers(points));
-    const HeightFit fit = fitHeights(points, 0, allOthers(points), axes.normal, 1.5);
+    const HeightFit fit = fitAll(points, axes.normal);
     return isNoisy(fit, axes.variance[0] * axes.extent * axes.extent, 1.5);
   };
   EXPECT_FALSE(isNoisySurface([](int, double, double) { return 0.0; }));

@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "base/buffer.h"
+#include "cloud/denoise.h"
+#include "cloud/offsets.h"
 #include "cloud/tangent_frame.h"
 #include "intrinsic/geometry.h"
 #include "shapes/random.h"
@@ -23,8 +25,9 @@ TEST(Kernels, HaveTheSameBitsOnAnyProcessor) {
   Buffer<Neighbor> neighbors;
   for (int q = 1; q < 65; ++q) neighbors.push_back({0, q});
   for (const std::size_t count : {1, 7, 8, 9, 30, 64}) {
-    Offsets offsets;
-    takeOffsets(points, 0, std::span(neighbors).first(count), offsets);
+    OffsetBuffer buffer;
+    buffer.take(points, 0, std::span(neighbors).first(count));
+    const Offsets offsets = buffer.view();
     EXPECT_EQ(kernels().extent(offsets), portableKernels().extent(offsets));
     OffsetSums sums, portable_sums;
     kernels().addSums(offsets, 0.25, sums);
@@ -34,8 +37,7 @@ TEST(Kernels, HaveTheSameBitsOnAnyProcessor) {
     HeightSums heights{}, portable_heights{};
     kernels().addHeights(offsets, axes.data(), heights);
     portableKernels().addHeights(offsets, axes.data(), portable_heights);
-    constexpr auto numbers = sizeof(HeightSums) / sizeof(double);
-    EXPECT_TRUE(std::equal(&heights.u, &heights.u + numbers, &portable_heights.u));
+    EXPECT_TRUE(std::equal(&heights.u, &heights.u + HeightSystems::numbers, &portable_heights.u));
     const Eigen::Vector3d x(0.6, 0.8, 0.1), y(-0.8, 0.6, 0.2);
     PlanarOffsets planar, portable;
     kernels().project(offsets, 0.25, x.data(), y.data(), planar);
@@ -52,14 +54,15 @@ TEST(Kernels, FindAxesOfEachMatrixAsIfItWereAlone) {
   std::vector<Covariance> covariances;
   Buffer<Neighbor> neighbors;
   for (int q = 1; q < 31; ++q) neighbors.push_back({0, q});
-  Offsets offsets;
+  OffsetBuffer offsets;
   for (int i = 0; i < 21; ++i) {  // flat, round, on a line, in one place
     Points points(31, 3);
     for (double& x : points.reshaped()) x = random.normal();
     points.col(2) *= std::array{0.01, 1.0, 0.3}[i % 3];
     points.rightCols(2) *= i == 7 ? 0 : 1;
     points *= i == 11 ? 0 : 1;
-    covariances.push_back(covarianceOf(points, 0, neighbors, offsets));
+    offsets.take(points, 0, neighbors);
+    covariances.push_back(covarianceOf(offsets.view()));
   }
   const auto axesOf = [](std::span<const Covariance> some) {
     std::vector<PrincipalAxes> axes(some.size());
@@ -76,6 +79,40 @@ TEST(Kernels, FindAxesOfEachMatrixAsIfItWereAlone) {
       EXPECT_EQ(axes.normal, alone.normal) << i;
       EXPECT_EQ(axes.variance, alone.variance) << i;
       EXPECT_EQ(axes.extent, alone.extent) << i;
+    }
+  }
+}
+
+TEST(Kernels, FitHeightsOfEachAsIfItWereAlone) {
+  shapes::Random random(7);
+  Buffer<Neighbor> neighbors;
+  for (int q = 1; q < 31; ++q) neighbors.push_back({0, q});
+  OffsetBuffer offsets;
+  std::vector<HeightMoments> moments;
+  for (int i = 0; i < 21; ++i) {  // curved, on one line, in one place, too few, without a size
+    Points points(31, 3);
+    for (double& x : points.reshaped()) x = random.normal();
+    points.rightCols(2) *= i == 5 ? 0 : 1;
+    points *= i == 8 ? 0 : 1;
+    offsets.take(points, 0, std::span(neighbors).first(i == 12 ? 7 : 30));
+    moments.push_back(heightMoments(offsets.view(), Eigen::Vector3d(1, 2, 2) / 3, i == 15 ? 0 : 2.5));
+  }
+  const auto fitsOf = [](std::span<const HeightMoments> some) {
+    std::vector<HeightFit> fits(some.size());
+    fitHeights(some, fits);
+    return fits;
+  };
+  const std::vector<HeightFit> together = fitsOf(moments);
+  chooseKernels(&portableKernels());
+  const std::vector<HeightFit> portable = fitsOf(moments);
+  chooseKernels(nullptr);
+  for (std::size_t i = 0; i < moments.size(); ++i) {
+    const HeightFit alone = fitsOf({&moments[i], 1}).front();
+    EXPECT_EQ(alone.is_valid, i != 5 && i != 8 && i != 12 && i != 15) << i;
+    for (const HeightFit& fit : {together[i], portable[i]}) {
+      EXPECT_EQ(fit.is_valid, alone.is_valid) << i;
+      EXPECT_EQ(fit.height, alone.height) << i;
+      EXPECT_EQ(fit.variance, alone.variance) << i;
     }
   }
 }
@@ -107,7 +144,7 @@ TEST(Kernels, ReachHeightsOverGapsThatAreNotTooWide) {
     const double gap = 4.0 / (count + 1);
     for (const Kernels* kernel : {&portableKernels(), &kernels()}) {
       const Reached reached =
-          kernel->reachHeights({room, x.data(), y.data(), z.data(), height.data()}, normal.data(), gap);
+          kernel->reachHeights({count, x.data(), y.data(), z.data()}, normal.data(), gap, height.data());
       EXPECT_EQ(reached.highest, climb(up, gap)) << count;
       EXPECT_EQ(reached.lowest, -climb(down, gap)) << count;
       EXPECT_EQ(reached.top, std::max(0.0, count > 0 ? *std::max_element(up.begin(), up.end()) : 0)) << count;

@@ -24,17 +24,29 @@ class Hoods {
   Neighborhood at(int p) {
     Neighborhood hood;
     finder_.find(p, 1, scratch_, &hood);
-    finder_.fitPlanes(p, {&hood, 1}, {&offsets_, 1});
-    finder_.refine(p, hood, scratch_);
+    finder_.fitPlanes(p, {&hood, 1}, {&offsets_, 1}, scratch_);
+    finder_.refine(p, hood, offsets_, scratch_);
+    expectOffsetsOf(p, hood);
     return hood;
   }
 
  private:
+  void expectOffsetsOf(int p, const Neighborhood& hood) const {
+    const Offsets offsets = offsets_.view();
+    ASSERT_EQ(offsets.count, std::ssize(hood.neighbors));
+    for (int i = 0; i < toLanes(offsets.count); ++i) {
+      const Eigen::RowVector3d offset(offsets.x[i], offsets.y[i], offsets.z[i]);
+      const Eigen::RowVector3d expected =
+          i < offsets.count ? points_.row(hood.neighbors[i].index) - points_.row(p) : Eigen::RowVector3d(0, 0, 0);
+      ASSERT_EQ(offset, expected) << p << " " << i;
+    }
+  }
+
   Points points_;
   CloudOptions options_;
   NeighborSource source_;
   NeighborhoodFinder finder_;
-  Offsets offsets_;
+  OffsetBuffer offsets_;
   HoodScratch scratch_;
 };
 

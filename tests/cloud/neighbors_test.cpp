@@ -91,6 +91,43 @@ TEST(Neighbors, OfEachAreThoseOfOne) {
   }
 }
 
+TEST(Neighbors, OfKnownCandidatesAreThoseOfTheTree) {
+  double even = 0;  // how often there are twice as many on the sphere
+  for (const auto& cloud : oddClouds()) {
+    std::vector<PointStatus> status;
+    std::vector<int> representative;
+    const RankedCloud ranked = rankPoints(cloud.points, status, representative);
+    const NeighborSearch search(ranked.points);
+    GroupScratch scratch;
+    Buffer<Neighbor> each, known, expected;
+    EXPECT_FALSE(nearestOfKnown(ranked.points, 0, 1, 1, kernels(), scratch, known));  // nothing was asked before
+    int found = 0, asked = 0;
+    constexpr int block = 500;
+    for (int first = 0; first < ranked.size(); first += block) {
+      const int count = std::min(block, ranked.size() - first);
+      nearestOfEach(search, ranked.points, first, count, 30, kernels(), scratch, each);
+      EXPECT_FALSE(nearestOfKnown(ranked.points, first - 1, 1, 1, kernels(), scratch, known));
+      EXPECT_FALSE(nearestOfKnown(ranked.points, first + count, 1, 1, kernels(), scratch, known));
+      for (int i = count - 1; i >= 0; --i) {  // not in the order of the search
+        const int k = std::min((i % 2 + 1) * 60, ranked.size() - 1);
+        const double likely = i % 3 == 0 ? 0 : each[i * std::min(30, ranked.size() - 1)].squared_distance * 100;
+        const bool is_found = nearestOfKnown(ranked.points, first + i, k, likely, kernels(), scratch, known);
+        asked += k == 60 ? 1 : 0;
+        if (!is_found) continue;
+        found += k == 60 ? 1 : 0;
+        search.nearest(first + i, k, expected);
+        ASSERT_EQ(known.size(), expected.size());
+        for (int j = 0; j < k; ++j) {
+          ASSERT_EQ(known[j].index, expected[j].index) << cloud.name << " point " << first + i << " neighbour " << j;
+          ASSERT_EQ(known[j].squared_distance, expected[j].squared_distance);
+        }
+      }
+    }
+    if (ranked.size() == 5000) even = static_cast<double>(found) / asked;
+  }
+  EXPECT_GT(even, 0.9);
+}
+
 TEST(Neighbors, AreAllOthersWhenThereAreFewer) {
   Points points(3, 3);
   points << 0, 0, 0, 1, 0, 0, 0, 3, 0;

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+
+#include "base/buffer.h"
+#include "base/point_buffer.h"
+#include "cloud/kernels.h"
+#include "cloud/neighbors.h"
+
+namespace tufted {
+
+/// Memory for the offsets of one neighbourhood, as large as any before.
+class OffsetBuffer {
+ public:
+  /// Those of the neighbours from p.
+  void take(const PointsView& points, int p, std::span<const Neighbor> neighbors) {
+    const double* const all = points.data();
+    const double* const origin = all + 3 * std::ptrdiff_t{p};
+    fill(static_cast<int>(neighbors.size()), [&](int i) {
+      const double* const q = all + 3 * std::ptrdiff_t{neighbors[i].index};
+      return Eigen::RowVector3d(q[0] - origin[0], q[1] - origin[1], q[2] - origin[2]);
+    });
+  }
+
+  /// Those that offset(0), offset(1), ... return.
+  template <class Offset>
+  void fill(int count, const Offset& offset) {
+    resize(count);
+    double *const x = axis(0), *const y = axis(1), *const z = axis(2);
+    for (int i = 0; i < count; ++i) {
+      const Eigen::RowVector3d d = offset(i);
+      x[i] = d[0];
+      y[i] = d[1];
+      z[i] = d[2];
+    }
+    for (int i = count; i < toLanes(count); ++i) x[i] = y[i] = z[i] = 0;
+  }
+
+  /// The first `count` of others.
+  void takeFirst(const Offsets& others, int count) {
+    fill(count, [&](int i) { return Eigen::RowVector3d(others.x[i], others.y[i], others.z[i]); });
+  }
+
+  /// Of others, or of these themselves, those that isKept(i).
+  template <class IsKept>
+  void takeKept(const OffsetBuffer& others, const IsKept& isKept) {
+    const int count = others.count_;
+    if (this != &others) resize(count);
+    int kept = 0;
+    for (int i = 0; i < count; ++i) {  // without a branch: which are kept cannot be foreseen
+      for (int c = 0; c < 3; ++c) axis(c)[kept] = others.axis(c)[i];
+      kept += isKept(i) ? 1 : 0;
+    }
+    for (int i = kept; i < toLanes(kept); ++i)
+      for (int c = 0; c < 3; ++c) axis(c)[i] = 0;
+    count_ = kept;
+  }
+
+  /// Valid until the next change.
+  Offsets view() const { return {count_, axis(0), axis(1), axis(2)}; }
+
+ private:
+  struct alignas(64) Values {
+    double value[kernel_lane];
+  };
+
+  void resize(int count) {
+    count_ = count;
+    room_ = static_cast<std::size_t>(toLanes(count)) / kernel_lane;
+    if (memory_.size() < 3 * room_ + 1) memory_.resize(3 * room_ + 1);  // never empty
+  }
+  double* axis(int c) { return memory_.data()->value + c * room_ * kernel_lane; }
+  const double* axis(int c) const { return memory_.data()->value + c * room_ * kernel_lane; }
+
+  RawBuffer<Values> memory_;  ///< x, y, z, one after the other
+  std::size_t room_ = 0;      ///< of each, in lanes
+  int count_ = 0;
+};
+
+}  // namespace tufted
