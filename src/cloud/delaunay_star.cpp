@@ -81,8 +81,9 @@ void wrapChosen(int p, StarScratch& scratch, DelaunayStar& star) {
   // A gap of pi or more, if there is one, becomes the end of the link.
   star.closed = m >= 3;
   for (int i = 0; i < m; ++i) {
-    if (orientation(ring[i], ring[(i + 1) % m]) <= 0) {
-      std::rotate(ring.begin(), ring.begin() + (i + 1) % m, ring.end());
+    const int next = i + 1 < m ? i + 1 : 0;
+    if (orientation(ring[i], ring[next]) <= 0) {
+      std::rotate(ring.begin(), ring.begin() + next, ring.end());
       star.closed = false;
       break;
     }
@@ -92,9 +93,11 @@ void wrapChosen(int p, StarScratch& scratch, DelaunayStar& star) {
   scratch.next.resize(m);
   scratch.previous.resize(m);
   for (int i = 0; i < m; ++i) {
-    scratch.next[i] = (i + 1) % m;
-    scratch.previous[i] = (i + m - 1) % m;
+    scratch.next[i] = i + 1;
+    scratch.previous[i] = i - 1;
   }
+  scratch.next[m - 1] = 0;
+  scratch.previous[0] = m - 1;
   int left = m;
   int first = 0;
   int settled = 0;  // vertices in a row that stay

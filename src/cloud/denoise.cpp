@@ -32,7 +32,7 @@ HeightMoments heightMoments(const Offsets& neighbors, const Eigen::Vector3d& nor
   axes.col(0) = tangentOf(normal) * unit;
   axes.col(1) = normal.cross(axes.col(0));
   axes.col(2) = normal * unit;
-  kernels().addHeights(neighbors, axes.data(), moments.sums);
+  kernels().sumHeights(neighbors, axes.data(), moments.sums);
   return moments;
 }
 

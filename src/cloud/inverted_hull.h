@@ -206,8 +206,11 @@ TUFTED_INLINE Verdict judge(const Inverted& points, Ring& hull, Subset& given, I
   }
   if (!is_complete) return Verdict::incomplete;
   if (given.size > InvertedStar::most) return Verdict::doubtful;
-  star.size = given.size;
-  for (int i = 0; i < given.size; ++i) star.link[i] = given.of[i];
+  star.size = hull.size;
+  for (int i = 0; i < hull.size; ++i) star.link[i] = hull.of[i + 1];
+  for (int i = 1; i <= hull.size; ++i) gauge[hull.of[i]] = 0;
+  for (int i = 0; i < given.size; ++i)
+    if (gauge[given.of[i]] > 0) star.link[star.size++] = given.of[i];
   return Verdict::tied;
 }
 
@@ -238,8 +241,16 @@ StarKind wrapInvertedLanes(const PlanarOffsets& planar, InvertedStar& star) {
       verdict = Verdict::incomplete;
     }
   }
-  if (verdict == Verdict::certain) return StarKind::closed;
-  return verdict == Verdict::tied ? StarKind::tied : StarKind::unknown;
+  switch (verdict) {
+    case Verdict::certain:
+      return StarKind::closed;
+    case Verdict::tied:
+      return StarKind::tied;
+    case Verdict::open:
+      return StarKind::gaping;
+    default:
+      return StarKind::unknown;
+  }
 }
 
 }  // namespace

@@ -15,7 +15,7 @@ namespace tufted {
 /// one circle. There the result is that of delaunayStar(), the link exactly and the radii up to rounding.
 /// @param planar candidates by ascending distance in space; most stars are settled by the first few
 /// @param neighbors who they are
-/// @param tied where the star is tied, all that may be in its link, as `planar`: delaunayStar() of them is that of all
+/// @param tied where the star is tied, all that may be in its link: delaunayStar() of them is that of all
 StarKind wrapInverted(const Kernels& kernels, const PlanarOffsets& planar, std::span<const Neighbor> neighbors,
                       DelaunayStar& star, Buffer<PlanarPoint>& tied);
 

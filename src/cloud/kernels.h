@@ -26,15 +26,9 @@ struct Offsets {
   const double *x, *y, *z;
 };
 
-/// Sums over neighbours, in lanes: x, y, z, and the products xx, xy, xz, yy, yz, zz.
+/// Sums over neighbours.
 struct OffsetSums {
-  alignas(64) double lanes[9 * kernel_lane] = {};
-
-  /// The total of number i, added in a fixed order.
-  double sum(int i) const {
-    const double* v = &lanes[i * kernel_lane];
-    return ((v[0] + v[4]) + (v[2] + v[6])) + ((v[1] + v[5]) + (v[3] + v[7]));
-  }
+  double x, y, z, xx, xy, xz, yy, yz, zz;
 };
 
 /// Sums over neighbours with the coordinates u, v in a plane and the height h over it.
@@ -83,11 +77,12 @@ struct PlanarOffsets {
 };
 
 /// What is certain of a star: that it is closed, and its link; which few neighbours are in the link, but for ties among
-/// them; or nothing.
-enum class StarKind { closed, tied, unknown };
+/// them; or nothing, be it that it looks open.
+enum class StarKind { closed, tied, gaping, unknown };
 
 /// A closed star: numbers of neighbours counterclockwise, and the circumradius of each and the next. A tied one:
-/// numbers in ascending order, of all that may be in the link.
+/// numbers of all that may be in the link, first the corners of a hull counterclockwise, then others in ascending
+/// order.
 struct InvertedStar {
   static constexpr int most = 24;
   int size = 0;
@@ -119,10 +114,10 @@ struct Kernels {
   void (*rankValues)(const double* values, int count, float* rounded, int* rank);
   /// The largest absolute coordinate.
   double (*extent)(const Offsets& offsets);
-  /// Adds those of the offsets times `unit`.
-  void (*addSums)(const Offsets& offsets, double unit, OffsetSums& sums);
-  /// Adds those of the offsets along the axes of u, v and h, which are given one after the other.
-  void (*addHeights)(const Offsets& offsets, const double* axes, HeightSums& sums);
+  /// Of the offsets times `unit`.
+  void (*sumOffsets)(const Offsets& offsets, double unit, OffsetSums& sums);
+  /// Of the offsets along the axes of u, v and h, which are given one after the other.
+  void (*sumHeights)(const Offsets& offsets, const double* axes, HeightSums& sums);
   /// Each as if it were alone.
   void (*solveHeights)(const HeightSystems& systems, HeightSolutions& solutions);
   /// Heights along `normal`, and which of them are reached over gaps of at most `gap`.

@@ -58,11 +58,36 @@ double extent(const Offsets& offsets) {
   return most(largest);
 }
 
-void addSums(const Offsets& offsets, double unit, OffsetSums& total) {
+/// The total of each of the lanes, added in one order on any processor.
+TUFTED_INLINE void addAcross(const double* lanes, int count, double* totals) {
+  int n = 0;
+#ifdef TUFTED_WIDE_LANES
+  const auto halves = [](Lane a, Lane b) {
+    return _mm512_shuffle_f64x2(a, b, 0x44) + _mm512_shuffle_f64x2(a, b, 0xee);
+  };
+  const auto quarters = [](Lane a, Lane b) {
+    return _mm512_shuffle_f64x2(a, b, 0x88) + _mm512_shuffle_f64x2(a, b, 0xdd);
+  };
+  for (; n + lane_size <= count; n += lane_size) {
+    const auto at = [&](int i) { return load(lanes + (n + i) * lane_size); };
+    const Lane even = quarters(halves(at(0), at(2)), halves(at(4), at(6)));
+    const Lane odd = quarters(halves(at(1), at(3)), halves(at(5), at(7)));
+    store(_mm512_unpacklo_pd(even, odd) + _mm512_unpackhi_pd(even, odd), totals + n);
+  }
+#endif
+  for (; n < count; ++n) {
+    const double* s = &lanes[n * lane_size];
+    totals[n] = ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
+  }
+}
+
+void sumOffsets(const Offsets& offsets, double unit, OffsetSums& total) {
+  constexpr int numbers = sizeof(OffsetSums) / sizeof(double);
+  alignas(64) double lanes[numbers * lane_size];
   const Part scale = allOfPart(unit);
   for (int part = 0; part < lane_size; part += part_size) {
-    Part sums[9];
-    for (int i = 0; i < 9; ++i) sums[i] = loadPart(&total.lanes[i * lane_size + part]);
+    Part sums[numbers];
+    for (Part& sum : sums) sum = allOfPart(0);
     for (int i = part; i < offsets.count; i += lane_size) {
       const Part x = loadPart(&offsets.x[i]) * scale, y = loadPart(&offsets.y[i]) * scale,
                  z = loadPart(&offsets.z[i]) * scale;
@@ -76,8 +101,9 @@ void addSums(const Offsets& offsets, double unit, OffsetSums& total) {
       sums[7] = sums[7] + y * z;
       sums[8] = sums[8] + z * z;
     }
-    for (int i = 0; i < 9; ++i) store(sums[i], &total.lanes[i * lane_size + part]);
+    for (int i = 0; i < numbers; ++i) store(sums[i], lanes + i * lane_size + part);
   }
+  addAcross(lanes, numbers, &total.x);
 }
 
 /// HeightSums in lanes, each in a register as far as there are any.
@@ -85,7 +111,7 @@ struct HeightParts {
   Part u, v, uu, uv, vv, uuu, uuv, uvv, vvv, uuuu, uuuv, uuvv, uvvv, vvvv, h, hu, hv, huu, huv, hvv, hh;
 };
 
-void addHeights(const Offsets& offsets, const double* axes, HeightSums& total) {
+void sumHeights(const Offsets& offsets, const double* axes, HeightSums& total) {
   constexpr int numbers = HeightSystems::numbers;
   alignas(64) double lanes[numbers * lane_size];
   for (int part = 0; part < lane_size; part += part_size) {
@@ -110,11 +136,7 @@ void addHeights(const Offsets& offsets, const double* axes, HeightSums& total) {
     put(sum.u, sum.v, sum.uu, sum.uv, sum.vv, sum.uuu, sum.uuv, sum.uvv, sum.vvv, sum.uuuu, sum.uuuv, sum.uuvv,
         sum.uvvv, sum.vvvv, sum.h, sum.hu, sum.hv, sum.huu, sum.huv, sum.hvv, sum.hh);
   }
-  double* const to = &total.u;
-  for (int n = 0; n < numbers; ++n) {
-    const double* s = &lanes[n * lane_size];
-    to[n] += ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
-  }
+  addAcross(lanes, numbers, &total.u);
 }
 
 /// By L D L^T of the lower triangle.
@@ -283,7 +305,7 @@ void measureFans(const Fans& given, double added) {
 }  // namespace
 
 extern const Kernels TUFTED_KERNELS;
-const Kernels TUFTED_KERNELS = {takeWithin,   rankValues,   extent,  addSums,     addHeights,       solveHeights,
+const Kernels TUFTED_KERNELS = {takeWithin,   rankValues,   extent,  sumOffsets,  sumHeights,       solveHeights,
                                 reachHeights, findSmallest, project, measureFans, wrapInvertedLanes};
 
 }  // namespace tufted

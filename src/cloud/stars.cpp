@@ -123,11 +123,16 @@ class StarBuilder {
     projectParts(hood, unit, offsets, [&](const PlanarOffsets& planar, std::span<const Neighbor> neighbors) {
       if (planar.count == offsets.count && has_short_cut_)
         kind = wrapInverted(kernels_, planar, neighbors, state.star, state.planar);
-      if (kind != StarKind::unknown) return false;
+      if (kind == StarKind::closed || kind == StarKind::tied) return false;
       for (int i = 0; i < planar.count; ++i) state.planar.push_back({planar.u[i], planar.v[i], neighbors[i].index});
       return true;
     });
-    if (kind != StarKind::closed) wrap_(state.planar, p, state.scratch, state.star);
+    if (kind == StarKind::unknown) {
+      wrap_(state.planar, p, state.scratch, state.star);
+    } else if (kind != StarKind::closed) {  // no few of them decide it, and the short cut takes none that lie on p
+      state.scratch.chosen.swap(state.planar);
+      wrapChosen(p, state.scratch, state.star);
+    }
   }
 
   /// Whether the star among more neighbours than before has a gap for certain.

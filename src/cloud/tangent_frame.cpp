@@ -29,16 +29,16 @@ Covariance covarianceOf(const Offsets& neighbors) {
   if (extent == 0) return {};
   const double power = magnitudeOf(extent);
   OffsetSums sums;
-  kernel.addSums(neighbors, 1 / power, sums);
+  kernel.sumOffsets(neighbors, 1 / power, sums);
 
   const double share = 1 / static_cast<double>(neighbors.count + 1);  // p adds nothing but itself
-  const double x = sums.sum(0) * share, y = sums.sum(1) * share, z = sums.sum(2) * share;
-  return {sums.sum(3) * share - x * x,
-          sums.sum(4) * share - x * y,
-          sums.sum(5) * share - x * z,
-          sums.sum(6) * share - y * y,
-          sums.sum(7) * share - y * z,
-          sums.sum(8) * share - z * z,
+  const double x = sums.x * share, y = sums.y * share, z = sums.z * share;
+  return {sums.xx * share - x * x,
+          sums.xy * share - x * y,
+          sums.xz * share - x * z,
+          sums.yy * share - y * y,
+          sums.yz * share - y * z,
+          sums.zz * share - z * z,
           power};
 }
 
