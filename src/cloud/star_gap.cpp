@@ -1,38 +1,33 @@
 #include "cloud/star_gap.h"
 
-#include <Eigen/Core>
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tufted {
-namespace {
 
-constexpr double margin = 1e-9;  // sine of an angle, a million times what rounding makes of it
-
-}  // namespace
-
-StarGap::StarGap(const DelaunayStar& star) {
-  if (star.link.empty()) return;
+Eigen::Vector2d middleOfGap(const DelaunayStar& star) {
+  if (star.link.empty()) return Eigen::Vector2d::Zero();
   const PlanarPoint &first = star.link.front(), &last = star.link.back();
-  const Eigen::Vector2d middle =
-      -Eigen::Vector2d(first.u, first.v).normalized() - Eigen::Vector2d(last.u, last.v).normalized();
-  x_ = middle.x();
-  y_ = middle.y();
+  const Eigen::Vector2d a = Eigen::Vector2d(first.u, first.v).normalized();
+  const Eigen::Vector2d b = Eigen::Vector2d(last.u, last.v).normalized();
+  // Across the gap from its ends; where these are next to opposite, to the left of its beginning.
+  return (a + b).norm() > 1e-3 ? Eigen::Vector2d(-a - b) : Eigen::Vector2d(-b.y(), b.x());
 }
 
-void StarGap::narrow(const PlanarOffsets& points) {
-  for (int i = 0; i < points.count; ++i) {
-    const double along = points.u[i] * x_ + points.v[i] * y_, across = points.v[i] * x_ - points.u[i] * y_;
-    const double size = std::abs(along) + std::abs(across);
-    const double key = 1 - along / size;  // NaN at the origin, which is nearer than nothing
-    Side& side = across >= 0 ? left_ : right_;
-    if (key < side.key) side = {key, along, across};
+bool leaveGap(const Buffer<PlanarPoint>& points, const Eigen::Vector2d& middle) {
+  const PlanarPoint* begin = nullptr;  // of the gap: the next point to the right of the middle
+  double least = std::numeric_limits<double>::infinity();
+  for (const PlanarPoint& q : points) {
+    const double along = q.u * middle.x() + q.v * middle.y(), across = q.v * middle.x() - q.u * middle.y();
+    if (across > 0 || (across == 0 && along >= 0)) continue;
+    const double angle = 1 - along / (std::abs(along) + std::abs(across));  // grows with it, 0 to 2
+    if (angle >= least) continue;
+    least = angle;
+    begin = &q;
   }
-}
-
-bool StarGap::isOpen() const {
-  const auto sizeOf = [](const Side& side) { return std::abs(side.along) + std::abs(side.across); };
-  const double cross = right_.along * left_.across - right_.across * left_.along;
-  return cross < -margin * sizeOf(left_) * sizeOf(right_);
+  return begin != nullptr &&
+         std::all_of(points.begin(), points.end(), [&](const PlanarPoint& q) { return orientation(*begin, q) <= 0; });
 }
 
 }  // namespace tufted

@@ -116,6 +116,10 @@ class StarBuilder {
     }
   }
 
+  static void append(const PlanarOffsets& planar, std::span<const Neighbor> neighbors, Buffer<PlanarPoint>& points) {
+    for (int i = 0; i < planar.count; ++i) points.push_back({planar.u[i], planar.v[i], neighbors[i].index});
+  }
+
   /// The star among the neighbours.
   void wrap(int p, const Neighborhood& hood, double unit, const Offsets& offsets, WorkerState& state) const {
     state.planar.clear();
@@ -124,7 +128,7 @@ class StarBuilder {
       if (planar.count == offsets.count && has_short_cut_)
         kind = wrapInverted(kernels_, planar, neighbors, state.star, state.planar);
       if (kind == StarKind::closed || kind == StarKind::tied) return false;
-      for (int i = 0; i < planar.count; ++i) state.planar.push_back({planar.u[i], planar.v[i], neighbors[i].index});
+      append(planar, neighbors, state.planar);
       return true;
     });
     if (kind == StarKind::unknown) {
@@ -135,13 +139,15 @@ class StarBuilder {
     }
   }
 
-  /// Whether the star among more neighbours than before has a gap for certain.
-  bool staysOpen(StarGap gap, const Neighborhood& hood, double unit, const Offsets& offsets) const {
-    projectParts(hood, unit, offsets, [&](const PlanarOffsets& planar, std::span<const Neighbor>) {
-      gap.narrow(planar);
+  /// Whether the star is open among more neighbours as well, without building it.
+  bool staysOpen(const Eigen::Vector2d& gap, const Neighborhood& hood, double unit, const Offsets& offsets,
+                 WorkerState& state) const {
+    state.planar.clear();
+    projectParts(hood, unit, offsets, [&](const PlanarOffsets& planar, std::span<const Neighbor> neighbors) {
+      append(planar, neighbors, state.planar);
       return true;
     });
-    return gap.isOpen();
+    return leaveGap(state.planar, gap);
   }
 
   /// Wraps the star and looks further where what was found is no proof that the star is right: a circle of a closed
@@ -165,9 +171,9 @@ class StarBuilder {
       if (open_tries == 0) return;
       state.saved_star = star;
       state.saved_hood = hood;
-      const StarGap gap(star);
+      const Eigen::Vector2d gap = middleOfGap(star);
       while (!star.closed && open_tries-- > 0 && finder_.grow(p, 2 * hood.k, hood, offsets, state.hood))
-        if (!staysOpen(gap, hood, unit, offsets.view())) wrap(p, hood, unit, offsets.view(), state);
+        if (!staysOpen(gap, hood, unit, offsets.view(), state)) wrap(p, hood, unit, offsets.view(), state);
       open_tries = 0;
       if (!star.closed) {
         star = state.saved_star;
