@@ -121,8 +121,8 @@ class GroupSearch {
  private:
   bool gather(int first, int count) {
     SearchedGroup group{first, count, {}, scratch_.known.size(), 0};
-    if (!search_.candidates(first, count, k_, scratch_.candidate, scratch_.bounds, group.ball)) return false;
-    scratch_.known.insert(scratch_.known.end(), scratch_.candidate.begin(), scratch_.candidate.end());
+    if (!search_.candidates(first, count, k_, scratch_.searched, scratch_.bounds, group.ball)) return false;
+    scratch_.known.insert(scratch_.known.end(), scratch_.searched.begin(), scratch_.searched.end());
     group.end = scratch_.known.size();
     scratch_.groups.push_back(group);
     candidates_.gather(group);
@@ -181,10 +181,10 @@ bool nearestOfKnown(const PointsView& points, int p, int k, double likely, const
   if (after == scratch.groups.begin()) return false;
   const SearchedGroup& group = *(after - 1);
   const double room = group.ball.radius - (points.row(p) - group.ball.center).norm();
-  if (p >= group.first + group.count || !(room > 0)) return false;
+  const double bound = room * room * (1 - 1e-12);
+  if (p >= group.first + group.count || !(room > 0 && bound > least_square)) return false;
   GroupCandidates candidates(points, kernels, scratch);
   if (scratch.gathered != group.first) candidates.gather(group);
-  const double bound = room * room * (1 - 1e-12);
   int count = likely < bound ? candidates.takeWithin(p, likely) : 0;
   if (count < k) count = candidates.takeWithin(p, bound);
   if (count < k) return false;

@@ -19,7 +19,8 @@ struct SearchedGroup {
 struct GroupScratch {
   Buffer<SearchedGroup> groups;  ///< in the order of their points
   Buffer<int> known;             ///< ranks of the candidates of each
-  int gathered = -1;             ///< the point whose group's candidates were gathered last
+  Buffer<int> searched;          ///< those of the last search, of use or not
+  int gathered = -1;             ///< the first point of the group whose candidates stand below
   Buffer<int> candidate;         ///< ranks of those of one group, filled up to whole lanes
   Buffer<double> x, y, z;        ///< where they are
   Buffer<double> bounds;         ///< see NeighborSearch::candidates

@@ -17,8 +17,6 @@ namespace {
 
 using Distance = flann::L2_Simple<double>;
 
-constexpr double least_square = 1e-290;  // of a distance; below, squares have no digits left to bound others by
-
 /// The k smallest candidates by (distance, index), without the query point itself.
 ///
 /// FLANN's own sets keep whichever of two equally distant points comes first in the tree, and its pruning sums

@@ -24,6 +24,9 @@ inline double widened(double squared_distance) {
   return squared_distance * (1 + 1e-12) + std::numeric_limits<double>::denorm_min();
 }
 
+/// Of a distance; below, squares have no digits left to bound others by.
+constexpr double least_square = 1e-290;
+
 enum class NeighborOrder { ascending, any };
 
 /// What the search before has found, which bounds that for a point near by.

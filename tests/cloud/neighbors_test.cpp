@@ -7,6 +7,7 @@
 
 #include "cloud/group_search.h"
 #include "cloud/morton.h"
+#include "shapes/random.h"
 #include "shapes/shapes.h"
 
 namespace tufted {
@@ -126,6 +127,30 @@ TEST(Neighbors, OfKnownCandidatesAreThoseOfTheTree) {
     if (ranked.size() == 5000) even = static_cast<double>(found) / asked;
   }
   EXPECT_GT(even, 0.9);
+}
+
+TEST(Neighbors, OfKnownCandidatesOutliveASearchThatFailed) {
+  // A lattice, then points of two crowds in turn: around any two of them there are more than a group may have.
+  const Points lattice = shapes::squareLattice(16, 1).points;
+  shapes::Random random(2);
+  Points points(lattice.rows() + 2200, 3);
+  points.topRows(lattice.rows()) = lattice;
+  for (Eigen::Index i = lattice.rows(); i < points.rows(); ++i)
+    points.row(i) << 1000 + double(i % 2) + 1e-3 * random.uniform(), 1e-3 * random.uniform(), 1e-3 * random.uniform();
+  const NeighborSearch search(points);
+  GroupScratch scratch;
+  Buffer<Neighbor> each, known, expected;
+  const int n = static_cast<int>(lattice.rows());
+  nearestOfEach(search, points, 0, n + 32, 8, kernels(), scratch, each);
+  ASSERT_LT(scratch.groups.back().first, n);
+  int found = 0;
+  for (int p = n - 1; p >= 0; --p) {
+    if (!nearestOfKnown(points, p, 12, 1e9, kernels(), scratch, known)) continue;
+    ++found;
+    search.nearest(p, 12, expected);
+    for (int j = 0; j < 12; ++j) ASSERT_EQ(known[j].index, expected[j].index) << p << " neighbour " << j;
+  }
+  EXPECT_GT(found, n / 2);
 }
 
 TEST(Neighbors, AreAllOthersWhenThereAreFewer) {
