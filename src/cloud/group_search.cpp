@@ -180,9 +180,10 @@ bool nearestOfKnown(const PointsView& points, int p, int k, double likely, const
                                           [p](const SearchedGroup& group) { return group.first <= p; });
   if (after == scratch.groups.begin()) return false;
   const SearchedGroup& group = *(after - 1);
+  if (p >= group.first + group.count) return false;
   const double room = group.ball.radius - (points.row(p) - group.ball.center).norm();
   const double bound = room * room * (1 - 1e-12);
-  if (p >= group.first + group.count || !(room > 0 && bound > least_square)) return false;
+  if (!(room > 0 && bound > least_square)) return false;
   GroupCandidates candidates(points, kernels, scratch);
   if (scratch.gathered != group.first) candidates.gather(group);
   int count = likely < bound ? candidates.takeWithin(p, likely) : 0;
