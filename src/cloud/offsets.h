@@ -70,8 +70,8 @@ class OffsetBuffer {
     room_ = static_cast<std::size_t>(toLanes(count)) / kernel_lane;
     if (memory_.size() < 3 * room_ + 1) memory_.resize(3 * room_ + 1);  // never empty
   }
-  double* axis(int c) { return memory_.data()->value + c * room_ * kernel_lane; }
-  const double* axis(int c) const { return memory_.data()->value + c * room_ * kernel_lane; }
+  double* axis(int c) { return (memory_.data() + c * room_)->value; }
+  const double* axis(int c) const { return (memory_.data() + c * room_)->value; }
 
   RawBuffer<Values> memory_;  ///< x, y, z, one after the other
   std::size_t room_ = 0;      ///< of each, in lanes
