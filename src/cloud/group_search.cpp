@@ -40,11 +40,10 @@ class GroupCandidates {
     scratch_.index.resize(room + kernel_lane);
   }
 
-  int takeWithin(int p, double bound) {
-    const Candidates candidates{static_cast<int>(scratch_.x.size()), scratch_.candidate.data(), scratch_.x.data(),
-                                scratch_.y.data(), scratch_.z.data()};
-    return kernels_.takeWithin(candidates, points_.row(p).data(), p, bound, scratch_.squared.data(),
-                               scratch_.index.data());
+  /// Within `guess` where that is less than `bound` and holds k, else within `bound`. Returns how many.
+  int takeWithin(int p, int k, double guess, double bound) {
+    const int count = guess < bound ? takeWithin(p, guess) : 0;
+    return count < k ? takeWithin(p, bound) : count;
   }
 
   /// The k least by (distance, index) of what was taken, in order, and anything behind them, where the next row will be
@@ -76,6 +75,13 @@ class GroupCandidates {
   }
 
  private:
+  int takeWithin(int p, double bound) {
+    const Candidates candidates{static_cast<int>(scratch_.x.size()), scratch_.candidate.data(), scratch_.x.data(),
+                                scratch_.y.data(), scratch_.z.data()};
+    return kernels_.takeWithin(candidates, points_.row(p).data(), p, bound, scratch_.squared.data(),
+                               scratch_.index.data());
+  }
+
   PointsView points_;
   const Kernels& kernels_;
   GroupScratch& scratch_;
@@ -140,8 +146,7 @@ class GroupSearch {
       guess = likely * before * before;
     }
     bound = widened(bound * bound);
-    int count = guess < bound ? candidates_.takeWithin(p, guess) : 0;
-    if (count < k_) count = candidates_.takeWithin(p, bound);
+    const int count = candidates_.takeWithin(p, k_, guess, bound);
     if (count >= k_)
       candidates_.takeNearest(count, k_, rowOf(found, i));
     else
@@ -186,8 +191,7 @@ bool nearestOfKnown(const PointsView& points, int p, int k, double likely, const
   if (!(room > 0 && bound > least_square)) return false;
   GroupCandidates candidates(points, kernels, scratch);
   if (scratch.gathered != group.first) candidates.gather(group);
-  int count = likely < bound ? candidates.takeWithin(p, likely) : 0;
-  if (count < k) count = candidates.takeWithin(p, bound);
+  const int count = candidates.takeWithin(p, k, likely, bound);
   if (count < k) return false;
   found.resize(static_cast<std::size_t>(count));
   candidates.takeNearest(count, k, found.data());

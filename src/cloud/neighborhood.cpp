@@ -33,11 +33,18 @@ bool isSheet(const Neighborhood& hood, const PrincipalAxes& before, double flat)
          flatness(hood.axes) < 0.25 * flatness(before);
 }
 
-/// Of the first few neighbours, or of all where there are fewer.
-Covariance covarianceOfFew(const Offsets& neighbors, int few, OffsetBuffer& first) {
-  if (neighbors.count <= few) return covarianceOf(neighbors);
+/// The first few neighbours, or all where there are fewer.
+Offsets nearestOf(const Offsets& neighbors, int few, OffsetBuffer& first) {
+  if (neighbors.count <= few) return neighbors;
   first.takeFirst(neighbors, few);
-  return covarianceOf(first.view());
+  return first.view();
+}
+
+/// Keeps all neighbours as they are before the first are left out.
+void saveAll(const Neighborhood& hood, const OffsetBuffer& offsets, HoodScratch& scratch) {
+  if (!scratch.all.empty()) return;
+  scratch.all = hood.neighbors;
+  scratch.offsets_of_all = offsets;
 }
 
 /// Whether all neighbours are reached from p, along `normal`, over gaps of at most a quarter of the reach. Leaves their
@@ -142,7 +149,8 @@ void NeighborhoodFinder::fitPlanes(int first, std::span<Neighborhood> hoods, std
   for (int i = 0; i < count; ++i) hoods[i].axes = axes[i];
   if (!splitsSheets()) return;
   for (std::size_t j = 0; j < few_neighbors.size(); ++j) {
-    for (int i = 0; i < count; ++i) covariances[i] = covarianceOfFew(offsets[i].view(), few_neighbors[j], scratch.few);
+    for (int i = 0; i < count; ++i)
+      covariances[i] = covarianceOf(nearestOf(offsets[i].view(), few_neighbors[j], scratch.few));
     principalAxes(std::span(covariances).first(hoods.size()), axes);
     for (int i = 0; i < count; ++i) hoods[i].axes_of_few[j] = axes[i];
   }
@@ -156,10 +164,8 @@ void NeighborhoodFinder::refine(int p, Neighborhood& hood, OffsetBuffer& offsets
   hood.reach = hood.radius;
   if (!splitsSheets()) return;
   if (hood.grown) {  // a scan may know other ways to the nearest few by now
-    for (std::size_t j = 0; j < few_neighbors.size(); ++j) {
-      const Covariance covariance = covarianceOfFew(offsets.view(), few_neighbors[j], scratch.few);
-      principalAxes({&covariance, 1}, {&hood.axes_of_few[j], 1});
-    }
+    for (std::size_t j = 0; j < few_neighbors.size(); ++j)
+      hood.axes_of_few[j] = principalAxes(nearestOf(offsets.view(), few_neighbors[j], scratch.few));
   }
   splitSheets(p, hood, offsets, scratch);
 }
@@ -174,10 +180,7 @@ bool NeighborhoodFinder::grow(int p, int most, Neighborhood& hood, OffsetBuffer&
 bool NeighborhoodFinder::keepSheet(const Eigen::Vector3d& normal, Neighborhood& hood, OffsetBuffer& offsets,
                                    HoodScratch& scratch) const {
   if (hood.neighbors.empty() || isOneSheet(offsets.view(), normal, hood.reach, scratch)) return false;
-  if (scratch.all.empty()) {
-    scratch.all = hood.neighbors;
-    scratch.offsets_of_all = offsets;
-  }
+  saveAll(hood, offsets, scratch);
   takeSheet(hood.neighbors, offsets, scratch, hood.neighbors, offsets);
   return true;
 }
@@ -209,10 +212,7 @@ void NeighborhoodFinder::splitSheets(int p, Neighborhood& hood, OffsetBuffer& of
 
 bool NeighborhoodFinder::findSheet(int p, const PrincipalAxes& before, Neighborhood& hood, OffsetBuffer& offsets,
                                    HoodScratch& scratch) const {
-  if (scratch.all.empty()) {
-    scratch.all = hood.neighbors;
-    scratch.offsets_of_all = offsets;
-  }
+  saveAll(hood, offsets, scratch);
   Neighborhood& tried = scratch.tried;
   OffsetBuffer& offsets_of_tried = scratch.offsets_of_tried;
   tried = hood;
