@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <iterator>
 
 #include "base/buffer.h"
 #include "cloud/kernels.h"
@@ -53,21 +55,24 @@ class FanBuffer {
   Fans fans_{};
 };
 
-/// Calls visit(p, fans, at) for each star of [begin, end): its triangles are measured, the first is number `at`.
-template <class Visit>
-void forEachFan(const Stars& stars, const EdgeLengths& length, int begin, int end, FanBuffer& buffer,
+/// Calls visit(p, fans, at) for each star in `numbers`, a sequence of numbers: its triangles are measured, the first is
+/// number `at`.
+template <class Numbers, class Visit>
+void forEachFan(const Stars& stars, const EdgeLengths& length, const Numbers& numbers, FanBuffer& buffer,
                 const Visit& visit) {
   constexpr int batch = 128;  // triangles that are measured together, from the first-level cache
   const Kernels& kernel = kernels();
-  for (int p = begin; p < end;) {
-    const int first = p;
+  const auto size = std::ssize(numbers);
+  for (std::ptrdiff_t i = 0; i < size;) {
+    const auto first = i;
     buffer.clear();
-    for (; p < end && buffer.count() < batch; ++p) buffer.add(stars, length, p);
+    for (; i < size && buffer.count() < batch; ++i) buffer.add(stars, length, numbers[i]);
     if (buffer.count() > 0) kernel.measureFans(buffer.fans(), length.added);
     int at = 0;
-    for (int q = first; q < p; ++q) {
-      visit(q, buffer.fans(), at);
-      const int spokes = stars.offset[q + 1] - stars.offset[q];
+    for (auto j = first; j < i; ++j) {
+      const int p = numbers[j];
+      visit(p, buffer.fans(), at);
+      const int spokes = stars.offset[p + 1] - stars.offset[p];
       at += spokes > 0 ? spokes + 1 : 0;
     }
   }

@@ -59,8 +59,10 @@ class Flipping {
   CoverBuffer& triangulation() { return cover_.cover_; }
   void resolve(int side) { cover_.resolve(side); }
   void flipped(int side, int mate) {
-    for (const int face : {side / 3, mate / 3})
+    for (const int face : {side / 3, mate / 3}) {
+      cover_.moved_[face / 2] = 1;
       for (const int corner : cover_.cover_.faces[face]) cover_.flipped_[corner] = 1;
+    }
   }
 
  private:
@@ -82,6 +84,7 @@ void PartialCover::add(int p) {
   for (int i = stars_.offset[p]; i < stars_.offset[p + 1]; ++i)
     if (stars_.hasTriangle(i)) entry_of_.push_back(i);
   const auto triangles = entry_of_.size();
+  moved_.resize(triangles);
   cover_.faces.resize(2 * triangles);
   cover_.glue.resize(6 * triangles, unglued);
   cover_.length.resize(6 * triangles);
@@ -173,6 +176,7 @@ void PartialCover::reserve() {
     if (stars_.disagrees[p] != 0) triangles += stars_.offset[p + 1] - stars_.offset[p];
   triangles = std::min(stars_.triangles(), 2 * triangles);
   entry_of_.reserve(static_cast<std::size_t>(triangles));
+  moved_.reserve(static_cast<std::size_t>(triangles));
   cover_.faces.reserve(static_cast<std::size_t>(2 * triangles));
   cover_.glue.reserve(static_cast<std::size_t>(6 * triangles));
   cover_.length.reserve(static_cast<std::size_t>(6 * triangles));

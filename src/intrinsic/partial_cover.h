@@ -25,9 +25,17 @@ class PartialCover {
 
   /// The faces of the stars that are present; 2 t and 2 t + 1 are front and back of a triangle until they are flipped.
   const CoverBuffer& faces() const { return cover_; }
-  /// The lengths of their sides. faces() has none afterwards, and complete() must not be called.
-  Buffer<double> takeLengths() { return std::move(cover_.length); }
+  /// Gives the memory of faces() back; only isFlipped() may be called afterwards.
+  void dropFaces() {
+    release(cover_.faces);
+    release(cover_.glue);
+    release(cover_.length);
+  }
   bool isPresent(int p) const { return first_[p] >= 0; }
+  /// Of a star that is present; its triangles have consecutive numbers, in the order of its link.
+  int firstTriangle(int p) const { return first_[p]; }
+  /// Whether the front or the back of triangle t was flipped.
+  bool isMoved(int t) const { return moved_[t] != 0; }
   /// Whether a face at p was flipped.
   bool isFlipped(int p) const { return flipped_[p] != 0; }
 
@@ -58,6 +66,7 @@ class PartialCover {
   CoverBuffer cover_;
   Buffer<int> first_;             ///< n, the first triangle of a star, -1 where absent
   Buffer<int> entry_of_;          ///< link entry of each triangle that is present
+  Buffer<std::uint8_t> moved_;    ///< of each triangle that is present
   Buffer<std::uint8_t> flipped_;  ///< n
 };
 

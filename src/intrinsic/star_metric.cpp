@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <ranges>
 #include <utility>
 
 #include "base/buffer.h"
@@ -25,7 +26,8 @@ class StarMeasurer {
       : stars_(stars), length_(length), metric_(metric) {}
 
   void measure(int begin, int end, FanBuffer& buffer, BlockSums& sums) const {
-    forEachFan(stars_, length_, begin, end, buffer, [&](int p, const Fans& fans, int at) { take(p, fans, at, sums); });
+    forEachFan(stars_, length_, std::views::iota(begin, end), buffer,
+               [&](int p, const Fans& fans, int at) { take(p, fans, at, sums); });
   }
 
  private:

@@ -39,19 +39,4 @@ double finiteCotan(const Triangulation& t, const Buffer<double>& areas, int side
                      (4 * areas[side / 3]));
 }
 
-/// Three lengths per face become the cotangents of the angles opposite. Returns the areas.
-inline RawBuffer<double> toCotans(Buffer<double>& lengths, const Workers& workers) {
-  RawBuffer<double> areas(lengths.size() / 3);
-  forEachFace(std::ssize(areas), workers, [&](int f) {
-    double* const side = lengths.data() + 3 * std::ptrdiff_t{f};
-    const double a = side[0], b = side[1], c = side[2];
-    areas[f] = triangleArea(a, b, c);
-    const double scale = 4 * areas[f];
-    side[0] = finiteCotan(cotanNumerator(a, b, c) / scale);
-    side[1] = finiteCotan(cotanNumerator(b, c, a) / scale);
-    side[2] = finiteCotan(cotanNumerator(c, a, b) / scale);
-  });
-  return areas;
-}
-
 }  // namespace tufted

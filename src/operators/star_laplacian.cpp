@@ -37,9 +37,7 @@ class StarUnion final : public CoverSource {
 
   /// @param keep_cover whether cover() will be asked for
   void assemble(const StarMetric& metric, bool keep_cover, const Workers& workers, Laplacian& result) {
-    Buffer<double> lengths = keep_cover ? cover_.faces().length : cover_.takeLengths();
-    assembleStars({stars_, metric, cover_, length_}, std::move(lengths), cloud_.caller, size_, 1.0 / 2 / 3, workers,
-                  result);
+    assembleStars({stars_, metric, length_, cover_}, keep_cover, cloud_.caller, size_, 1.0 / 2 / 3, workers, result);
   }
 
   const IntrinsicTriangulation& cover() const override {

@@ -1,5 +1,7 @@
 #include "operators/star_mass.h"
 
+#include <ranges>
+
 #include "base/point_buffer.h"
 #include "intrinsic/edge_lengths.h"
 #include "intrinsic/fan_buffer.h"
@@ -55,7 +57,7 @@ Buffer<double> starAreas(const Stars& stars, const PointsView& points, const Wor
   };
   workers.forBlocks("mass", stars.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
     FanBuffer buffer;
-    forEachFan(stars, length, static_cast<int>(begin), static_cast<int>(end), buffer, takeArea);
+    forEachFan(stars, length, std::views::iota(static_cast<int>(begin), static_cast<int>(end)), buffer, takeArea);
   });
   return areas;
 }

@@ -1,0 +1,188 @@
+#include "operators/mixed_rows.h"
+
+#include <algorithm>
+#include <array>
+#include <numeric>
+#include <utility>
+
+#include "intrinsic/fan_buffer.h"
+#include "intrinsic/geometry.h"
+#include "operators/face_areas.h"
+
+namespace tufted {
+namespace {
+
+constexpr std::int64_t block_size = 8192;
+
+/// Faces come in two kinds: front and back of a triangle that no flip has touched have the same lengths and are read
+/// off its star, twice; the others are in the cover.
+class TermCollector {
+ public:
+  TermCollector(const GluedStars& glued, const Buffer<std::uint8_t>& mixed, double scale, RawBuffer<double>& mass,
+                const Workers& workers)
+      : stars_(glued.stars),
+        length_(glued.length),
+        cover_(glued.cover),
+        mixed_(mixed),
+        scale_(scale),
+        mass_(mass),
+        near_(numbersWhere("assemble", stars_.size(), workers, [this](int p) {
+          return mixed_[p] != 0 ||
+                 std::any_of(stars_.link.begin() + stars_.offset[p], stars_.link.begin() + stars_.offset[p + 1],
+                             [this](int q) { return mixed_[q] != 0; });
+        })) {}
+
+  Rows collect() {
+    terms_.offset.assign(static_cast<std::size_t>(stars_.size()) + 1, 0);
+    for (const int p : near_) {
+      findWhole(p);
+      forEachStarTerm(p, [this](int low, int, int takes_part, const auto&) { terms_.offset[low + 1] += takes_part; });
+    }
+    forEachMovedFace([this](int f) {
+      forEachFaceTerm(f, [this](int low, int, int takes_part, int) { terms_.offset[low + 1] += takes_part; });
+    });
+    std::partial_sum(terms_.offset.begin(), terms_.offset.end(), terms_.offset.begin());
+    terms_.entries.resize(static_cast<std::size_t>(terms_.offset.back()));
+    fill_.assign(terms_.offset.begin(), terms_.offset.end() - 1);
+    FanBuffer buffer;
+    forEachFan(stars_, length_, near_, buffer, [this](int p, const Fans& fans, int at) { takeStar(p, fans, at); });
+    forEachMovedFace([this](int f) { takeFace(f); });
+    return std::move(terms_);
+  }
+
+  std::int64_t degenerateFaces() const { return degenerate_faces_; }
+
+ private:
+  /// Which triangles of star p no flip has touched, by entry.
+  void findWhole(int p) {
+    const int begin = stars_.offset[p], end = stars_.offset[p + 1];
+    whole_.resize(end - begin);
+    int t = cover_.isPresent(p) ? cover_.firstTriangle(p) : -1;
+    for (int i = begin; i < end; ++i) {
+      const bool is_triangle = stars_.hasTriangle(i);
+      whole_[i - begin] = is_triangle && (t < 0 || !cover_.isMoved(t)) ? 1 : 0;
+      if (t >= 0) t += is_triangle ? 1 : 0;
+    }
+  }
+
+  /// Calls visit(low, high, takes_part, cotans) for the spokes of star p and the sides in its link; takes_part is 1 for
+  /// a term, and cotans(fans, at) the sum of what its triangles have opposite.
+  template <class Visit>
+  void forEachStarTerm(int p, const Visit& visit) const {
+    const int begin = stars_.offset[p], count = stars_.offset[p + 1] - begin;
+    for (int i = 0; i < count; ++i) {
+      const int before = i == 0 ? count - 1 : i - 1;
+      const int q = stars_.link[begin + i], next = stars_.link[begin + (i + 1 == count ? 0 : i + 1)];
+      const int is_spoke = mixed_[p] & mixed_[q] & (whole_[i] | whole_[before]);
+      visit(std::min(p, q), std::max(p, q), is_spoke, [this, i, before](const Fans& fans, int at) {
+        return (whole_[i] != 0 ? finiteCotan(fans.cotan_at_next[at + i]) : 0) +
+               (whole_[before] != 0 ? finiteCotan(fans.cotan_at_own[at + before]) : 0);
+      });
+      const int is_rim = mixed_[q] & mixed_[next] & whole_[i];
+      visit(std::min(q, next), std::max(q, next), is_rim, [i](const Fans& fans, int at) {
+        const double numerator = cotanNumerator(fans.rim[at + i], fans.spoke[at + i], fans.spoke[at + i + 1]);
+        return finiteCotan(numerator / (4 * fans.area[at + i]));
+      });
+    }
+  }
+
+  template <class Visit>
+  void forEachMovedFace(const Visit& visit) const {
+    for (int f = 0; f < static_cast<int>(cover_.faces().size()); ++f)
+      if (cover_.isMoved(f / 2)) visit(f);
+  }
+
+  /// Calls visit(low, high, takes_part, side) for the sides 0, 1 and 2 of a face.
+  template <class Visit>
+  void forEachFaceTerm(int f, const Visit& visit) const {
+    const auto& corner = cover_.faces().faces[f];
+    for (int s = 0; s < 3; ++s) {
+      const int a = corner[s], b = corner[(s + 1) % 3];
+      visit(std::min(a, b), std::max(a, b), mixed_[a] & mixed_[b] & (a != b ? 1 : 0), s);
+    }
+  }
+
+  void put(int low, int high, double weight) { terms_.entries[fill_[low]++] = {high, weight}; }
+
+  /// @param at the first triangle of star p in the fans
+  void takeStar(int p, const Fans& fans, int at) {
+    findWhole(p);
+    const int begin = stars_.offset[p], count = stars_.offset[p + 1] - begin;
+    for (int i = 0; i < count; ++i) {
+      if (whole_[i] != 0)
+        addArea({p, stars_.link[begin + i], stars_.link[stars_.after(p, begin + i)]}, fans.area[at + i], 2);
+    }
+    forEachStarTerm(p, [&](int low, int high, int takes_part, const auto& cotans) {
+      if (takes_part != 0) put(low, high, scale_ * cotans(fans, at));  // 2 sheets, 1/2
+    });
+  }
+
+  void takeFace(int f) {
+    const double* const side = cover_.faces().length.data() + 3 * std::ptrdiff_t{f};
+    const double area = triangleArea(side[0], side[1], side[2]);
+    addArea(cover_.faces().faces[f], area, 1);
+    forEachFaceTerm(f, [&](int low, int high, int takes_part, int s) {
+      if (takes_part == 0) return;
+      const double cotan = finiteCotan(cotanNumerator(side[s], side[(s + 1) % 3], side[(s + 2) % 3]) / (4 * area));
+      put(low, high, scale_ * cotan / 2);
+    });
+  }
+
+  void addArea(const std::array<int, 3>& corners, double area, int sheets) {
+    degenerate_faces_ += area > 0 ? 0 : sheets;
+    for (const int corner : corners) mass_[corner] += mixed_[corner] != 0 ? sheets * scale_ * area / 3 : 0;
+  }
+
+  const Stars& stars_;
+  const EdgeLengths& length_;
+  const PartialCover& cover_;
+  const Buffer<std::uint8_t>& mixed_;
+  const double scale_;
+  RawBuffer<double>& mass_;
+  const Buffer<int> near_;      ///< mixed points and those next to them
+  Buffer<std::uint8_t> whole_;  ///< of one star
+  Rows terms_;
+  Buffer<int> fill_;  ///< n, where the next term goes
+  std::int64_t degenerate_faces_ = 0;
+};
+
+}  // namespace
+
+Rows collectTerms(const GluedStars& glued, const Buffer<std::uint8_t>& mixed, double scale, RawBuffer<double>& mass,
+                  const Workers& workers, Report& report) {
+  TermCollector collector(glued, mixed, scale, mass, workers);
+  Rows terms = collector.collect();
+  report.degenerate_faces += collector.degenerateFaces();
+  return terms;
+}
+
+Rows mergeTerms(Rows terms, const Workers& workers) {
+  const int n = static_cast<int>(terms.offset.size()) - 1;
+  Buffer<int> edges(static_cast<std::size_t>(n));
+  workers.forBlocks("assemble", n, block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    Buffer<Entry> scratch;
+    for (int p = static_cast<int>(begin); p < end; ++p) {
+      Entry* const first = terms.entries.data() + terms.offset[p];
+      Entry* const last = terms.entries.data() + terms.offset[p + 1];
+      edges[p] = static_cast<int>(mergeColumns(first, last, scratch) - first);
+    }
+  });
+  const auto forBoth = [&](const auto& visit) {
+    for (int p = 0; p < n; ++p) {
+      for (int i = terms.offset[p]; i < terms.offset[p] + edges[p]; ++i) {
+        visit(p, terms.entries[i].column, terms.entries[i].weight);
+        visit(terms.entries[i].column, p, terms.entries[i].weight);
+      }
+    }
+  };
+  Rows rows;
+  rows.offset.assign(terms.offset.size(), 0);
+  forBoth([&](int p, int, double) { ++rows.offset[p + 1]; });
+  std::partial_sum(rows.offset.begin(), rows.offset.end(), rows.offset.begin());
+  rows.entries.resize(static_cast<std::size_t>(rows.offset.back()));
+  Buffer<int> fill(rows.offset.begin(), rows.offset.end() - 1);
+  forBoth([&](int p, int q, double weight) { rows.entries[fill[p]++] = {q, weight}; });
+  return rows;
+}
+
+}  // namespace tufted
