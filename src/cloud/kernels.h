@@ -27,6 +27,7 @@ struct Offsets {
 };
 
 /// Sums over neighbours.
+constexpr int most_sets = 3;  // of neighbours that are summed at once
 struct OffsetSums {
   double x, y, z, xx, xy, xz, yy, yz, zz;
 };
@@ -114,8 +115,9 @@ struct Kernels {
   void (*rankValues)(const double* values, int count, float* rounded, int* rank);
   /// The largest absolute coordinate.
   double (*extent)(const Offsets& offsets);
-  /// Of the offsets times `unit`.
-  void (*sumOffsets)(const Offsets& offsets, double unit, OffsetSums& sums);
+  /// Of the first ends[0], ends[1], ... offsets times `unit`.
+  /// @param ends ascending, at most most_sets
+  void (*sumOffsets)(const Offsets& offsets, double unit, const int* ends, int sets, OffsetSums* sums);
   /// Of the offsets along the axes of u, v and h, which are given one after the other.
   void (*sumHeights)(const Offsets& offsets, const double* axes, HeightSums& sums);
   /// Each as if it were alone.

@@ -81,29 +81,42 @@ TUFTED_INLINE void addAcross(const double* lanes, int count, double* totals) {
   }
 }
 
-void sumOffsets(const Offsets& offsets, double unit, OffsetSums& total) {
+/// Each a lane after the one before.
+template <class... Parts>
+TUFTED_INLINE void putInTurn(double* to, const Parts&... parts) {
+  (..., (store(parts, to), to += lane_size));
+}
+
+/// OffsetSums in lanes.
+struct OffsetParts {
+  Part x, y, z, xx, xy, xz, yy, yz, zz;
+};
+
+TUFTED_INLINE OffsetParts plus(const OffsetParts& sum, Part x, Part y, Part z) {
+  return {sum.x + x,      sum.y + y,      sum.z + z,      sum.xx + x * x, sum.xy + x * y,
+          sum.xz + x * z, sum.yy + y * y, sum.yz + y * z, sum.zz + z * z};
+}
+
+void sumOffsets(const Offsets& offsets, double unit, const int* ends, int sets, OffsetSums* totals) {
   constexpr int numbers = sizeof(OffsetSums) / sizeof(double);
-  alignas(64) double lanes[numbers * lane_size];
-  const Part scale = allOfPart(unit);
+  alignas(64) static constexpr double numbered[] = {0, 1, 2, 3, 4, 5, 6, 7};
+  static_assert(sizeof(numbered) == lane_size * sizeof(double));
+  alignas(64) double lanes[most_sets][numbers * lane_size];
+  const Part scale = allOfPart(unit), zero = allOfPart(0);
   for (int part = 0; part < lane_size; part += part_size) {
-    Part sums[numbers];
-    for (Part& sum : sums) sum = allOfPart(0);
-    for (int i = part; i < offsets.count; i += lane_size) {
-      const Part x = loadPart(&offsets.x[i]) * scale, y = loadPart(&offsets.y[i]) * scale,
-                 z = loadPart(&offsets.z[i]) * scale;
-      sums[0] = sums[0] + x;
-      sums[1] = sums[1] + y;
-      sums[2] = sums[2] + z;
-      sums[3] = sums[3] + x * x;
-      sums[4] = sums[4] + x * y;
-      sums[5] = sums[5] + x * z;
-      sums[6] = sums[6] + y * y;
-      sums[7] = sums[7] + y * z;
-      sums[8] = sums[8] + z * z;
+    OffsetParts sum = {zero, zero, zero, zero, zero, zero, zero, zero, zero};
+    const auto at = [&](const double* values, int i) { return loadPart(values + i + part) * scale; };
+    int i = 0;
+    for (int set = 0; set < sets; ++set) {
+      for (; i + lane_size <= ends[set]; i += lane_size)
+        sum = plus(sum, at(offsets.x, i), at(offsets.y, i), at(offsets.z, i));
+      const auto isInSet = isLess(loadPart(numbered + part), allOfPart(ends[set] - i));
+      const auto some = [&](const double* values) { return select(isInSet, at(values, i), zero); };
+      const OffsetParts all = i == ends[set] ? sum : plus(sum, some(offsets.x), some(offsets.y), some(offsets.z));
+      putInTurn(lanes[set] + part, all.x, all.y, all.z, all.xx, all.xy, all.xz, all.yy, all.yz, all.zz);
     }
-    for (int i = 0; i < numbers; ++i) store(sums[i], lanes + i * lane_size + part);
   }
-  addAcross(lanes, numbers, &total.x);
+  for (int set = 0; set < sets; ++set) addAcross(lanes[set], numbers, &totals[set].x);
 }
 
 /// HeightSums in lanes, each in a register as far as there are any.
@@ -131,10 +144,8 @@ void sumHeights(const Offsets& offsets, const double* axes, HeightSums& total) {
              sum.hu + h * u,     sum.hv + h * v,     sum.huu + h * uu,   sum.huv + h * uv,   sum.hvv + h * vv,
              sum.hh + h * h};
     }
-    double* to = lanes + part;
-    const auto put = [&to](const auto&... number) { (..., (store(number, to), to += lane_size)); };
-    put(sum.u, sum.v, sum.uu, sum.uv, sum.vv, sum.uuu, sum.uuv, sum.uvv, sum.vvv, sum.uuuu, sum.uuuv, sum.uuvv,
-        sum.uvvv, sum.vvvv, sum.h, sum.hu, sum.hv, sum.huu, sum.huv, sum.hvv, sum.hh);
+    putInTurn(lanes + part, sum.u, sum.v, sum.uu, sum.uv, sum.vv, sum.uuu, sum.uuv, sum.uvv, sum.vvv, sum.uuuu,
+              sum.uuuv, sum.uuvv, sum.uvvv, sum.vvvv, sum.h, sum.hu, sum.hv, sum.huu, sum.huv, sum.hvv, sum.hh);
   }
   addAcross(lanes, numbers, &total.u);
 }

@@ -33,11 +33,20 @@ bool isSheet(const Neighborhood& hood, const PrincipalAxes& before, double flat)
          flatness(hood.axes) < 0.25 * flatness(before);
 }
 
-/// The first few neighbours, or all where there are fewer.
-Offsets nearestOf(const Offsets& neighbors, int few, OffsetBuffer& first) {
-  if (neighbors.count <= few) return neighbors;
-  first.takeFirst(neighbors, few);
-  return first.view();
+constexpr std::size_t nested_sets = few_neighbors.size() + 1;
+
+/// Of the first few neighbours, or all where there are fewer, then of all.
+std::array<Covariance, nested_sets> nestedCovariances(const Offsets& neighbors, double radius) {
+  std::array<int, nested_sets> ends;
+  for (std::size_t j = 0; j < few_neighbors.size(); ++j) ends[j] = std::min(few_neighbors[j], neighbors.count);
+  ends.back() = neighbors.count;
+  std::array<Covariance, nested_sets> covariances;
+  findCovariances(neighbors, radius, ends, covariances);
+  return covariances;
+}
+
+void takeAxes(std::size_t set, const PrincipalAxes& axes, Neighborhood& hood) {
+  (set < few_neighbors.size() ? hood.axes_of_few[set] : hood.axes) = axes;
 }
 
 /// Keeps all neighbours as they are before the first are left out.
@@ -136,23 +145,22 @@ bool NeighborhoodFinder::isUneven(const Neighborhood& hood) const {
   return static_cast<double>(far - hood.neighbors.begin()) > crowd * hood.k;
 }
 
-void NeighborhoodFinder::fitPlanes(int first, std::span<Neighborhood> hoods, std::span<OffsetBuffer> offsets,
-                                   HoodScratch& scratch) const {
-  std::array<Covariance, most_planes> covariances;
-  std::array<PrincipalAxes, most_planes> axes;
-  const auto count = static_cast<int>(hoods.size());
-  for (int i = 0; i < count; ++i) {
-    offsets[i].take(points_, first + i, hoods[i].neighbors);
-    covariances[i] = covarianceOf(offsets[i].view());
+void NeighborhoodFinder::fitPlanes(int first, std::span<Neighborhood> hoods, std::span<OffsetBuffer> offsets) const {
+  std::array<std::array<Covariance, most_planes>, nested_sets> covariances;
+  const std::size_t first_set = splitsSheets() ? 0 : few_neighbors.size();
+  for (std::size_t i = 0; i < hoods.size(); ++i) {
+    offsets[i].take(points_, first + static_cast<int>(i), hoods[i].neighbors);
+    if (!splitsSheets()) {
+      covariances.back()[i] = covarianceOf(offsets[i].view(), hoods[i].radius);
+      continue;
+    }
+    const auto nested = nestedCovariances(offsets[i].view(), hoods[i].radius);
+    for (std::size_t j = 0; j < nested_sets; ++j) covariances[j][i] = nested[j];
   }
-  principalAxes(std::span(covariances).first(hoods.size()), axes);
-  for (int i = 0; i < count; ++i) hoods[i].axes = axes[i];
-  if (!splitsSheets()) return;
-  for (std::size_t j = 0; j < few_neighbors.size(); ++j) {
-    for (int i = 0; i < count; ++i)
-      covariances[i] = covarianceOf(nearestOf(offsets[i].view(), few_neighbors[j], scratch.few));
-    principalAxes(std::span(covariances).first(hoods.size()), axes);
-    for (int i = 0; i < count; ++i) hoods[i].axes_of_few[j] = axes[i];
+  for (std::size_t j = first_set; j < nested_sets; ++j) {
+    std::array<PrincipalAxes, most_planes> axes;
+    principalAxes(std::span(covariances[j]).first(hoods.size()), axes);
+    for (std::size_t i = 0; i < hoods.size(); ++i) takeAxes(j, axes[i], hoods[i]);
   }
 }
 
@@ -164,8 +172,9 @@ void NeighborhoodFinder::refine(int p, Neighborhood& hood, OffsetBuffer& offsets
   hood.reach = hood.radius;
   if (!splitsSheets()) return;
   if (hood.grown) {  // a scan may know other ways to the nearest few by now
-    for (std::size_t j = 0; j < few_neighbors.size(); ++j)
-      hood.axes_of_few[j] = principalAxes(nearestOf(offsets.view(), few_neighbors[j], scratch.few));
+    std::array<PrincipalAxes, nested_sets> axes;
+    principalAxes(nestedCovariances(offsets.view(), hood.radius), axes);
+    for (std::size_t j = 0; j < nested_sets; ++j) takeAxes(j, axes[j], hood);
   }
   splitSheets(p, hood, offsets, scratch);
 }

@@ -35,7 +35,7 @@ struct Neighborhood {
 struct HoodScratch {
   GroupScratch group;
   Buffer<Neighbor> found;
-  OffsetBuffer few, offsets_of_all, offsets_of_tried;
+  OffsetBuffer offsets_of_all, offsets_of_tried;
   Buffer<double> heights;
   Reached sheet;         ///< see isOneSheet()
   Buffer<Neighbor> all;  ///< before any were left out; empty while none were
@@ -58,7 +58,7 @@ class NeighborhoodFinder {
   /// Fits planes to at most most_planes neighbourhoods of points from `first` on, and to the first few of each where
   /// sheets are split.
   /// @param[out] offsets of the neighbours of each
-  void fitPlanes(int first, std::span<Neighborhood> hoods, std::span<OffsetBuffer> offsets, HoodScratch& scratch) const;
+  void fitPlanes(int first, std::span<Neighborhood> hoods, std::span<OffsetBuffer> offsets) const;
 
   /// Doubles the neighbourhood while it says too little about the surface, with a plane fitted anew, and leaves other
   /// sheets out.

@@ -37,11 +37,6 @@ class OffsetBuffer {
     for (int i = count; i < toLanes(count); ++i) x[i] = y[i] = z[i] = 0;
   }
 
-  /// The first `count` of others.
-  void takeFirst(const Offsets& others, int count) {
-    fill(count, [&](int i) { return Eigen::RowVector3d(others.x[i], others.y[i], others.z[i]); });
-  }
-
   /// Of others, or of these themselves, those that isKept(i).
   template <class IsKept>
   void takeKept(const OffsetBuffer& others, const IsKept& isKept) {

@@ -22,6 +22,7 @@ namespace {
 
 constexpr std::int64_t block_size = 1024;  // points per block: its neighbour lists stay in the second-level cache
 constexpr int group_size = NeighborhoodFinder::most_planes;  // frames come first, then stars from the same offsets
+constexpr std::size_t usual_degree = 7;                      // of most stars, or a little more
 constexpr double flat_share = 0.02;  // of the second variance, below which a neighbourhood is a plane
 
 /// What one block of points leaves behind.
@@ -62,13 +63,16 @@ class StarBuilder {
     const int count = static_cast<int>(end - begin);
     const int first = static_cast<int>(begin);
     state.hoods.resize(std::max<std::size_t>(state.hoods.size(), count));
+    block.link.reserve(usual_degree * count);
+    block.triangle.reserve(usual_degree * count);
+    block.radius.reserve(usual_degree * count);
     Stopwatch watch;
     finder_.find(first, count, state.hood, state.hoods.data());
     state.seconds[0] += watch.restart();
     for (int group = 0; group < count; group += group_size) {
       const int group_end = std::min(count, group + group_size);
       const std::span hoods(state.hoods.data() + group, state.hoods.data() + group_end);
-      finder_.fitPlanes(first + group, hoods, state.offsets, state.hood);
+      finder_.fitPlanes(first + group, hoods, state.offsets);
       for (int i = group; i < group_end; ++i) takeFrame(first + i, state.hoods[i], state.offsets[i - group], state);
       if (options_.steps.lengths == Lengths::denoised)
         moveNoisyPoints(first + group, hoods, state.offsets, state.fits, stars_.move, block.noisy);

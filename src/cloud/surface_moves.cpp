@@ -30,7 +30,9 @@ void moveNoisyPoints(int first, std::span<const Neighborhood> hoods, std::span<c
     if (!isNoisy(scratch.fits[i], axes.variance[0] * axes.extent * axes.extent, hoods[i].reach)) continue;
     move.row(p) = scratch.fits[i].height * axes.normal.transpose();
     noisy.rank.push_back(p);
-    for (const Neighbor& q : hoods[i].neighbors) noisy.neighbors.push_back(q.index);
+    const std::size_t begin = noisy.neighbors.size();
+    noisy.neighbors.resize(begin + hoods[i].neighbors.size());
+    std::ranges::transform(hoods[i].neighbors, noisy.neighbors.begin() + begin, &Neighbor::index);
     noisy.end.push_back(noisy.neighbors.size());
   }
 }
@@ -47,7 +49,7 @@ void moveOnceMore(const PointsView& points, const PointBuffer& moved, const Nois
     for (std::size_t i = 0; i < count; ++i) {
       const std::size_t end = noisy.end[group + i];
       takeMoved(points, moved, ranks[i], std::span<const int>(noisy.neighbors).subspan(begin, end - begin), offsets[i]);
-      covariances[i] = covarianceOf(offsets[i].view());
+      covariances[i] = covarianceOf(offsets[i].view(), reach[ranks[i]]);
       begin = end;
     }
     principalAxes(std::span(covariances).first(count), axes);

@@ -15,8 +15,8 @@ namespace tufted {
 /// Points that are noise around a surface, and the neighbours that say so.
 struct NoisyPoints {
   Buffer<int> rank;
-  Buffer<std::size_t> end;  ///< where the neighbours of each end in `neighbors`
-  Buffer<int> neighbors;    ///< ranks
+  Buffer<std::size_t> end;   ///< where the neighbours of each end in `neighbors`
+  RawBuffer<int> neighbors;  ///< ranks
 };
 
 /// Memory that one worker reuses from group to group, whose fits are solved together.

@@ -3,6 +3,7 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 
 #include "base/point_buffer.h"
 #include "base/power_of_two.h"
@@ -22,24 +23,36 @@ PrincipalAxes carefulAxes(const Covariance& a) {
 
 }  // namespace
 
-Covariance covarianceOf(const Offsets& neighbors) {
+void findCovariances(const Offsets& neighbors, double size, std::span<const int> ends,
+                     std::span<Covariance> covariances) {
   const Kernels& kernel = kernels();
-  // The extent as a power of two keeps squares in range at any scale, exactly.
-  const double extent = kernel.extent(neighbors);
-  if (extent == 0) return {};
-  const double power = magnitudeOf(extent);
-  OffsetSums sums;
-  kernel.sumOffsets(neighbors, 1 / power, sums);
+  if (!(size > 0)) size = kernel.extent(neighbors);
+  if (size == 0) {
+    std::ranges::fill(covariances, Covariance());
+    return;
+  }
+  // A power of two keeps squares in range at any scale, exactly.
+  const double power = magnitudeOf(size);
+  std::array<OffsetSums, most_sets> sums;
+  kernel.sumOffsets(neighbors, 1 / power, ends.data(), static_cast<int>(ends.size()), sums.data());
+  for (std::size_t i = 0; i < ends.size(); ++i) {
+    const OffsetSums& sum = sums[i];
+    const double share = 1 / static_cast<double>(ends[i] + 1);  // p adds nothing but itself
+    const double x = sum.x * share, y = sum.y * share, z = sum.z * share;
+    covariances[i] = {sum.xx * share - x * x,
+                      sum.xy * share - x * y,
+                      sum.xz * share - x * z,
+                      sum.yy * share - y * y,
+                      sum.yz * share - y * z,
+                      sum.zz * share - z * z,
+                      power};
+  }
+}
 
-  const double share = 1 / static_cast<double>(neighbors.count + 1);  // p adds nothing but itself
-  const double x = sums.x * share, y = sums.y * share, z = sums.z * share;
-  return {sums.xx * share - x * x,
-          sums.xy * share - x * y,
-          sums.xz * share - x * z,
-          sums.yy * share - y * y,
-          sums.yz * share - y * z,
-          sums.zz * share - z * z,
-          power};
+Covariance covarianceOf(const Offsets& neighbors, double size) {
+  Covariance covariance;
+  findCovariances(neighbors, size, {&neighbors.count, 1}, {&covariance, 1});
+  return covariance;
 }
 
 void principalAxes(std::span<const Covariance> covariances, std::span<PrincipalAxes> axes) {

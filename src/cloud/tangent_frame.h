@@ -24,7 +24,13 @@ struct Covariance {
   double extent = 0;                                      ///< see PrincipalAxes; 0 where all are at one place
 };
 
-Covariance covarianceOf(const Offsets& neighbors);
+/// Of p and its first ends[0], ends[1], ... neighbours, each as if it were alone.
+/// @param ends ascending, at most most_sets
+/// @param size of the neighbourhood, to within some powers of two; 0 where nobody knows
+void findCovariances(const Offsets& neighbors, double size, std::span<const int> ends,
+                     std::span<Covariance> covariances);
+/// Of all.
+Covariance covarianceOf(const Offsets& neighbors, double size = 0);
 
 /// Of each covariance; those of one do not depend on the others.
 void principalAxes(std::span<const Covariance> covariances, std::span<PrincipalAxes> axes);

@@ -29,10 +29,19 @@ TEST(Kernels, HaveTheSameBitsOnAnyProcessor) {
     buffer.take(points, 0, std::span(neighbors).first(count));
     const Offsets offsets = buffer.view();
     EXPECT_EQ(kernels().extent(offsets), portableKernels().extent(offsets));
-    OffsetSums sums, portable_sums;
-    kernels().sumOffsets(offsets, 0.25, sums);
-    portableKernels().sumOffsets(offsets, 0.25, portable_sums);
-    EXPECT_TRUE(std::equal(&sums.x, &sums.x + sizeof(OffsetSums) / sizeof(double), &portable_sums.x));
+    const int all = static_cast<int>(count), ends[] = {all / 3, all / 2, all};
+    std::array<OffsetSums, 3> sums, portable_sums;
+    kernels().sumOffsets(offsets, 0.25, ends, 3, sums.data());
+    portableKernels().sumOffsets(offsets, 0.25, ends, 3, portable_sums.data());
+    for (int set = 0; set < 3; ++set) {
+      const double* const sum = &sums[set].x;
+      EXPECT_TRUE(std::equal(sum, sum + sizeof(OffsetSums) / sizeof(double), &portable_sums[set].x));
+      OffsetBuffer first;
+      first.take(points, 0, std::span(neighbors).first(ends[set]));
+      OffsetSums alone;
+      kernels().sumOffsets(first.view(), 0.25, &ends[set], 1, &alone);
+      EXPECT_TRUE(std::equal(sum, sum + sizeof(OffsetSums) / sizeof(double), &alone.x)) << ends[set];
+    }
     const Eigen::Matrix3d axes{{0.6, -0.8, 0.1}, {0.8, 0.6, 0.3}, {0.1, 0.2, -0.7}};
     HeightSums heights{}, portable_heights{};
     kernels().sumHeights(offsets, axes.data(), heights);

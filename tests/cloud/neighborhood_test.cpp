@@ -24,7 +24,7 @@ class Hoods {
   Neighborhood at(int p) {
     Neighborhood hood;
     finder_.find(p, 1, scratch_, &hood);
-    finder_.fitPlanes(p, {&hood, 1}, {&offsets_, 1}, scratch_);
+    finder_.fitPlanes(p, {&hood, 1}, {&offsets_, 1});
     finder_.refine(p, hood, offsets_, scratch_);
     expectOffsetsOf(p, hood);
     return hood;
