@@ -20,7 +20,8 @@ struct StarMetric {
 };
 
 /// @param memory for cotan_sum, whatever is in it: new pages cost more than what is written to them
-StarMetric measureStars(const Stars& stars, const EdgeLengths& length, RawBuffer<double> memory,
-                        const Workers& workers);
+/// @param[out] own_area if given, starAreas(), on the same way
+StarMetric measureStars(const Stars& stars, const EdgeLengths& length, RawBuffer<double> memory, const Workers& workers,
+                        Buffer<double>* own_area = nullptr);
 
 }  // namespace tufted

@@ -10,10 +10,10 @@
 #include "cloud/neighbor_source.h"
 #include "cloud/surface_stars.h"
 #include "cloud/tangent_frame.h"
+#include "intrinsic/star_areas.h"
 #include "operators/build.h"
 #include "operators/pipeline.h"
 #include "operators/star_laplacian.h"
-#include "operators/star_mass.h"
 
 namespace tufted {
 namespace {
@@ -178,21 +178,21 @@ void buildCloudLaplacian(const Points& points, const CloudOptions& options, Clou
   release(stars.reach);
   clock.finish("boundary", 0);
 
-  Buffer<double> areas;
-  if (options.steps.mass == Mass::star) areas = starAreas(stars, cloud.points, workers);
-  const Buffer<int> caller = options.steps.mass == Mass::star ? cloud.caller : Buffer<int>();
+  const bool has_own_areas = options.steps.mass == Mass::star;
+  const Buffer<int> caller = has_own_areas ? cloud.caller : Buffer<int>();
   const int exponent = cloud.exponent;
-  clock.finish("mass", 0);
-
   if (stars.triangles() > most_triangles) tooMany(stars.size(), stars.triangles());
+  Buffer<double> areas;
   const bool stars_agree = options.gluing == Gluing::star && options.order == FaceOrder::angle;
   if (stars_agree && build == CloudBuild::automatic) {
     result.stored_cover.reset();
-    finishFromStars(std::move(stars), std::move(cloud), options, workers, clock, result);
+    areas = finishFromStars(std::move(stars), std::move(cloud), options, workers, clock, result);
   } else {
+    if (has_own_areas) areas = starAreas(stars, cloud.points, workers);
+    clock.finish("mass", 0);
     finishFromCover(std::move(stars), cloud, options, workers, clock, result);
   }
-  if (options.steps.mass == Mass::star) takeAreas(areas, caller, exponent, result);
+  if (has_own_areas) takeAreas(areas, caller, exponent, result);
 }
 
 CloudSteps cloudSteps(Preset preset) {

@@ -22,8 +22,9 @@ class StarUnion final : public CoverSource {
         cover_(stars_, length_, pools_) {}
 
   /// Lengths, mollified (Section 4.5).
-  StarMetric measure(double delta, RawBuffer<double> memory, const Workers& workers) {
-    StarMetric metric = measureStars(stars_, length_, std::move(memory), workers);
+  /// @param[out] own_area if given, starAreas()
+  StarMetric measure(double delta, RawBuffer<double> memory, const Workers& workers, Buffer<double>* own_area) {
+    StarMetric metric = measureStars(stars_, length_, std::move(memory), workers, own_area);
     const double missing = delta * metric.mean.length - metric.least_slack;
     if (!(missing > 0)) return metric;
     length_.added = missing;
@@ -65,8 +66,8 @@ class StarUnion final : public CoverSource {
 
 }  // namespace
 
-void finishFromStars(Stars stars, RankedCloud cloud, const CloudOptions& options, const Workers& workers,
-                     StageClock& clock, Laplacian& result) {
+Buffer<double> finishFromStars(Stars stars, RankedCloud cloud, const CloudOptions& options, const Workers& workers,
+                               StageClock& clock, Laplacian& result) {
   const int exponent = cloud.exponent;
   RawBuffer<double> memory = std::move(stars.radius);
   BuildFigures figures{.triangles = stars.triangles()};
@@ -75,7 +76,9 @@ void finishFromStars(Stars stars, RankedCloud cloud, const CloudOptions& options
                                       static_cast<int>(result.status.size()), workers);
   clock.finish("cover", 0);
 
-  const StarMetric metric = stars_and_cover->measure(options.mollify, std::move(memory), workers);
+  Buffer<double> own_area;
+  const StarMetric metric = stars_and_cover->measure(options.mollify, std::move(memory), workers,
+                                                     options.steps.mass == Mass::star ? &own_area : nullptr);
   figures.mean = metric.mean;
   figures.mollify_length = stars_and_cover->mollifyLength();
   clock.finish("lengths", bytesOf(metric.cotan_sum) + bytesOf(metric.area));
@@ -88,6 +91,7 @@ void finishFromStars(Stars stars, RankedCloud cloud, const CloudOptions& options
   if (options.keep_cover) result.cover_source = stars_and_cover;
   clock.finish("matrices", bytesOfMatrices(result));
   workers.report("done", 1);
+  return own_area;
 }
 
 }  // namespace tufted

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/buffer.h"
 #include "cloud/morton.h"
 #include "cloud/stars.h"
 #include "operators/pipeline.h"
@@ -9,7 +10,8 @@ namespace tufted {
 
 /// Algorithm 3 on the union of stars glued with Gluing::star, from the stars themselves where they agree. Keeps what
 /// the cover is made of, if asked to, and books its stages.
-void finishFromStars(Stars stars, RankedCloud cloud, const CloudOptions& options, const Workers& workers,
-                     StageClock& clock, Laplacian& result);
+/// @returns starAreas() with Mass::star, else nothing
+Buffer<double> finishFromStars(Stars stars, RankedCloud cloud, const CloudOptions& options, const Workers& workers,
+                               StageClock& clock, Laplacian& result);
 
 }  // namespace tufted

@@ -1,4 +1,4 @@
-#include "operators/star_mass.h"
+#include "intrinsic/star_areas.h"
 
 #include <ranges>
 
@@ -41,23 +41,25 @@ bool isInside(const Stars& stars, int p) {
 
 }  // namespace
 
+double starArea(const Stars& stars, int p, const Fans& fans, int at) {
+  CornerAreas sum;
+  for (int i = stars.offset[p]; i < stars.offset[p + 1]; ++i, ++at) {
+    if (!stars.hasTriangle(i)) continue;
+    const CornerAreas corner = cornerAreas(fans, at);
+    sum.voronoi += corner.voronoi;
+    sum.mixed += corner.mixed;
+  }
+  const bool fits = stars.flat[p] != 0 && sum.voronoi > least_share * sum.mixed && isInside(stars, p);
+  return fits ? sum.voronoi : sum.mixed;
+}
+
 Buffer<double> starAreas(const Stars& stars, const PointsView& points, const Workers& workers) {
   const EdgeLengths length{points, stars.move};
   Buffer<double> areas(stars.size());
-  const auto takeArea = [&](int p, const Fans& fans, int at) {
-    CornerAreas sum;
-    for (int i = stars.offset[p]; i < stars.offset[p + 1]; ++i, ++at) {
-      if (!stars.hasTriangle(i)) continue;
-      const CornerAreas corner = cornerAreas(fans, at);
-      sum.voronoi += corner.voronoi;
-      sum.mixed += corner.mixed;
-    }
-    const bool fits = stars.flat[p] != 0 && sum.voronoi > least_share * sum.mixed && isInside(stars, p);
-    areas[p] = fits ? sum.voronoi : sum.mixed;
-  };
   workers.forBlocks("mass", stars.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
     FanBuffer buffer;
-    forEachFan(stars, length, std::views::iota(static_cast<int>(begin), static_cast<int>(end)), buffer, takeArea);
+    forEachFan(stars, length, std::views::iota(static_cast<int>(begin), static_cast<int>(end)), buffer,
+               [&](int p, const Fans& fans, int at) { areas[p] = starArea(stars, p, fans, at); });
   });
   return areas;
 }
