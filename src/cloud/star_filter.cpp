@@ -5,7 +5,6 @@
 #include <array>
 #include <atomic>
 #include <cmath>
-#include <limits>
 
 #include "base/buffer.h"
 #include "base/point_buffer.h"
@@ -47,13 +46,18 @@ void countOtherVotes(const Stars& stars, int p, Buffer<int>& votes) {
   }
 }
 
-/// Circumradius in space; infinite for a triangle without area.
-double circumradius(const PointsView& points, int p, int a, int b) {
-  const Eigen::Vector3d u = points.row(a) - points.row(p), v = points.row(b) - points.row(p);
-  const double twice_area = u.cross(v).norm();
-  return twice_area > 0 ? u.norm() * v.norm() * (u - v).norm() / (2 * twice_area)
-                        : std::numeric_limits<double>::infinity();
-}
+/// The circumradius in space over `length`, squared: as a fraction, which no comparison need divide. It is infinite for
+/// a triangle without area.
+struct SquaredRadius {
+  double numerator, denominator;
+
+  SquaredRadius(const PointsView& points, int p, int a, int b, double length) {
+    const Eigen::Vector3d u = points.row(a) - points.row(p), v = points.row(b) - points.row(p);
+    numerator = u.squaredNorm() * v.squaredNorm() * (u - v).squaredNorm();
+    denominator = 4 * u.cross(v).squaredNorm() * (length * length);
+  }
+  bool isAtMost(double square) const { return denominator > 0 && numerator <= square * denominator; }
+};
 
 /// Filter::radius: circumradius R > r_k(p), which are slivers along a rim, or R > 4 times the smallest r_k of the three
 /// corners, which are bridges to outliers.
@@ -69,10 +73,10 @@ bool isImplausible(const Stars& stars, const PointsView& points, int p, int i) {
   const int a = stars.link[i], b = stars.link[stars.after(p, i)];
   if (stars.radius[i] > 3 * stars.reach[p]) return true;
   const double smallest = std::min({stars.reach[p], stars.reach[a], stars.reach[b]});
-  const double radius = circumradius(points, p, a, b);
-  if (radius <= smallest) return false;
+  const SquaredRadius radius(points, p, a, b, smallest);
+  if (radius.isAtMost(1)) return false;
   const bool sees_further = stars.reach[p] > further * std::max(stars.reach[a], stars.reach[b]);
-  if (radius <= 2 * smallest && !sees_further) return false;
+  if (radius.isAtMost(4) && !sees_further) return false;
   return otherVotes(stars, p, i) == 0;
 }
 

@@ -43,11 +43,10 @@ void glueSpoke(Triangulation& cover, int before, int after) {
   glueSides(cover, backSide(before, 2), backSide(after, 0));
 }
 
+/// @param side_length of the sides 0, 1 and 2 of the front
 template <class Triangulation>
-void setLengths(Triangulation& cover, int t, const EdgeLengths& length) {
-  const auto& corner = cover.faces[2 * t];
-  for (int s = 0; s < 3; ++s)
-    cover.length[frontSide(t, s)] = cover.length[backSide(t, s)] = length(corner[s], corner[(s + 1) % 3]);
+void setLengths(Triangulation& cover, int t, const std::array<double, 3>& side_length) {
+  for (int s = 0; s < 3; ++s) cover.length[frontSide(t, s)] = cover.length[backSide(t, s)] = side_length[s];
 }
 
 }  // namespace
@@ -79,19 +78,24 @@ PartialCover::PartialCover(const Stars& stars, const EdgeLengths& length, const 
 }
 
 void PartialCover::add(int p) {
-  const int first = static_cast<int>(entry_of_.size());
+  const int first = static_cast<int>(entry_of_.size()), end = stars_.offset[p + 1];
   first_[p] = first;
-  for (int i = stars_.offset[p]; i < stars_.offset[p + 1]; ++i)
+  for (int i = stars_.offset[p]; i < end; ++i)
     if (stars_.hasTriangle(i)) entry_of_.push_back(i);
   const auto triangles = entry_of_.size();
   moved_.resize(triangles);
   cover_.faces.resize(2 * triangles);
   cover_.glue.resize(6 * triangles, unglued);
   cover_.length.resize(6 * triangles);
+  int measured = -1;  // link entry of a spoke, and its length
+  double spoke = 0;
   for (int t = first; t < static_cast<int>(triangles); ++t) {
-    const int i = entry_of_[t];
-    addTriangle(cover_, t, p, stars_.link[i], stars_.link[stars_.after(p, i)]);
-    setLengths(cover_, t, length_);
+    const int i = entry_of_[t], next = stars_.after(p, i), a = stars_.link[i], b = stars_.link[next];
+    const double from_p = measured == i ? spoke : length_(p, a);
+    spoke = length_(b, p);
+    measured = next;
+    addTriangle(cover_, t, p, a, b);
+    setLengths(cover_, t, {from_p, length_(a, b), spoke});
   }
   forEachSpoke(stars_, p, first, [&](int before, int after) { glueSpoke(cover_, before, after); });
 }
@@ -194,7 +198,8 @@ void PartialCover::fillStar(int p, const Buffer<int>& first, IntrinsicTriangulat
   for (int i = stars_.offset[p]; i < stars_.offset[p + 1]; ++i) {
     if (!stars_.hasTriangle(i)) continue;
     addTriangle(whole, t, p, stars_.link[i], stars_.link[stars_.after(p, i)]);
-    setLengths(whole, t, length_);
+    const auto& [a, b, c] = whole.faces[2 * t];
+    setLengths(whole, t, {length_(a, b), length_(b, c), length_(c, a)});
     for (int s = 0; s < 3; ++s) {
       const StarSide side{p, i, s};
       const int neighbor = s == 0 ? before(stars_, p, i) : stars_.after(p, i);
