@@ -125,6 +125,11 @@ struct Kernels {
   /// Heights along `normal`, and which of them are reached over gaps of at most `gap`.
   /// @param[out] heights room for whole lanes
   Reached (*reachHeights)(const Offsets& offsets, const double* normal, double gap, double* heights);
+  /// Puts those from the lowest to the highest height to the front, filled up to whole lanes with zeros.
+  /// @param[out] x, y, z room for whole lanes; may be what is given
+  /// @returns how many
+  int (*keepReached)(const Offsets& offsets, const double* heights, const Reached& reached, double* x, double* y,
+                     double* z);
   /// Each as if it were alone.
   void (*findSmallest)(const Covariances& covariances, SmallestAxes& axes);
   /// The offsets, at most PlanarOffsets::most, times `unit` along the axes x and y.

@@ -222,6 +222,23 @@ Reached reachHeights(const Offsets& given, const double* normal, double gap, dou
   return reached;
 }
 
+int keepReached(const Offsets& given, const double* heights, const Reached& given_reached, double* x, double* y,
+                double* z) {
+  const Offsets offsets = given;  // copies, which what is written below cannot change
+  const Lane lowest = all(given_reached.lowest), highest = all(given_reached.highest);
+  int kept = 0;
+  for (int i = 0; i < offsets.count; i += lane_size) {
+    const Lane height = load(heights + i);
+    const Mask are = both(firstOf(offsets.count - i), both(isAtMost(lowest, height), isAtMost(height, highest)));
+    squeeze(are, load(offsets.x + i), x + kept);
+    squeeze(are, load(offsets.y + i), y + kept);
+    squeeze(are, load(offsets.z + i), z + kept);
+    kept += countOf(are);
+  }
+  for (int i = kept; i % lane_size != 0; ++i) x[i] = y[i] = z[i] = 0;
+  return kept;
+}
+
 constexpr double least_gap = 1e-3;  // between the two smallest eigenvalues over the largest, for the closed form
 constexpr int most_steps = 8;
 
@@ -316,7 +333,7 @@ void measureFans(const Fans& given, double added) {
 }  // namespace
 
 extern const Kernels TUFTED_KERNELS;
-const Kernels TUFTED_KERNELS = {takeWithin,   rankValues,   extent,  sumOffsets,  sumHeights,       solveHeights,
-                                reachHeights, findSmallest, project, measureFans, wrapInvertedLanes};
+const Kernels TUFTED_KERNELS = {takeWithin,   rankValues,  extent,       sumOffsets, sumHeights,  solveHeights,
+                                reachHeights, keepReached, findSmallest, project,    measureFans, wrapInvertedLanes};
 
 }  // namespace tufted

@@ -18,19 +18,19 @@ constexpr double crowd = 0.4;        // of the neighbours within half the radius
 constexpr double sheet_gap = 0.25;   // of the reach, between the heights of two sheets
 constexpr std::array<double, few_neighbors.size()> flatter = {0.1, 0.5};  // than all, planes of few
 constexpr int most_splits = 3;
-constexpr std::size_t least_sheet = 3, least_plane = 9;  // points, p included
-constexpr double flat_sheet = 0.1, flat_few = 0.05;      // of the second variance; found by many, by two neighbours
-constexpr std::size_t most_corners = 4;                  // of the triangles at p whose planes a sheet is sought along
-constexpr double least_sine = 0.3;                       // of their angles at p
+constexpr int least_sheet = 3, least_plane = 9;      // points, p included
+constexpr double flat_sheet = 0.1, flat_few = 0.05;  // of the second variance; found by many, by two neighbours
+constexpr int most_corners = 4;                      // of the triangles at p whose planes a sheet is sought along
+constexpr double least_sine = 0.3;                   // of their angles at p
 
 double flatness(const PrincipalAxes& axes) {
   return axes.variance[1] > 0 ? axes.variance[0] / axes.variance[1] : 0;
 }
 
 /// Whether what is left of a neighbourhood is a plane, as flat as asked and far flatter than it was.
-bool isSheet(const Neighborhood& hood, const PrincipalAxes& before, double flat) {
-  return hood.neighbors.size() + 1 >= least_plane && !liesOnOneLine(hood.axes) && flatness(hood.axes) < flat &&
-         flatness(hood.axes) < 0.25 * flatness(before);
+bool isSheet(int neighbors, const PrincipalAxes& axes, const PrincipalAxes& before, double flat) {
+  return neighbors + 1 >= least_plane && !liesOnOneLine(axes) && flatness(axes) < flat &&
+         flatness(axes) < 0.25 * flatness(before);
 }
 
 constexpr std::size_t nested_sets = few_neighbors.size() + 1;
@@ -64,29 +64,14 @@ bool isOneSheet(const Offsets& neighbors, const Eigen::Vector3d& normal, double 
   return scratch.sheet.lowest <= scratch.sheet.bottom && scratch.sheet.highest >= scratch.sheet.top;
 }
 
-bool isReached(std::size_t i, const HoodScratch& scratch) {
-  return scratch.heights[i] >= scratch.sheet.lowest && scratch.heights[i] <= scratch.sheet.highest;
-}
-
-/// How many of the `count` neighbours last looked at are reached.
-std::size_t countReached(std::size_t count, const HoodScratch& scratch) {
-  std::size_t reached = 0;
-  for (std::size_t i = 0; i < count; ++i) reached += isReached(i, scratch) ? 1 : 0;
-  return reached;
-}
-
-/// Those of them that are.
-/// @param[out] sheet, offsets_of_sheet may be the neighbours themselves
-void takeSheet(const Buffer<Neighbor>& neighbors, const OffsetBuffer& offsets, const HoodScratch& scratch,
-               Buffer<Neighbor>& sheet, OffsetBuffer& offsets_of_sheet) {
-  offsets_of_sheet.takeKept(offsets, [&scratch](std::size_t i) { return isReached(i, scratch); });
-  sheet.resize(neighbors.size());
+/// Those of the neighbours last looked at that are reached.
+void takeSheet(const HoodScratch& scratch, Buffer<Neighbor>& neighbors) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < neighbors.size(); ++i) {
-    sheet[kept] = neighbors[i];
-    kept += isReached(i, scratch) ? 1 : 0;
+    neighbors[kept] = neighbors[i];
+    kept += scratch.heights[i] >= scratch.sheet.lowest && scratch.heights[i] <= scratch.sheet.highest ? 1 : 0;
   }
-  sheet.resize(kept);
+  neighbors.resize(kept);
 }
 
 }  // namespace
@@ -136,7 +121,7 @@ void NeighborhoodFinder::find(int first, int count, HoodScratch& scratch, Neighb
 }
 
 bool NeighborhoodFinder::isUneven(const Neighborhood& hood) const {
-  if (hood.neighbors.size() < least_sheet) return true;
+  if (std::ssize(hood.neighbors) < least_sheet) return true;
   if (liesOnOneLine(hood.axes)) return true;
   if (options_.steps.growth == Growth::line || source_.isGraded()) return false;
   const double half = hood.radius / 2;
@@ -176,7 +161,7 @@ void NeighborhoodFinder::refine(int p, Neighborhood& hood, OffsetBuffer& offsets
     principalAxes(nestedCovariances(offsets.view(), hood.radius), axes);
     for (std::size_t j = 0; j < nested_sets; ++j) takeAxes(j, axes[j], hood);
   }
-  splitSheets(p, hood, offsets, scratch);
+  splitSheets(hood, offsets, scratch);
 }
 
 bool NeighborhoodFinder::grow(int p, int most, Neighborhood& hood, OffsetBuffer& offsets, HoodScratch& scratch) const {
@@ -190,11 +175,12 @@ bool NeighborhoodFinder::keepSheet(const Eigen::Vector3d& normal, Neighborhood& 
                                    HoodScratch& scratch) const {
   if (hood.neighbors.empty() || isOneSheet(offsets.view(), normal, hood.reach, scratch)) return false;
   saveAll(hood, offsets, scratch);
-  takeSheet(hood.neighbors, offsets, scratch, hood.neighbors, offsets);
+  takeSheet(scratch, hood.neighbors);
+  offsets.takeReached(offsets, scratch.heights.data(), scratch.sheet);
   return true;
 }
 
-void NeighborhoodFinder::splitSheets(int p, Neighborhood& hood, OffsetBuffer& offsets, HoodScratch& scratch) const {
+void NeighborhoodFinder::splitSheets(Neighborhood& hood, OffsetBuffer& offsets, HoodScratch& scratch) const {
   if (hood.neighbors.empty()) return;
   const PrincipalAxes before = hood.axes;
   scratch.all.clear();
@@ -209,48 +195,64 @@ void NeighborhoodFinder::splitSheets(int p, Neighborhood& hood, OffsetBuffer& of
   for (int i = 0; i < most_splits && keepSheet(hood.axes.normal, hood, offsets, scratch); ++i)
     hood.axes = principalAxes(offsets.view());
   if (scratch.all.empty()) {
-    hood.split = flatness(before) > flat_sheet && findSheet(p, before, hood, offsets, scratch);
-  } else if (hood.neighbors.size() + 1 <= least_sheet) {
+    hood.split = flatness(before) > flat_sheet && findSheet(before, hood, offsets, scratch);
+  } else if (std::ssize(hood.neighbors) + 1 <= least_sheet) {
     hood.isolated = true;
-  } else if (isSheet(hood, before, flat_sheet) || findSheet(p, before, hood, offsets, scratch)) {
+  } else if (isSheet(static_cast<int>(hood.neighbors.size()), hood.axes, before, flat_sheet) ||
+             findSheet(before, hood, offsets, scratch)) {
     hood.split = true;
   } else {
     hood.restored = true;
   }
 }
 
-bool NeighborhoodFinder::findSheet(int p, const PrincipalAxes& before, Neighborhood& hood, OffsetBuffer& offsets,
+bool NeighborhoodFinder::findSheet(const PrincipalAxes& before, Neighborhood& hood, OffsetBuffer& offsets,
                                    HoodScratch& scratch) const {
-  saveAll(hood, offsets, scratch);
-  Neighborhood& tried = scratch.tried;
-  OffsetBuffer& offsets_of_tried = scratch.offsets_of_tried;
-  tried = hood;
-  hood.neighbors.clear();
-  const std::size_t corners = std::min(scratch.all.size(), most_corners);
-  for (std::size_t i = 1; i < corners; ++i) {
-    for (std::size_t j = 0; j < i; ++j) {
-      const Eigen::Vector3d u = points_.row(scratch.all[i].index) - points_.row(p);
-      const Eigen::Vector3d v = points_.row(scratch.all[j].index) - points_.row(p);
-      const Eigen::Vector3d normal = u.cross(v);
+  const bool is_cut = !scratch.all.empty();
+  const OffsetBuffer& all = is_cut ? scratch.offsets_of_all : offsets;
+  const Offsets corners = all.view();
+  const auto corner = [&corners](int i) { return Eigen::Vector3d(corners.x[i], corners.y[i], corners.z[i]); };
+  std::array<Eigen::Vector3d, HoodScratch::most_tried> normals;
+  std::size_t count = 0;
+  for (int i = 1; i < std::min(corners.count, most_corners); ++i) {
+    for (int j = 0; j < i; ++j) {
+      const Eigen::Vector3d u = corner(i), v = corner(j), normal = u.cross(v);
       if (!(normal.norm() > least_sine * u.norm() * v.norm())) continue;
-      if (isOneSheet(scratch.offsets_of_all.view(), normal.normalized(), hood.reach, scratch)) continue;
-      const std::size_t reached = countReached(scratch.all.size(), scratch);  // which the second cut makes fewer
-      if (reached + 1 < least_plane || reached <= hood.neighbors.size()) continue;
-      takeSheet(scratch.all, scratch.offsets_of_all, scratch, tried.neighbors, offsets_of_tried);
-      tried.axes = principalAxes(offsets_of_tried.view());
-      if (keepSheet(tried.axes.normal, tried, offsets_of_tried, scratch))
-        tried.axes = principalAxes(offsets_of_tried.view());
-      if (!isSheet(tried, before, flat_few) || tried.neighbors.size() <= hood.neighbors.size()) continue;
-      hood.neighbors.swap(tried.neighbors);
-      std::swap(offsets, offsets_of_tried);
-      hood.axes = tried.axes;
+      normals[count] = normal.normalized();
+      if (isOneSheet(corners, normals[count], hood.reach, scratch)) continue;
+      scratch.tried[count].takeReached(all, scratch.heights.data(), scratch.sheet);
+      if (scratch.tried[count].count() + 1 >= least_plane) ++count;
     }
   }
-  if (!hood.neighbors.empty()) return true;
-  hood.neighbors = scratch.all;
-  offsets = scratch.offsets_of_all;
-  hood.axes = before;
-  return false;
+
+  // What a plane through three points reaches has a plane of its own, along which it is cut once more.
+  std::array<Covariance, HoodScratch::most_tried> covariances;
+  std::array<PrincipalAxes, HoodScratch::most_tried> first_axes, axes;
+  for (std::size_t i = 0; i < count; ++i) covariances[i] = covarianceOf(scratch.tried[i].view(), hood.radius);
+  principalAxes(std::span(covariances).first(count), first_axes);
+  for (std::size_t i = 0; i < count; ++i) {
+    OffsetBuffer& tried = scratch.tried[i];
+    if (isOneSheet(tried.view(), first_axes[i].normal, hood.reach, scratch)) continue;
+    tried.takeReached(tried, scratch.heights.data(), scratch.sheet);
+    covariances[i] = covarianceOf(tried.view(), hood.radius);
+  }
+  principalAxes(std::span(covariances).first(count), axes);
+
+  std::size_t best = count;
+  for (std::size_t i = 0; i < count; ++i) {
+    const int size = scratch.tried[i].count();
+    if (isSheet(size, axes[i], before, flat_few) && (best == count || size > scratch.tried[best].count())) best = i;
+  }
+  if (is_cut) {
+    hood.neighbors = scratch.all;
+    offsets = scratch.offsets_of_all;
+    hood.axes = before;
+  }
+  if (best == count) return false;
+  keepSheet(normals[best], hood, offsets, scratch);
+  keepSheet(first_axes[best].normal, hood, offsets, scratch);
+  hood.axes = axes[best];
+  return true;
 }
 
 }  // namespace tufted

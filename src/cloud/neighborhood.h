@@ -35,11 +35,12 @@ struct Neighborhood {
 struct HoodScratch {
   GroupScratch group;
   Buffer<Neighbor> found;
-  OffsetBuffer offsets_of_all, offsets_of_tried;
+  OffsetBuffer offsets_of_all;
   Buffer<double> heights;
-  Reached sheet;         ///< see isOneSheet()
-  Buffer<Neighbor> all;  ///< before any were left out; empty while none were
-  Neighborhood tried;
+  Reached sheet;                               ///< see isOneSheet()
+  Buffer<Neighbor> all;                        ///< before any were left out; empty while none were
+  static constexpr int most_tried = 6;         ///< planes through p and two of four others
+  std::array<OffsetBuffer, most_tried> tried;  ///< see findSheet()
   SearchBefore before;
 };
 
@@ -82,11 +83,10 @@ class NeighborhoodFinder {
   /// Keeps the neighbours whose heights along `normal` are reached from p over gaps of at most a quarter of the reach.
   /// True if some were left out.
   bool keepSheet(const Eigen::Vector3d& normal, Neighborhood& hood, OffsetBuffer& offsets, HoodScratch& scratch) const;
-  void splitSheets(int p, Neighborhood& hood, OffsetBuffer& offsets, HoodScratch& scratch) const;
+  void splitSheets(Neighborhood& hood, OffsetBuffer& offsets, HoodScratch& scratch) const;
   /// For where the planes of several neighbours stand across two sheets: the largest sheet along a plane through p and
   /// two of the nearest four. False, and the neighbourhood as it was before any were left out, if there is none.
-  bool findSheet(int p, const PrincipalAxes& before, Neighborhood& hood, OffsetBuffer& offsets,
-                 HoodScratch& scratch) const;
+  bool findSheet(const PrincipalAxes& before, Neighborhood& hood, OffsetBuffer& offsets, HoodScratch& scratch) const;
 
   PointsView points_;
   const NeighborSource& source_;

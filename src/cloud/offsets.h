@@ -37,20 +37,14 @@ class OffsetBuffer {
     for (int i = count; i < toLanes(count); ++i) x[i] = y[i] = z[i] = 0;
   }
 
-  /// Of others, or of these themselves, those that isKept(i).
-  template <class IsKept>
-  void takeKept(const OffsetBuffer& others, const IsKept& isKept) {
-    const int count = others.count_;
-    if (this != &others) resize(count);
-    int kept = 0;
-    for (int i = 0; i < count; ++i) {  // without a branch: which are kept cannot be foreseen
-      for (int c = 0; c < 3; ++c) axis(c)[kept] = others.axis(c)[i];
-      kept += isKept(i) ? 1 : 0;
-    }
-    for (int i = kept; i < toLanes(kept); ++i)
-      for (int c = 0; c < 3; ++c) axis(c)[i] = 0;
-    count_ = kept;
+  /// Of others, or of these themselves, those whose heights are reached.
+  void takeReached(const OffsetBuffer& others, const double* heights, const Reached& reached) {
+    const Offsets given = others.view();
+    if (this != &others) resize(given.count);
+    count_ = kernels().keepReached(given, heights, reached, axis(0), axis(1), axis(2));
   }
+
+  int count() const { return count_; }
 
   /// Valid until the next change.
   Offsets view() const { return {count_, axis(0), axis(1), axis(2)}; }

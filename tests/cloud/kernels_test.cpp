@@ -58,6 +58,44 @@ TEST(Kernels, HaveTheSameBitsOnAnyProcessor) {
   }
 }
 
+TEST(Kernels, KeepWhatIsReachedInItsOrder) {
+  const Points points = shapes::withNoise(shapes::sphere(65), 0.3).points;
+  Buffer<Neighbor> neighbors;
+  for (int q = 1; q < 65; ++q) neighbors.push_back({0, q});
+  for (const Kernels* kernel : {&kernels(), &portableKernels()}) {
+    for (const std::size_t count : {1, 7, 8, 9, 30, 64}) {
+      OffsetBuffer offsets;
+      offsets.take(points, 0, std::span(neighbors).first(count));
+      const Offsets all = offsets.view();
+      std::vector<double> heights(toLanes(static_cast<int>(count)));
+      std::array<std::vector<double>, 3> expected;
+      const Eigen::Vector3d normal(0, 0, 1);
+      const Reached reached = kernel->reachHeights(all, normal.data(), 0.02, heights.data());
+      for (int i = 0; i < all.count; ++i) {
+        if (heights[i] < reached.lowest || heights[i] > reached.highest) continue;
+        expected[0].push_back(all.x[i]);
+        expected[1].push_back(all.y[i]);
+        expected[2].push_back(all.z[i]);
+      }
+      std::array<std::vector<double>, 3> kept;
+      for (auto& axis : kept) axis.assign(heights.size(), NAN);
+      const int size =
+          kernel->keepReached(all, heights.data(), reached, kept[0].data(), kept[1].data(), kept[2].data());
+      ASSERT_EQ(size, std::ssize(expected[0]));
+      for (int c = 0; c < 3; ++c) {
+        expected[c].resize(toLanes(size));
+        EXPECT_TRUE(std::equal(expected[c].begin(), expected[c].end(), kept[c].begin()));
+      }
+      OffsetBuffer in_place = offsets;
+      chooseKernels(kernel);
+      in_place.takeReached(in_place, heights.data(), reached);
+      chooseKernels(nullptr);
+      ASSERT_EQ(in_place.count(), size);
+      EXPECT_TRUE(std::equal(expected[2].begin(), expected[2].end(), in_place.view().z));
+    }
+  }
+}
+
 TEST(Kernels, FindAxesOfEachMatrixAsIfItWereAlone) {
   shapes::Random random(5);
   std::vector<Covariance> covariances;
