@@ -25,9 +25,11 @@ bool isOffPlane(const Stars& stars, const PointsView& points, int p, int q) {
 }
 
 /// Whether the star alone allows p to be an outlier. Next to all points are spared the search.
-bool isSuspect(const Stars& stars, const PointsView& points, int p) {
+/// @param is_known what was isolated since then is all that could have changed
+bool isSuspect(const Stars& stars, const PointsView& points, int p, bool is_known) {
   const auto begin = stars.link.begin() + stars.offset[p], end = stars.link.begin() + stars.offset[p + 1];
-  return std::any_of(begin, end, [&](int q) { return stars.isolated[q] != 0 || isUnseen(stars, points, p, q); });
+  return std::any_of(begin, end,
+                     [&](int q) { return stars.isolated[q] != 0 || (!is_known && isUnseen(stars, points, p, q)); });
 }
 
 bool isOutlier(const Stars& stars, const PointsView& points, int p, const Buffer<Neighbor>& neighbors) {
@@ -56,12 +58,13 @@ void isolateOutliers(Stars& stars, const RankedCloud& cloud, const NeighborSourc
   enum Verdict : std::uint8_t { untried, sound, outlier, isolated };
   Buffer<Verdict> verdicts(stars.size(), untried);
   // Outliers that see each other alone become suspect once one of them is isolated.
-  for (bool found = true; found;) {
+  bool found = true;
+  for (int round = 0; found; ++round) {
     found = false;
     workers.forBlocks("outliers", stars.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
       Buffer<Neighbor> neighbors;
       for (int p = static_cast<int>(begin); p < end; ++p) {
-        if (verdicts[p] != untried || !isSuspect(stars, cloud.points, p)) continue;
+        if (verdicts[p] != untried || !isSuspect(stars, cloud.points, p, round > 0)) continue;
         source.nearest(cloud.points, p, source.k, neighbors);
         verdicts[p] = isOutlier(stars, cloud.points, p, neighbors) ? outlier : sound;
       }
