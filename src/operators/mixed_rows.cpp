@@ -15,7 +15,7 @@ namespace {
 constexpr std::int64_t block_size = 8192;
 
 /// Faces come in two kinds: front and back of a triangle that no flip has touched have the same lengths and are read
-/// off its star, twice; the others are in the cover.
+/// off the stars of mixed points, twice; the others are in the cover.
 class TermCollector {
  public:
   TermCollector(const GluedStars& glued, const Buffer<std::uint8_t>& mixed, double scale, RawBuffer<double>& mass,
@@ -26,16 +26,12 @@ class TermCollector {
         mixed_(mixed),
         scale_(scale),
         mass_(mass),
-        near_(numbersWhere("assemble", stars_.size(), workers, [this](int p) {
-          return mixed_[p] != 0 ||
-                 std::any_of(stars_.link.begin() + stars_.offset[p], stars_.link.begin() + stars_.offset[p + 1],
-                             [this](int q) { return mixed_[q] != 0; });
-        })) {}
+        numbers_(numbersWhere("assemble", stars_.size(), workers, [this](int p) { return mixed_[p] != 0; })) {}
 
   Rows collect() {
     terms_.offset.assign(static_cast<std::size_t>(stars_.size()) + 1, 0);
-    for (const int p : near_) {
-      findWhole(p);
+    for (const int p : numbers_) {
+      weighTriangles(p);
       forEachStarTerm(p, [this](int low, int, int takes_part, const auto&) { terms_.offset[low + 1] += takes_part; });
     }
     forEachMovedFace([this](int f) {
@@ -45,7 +41,7 @@ class TermCollector {
     terms_.entries.resize(static_cast<std::size_t>(terms_.offset.back()));
     fill_.assign(terms_.offset.begin(), terms_.offset.end() - 1);
     FanBuffer buffer;
-    forEachFan(stars_, length_, near_, buffer, [this](int p, const Fans& fans, int at) { takeStar(p, fans, at); });
+    forEachFan(stars_, length_, numbers_, buffer, [this](int p, const Fans& fans, int at) { takeStar(p, fans, at); });
     forEachMovedFace([this](int f) { takeFace(f); });
     return std::move(terms_);
   }
@@ -53,14 +49,16 @@ class TermCollector {
   std::int64_t degenerateFaces() const { return degenerate_faces_; }
 
  private:
-  /// Which triangles of star p no flip has touched, by entry.
-  void findWhole(int p) {
+  /// How often each triangle of star p counts, by entry: not where a flip has touched it, and three times in all where
+  /// a corner is not mixed, whose agreement says that each of the three stars has a copy.
+  void weighTriangles(int p) {
+    constexpr std::array<double, 3> share = {3, 1.5, 1};  // among the mixed corners
     const int begin = stars_.offset[p], end = stars_.offset[p + 1];
-    whole_.resize(end - begin);
+    count_.resize(end - begin);
     int t = cover_.isPresent(p) ? cover_.firstTriangle(p) : -1;
     for (int i = begin; i < end; ++i) {
-      const bool is_triangle = stars_.hasTriangle(i);
-      whole_[i - begin] = is_triangle && (t < 0 || !cover_.isMoved(t)) ? 1 : 0;
+      const bool is_triangle = stars_.hasTriangle(i), is_whole = is_triangle && (t < 0 || !cover_.isMoved(t));
+      count_[i - begin] = is_whole ? share[mixed_[stars_.link[i]] + mixed_[stars_.link[stars_.after(p, i)]]] : 0;
       if (t >= 0) t += is_triangle ? 1 : 0;
     }
   }
@@ -73,12 +71,12 @@ class TermCollector {
     for (int i = 0; i < count; ++i) {
       const int before = i == 0 ? count - 1 : i - 1;
       const int q = stars_.link[begin + i], next = stars_.link[begin + (i + 1 == count ? 0 : i + 1)];
-      const int is_spoke = mixed_[p] & mixed_[q] & (whole_[i] | whole_[before]);
+      const int is_spoke = mixed_[q] != 0 && count_[i] + count_[before] > 0 ? 1 : 0;
       visit(std::min(p, q), std::max(p, q), is_spoke, [this, i, before](const Fans& fans, int at) {
-        return (whole_[i] != 0 ? finiteCotan(fans.cotan_at_next[at + i]) : 0) +
-               (whole_[before] != 0 ? finiteCotan(fans.cotan_at_own[at + before]) : 0);
+        return count_[i] * finiteCotan(fans.cotan_at_next[at + i]) +
+               count_[before] * finiteCotan(fans.cotan_at_own[at + before]);
       });
-      const int is_rim = mixed_[q] & mixed_[next] & whole_[i];
+      const int is_rim = (mixed_[q] & mixed_[next]) != 0 && count_[i] > 0 ? 1 : 0;
       visit(std::min(q, next), std::max(q, next), is_rim, [i](const Fans& fans, int at) {
         const double numerator = cotanNumerator(fans.rim[at + i], fans.spoke[at + i], fans.spoke[at + i + 1]);
         return finiteCotan(numerator / (4 * fans.area[at + i]));
@@ -106,11 +104,12 @@ class TermCollector {
 
   /// @param at the first triangle of star p in the fans
   void takeStar(int p, const Fans& fans, int at) {
-    findWhole(p);
+    weighTriangles(p);
     const int begin = stars_.offset[p], count = stars_.offset[p + 1] - begin;
     for (int i = 0; i < count; ++i) {
-      if (whole_[i] != 0)
-        addArea({p, stars_.link[begin + i], stars_.link[stars_.after(p, begin + i)]}, fans.area[at + i], 2);
+      if (count_[i] == 0) continue;
+      degenerate_faces_ += fans.area[at + i] > 0 ? 0 : 2;
+      addArea({p, stars_.link[begin + i], stars_.link[stars_.after(p, begin + i)]}, 2 * count_[i] * fans.area[at + i]);
     }
     forEachStarTerm(p, [&](int low, int high, int takes_part, const auto& cotans) {
       if (takes_part != 0) put(low, high, scale_ * cotans(fans, at));  // 2 sheets, 1/2
@@ -120,7 +119,8 @@ class TermCollector {
   void takeFace(int f) {
     const double* const side = cover_.faces().length.data() + 3 * std::ptrdiff_t{f};
     const double area = triangleArea(side[0], side[1], side[2]);
-    addArea(cover_.faces().faces[f], area, 1);
+    degenerate_faces_ += area > 0 ? 0 : 1;
+    addArea(cover_.faces().faces[f], area);
     forEachFaceTerm(f, [&](int low, int high, int takes_part, int s) {
       if (takes_part == 0) return;
       const double cotan = finiteCotan(cotanNumerator(side[s], side[(s + 1) % 3], side[(s + 2) % 3]) / (4 * area));
@@ -128,9 +128,8 @@ class TermCollector {
     });
   }
 
-  void addArea(const std::array<int, 3>& corners, double area, int sheets) {
-    degenerate_faces_ += area > 0 ? 0 : sheets;
-    for (const int corner : corners) mass_[corner] += mixed_[corner] != 0 ? sheets * scale_ * area / 3 : 0;
+  void addArea(const std::array<int, 3>& corners, double area) {
+    for (const int corner : corners) mass_[corner] += mixed_[corner] != 0 ? scale_ * area / 3 : 0;
   }
 
   const Stars& stars_;
@@ -139,8 +138,8 @@ class TermCollector {
   const Buffer<std::uint8_t>& mixed_;
   const double scale_;
   RawBuffer<double>& mass_;
-  const Buffer<int> near_;      ///< mixed points and those next to them
-  Buffer<std::uint8_t> whole_;  ///< of one star
+  const Buffer<int> numbers_;  ///< of the mixed points
+  Buffer<double> count_;       ///< see weighTriangles()
   Rows terms_;
   Buffer<int> fill_;  ///< n, where the next term goes
   std::int64_t degenerate_faces_ = 0;
