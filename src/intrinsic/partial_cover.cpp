@@ -130,6 +130,14 @@ double PartialCover::cotanAt(const StarSide& side) const {
   return oppositeCotan(length_(a, b), length_(b, c), length_(c, a));
 }
 
+bool PartialCover::isAcute(const StarSide& side) const {
+  if (length_.added > 0) return false;
+  const auto [ux, uy, uz] = length_.offset(tail(stars_, side), apex(stars_, side));
+  const auto [vx, vy, vz] = length_.offset(head(stars_, side), apex(stars_, side));
+  // Far beyond the rounding of lengths, which is what cotanAt() sees.
+  return ux * vx + uy * vy + uz * vz > 1e-6 * std::max(ux * ux + uy * uy + uz * uz, vx * vx + vy * vy + vz * vz);
+}
+
 Buffer<int> PartialCover::findSeeds(const StarMetric& metric, const Workers& workers) {
   struct Seed {
     StarSide side;
@@ -152,11 +160,13 @@ Buffer<int> PartialCover::findSeeds(const StarMetric& metric, const Workers& wor
     }
     pools_.forEachPool(static_cast<int>(begin), static_cast<int>(end), [&](const auto& pool) {
       // The plus copy of each faces the minus copy of the next.
-      double first = cotanAt(pool[0].side), here = first;
+      bool is_acute = isAcute(pool[0].side);
       for (std::size_t i = 0; i < pool.size(); ++i) {
-        const double next = i + 1 == pool.size() ? first : cotanAt(pool[i + 1].side);
-        if (here + next < flip_below) seeds.push_back({pool[i].side, true, false});
-        here = next;
+        const StarSide &here = pool[i].side, &next = pool[i + 1 == pool.size() ? 0 : i + 1].side;
+        const bool was_acute = is_acute;
+        is_acute = isAcute(next);
+        if (was_acute && is_acute) continue;
+        if (cotanAt(here) + cotanAt(next) < flip_below) seeds.push_back({here, true, false});
       }
     });
   });
