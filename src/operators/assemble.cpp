@@ -20,82 +20,64 @@ namespace {
 
 constexpr std::int64_t block_size = 8192;
 
-/// The weight of an edge, 1/2 (cot + cot).
-double edgeWeight(const IntrinsicTriangulation& cover, const Buffer<double>& areas, int side) {
-  return (finiteCotan(cover, areas, side) + finiteCotan(cover, areas, cover.glue[side])) / 2;
-}
+/// The upper triangle: the entries of row v are the summed weights of its edges to larger vertices, ascending.
+struct UpperRows {
+  Rows rows;
+  Buffer<int> size;  ///< of each row, which may end before the next begins
 
-/// Side numbers of each vertex, one vertex after the other.
-struct SideLists {
-  Buffer<int> offset, sides;
+  int begin(int v) const { return rows.offset[v]; }
+  int end(int v) const { return rows.offset[v] + size[v]; }
 };
 
-/// Sides, one per edge, filed under the smaller vertex; edges from a vertex to itself are left out.
-SideLists sidesByVertex(const IntrinsicTriangulation& cover) {
-  const int sides = static_cast<int>(3 * cover.size());
-  const auto counts = [&](int side) { return side < cover.glue[side] && tail(cover, side) != head(cover, side); };
-  const auto owner = [&](int side) { return std::min(tail(cover, side), head(cover, side)); };
-  Buffer<int> offset(static_cast<std::size_t>(cover.vertices) + 1);
-  for (int side = 0; side < sides; ++side) {
-    if (counts(side)) ++offset[owner(side) + 1];
-  }
-  std::partial_sum(offset.begin(), offset.end(), offset.begin());
-  Buffer<int> list(offset.back());
-  Buffer<int> fill(offset.begin(), offset.end() - 1);
-  for (int side = 0; side < sides; ++side) {
-    if (counts(side)) list[fill[owner(side)]++] = side;
-  }
-  return {std::move(offset), std::move(list)};
-}
-
-/// The upper triangle: for each vertex the summed weights of its edges to larger vertices, ascending.
-Rows sumWeights(const IntrinsicTriangulation& cover, const Buffer<double>& areas, double scale,
-                const Workers& workers) {
-  const SideLists lists = sidesByVertex(cover);
-  Rows upper;
-  upper.offset.assign(lists.offset.size(), 0);
-  Buffer<Buffer<Entry>> parts((cover.vertices + block_size - 1) / block_size);
-  workers.forBlocks("assemble", cover.vertices, block_size, [&](std::int64_t begin, std::int64_t end, int) {
-    Buffer<Entry>& part = parts[begin / block_size];
-    Buffer<Entry> row, scratch;
-    for (int v = static_cast<int>(begin); v < end; ++v) {
-      row.clear();
-      for (int i = lists.offset[v]; i < lists.offset[v + 1]; ++i) {
-        const int side = lists.sides[i];
-        row.push_back({std::max(tail(cover, side), head(cover, side)), scale * edgeWeight(cover, areas, side)});
+/// Edges from a vertex to itself are left out.
+UpperRows sumWeights(const IntrinsicTriangulation& cover, const Buffer<double>& areas, double scale,
+                     const Workers& workers) {
+  // In the order of the faces, which are neighbours in memory if they are on the surface.
+  const auto forEachEdge = [&](const auto& visit) {
+    for (int f = 0; f < static_cast<int>(cover.size()); ++f) {
+      const auto& corner = cover.faces[f];
+      for (int s = 0; s < 3; ++s) {
+        const int side = 3 * f + s, from = corner[s], to = corner[(s + 1) % 3];
+        if (side < cover.glue[side] && from != to) visit(std::min(from, to), std::max(from, to), f, s);
       }
-      Entry* const end_of_row = mergeColumns(row.data(), row.data() + row.size(), scratch);
-      part.insert(part.end(), row.data(), end_of_row);
-      upper.offset[v + 1] = static_cast<int>(end_of_row - row.data());
     }
+  };
+  UpperRows upper;
+  Rows& rows = upper.rows;
+  rows.offset.assign(static_cast<std::size_t>(cover.vertices) + 1, 0);
+  forEachEdge([&](int low, int, int, int) { ++rows.offset[low + 1]; });
+  std::partial_sum(rows.offset.begin(), rows.offset.end(), rows.offset.begin());
+  rows.entries.resize(static_cast<std::size_t>(rows.offset.back()));
+  Buffer<int> fill(rows.offset.begin(), rows.offset.end() - 1);
+  forEachEdge([&](int low, int high, int f, int s) {
+    const double* const length = cover.length.data() + 3 * std::ptrdiff_t{f};
+    const double cotan =
+        finiteCotan(cotanNumerator(length[s], length[(s + 1) % 3], length[(s + 2) % 3]) / (4 * areas[f]));
+    const double opposite = finiteCotan(cover, areas, cover.glue[3 * f + s]);
+    rows.entries[fill[low]++] = {high, scale * (cotan + opposite) / 2};  // Section 3.3
   });
-  std::partial_sum(upper.offset.begin(), upper.offset.end(), upper.offset.begin());
-  upper.entries.reserve(upper.offset.back());
-  for (auto& part : parts) {
-    upper.entries.insert(upper.entries.end(), part.begin(), part.end());
-    release(part);
-  }
+  upper.size = mergeRows(rows, workers);
   return upper;
 }
 
 /// Minus the row sums, in ascending order of both halves.
-Buffer<double> sumDiagonal(const Rows& upper) {
-  const int n = static_cast<int>(upper.offset.size()) - 1;
+Buffer<double> sumDiagonal(const UpperRows& upper) {
+  const int n = static_cast<int>(upper.size.size());
   Buffer<double> diagonal(n);
   for (int v = 0; v < n; ++v) {  // when row v comes, all smaller vertices have added theirs
-    for (int i = upper.offset[v]; i < upper.offset[v + 1]; ++i) {
-      diagonal[v] += upper.entries[i].weight;
-      diagonal[upper.entries[i].column] += upper.entries[i].weight;
+    for (int i = upper.begin(v); i < upper.end(v); ++i) {
+      diagonal[v] += upper.rows.entries[i].weight;
+      diagonal[upper.rows.entries[i].column] += upper.rows.entries[i].weight;
     }
   }
   return diagonal;
 }
 
-void clampNegative(Rows& upper, const Buffer<double>& diagonal, Report& report) {
+void clampNegative(UpperRows& upper, const Buffer<double>& diagonal, Report& report) {
   const int n = static_cast<int>(diagonal.size());
   for (int v = 0; v < n; ++v) {
-    for (int i = upper.offset[v]; i < upper.offset[v + 1]; ++i) {
-      Entry& entry = upper.entries[i];
+    for (int i = upper.begin(v); i < upper.end(v); ++i) {
+      Entry& entry = upper.rows.entries[i];
       if (entry.weight >= 0) continue;
       const double larger = std::max(diagonal[v], diagonal[entry.column]);
       const double relative = larger > 0 ? -entry.weight / larger : INFINITY;
@@ -107,7 +89,7 @@ void clampNegative(Rows& upper, const Buffer<double>& diagonal, Report& report) 
 }
 
 /// Both halves and the diagonal as compressed columns in the caller's numbering. Zero weights are not stored.
-void toCallerOrder(const Rows& upper, const Buffer<double>& diagonal, const Buffer<int>& caller, int size,
+void toCallerOrder(const UpperRows& upper, const Buffer<double>& diagonal, const Buffer<int>& caller, int size,
                    SparseMatrix& L) {
   const int n = static_cast<int>(diagonal.size());
   L.resize(size, size);
@@ -115,8 +97,8 @@ void toCallerOrder(const Rows& upper, const Buffer<double>& diagonal, const Buff
   const auto forEachEntry = [&](auto visit) {  // visit(column, row, value), both halves
     for (int v = 0; v < n; ++v) {
       if (diagonal[v] > 0) visit(caller[v], caller[v], diagonal[v]);
-      for (int i = upper.offset[v]; i < upper.offset[v + 1]; ++i) {
-        const auto [column, weight] = upper.entries[i];
+      for (int i = upper.begin(v); i < upper.end(v); ++i) {
+        const auto [column, weight] = upper.rows.entries[i];
         if (weight == 0) continue;
         visit(caller[v], caller[column], -weight);
         visit(caller[column], caller[v], -weight);
@@ -164,8 +146,8 @@ void assembleLaplacian(const IntrinsicTriangulation& cover, const Buffer<int>& c
                        const Workers& workers, Laplacian& result) {
   Report& report = result.report;
   const Buffer<double> areas = faceAreas(cover, workers);
-  Rows upper = sumWeights(cover, areas, scale, workers);
-  const auto most_entries = 2 * static_cast<std::int64_t>(upper.entries.size()) + cover.vertices;
+  UpperRows upper = sumWeights(cover, areas, scale, workers);
+  const auto most_entries = 2 * std::accumulate(upper.size.begin(), upper.size.end(), std::int64_t{0}) + cover.vertices;
   if (most_entries > INT32_MAX) {
     throw InvalidInput("assembleLaplacian: " + std::to_string(most_entries) + " entries of L, must be at most " +
                        std::to_string(INT32_MAX) + ", what an int can number");

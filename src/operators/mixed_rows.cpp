@@ -12,8 +12,6 @@
 namespace tufted {
 namespace {
 
-constexpr std::int64_t block_size = 8192;
-
 /// Faces come in two kinds: front and back of a triangle that no flip has touched have the same lengths and are read
 /// off the stars of mixed points, twice; the others are in the cover.
 class TermCollector {
@@ -157,15 +155,7 @@ Rows collectTerms(const GluedStars& glued, const Buffer<std::uint8_t>& mixed, do
 
 Rows mergeTerms(Rows terms, const Workers& workers) {
   const int n = static_cast<int>(terms.offset.size()) - 1;
-  Buffer<int> edges(static_cast<std::size_t>(n));
-  workers.forBlocks("assemble", n, block_size, [&](std::int64_t begin, std::int64_t end, int) {
-    Buffer<Entry> scratch;
-    for (int p = static_cast<int>(begin); p < end; ++p) {
-      Entry* const first = terms.entries.data() + terms.offset[p];
-      Entry* const last = terms.entries.data() + terms.offset[p + 1];
-      edges[p] = static_cast<int>(mergeColumns(first, last, scratch) - first);
-    }
-  });
+  const Buffer<int> edges = mergeRows(terms, workers);
   const auto forBoth = [&](const auto& visit) {
     for (int p = 0; p < n; ++p) {
       for (int i = terms.offset[p]; i < terms.offset[p] + edges[p]; ++i) {

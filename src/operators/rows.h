@@ -1,6 +1,9 @@
 #pragma once
 
+#include <cstdint>
+
 #include "base/buffer.h"
+#include "base/parallel.h"
 #include "base/stable_sort.h"
 
 namespace tufted {
@@ -28,6 +31,21 @@ inline Entry* mergeColumns(Entry* first, Entry* last, Buffer<Entry>& scratch) {
       *kept++ = *at;
   }
   return kept;
+}
+
+/// The same in every row; returns their sizes. `rows` stay where they begin.
+inline Buffer<int> mergeRows(Rows& rows, const Workers& workers) {
+  constexpr std::int64_t block_size = 8192;
+  Buffer<int> size(rows.offset.size() - 1);
+  workers.forBlocks("assemble", std::ssize(size), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    Buffer<Entry> scratch;
+    for (std::int64_t p = begin; p < end; ++p) {
+      Entry* const first = rows.entries.data() + rows.offset[p];
+      Entry* const last = rows.entries.data() + rows.offset[p + 1];
+      size[p] = static_cast<int>(mergeColumns(first, last, scratch) - first);
+    }
+  });
+  return size;
 }
 
 }  // namespace tufted
