@@ -1,7 +1,7 @@
 #pragma once
 
 #include <array>
-#include <cstddef>
+#include <cstdint>
 #include <iterator>
 
 #include "base/buffer.h"
@@ -55,15 +55,23 @@ class FanBuffer {
   Fans fans_{};
 };
 
+/// The numbers [first, last); clang 14 cannot read std::views::iota.
+struct Numbers {
+  std::int64_t first, last;
+
+  std::int64_t size() const { return last - first; }
+  int operator[](std::int64_t i) const { return static_cast<int>(first + i); }
+};
+
 /// Calls visit(p, fans, at) for each star in `numbers`, a sequence of numbers: its triangles are measured, the first is
 /// number `at`.
-template <class Numbers, class Visit>
-void forEachFan(const Stars& stars, const EdgeLengths& length, const Numbers& numbers, FanBuffer& buffer,
+template <class Sequence, class Visit>
+void forEachFan(const Stars& stars, const EdgeLengths& length, const Sequence& numbers, FanBuffer& buffer,
                 const Visit& visit) {
   constexpr int batch = 128;  // triangles that are measured together, from the first-level cache
   const Kernels& kernel = kernels();
   const auto size = std::ssize(numbers);
-  for (std::ptrdiff_t i = 0; i < size;) {
+  for (std::int64_t i = 0; i < size;) {
     const auto first = i;
     buffer.clear();
     for (; i < size && buffer.count() < batch; ++i) buffer.add(stars, length, numbers[i]);

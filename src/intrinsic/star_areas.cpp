@@ -1,7 +1,5 @@
 #include "intrinsic/star_areas.h"
 
-#include <ranges>
-
 #include "base/point_buffer.h"
 #include "intrinsic/edge_lengths.h"
 #include "intrinsic/fan_buffer.h"
@@ -58,7 +56,7 @@ Buffer<double> starAreas(const Stars& stars, const PointsView& points, const Wor
   Buffer<double> areas(stars.size());
   workers.forBlocks("mass", stars.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
     FanBuffer buffer;
-    forEachFan(stars, length, std::views::iota(static_cast<int>(begin), static_cast<int>(end)), buffer,
+    forEachFan(stars, length, Numbers{begin, end}, buffer,
                [&](int p, const Fans& fans, int at) { areas[p] = starArea(stars, p, fans, at); });
   });
   return areas;

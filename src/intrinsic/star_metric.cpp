@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <limits>
-#include <ranges>
 #include <utility>
 
 #include "base/buffer.h"
@@ -27,7 +26,7 @@ class StarMeasurer {
       : stars_(stars), length_(length), metric_(metric), own_area_(own_area) {}
 
   void measure(int begin, int end, FanBuffer& buffer, BlockSums& sums) const {
-    forEachFan(stars_, length_, std::views::iota(begin, end), buffer,
+    forEachFan(stars_, length_, Numbers{begin, end}, buffer,
                [&](int p, const Fans& fans, int at) { take(p, fans, at, sums); });
   }
 
