@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numeric>
 
 #include "base/buffer.h"
@@ -130,12 +131,14 @@ double PartialCover::cotanAt(const StarSide& side) const {
   return oppositeCotan(length_(a, b), length_(b, c), length_(c, a));
 }
 
-bool PartialCover::isAcute(const StarSide& side) const {
-  if (length_.added > 0) return false;
+double PartialCover::roughCotan(const StarSide& side) const {
+  if (length_.added > 0) return cotanAt(side);
   const auto [ux, uy, uz] = length_.offset(tail(stars_, side), apex(stars_, side));
   const auto [vx, vy, vz] = length_.offset(head(stars_, side), apex(stars_, side));
-  // Far beyond the rounding of lengths, which is what cotanAt() sees.
-  return ux * vx + uy * vy + uz * vz > 1e-6 * std::max(ux * ux + uy * uy + uz * uz, vx * vx + vy * vy + vz * vz);
+  const double x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
+  const double sine = x * x + y * y + z * z;  // times both lengths, squared
+  const double longer = std::max(ux * ux + uy * uy + uz * uz, vx * vx + vy * vy + vz * vz);
+  return sine > 1e-8 * longer * longer ? (ux * vx + uy * vy + uz * vz) / std::sqrt(sine) : cotanAt(side);
 }
 
 Buffer<int> PartialCover::findSeeds(const StarMetric& metric, const Workers& workers) {
@@ -160,13 +163,14 @@ Buffer<int> PartialCover::findSeeds(const StarMetric& metric, const Workers& wor
     }
     pools_.forEachPool(static_cast<int>(begin), static_cast<int>(end), [&](const auto& pool) {
       // The plus copy of each faces the minus copy of the next.
-      bool is_acute = isAcute(pool[0].side);
+      const double first = roughCotan(pool[0].side);
+      double here = first;
       for (std::size_t i = 0; i < pool.size(); ++i) {
-        const StarSide &here = pool[i].side, &next = pool[i + 1 == pool.size() ? 0 : i + 1].side;
-        const bool was_acute = is_acute;
-        is_acute = isAcute(next);
-        if (was_acute && is_acute) continue;
-        if (cotanAt(here) + cotanAt(next) < flip_below) seeds.push_back({here, true, false});
+        const StarSide &side = pool[i].side, &facing = pool[i + 1 == pool.size() ? 0 : i + 1].side;
+        const double next = i + 1 == pool.size() ? first : roughCotan(facing);
+        if (!(here + next > flip_below / 2) && cotanAt(side) + cotanAt(facing) < flip_below)
+          seeds.push_back({side, true, false});
+        here = next;
       }
     });
   });

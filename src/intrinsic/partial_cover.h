@@ -53,8 +53,8 @@ class PartialCover {
   StarSide mateOf(const StarSide& side, bool is_plus) const;
   Buffer<int> findSeeds(const StarMetric& metric, const Workers& workers);
   double cotanAt(const StarSide& side) const;
-  /// True only where cotanAt() is positive, which takes no roots to see.
-  bool isAcute(const StarSide& side) const;
+  /// The same to within 1e-11, with fewer roots where the triangle allows it.
+  double roughCotan(const StarSide& side) const;
   int sideNumber(const StarSide& side, bool is_front, const Buffer<int>& first) const;
   bool runsUp(const StarSide& side) const { return tail(stars_, side) < head(stars_, side); }
   /// Writes the star of p into the whole cover as the stars have it, then as flips have left it.
