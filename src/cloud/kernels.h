@@ -27,10 +27,10 @@ struct Offsets {
 };
 
 /// Sums over neighbours.
-constexpr int most_sets = 3;  // of neighbours that are summed at once
 struct OffsetSums {
   double x, y, z, xx, xy, xz, yy, yz, zz;
 };
+constexpr int most_sets = 3;  // of neighbours that are summed at once
 
 /// Sums over neighbours with the coordinates u, v in a plane and the height h over it.
 struct HeightSums {

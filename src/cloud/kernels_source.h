@@ -112,8 +112,8 @@ void sumOffsets(const Offsets& offsets, double unit, const int* ends, int sets, 
         sum = plus(sum, at(offsets.x, i), at(offsets.y, i), at(offsets.z, i));
       const auto isInSet = isLess(loadPart(numbered + part), allOfPart(ends[set] - i));
       const auto some = [&](const double* values) { return select(isInSet, at(values, i), zero); };
-      const OffsetParts all = i == ends[set] ? sum : plus(sum, some(offsets.x), some(offsets.y), some(offsets.z));
-      putInTurn(lanes[set] + part, all.x, all.y, all.z, all.xx, all.xy, all.xz, all.yy, all.yz, all.zz);
+      const OffsetParts here = i == ends[set] ? sum : plus(sum, some(offsets.x), some(offsets.y), some(offsets.z));
+      putInTurn(lanes[set] + part, here.x, here.y, here.z, here.xx, here.xy, here.xz, here.yy, here.yz, here.zz);
     }
   }
   for (int set = 0; set < sets; ++set) addAcross(lanes[set], numbers, &totals[set].x);

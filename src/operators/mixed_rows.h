@@ -12,7 +12,7 @@ namespace tufted {
 
 /// What the faces of the cover add to the weights of edges between mixed points, filed under the smaller of the two,
 /// and a third of each face's area to each mixed corner (Section 3.3). Everything in an order that ranks decide.
-/// @param mixed n, 1 for a point
+/// @param mixed n, 1 for a mixed point
 /// @param scale of one face, see finishLaplacian()
 /// @param mass n, is added to
 /// @param report degenerate_faces counts faces without area at a mixed point
