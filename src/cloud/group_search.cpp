@@ -14,7 +14,22 @@ namespace {
 constexpr int least_group = 4, most_group = 32;
 constexpr double widest_group = 2.5;  // diagonal of its box, in radii of a neighbourhood
 constexpr double likely = 1.08;       // times the squared radius of the point before: holds the k nearest most often
+constexpr double first_around = 1.2;  // radii of a neighbourhood nearby: what is searched around a group to begin with
+constexpr double next_around = 1.6, last_around = 4;  // times as far, where that is not enough, and how far at most
+constexpr double spare_around = 1.05;                 // times what may hold more neighbours of one point
 constexpr double nowhere = std::numeric_limits<double>::infinity();
+
+/// Puts what was searched last to the candidates that are known, for this group.
+void keepSearched(SearchedGroup& group, GroupScratch& scratch) {
+  group.begin = scratch.known.size();
+  scratch.known.insert(scratch.known.end(), scratch.searched.begin(), scratch.searched.end());
+  group.end = scratch.known.size();
+}
+
+/// How far from `point` everything is in the ball.
+double roomAround(const Eigen::RowVector3d& point, const SearchedBall& ball) {
+  return ball.radius - (point - ball.center).norm();
+}
 
 /// The candidates of a group, from which its points take their neighbours.
 class GroupCandidates {
@@ -44,6 +59,15 @@ class GroupCandidates {
   int takeWithin(int p, int k, double guess, double bound) {
     const int count = guess < bound ? takeWithin(p, guess) : 0;
     return count < k ? takeWithin(p, bound) : count;
+  }
+
+  /// Within `guess`, or as far as the ball that was searched reaches. Returns how many, or 0 where they are too few to
+  /// be sure of the k nearest.
+  int takeKnown(int p, int k, double guess, const SearchedBall& ball) {
+    const double room = roomAround(points_.row(p), ball), bound = room * room * (1 - 1e-12);
+    if (!(room > 0 && bound > least_square)) return 0;
+    const int count = takeWithin(p, k, guess, bound);
+    return count < k ? 0 : count;
   }
 
   /// The k least by (distance, index) of what was taken, in order, and anything behind them, where the next row will be
@@ -108,31 +132,55 @@ class GroupSearch {
     return size;
   }
 
-  void find(int first, int count, Neighbor* found) {
-    if (count == 1) {
-      search_.nearest(first, k_, scratch_.sorted);
-      std::copy(scratch_.sorted.begin(), scratch_.sorted.end(), found);
-    } else if (!gather(first, count)) {
-      find(first, count / 2, found);
-      find(first + count / 2, count - count / 2, rowOf(found, count / 2));
-    } else {
-      const SearchedBall ball = scratch_.groups.back().ball;
-      for (int i = 0; i < count; ++i) select(first, i, ball, found);
+  /// Looks a little farther around the group than the radius of a neighbourhood nearby, where nearly always all are.
+  void find(int first, int count, double radius, Neighbor* found) {
+    int done = 0;
+    if (count > 1 && radius < nowhere) {
+      for (double around = first_around; done < count && around < last_around; around *= next_around) {
+        SearchedGroup group{first, count, {}, 0, 0};
+        if (!search_.candidatesWithin(first, count, around * radius, scratch_.searched, group.ball)) break;
+        keep(group);
+        while (done < count && selectKnown(first, done, group.ball, radius, found)) ++done;
+        if (done == count) return;
+        scratch_.known.resize(group.begin);
+        scratch_.groups.pop_back();
+      }
     }
+    findSurely(first, done, count, found);
   }
 
   Neighbor* rowOf(Neighbor* found, int i) const { return found + static_cast<std::ptrdiff_t>(i) * k_; }
   double radiusOf(const Neighbor* row) const { return std::sqrt(row[k_ - 1].squared_distance); }
 
  private:
-  bool gather(int first, int count) {
-    SearchedGroup group{first, count, {}, scratch_.known.size(), 0};
-    if (!search_.candidates(first, count, k_, scratch_.searched, scratch_.bounds, group.ball)) return false;
-    scratch_.known.insert(scratch_.known.end(), scratch_.searched.begin(), scratch_.searched.end());
-    group.end = scratch_.known.size();
+  /// Those of the group from `done` on, as far away as they are.
+  void findSurely(int first, int done, int count, Neighbor* found) {
+    SearchedGroup group{first, count, {}, 0, 0};
+    if (count == 1) {
+      search_.nearest(first, k_, scratch_.sorted);
+      std::copy(scratch_.sorted.begin(), scratch_.sorted.end(), found);
+    } else if (!search_.candidates(first, count, k_, scratch_.searched, scratch_.bounds, group.ball)) {
+      findSurely(first, 0, count / 2, found);
+      findSurely(first + count / 2, 0, count - count / 2, rowOf(found, count / 2));
+    } else {
+      keep(group);
+      for (int i = done; i < count; ++i) select(first, i, group.ball, found);
+    }
+  }
+
+  /// Makes what was searched last the candidates of the group.
+  void keep(SearchedGroup& group) {
+    keepSearched(group, scratch_);
     scratch_.groups.push_back(group);
     candidates_.gather(group);
-    return true;
+  }
+
+  /// Select() among candidates that need not be enough.
+  bool selectKnown(int first, int i, const SearchedBall& ball, double radius, Neighbor* found) {
+    const double before = i > 0 ? radiusOf(rowOf(found, i - 1)) : radius;
+    const int count = candidates_.takeKnown(first + i, k_, likely * before * before, ball);
+    if (count > 0) candidates_.takeNearest(count, k_, rowOf(found, i));
+    return count > 0;
   }
 
   /// The k nearest of point i of the group, whose earlier points are done.
@@ -150,7 +198,7 @@ class GroupSearch {
     if (count >= k_)
       candidates_.takeNearest(count, k_, rowOf(found, i));
     else
-      find(p, 1, rowOf(found, i));  // the squares of its distances underflow, and no bound on them holds
+      findSurely(p, 0, 1, rowOf(found, i));  // the squares of its distances underflow, and no bound on them holds
   }
 
   const NeighborSearch& search_;
@@ -172,27 +220,34 @@ void nearestOfEach(const NeighborSearch& search, const PointsView& points, int f
   for (int i = 0; i < count;) {
     Neighbor* rows = search_group.rowOf(found.data(), i);
     const int size = search_group.groupAt(first + i, count - i, radius);
-    search_group.find(first + i, size, rows);
+    search_group.find(first + i, size, radius, rows);
     radius = search_group.radiusOf(search_group.rowOf(rows, size - 1));
     i += size;
   }
   found.resize(found.size() - NeighborSearch::most_candidates);
 }
 
-bool nearestOfKnown(const PointsView& points, int p, int k, double likely, const Kernels& kernels,
-                    GroupScratch& scratch, Buffer<Neighbor>& found) {
+bool nearestOfKnown(const NeighborSearch& search, const PointsView& points, int p, int k, double likely,
+                    const Kernels& kernels, GroupScratch& scratch, Buffer<Neighbor>& found) {
   const auto after = std::partition_point(scratch.groups.begin(), scratch.groups.end(),
                                           [p](const SearchedGroup& group) { return group.first <= p; });
   if (after == scratch.groups.begin()) return false;
-  const SearchedGroup& group = *(after - 1);
+  SearchedGroup& group = *(after - 1);
   if (p >= group.first + group.count) return false;
-  const double room = group.ball.radius - (points.row(p) - group.ball.center).norm();
-  const double bound = room * room * (1 - 1e-12);
-  if (!(room > 0 && bound > least_square)) return false;
   GroupCandidates candidates(points, kernels, scratch);
   if (scratch.gathered != group.first) candidates.gather(group);
-  const int count = candidates.takeWithin(p, k, likely, bound);
-  if (count < k) return false;
+  int count = candidates.takeKnown(p, k, likely, group.ball);
+  if (count == 0) {
+    const double radius = std::sqrt(likely);
+    SearchedBall ball;
+    if (roomAround(points.row(p), group.ball) > radius) return false;
+    if (!search.candidatesWithin(group.first, group.count, spare_around * radius, scratch.searched, ball)) return false;
+    group.ball = ball;
+    keepSearched(group, scratch);
+    candidates.gather(group);
+    count = candidates.takeKnown(p, k, likely, ball);
+  }
+  if (count == 0) return false;
   found.resize(static_cast<std::size_t>(count));
   candidates.takeNearest(count, k, found.data());
   found.resize(static_cast<std::size_t>(k));

@@ -41,12 +41,12 @@ struct GroupScratch {
 void nearestOfEach(const NeighborSearch& search, const PointsView& points, int first, int count, int k,
                    const Kernels& kernels, GroupScratch& scratch, Buffer<Neighbor>& found);
 
-/// The k nearest of p, one of the points that nearestOfEach() was called for last, among the candidates of its group:
-/// most often they hold twice as many neighbours as were asked for. False, and nothing of use, where they might not.
+/// The k nearest of p, one of the points that nearestOfEach() was called for last, among the candidates of its group;
+/// these become more where that helps, for others of the group as well. False, and nothing of use, where it does not.
 /// @param k less than n
 /// @param likely a squared distance that there are most often k points within, and few more
 /// @param found as by NeighborSearch::nearest
-bool nearestOfKnown(const PointsView& points, int p, int k, double likely, const Kernels& kernels,
-                    GroupScratch& scratch, Buffer<Neighbor>& found);
+bool nearestOfKnown(const NeighborSearch& search, const PointsView& points, int p, int k, double likely,
+                    const Kernels& kernels, GroupScratch& scratch, Buffer<Neighbor>& found);
 
 }  // namespace tufted

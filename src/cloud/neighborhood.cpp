@@ -88,7 +88,8 @@ bool NeighborhoodFinder::query(int p, int k, Neighborhood& hood, OffsetBuffer& o
   k = std::min(k, static_cast<int>(points_.rows()) - 1);
   if (source_.isFixed() || k <= hood.k) return false;
   const double likely = more_likely * k / hood.k * hood.radius * hood.radius;
-  if (source_.search != nullptr && nearestOfKnown(points_, p, k, likely, kernels(), scratch.group, hood.neighbors)) {
+  if (source_.search != nullptr &&
+      nearestOfKnown(*source_.search, points_, p, k, likely, kernels(), scratch.group, hood.neighbors)) {
     const double radius = std::sqrt(hood.neighbors.back().squared_distance);
     scratch.before = {p, k, radius};
     take(k, {radius, 0}, hood);

@@ -128,28 +128,45 @@ class NearestTies final : public flann::ResultSet<double> {
   double worst_ = std::numeric_limits<double>::infinity();
 };
 
-/// All points in a ball whose radius shrinks to that of the k nearest of its centre plus a margin.
-class ShrinkingBall final : public flann::ResultSet<double> {
+/// All points in a ball, at most most_candidates.
+class WholeBall : public flann::ResultSet<double> {
  public:
-  /// @param nearest k squared distances of points from the centre, a heap with the largest in front
-  ShrinkingBall(double margin, Buffer<double>& nearest, Buffer<int>& found)
-      : margin_(margin), nearest_(nearest), found_(found) {
-    std::fill(nearest_.begin(), nearest_.end(), nearest_.front());  // a bound; the points come again
-    setWorst();
+  WholeBall(double radius, Buffer<int>& found) : found_(found) {
+    found_.clear();
+    setRadius(radius);
   }
 
   bool full() const override { return true; }
   double worstDist() const override { return worst_; }
   bool isTooFull() const { return found_.size() > NeighborSearch::most_candidates; }
 
-  void addPoint(double squared_distance, size_t index) override {
+  void addPoint(double, size_t index) override {
     found_.push_back(static_cast<int>(index));
-    if (isTooFull()) {
-      worst_ = -1;  // nothing is nearer: the search ends
-    } else if (squared_distance < nearest_.front()) {
-      replaceLargest(squared_distance);
-      setWorst();
-    }
+    if (isTooFull()) worst_ = -1;  // nothing is nearer: the search ends
+  }
+
+ protected:
+  void setRadius(double radius) { worst_ = widened(radius * radius); }
+
+ private:
+  Buffer<int>& found_;
+  double worst_ = 0;
+};
+
+/// The same, but the radius shrinks to that of the k nearest of the centre plus a margin.
+class ShrinkingBall final : public WholeBall {
+ public:
+  /// @param nearest k squared distances of points from the centre, a heap with the largest in front
+  ShrinkingBall(double margin, Buffer<double>& nearest, Buffer<int>& found)
+      : WholeBall(std::sqrt(nearest.front()) + margin, found), margin_(margin), nearest_(nearest) {
+    std::fill(nearest_.begin(), nearest_.end(), nearest_.front());  // a bound; the points come again
+  }
+
+  void addPoint(double squared_distance, size_t index) override {
+    WholeBall::addPoint(squared_distance, index);
+    if (isTooFull() || !(squared_distance < nearest_.front())) return;
+    replaceLargest(squared_distance);
+    setRadius(std::sqrt(nearest_.front()) + margin_);
   }
 
  private:
@@ -165,16 +182,17 @@ class ShrinkingBall final : public flann::ResultSet<double> {
     nearest_[hole] = squared_distance;
   }
 
-  void setWorst() {
-    const double radius = std::sqrt(nearest_.front()) + margin_;
-    worst_ = widened(radius * radius);
-  }
-
   double margin_;
   Buffer<double>& nearest_;
-  Buffer<int>& found_;
-  double worst_ = 0;
 };
+
+/// The middle of the box of some points. Returns how far from there the farthest of them is.
+double findCenter(const PointsView& points, int first, int count, SearchedBall& ball) {
+  const auto group = points.middleRows(first, count);
+  const Eigen::RowVector3d lowest = group.colwise().minCoeff(), highest = group.colwise().maxCoeff();
+  ball.center = lowest + (highest - lowest) / 2;
+  return std::sqrt((group.rowwise() - ball.center).rowwise().squaredNorm().maxCoeff());
+}
 
 }  // namespace
 
@@ -236,10 +254,7 @@ void NeighborSearch::nearestTo(const Eigen::RowVector3d& position, Buffer<Neighb
 bool NeighborSearch::candidates(int first, int count, int k, Buffer<int>& found, Buffer<double>& bounds,
                                 SearchedBall& ball) const {
   const int n = static_cast<int>(points_.rows());
-  const auto group = points_.middleRows(first, count);
-  const Eigen::RowVector3d lowest = group.colwise().minCoeff(), highest = group.colwise().maxCoeff();
-  ball.center = lowest + (highest - lowest) / 2;
-  const double spread = std::sqrt((group.rowwise() - ball.center).rowwise().squaredNorm().maxCoeff());
+  const double spread = findCenter(points_, first, count, ball);
 
   // A point of the group is not its own neighbour, so k + 1 nearest of the centre hold k neighbours of it. Points near
   // on the curve bound their distance to begin with.
@@ -252,13 +267,21 @@ bool NeighborSearch::candidates(int first, int count, int k, Buffer<int>& found,
   std::swap(bounds.front(), bounds[wanted - 1]);
   bounds.resize(static_cast<std::size_t>(wanted));
 
-  found.clear();
   ShrinkingBall set(2 * spread, bounds, found);
   const ForeignMemory query;
   tree_->index.findNeighbors(set, ball.center.data(), tree_->params);
   ball.reach = std::sqrt(bounds.front());
   ball.radius = ball.reach + 2 * spread;
   return !set.isTooFull() && bounds.front() > least_square;
+}
+
+bool NeighborSearch::candidatesWithin(int first, int count, double around, Buffer<int>& found,
+                                      SearchedBall& ball) const {
+  ball.radius = findCenter(points_, first, count, ball) + around;
+  WholeBall set(ball.radius, found);
+  const ForeignMemory query;
+  tree_->index.findNeighbors(set, ball.center.data(), tree_->params);
+  return !set.isTooFull() && around * around > least_square;
 }
 
 std::size_t NeighborSearch::bytes() const {

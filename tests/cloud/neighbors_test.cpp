@@ -101,18 +101,19 @@ TEST(Neighbors, OfKnownCandidatesAreThoseOfTheTree) {
     const NeighborSearch search(ranked.points);
     GroupScratch scratch;
     Buffer<Neighbor> each, known, expected;
-    EXPECT_FALSE(nearestOfKnown(ranked.points, 0, 1, 1, kernels(), scratch, known));  // nothing was asked before
+    EXPECT_FALSE(
+        nearestOfKnown(search, ranked.points, 0, 1, 1, kernels(), scratch, known));  // nothing was asked before
     int found = 0, asked = 0;
     constexpr int block = 500;
     for (int first = 0; first < ranked.size(); first += block) {
       const int count = std::min(block, ranked.size() - first);
       nearestOfEach(search, ranked.points, first, count, 30, kernels(), scratch, each);
-      EXPECT_FALSE(nearestOfKnown(ranked.points, first - 1, 1, 1, kernels(), scratch, known));
-      EXPECT_FALSE(nearestOfKnown(ranked.points, first + count, 1, 1, kernels(), scratch, known));
+      EXPECT_FALSE(nearestOfKnown(search, ranked.points, first - 1, 1, 1, kernels(), scratch, known));
+      EXPECT_FALSE(nearestOfKnown(search, ranked.points, first + count, 1, 1, kernels(), scratch, known));
       for (int i = count - 1; i >= 0; --i) {  // not in the order of the search
         const int k = std::min((i % 2 + 1) * 60, ranked.size() - 1);
         const double likely = i % 3 == 0 ? 0 : each[i * std::min(30, ranked.size() - 1)].squared_distance * 100;
-        const bool is_found = nearestOfKnown(ranked.points, first + i, k, likely, kernels(), scratch, known);
+        const bool is_found = nearestOfKnown(search, ranked.points, first + i, k, likely, kernels(), scratch, known);
         asked += k == 60 ? 1 : 0;
         if (!is_found) continue;
         found += k == 60 ? 1 : 0;
@@ -145,7 +146,7 @@ TEST(Neighbors, OfKnownCandidatesOutliveASearchThatFailed) {
   ASSERT_LT(scratch.groups.back().first, n);
   int found = 0;
   for (int p = n - 1; p >= 0; --p) {
-    if (!nearestOfKnown(points, p, 12, 1e9, kernels(), scratch, known)) continue;
+    if (!nearestOfKnown(search, points, p, 12, 1e9, kernels(), scratch, known)) continue;
     ++found;
     search.nearest(p, 12, expected);
     for (int j = 0; j < 12; ++j) ASSERT_EQ(known[j].index, expected[j].index) << p << " neighbour " << j;
