@@ -189,21 +189,26 @@ void solveHeights(const HeightSystems& systems, HeightSolutions& solutions) {
   store(largest, solutions.most_pivot);
 }
 
-/// How far one comes from 0, in the direction of `sign`, over gaps of at most `gap` between the heights, the farthest
-/// of which lies at `end`. Each round goes as far as one gap reaches, and two go farther than that: there are few.
-double farthestReached(const double* heights, int count, double sign, double gap, double end) {
-  double reached = 0;
-  while (end - reached > gap) {
-    Lane next = all(reached);
+/// How far one comes from 0, up and down, over gaps of at most `gap` between the heights. Each round goes as far as one
+/// gap reaches, and two go farther than that: there are few.
+void reachFarthest(const double* heights, int count, double gap, Reached& reached) {
+  double high = 0, low = 0;
+  bool goes_up = reached.top > gap, goes_down = -reached.bottom > gap;
+  while (goes_up || goes_down) {
+    Lane next_high = all(high), next_low = all(low);
     for (int i = 0; i < count; i += lane_size) {
-      const Lane ahead = all(sign) * load(heights + i);
-      next = select(both(isAtMost(ahead - all(reached), all(gap)), isLess(next, ahead)), ahead, next);
+      const Lane height = load(heights + i);
+      next_high = select(both(isAtMost(height - all(high), all(gap)), isLess(next_high, height)), height, next_high);
+      next_low = select(both(isAtMost(all(low) - height, all(gap)), isLess(height, next_low)), height, next_low);
     }
-    const double farthest = most(next);
-    if (farthest == reached) return reached;
-    reached = farthest;
+    const double up = most(next_high), down = least(next_low);
+    goes_up = up > high && reached.top - up > gap;
+    goes_down = down < low && down - reached.bottom > gap;
+    high = up;
+    low = down;
   }
-  return end;
+  reached.highest = reached.top - high > gap ? high : reached.top;
+  reached.lowest = low - reached.bottom > gap ? low : reached.bottom;
 }
 
 Reached reachHeights(const Offsets& given, const double* normal, double gap, double* heights) {
@@ -217,8 +222,7 @@ Reached reachHeights(const Offsets& given, const double* normal, double gap, dou
     bottom = least(bottom, height);
   }
   Reached reached{0, 0, least(bottom), most(top)};
-  reached.highest = farthestReached(heights, offsets.count, 1, gap, reached.top);
-  reached.lowest = -farthestReached(heights, offsets.count, -1, gap, -reached.bottom);
+  reachFarthest(heights, offsets.count, gap, reached);
   return reached;
 }
 
