@@ -72,8 +72,7 @@ class NeighborSearch : public InWorkspace {
   /// @param[out] ball around the middle of the points' box
   bool candidates(int first, int count, int k, Buffer<int>& found, Buffer<double>& bounds, SearchedBall& ball) const;
 
-  /// All points within `around` of any of the points [first, first + count), and others near them: half as many where
-  /// `around` is known to be enough. False as above.
+  /// All points within `around` of any of the points [first, first + count), and others near them. False as above.
   /// @param[out] ball its reach is not known
   bool candidatesWithin(int first, int count, double around, Buffer<int>& found, SearchedBall& ball) const;
 
