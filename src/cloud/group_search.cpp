@@ -136,7 +136,7 @@ class GroupSearch {
   void find(int first, int count, double radius, Neighbor* found) {
     int done = 0;
     if (count > 1 && radius < nowhere) {
-      for (double around = first_around; done < count && around < last_around; around *= next_around) {
+      for (double around = first_around; around < last_around; around *= next_around) {
         SearchedGroup group{first, count, {}, 0, 0};
         if (!search_.candidatesWithin(first, count, around * radius, scratch_.searched, group.ball)) break;
         keep(group);

@@ -79,9 +79,9 @@ PartialCover::PartialCover(const Stars& stars, const EdgeLengths& length, const 
 }
 
 void PartialCover::add(int p) {
-  const int first = static_cast<int>(entry_of_.size()), end = stars_.offset[p + 1];
+  const int first = static_cast<int>(entry_of_.size());
   first_[p] = first;
-  for (int i = stars_.offset[p]; i < end; ++i)
+  for (int i = stars_.offset[p]; i < stars_.offset[p + 1]; ++i)
     if (stars_.hasTriangle(i)) entry_of_.push_back(i);
   const auto triangles = entry_of_.size();
   moved_.resize(triangles);

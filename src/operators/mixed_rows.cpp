@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "cloud/agreement.h"
 #include "intrinsic/fan_buffer.h"
 #include "intrinsic/geometry.h"
 #include "operators/face_areas.h"
@@ -30,11 +31,9 @@ class TermCollector {
     terms_.offset.assign(static_cast<std::size_t>(stars_.size()) + 1, 0);
     for (const int p : numbers_) {
       weighTriangles(p);
-      forEachStarTerm(p, [this](int low, int, int takes_part, const auto&) { terms_.offset[low + 1] += takes_part; });
+      forEachStarTerm(p, [this](int low, int, const auto&) { ++terms_.offset[low + 1]; });
     }
-    forEachMovedFace([this](int f) {
-      forEachFaceTerm(f, [this](int low, int, int takes_part, int) { terms_.offset[low + 1] += takes_part; });
-    });
+    forEachMovedFace([this](int f) { forEachFaceTerm(f, [this](int low, int, int) { ++terms_.offset[low + 1]; }); });
     std::partial_sum(terms_.offset.begin(), terms_.offset.end(), terms_.offset.begin());
     terms_.entries.resize(static_cast<std::size_t>(terms_.offset.back()));
     fill_.assign(terms_.offset.begin(), terms_.offset.end() - 1);
@@ -61,21 +60,23 @@ class TermCollector {
     }
   }
 
-  /// Calls visit(low, high, takes_part, cotans) for the spokes of star p and the sides in its link; takes_part is 1 for
-  /// a term, and cotans(fans, at) the sum of what its triangles have opposite.
+  /// Calls visit(low, high, cotans) for the spokes of star p and the sides in its link that are terms; cotans(fans, at)
+  /// is the sum of what the triangles have opposite.
   template <class Visit>
   void forEachStarTerm(int p, const Visit& visit) const {
     const int begin = stars_.offset[p], count = stars_.offset[p + 1] - begin;
     for (int i = 0; i < count; ++i) {
-      const int before = i == 0 ? count - 1 : i - 1;
-      const int q = stars_.link[begin + i], next = stars_.link[begin + (i + 1 == count ? 0 : i + 1)];
-      const int is_spoke = mixed_[q] != 0 && count_[i] + count_[before] > 0 ? 1 : 0;
-      visit(std::min(p, q), std::max(p, q), is_spoke, [this, i, before](const Fans& fans, int at) {
-        return count_[i] * finiteCotan(fans.cotan_at_next[at + i]) +
-               count_[before] * finiteCotan(fans.cotan_at_own[at + before]);
-      });
-      const int is_rim = (mixed_[q] & mixed_[next]) != 0 && count_[i] > 0 ? 1 : 0;
-      visit(std::min(q, next), std::max(q, next), is_rim, [i](const Fans& fans, int at) {
+      const int last = before(stars_, p, begin + i) - begin;
+      const int q = stars_.link[begin + i], next = stars_.link[stars_.after(p, begin + i)];
+      if (mixed_[q] == 0) continue;
+      if (count_[i] + count_[last] > 0) {
+        visit(std::min(p, q), std::max(p, q), [this, i, last](const Fans& fans, int at) {
+          return count_[i] * finiteCotan(fans.cotan_at_next[at + i]) +
+                 count_[last] * finiteCotan(fans.cotan_at_own[at + last]);
+        });
+      }
+      if (mixed_[next] == 0 || count_[i] == 0) continue;
+      visit(std::min(q, next), std::max(q, next), [i](const Fans& fans, int at) {
         const double numerator = cotanNumerator(fans.rim[at + i], fans.spoke[at + i], fans.spoke[at + i + 1]);
         return finiteCotan(numerator / (4 * fans.area[at + i]));
       });
@@ -88,13 +89,13 @@ class TermCollector {
       if (cover_.isMoved(f / 2)) visit(f);
   }
 
-  /// Calls visit(low, high, takes_part, side) for the sides 0, 1 and 2 of a face.
+  /// Calls visit(low, high, side) for those of the sides 0, 1 and 2 of a face that are terms.
   template <class Visit>
   void forEachFaceTerm(int f, const Visit& visit) const {
     const auto& corner = cover_.faces().faces[f];
     for (int s = 0; s < 3; ++s) {
       const int a = corner[s], b = corner[(s + 1) % 3];
-      visit(std::min(a, b), std::max(a, b), mixed_[a] & mixed_[b] & (a != b ? 1 : 0), s);
+      if (a != b && mixed_[a] != 0 && mixed_[b] != 0) visit(std::min(a, b), std::max(a, b), s);
     }
   }
 
@@ -109,8 +110,8 @@ class TermCollector {
       degenerate_faces_ += fans.area[at + i] > 0 ? 0 : 2;
       addArea({p, stars_.link[begin + i], stars_.link[stars_.after(p, begin + i)]}, 2 * count_[i] * fans.area[at + i]);
     }
-    forEachStarTerm(p, [&](int low, int high, int takes_part, const auto& cotans) {
-      if (takes_part != 0) put(low, high, scale_ * cotans(fans, at));  // 2 sheets, 1/2
+    forEachStarTerm(p, [&](int low, int high, const auto& cotans) {
+      put(low, high, scale_ * cotans(fans, at));  // 2 sheets, 1/2
     });
   }
 
@@ -119,8 +120,7 @@ class TermCollector {
     const double area = triangleArea(side[0], side[1], side[2]);
     degenerate_faces_ += area > 0 ? 0 : 1;
     addArea(cover_.faces().faces[f], area);
-    forEachFaceTerm(f, [&](int low, int high, int takes_part, int s) {
-      if (takes_part == 0) return;
+    forEachFaceTerm(f, [&](int low, int high, int s) {
       const double cotan = finiteCotan(cotanNumerator(side[s], side[(s + 1) % 3], side[(s + 2) % 3]) / (4 * area));
       put(low, high, scale_ * cotan / 2);
     });
