@@ -4,7 +4,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <mutex>
 #include <numeric>
+#include <optional>
+#include <utility>
 
 #include "base/buffer.h"
 #include "base/point_buffer.h"
@@ -21,8 +24,8 @@ namespace tufted {
 namespace {
 
 constexpr std::int64_t block_size = 1024;  // points per block: its neighbour lists stay in the second-level cache
-constexpr int group_size = NeighborhoodFinder::most_planes;  // frames come first, then stars from the same offsets
-constexpr std::size_t usual_degree = 7;                      // of most stars, or a little more
+constexpr int group_size = NeighborhoodFinder::most_planes;     // frames come first, then stars from the same offsets
+constexpr std::size_t usual_degree = 7, most_usual_degree = 8;  // on average over a block, over a cloud
 constexpr double flat_share = 0.02;  // of the second variance, below which a neighbourhood is a plane
 
 /// What one block of points leaves behind.
@@ -30,7 +33,49 @@ struct BlockOfStars {
   Buffer<int> link;
   Buffer<std::uint8_t> triangle;
   Buffer<double> radius;
-  NoisyPoints noisy;
+
+  void appendTo(Stars& stars) const {
+    stars.link.insert(stars.link.end(), link.begin(), link.end());
+    stars.triangle.insert(stars.triangle.end(), triangle.begin(), triangle.end());
+    stars.radius.insert(stars.radius.end(), radius.begin(), radius.end());
+  }
+  void clear() {
+    link.clear();
+    triangle.clear();
+    radius.clear();
+  }
+};
+
+/// Puts stars one after the other in the order of their blocks, whichever is done first.
+class BlocksInOrder {
+ public:
+  BlocksInOrder(std::int64_t blocks, Stars& stars) : waiting_(static_cast<std::size_t>(blocks)), stars_(stars) {
+    const std::size_t likely = most_usual_degree * static_cast<std::size_t>(stars.size());
+    stars.link.reserve(likely);
+    stars.triangle.reserve(likely);
+    stars.radius.reserve(likely);
+  }
+
+  /// @param block left empty, mostly with its memory
+  void take(std::size_t number, BlockOfStars& block) {
+    const std::lock_guard lock(mutex_);
+    if (number != next_) {
+      waiting_[number].emplace(std::exchange(block, {}));
+      return;
+    }
+    block.appendTo(stars_);
+    block.clear();
+    for (++next_; next_ < waiting_.size() && waiting_[next_].has_value(); ++next_) {
+      waiting_[next_]->appendTo(stars_);
+      waiting_[next_].reset();
+    }
+  }
+
+ private:
+  std::mutex mutex_;
+  std::size_t next_ = 0;
+  Buffer<std::optional<BlockOfStars>> waiting_;
+  Stars& stars_;
 };
 
 /// Memory, counts and times of one worker.
@@ -44,6 +89,7 @@ struct WorkerState {
   Buffer<PlanarPoint> planar;
   StarScratch scratch;
   DelaunayStar star;
+  BlockOfStars block;
   std::int64_t cut_neighbors = 0, grown_neighborhoods = 0, split_neighborhoods = 0, isolated = 0, grown_stars = 0,
                reopened_stars = 0, open_stars = 0, unusable_triangles = 0;
   std::array<double, 3> seconds = {};  // neighbours, frames, stars
@@ -59,13 +105,14 @@ class StarBuilder {
         has_short_cut_(options.delaunay == Delaunay::star),
         stars_(stars) {}
 
-  void build(std::int64_t begin, std::int64_t end, WorkerState& state, BlockOfStars& block) const {
+  /// Leaves the stars in state.block.
+  void build(std::int64_t begin, std::int64_t end, WorkerState& state, NoisyPoints& noisy) const {
     const int count = static_cast<int>(end - begin);
     const int first = static_cast<int>(begin);
     state.hoods.resize(std::max<std::size_t>(state.hoods.size(), count));
-    block.link.reserve(usual_degree * count);
-    block.triangle.reserve(usual_degree * count);
-    block.radius.reserve(usual_degree * count);
+    state.block.link.reserve(usual_degree * count);
+    state.block.triangle.reserve(usual_degree * count);
+    state.block.radius.reserve(usual_degree * count);
     Stopwatch watch;
     finder_.find(first, count, state.hood, state.hoods.data());
     state.seconds[0] += watch.restart();
@@ -75,10 +122,9 @@ class StarBuilder {
       finder_.fitPlanes(first + group, hoods, state.offsets);
       for (int i = group; i < group_end; ++i) takeFrame(first + i, state.hoods[i], state.offsets[i - group], state);
       if (options_.steps.lengths == Lengths::denoised)
-        moveNoisyPoints(first + group, hoods, state.offsets, state.fits, stars_.move, block.noisy);
+        moveNoisyPoints(first + group, hoods, state.offsets, state.fits, stars_.move, noisy);
       state.seconds[1] += watch.restart();
-      for (int i = group; i < group_end; ++i)
-        wrapStar(first + i, state.hoods[i], state.offsets[i - group], state, block);
+      for (int i = group; i < group_end; ++i) wrapStar(first + i, state.hoods[i], state.offsets[i - group], state);
       state.seconds[2] += watch.restart();
     }
   }
@@ -189,7 +235,7 @@ class StarBuilder {
     }
   }
 
-  void wrapStar(int p, Neighborhood& hood, OffsetBuffer& offsets, WorkerState& state, BlockOfStars& block) const {
+  void wrapStar(int p, Neighborhood& hood, OffsetBuffer& offsets, WorkerState& state) const {
     // A power of two near the reach, so that the predicates meet numbers near 1 and scaling rounds nothing.
     const double unit = magnitudeOf(hood.reach);
     DelaunayStar& star = state.star;
@@ -205,13 +251,13 @@ class StarBuilder {
     stars_.ends[p] = star.closed ? 0 : 1;
     stars_.offset[p + 1] = static_cast<int>(star.link.size());
     for (int i = 0; i < static_cast<int>(star.link.size()); ++i) {
-      block.link.push_back(star.link[i].index);
+      state.block.link.push_back(star.link[i].index);
       const bool is_triangle = i < star.triangles();
       const bool is_usable =
           is_triangle && std::isfinite(star.radius[i]) &&
           !(source_.scan != nullptr && source_.scan->spansJump(p, star.link[i].index, star.after(i).index));
-      block.radius.push_back(is_usable ? star.radius[i] * unit : 0);
-      block.triangle.push_back(is_usable ? 1 : 0);
+      state.block.radius.push_back(is_usable ? star.radius[i] * unit : 0);
+      state.block.triangle.push_back(is_usable ? 1 : 0);
       if (is_triangle && !is_usable) {
         ++state.unusable_triangles;
         stars_.ends[p] = 1;
@@ -252,36 +298,27 @@ Stars buildStars(const RankedCloud& cloud, const NeighborSource& source, const C
   if (options.steps.lengths == Lengths::denoised) stars.move.setZero(n);
 
   Stopwatch wall;
-  Buffer<BlockOfStars> blocks((n + block_size - 1) / block_size);
+  const std::int64_t blocks = (n + block_size - 1) / block_size;
+  Buffer<NoisyPoints> noisy(static_cast<std::size_t>(blocks));
   Buffer<WorkerState> states(workers.count());
   const StarBuilder builder(cloud, source, options, stars);
+  BlocksInOrder in_order(blocks, stars);
   workers.forBlocks("stars", n, block_size, [&](std::int64_t begin, std::int64_t end, int worker) {
-    builder.build(begin, end, states[worker], blocks[begin / block_size]);
+    const std::size_t number = begin / block_size;
+    builder.build(begin, end, states[worker], noisy[number]);
+    in_order.take(number, states[worker].block);
   });
+  std::partial_sum(stars.offset.begin(), stars.offset.end(), stars.offset.begin());
 
-  for (const BlockOfStars& block : blocks) report.denoised += std::ssize(block.noisy.rank);
+  for (const NoisyPoints& points : noisy) report.denoised += std::ssize(points.rank);
   if (report.denoised > 0) {
     const PointBuffer moved = stars.move;
-    workers.forBlocks("surface", std::ssize(blocks), 1, [&](std::int64_t begin, std::int64_t end, int worker) {
+    workers.forBlocks("surface", blocks, 1, [&](std::int64_t begin, std::int64_t end, int worker) {
       WorkerState& state = states[worker];
       for (std::int64_t b = begin; b < end; ++b)
-        moveOnceMore(cloud.points, moved, blocks[b].noisy, stars.reach, state.offsets, state.fits, stars.move);
+        moveOnceMore(cloud.points, moved, noisy[b], stars.reach, state.offsets, state.fits, stars.move);
     });
   }
-
-  std::partial_sum(stars.offset.begin(), stars.offset.end(), stars.offset.begin());
-  stars.link.resize(stars.offset.back());
-  stars.triangle.resize(stars.offset.back());
-  stars.radius.resize(stars.offset.back());
-  workers.forBlocks("stars", std::ssize(blocks), 1, [&](std::int64_t begin, std::int64_t end, int) {
-    for (std::int64_t b = begin; b < end; ++b) {
-      const int first = stars.offset[b * block_size];
-      std::copy(blocks[b].link.begin(), blocks[b].link.end(), stars.link.begin() + first);
-      std::copy(blocks[b].triangle.begin(), blocks[b].triangle.end(), stars.triangle.begin() + first);
-      std::copy(blocks[b].radius.begin(), blocks[b].radius.end(), stars.radius.begin() + first);
-      blocks[b] = {};
-    }
-  });
 
   std::array<double, 3> seconds = {};
   for (const WorkerState& state : states) {
