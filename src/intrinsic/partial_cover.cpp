@@ -207,6 +207,26 @@ FlipCounts PartialCover::flipToDelaunay(const StarMetric& metric, const Workers&
   return flipEdges(flipping, seeds, workers);
 }
 
+void PartialCover::keepMovedFaces() {
+  release(cover_.glue);
+  std::size_t kept = 0;
+  for (std::size_t f = 0; f < cover_.faces.size(); ++f) {
+    if (moved_[f / 2] == 0) continue;
+    cover_.faces[kept] = cover_.faces[f];
+    std::copy_n(cover_.length.begin() + 3 * f, 3, cover_.length.begin() + 3 * kept++);
+  }
+  cover_.faces.resize(kept);
+  cover_.faces.shrink_to_fit();
+  cover_.length.resize(3 * kept);
+  cover_.length.shrink_to_fit();
+  only_moved_ = true;
+}
+
+void PartialCover::dropFaces() {
+  release(cover_.faces);
+  release(cover_.length);
+}
+
 void PartialCover::fillStar(int p, const Buffer<int>& first, IntrinsicTriangulation& whole) const {
   int t = first[p];
   for (int i = stars_.offset[p]; i < stars_.offset[p + 1]; ++i) {

@@ -25,17 +25,21 @@ class PartialCover {
 
   /// The faces of the stars that are present; 2 t and 2 t + 1 are front and back of a triangle until they are flipped.
   const CoverBuffer& faces() const { return cover_; }
-  /// Gives the memory of faces() back; only isFlipped() may be called afterwards.
-  void dropFaces() {
-    release(cover_.faces);
-    release(cover_.glue);
-    release(cover_.length);
-  }
+  /// Gives the memory of all faces back but the moved ones, of how they are glued too. There is no complete() any more.
+  void keepMovedFaces();
+  /// Gives back what keepMovedFaces() left.
+  void dropFaces();
   bool isPresent(int p) const { return first_[p] >= 0; }
   /// Of a star that is present; its triangles have consecutive numbers, in the order of its link.
   int firstTriangle(int p) const { return first_[p]; }
   /// Whether the front or the back of triangle t was flipped.
   bool isMoved(int t) const { return moved_[t] != 0; }
+  /// Calls visit(corners, lengths of sides) for front and back of each triangle that isMoved().
+  template <class Visit>
+  void forEachMovedFace(const Visit& visit) const {
+    for (std::size_t f = 0; f < cover_.faces.size(); ++f)
+      if (only_moved_ || moved_[f / 2] != 0) visit(cover_.faces[f], cover_.length.data() + 3 * f);
+  }
   /// Whether a face at p was flipped.
   bool isFlipped(int p) const { return flipped_[p] != 0; }
 
@@ -70,6 +74,7 @@ class PartialCover {
   Buffer<int> entry_of_;          ///< link entry of each triangle that is present
   Buffer<std::uint8_t> moved_;    ///< of each triangle that is present
   Buffer<std::uint8_t> flipped_;  ///< n
+  bool only_moved_ = false;       ///< faces, without numbers
 };
 
 }  // namespace tufted

@@ -44,6 +44,12 @@ class StarPools {
   StarSide next(const StarSide& side) const { return neighbor(side, 1); }
   StarSide previous(const StarSide& side) const { return neighbor(side, -1); }
 
+  /// Gives the memory back. Nothing may be asked afterwards.
+  void drop() {
+    release(offset_);
+    release(pooled_);
+  }
+
   /// Whether the side lies in a pool.
   bool isPooled(const StarSide& side) const {
     return stars_.disagrees[tail(stars_, side)] != 0 && stars_.disagrees[head(stars_, side)] != 0;

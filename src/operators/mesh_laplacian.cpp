@@ -87,6 +87,7 @@ void buildMeshLaplacian(const Points& points, const Triangles& triangles, const 
   std::iota(caller.begin(), caller.end(), 0);
   finishLaplacian(std::move(cover), scaled, PointBuffer(), caller, scaling.exponent, 1.0 / 2, options, workers, clock,
                   result);
+  workers.report("done", 1);
 }
 
 }  // namespace tufted

@@ -33,13 +33,15 @@ class TermCollector {
       weighTriangles(p);
       forEachStarTerm(p, [this](int low, int, const auto&) { ++terms_.offset[low + 1]; });
     }
-    forEachMovedFace([this](int f) { forEachFaceTerm(f, [this](int low, int, int) { ++terms_.offset[low + 1]; }); });
+    cover_.forEachMovedFace([this](const auto& corners, const double*) {
+      forEachFaceTerm(corners, [this](int low, int, int) { ++terms_.offset[low + 1]; });
+    });
     std::partial_sum(terms_.offset.begin(), terms_.offset.end(), terms_.offset.begin());
     terms_.entries.resize(static_cast<std::size_t>(terms_.offset.back()));
     fill_.assign(terms_.offset.begin(), terms_.offset.end() - 1);
     FanBuffer buffer;
     forEachFan(stars_, length_, numbers_, buffer, [this](int p, const Fans& fans, int at) { takeStar(p, fans, at); });
-    forEachMovedFace([this](int f) { takeFace(f); });
+    cover_.forEachMovedFace([this](const auto& corners, const double* side) { takeFace(corners, side); });
     return std::move(terms_);
   }
 
@@ -83,16 +85,9 @@ class TermCollector {
     }
   }
 
-  template <class Visit>
-  void forEachMovedFace(const Visit& visit) const {
-    for (int f = 0; f < static_cast<int>(cover_.faces().size()); ++f)
-      if (cover_.isMoved(f / 2)) visit(f);
-  }
-
   /// Calls visit(low, high, side) for those of the sides 0, 1 and 2 of a face that are terms.
   template <class Visit>
-  void forEachFaceTerm(int f, const Visit& visit) const {
-    const auto& corner = cover_.faces().faces[f];
+  void forEachFaceTerm(const std::array<int, 3>& corner, const Visit& visit) const {
     for (int s = 0; s < 3; ++s) {
       const int a = corner[s], b = corner[(s + 1) % 3];
       if (a != b && mixed_[a] != 0 && mixed_[b] != 0) visit(std::min(a, b), std::max(a, b), s);
@@ -115,12 +110,11 @@ class TermCollector {
     });
   }
 
-  void takeFace(int f) {
-    const double* const side = cover_.faces().length.data() + 3 * std::ptrdiff_t{f};
+  void takeFace(const std::array<int, 3>& corners, const double* side) {
     const double area = triangleArea(side[0], side[1], side[2]);
     degenerate_faces_ += area > 0 ? 0 : 1;
-    addArea(cover_.faces().faces[f], area);
-    forEachFaceTerm(f, [&](int low, int high, int s) {
+    addArea(corners, area);
+    forEachFaceTerm(corners, [&](int low, int high, int s) {
       const double cotan = finiteCotan(cotanNumerator(side[s], side[(s + 1) % 3], side[(s + 2) % 3]) / (4 * area));
       put(low, high, scale_ * cotan / 2);
     });

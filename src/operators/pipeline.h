@@ -148,7 +148,6 @@ void finishLaplacian(std::shared_ptr<IntrinsicTriangulation> cover, const Points
     result.stored_cover = std::move(cover);
   }
   clock.finish("matrices", bytesOfMatrices(result));
-  workers.report("done", 1);
 }
 
 }  // namespace tufted

@@ -89,31 +89,38 @@ void addStars(const Stars& stars, Gluing gluing, IntrinsicTriangulation& cover, 
   });
 }
 
-/// Boundary tags and frames in the caller's order; coincident points take the frame of their representative.
+/// Boundary tags and normals in the caller's order; coincident points take the frame of their representative.
 void describePoints(const Stars& stars, const Buffer<Boundary>& boundary, const RankedCloud& cloud,
                     const Workers& workers, Laplacian& result) {
   const auto n = static_cast<Eigen::Index>(result.status.size());
   result.boundary.assign(result.status.size(), Boundary::none);
   result.frames.normals.resize(n, 3);
-  result.frames.tangents.resize(n, 3);
   workers.forBlocks("boundary", stars.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
     for (std::int64_t p = begin; p < end; ++p) {
       const int i = cloud.caller[p];
       result.boundary[i] = boundary[p];
       result.frames.normals.row(i) = stars.normals.row(p);
-      result.frames.tangents.row(i) = tangentOf(stars.normals.row(p));
     }
   });
   for (Eigen::Index i = 0; i < n; ++i) {
     if (result.status[i] == PointStatus::coincident) {
-      const int same = result.representative[i];
-      result.frames.normals.row(i) = result.frames.normals.row(same);
-      result.frames.tangents.row(i) = result.frames.tangents.row(same);
+      result.frames.normals.row(i) = result.frames.normals.row(result.representative[i]);
     } else if (result.status[i] == PointStatus::not_finite) {
       result.frames.normals.row(i).setZero();
-      result.frames.tangents.row(i).setZero();
     }
   }
+}
+
+/// Zero where the normal is.
+void takeTangents(const Workers& workers, Laplacian& result) {
+  Frames& frames = result.frames;
+  frames.tangents.resize(frames.normals.rows(), 3);
+  workers.forBlocks("assemble", frames.normals.rows(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    for (std::int64_t i = begin; i < end; ++i) {
+      const Eigen::Vector3d normal = frames.normals.row(i);
+      frames.tangents.row(i) = normal.isZero(0) ? normal : tangentOf(normal);
+    }
+  });
 }
 
 /// Makes the stars' own areas M where they are positive and the point has a row.
@@ -193,6 +200,9 @@ void buildCloudLaplacian(const Points& points, const CloudOptions& options, Clou
     finishFromCover(std::move(stars), cloud, options, workers, clock, result);
   }
   if (has_own_areas) takeAreas(areas, caller, exponent, result);
+  takeTangents(workers, result);
+  clock.finish("tangents", static_cast<std::size_t>(result.frames.tangents.size()) * sizeof(double));
+  workers.report("done", 1);
 }
 
 CloudSteps cloudSteps(Preset preset) {

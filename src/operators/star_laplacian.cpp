@@ -38,6 +38,10 @@ class StarUnion final : public CoverSource {
 
   /// @param keep_cover whether cover() will be asked for
   void assemble(const StarMetric& metric, bool keep_cover, const Workers& workers, Laplacian& result) {
+    if (!keep_cover) {
+      pools_.drop();
+      cover_.keepMovedFaces();
+    }
     assembleStars({stars_, metric, length_, cover_}, keep_cover, cloud_.caller, size_, 1.0 / 2 / 3, workers, result);
   }
 
@@ -58,7 +62,7 @@ class StarUnion final : public CoverSource {
   const RankedCloud cloud_;
   const int size_, threads_;
   EdgeLengths length_{cloud_.points, stars_.move};
-  const StarPools pools_;
+  StarPools pools_;
   PartialCover cover_;
   mutable std::once_flag once_;
   mutable IntrinsicTriangulation whole_;
@@ -90,7 +94,6 @@ Buffer<double> finishFromStars(Stars stars, RankedCloud cloud, const CloudOption
   finishResult(figures, exponent, result);
   if (options.keep_cover) result.cover_source = stars_and_cover;
   clock.finish("matrices", bytesOfMatrices(result));
-  workers.report("done", 1);
   return own_area;
 }
 
