@@ -69,11 +69,13 @@ class BoundaryFinder {
       : stars_(stars), points_(points), source_(source) {}
 
   /// Has find() look from there as well.
-  void lookFrom(const Eigen::Vector3d& viewpoint) {
+  void lookFrom(const Eigen::Vector3d& viewpoint, const Workers& workers) {
     directions_.resize(points_.rows());
-    for (Eigen::Index p = 0; p < points_.rows(); ++p)
-      directions_.row(p) = (points_.row(p) - viewpoint.transpose()).normalized();
-    seen_.emplace(directions_);
+    workers.forBlocks("boundary", points_.rows(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+      for (std::int64_t p = begin; p < end; ++p)
+        directions_.row(p) = (points_.row(p) - viewpoint.transpose()).normalized();
+    });
+    seen_.emplace(directions_, workers);
   }
 
   Boundary find(int p, WorkerState& state) const {
@@ -165,7 +167,7 @@ Buffer<Boundary> findBoundary(const Stars& stars, const RankedCloud& cloud, cons
   BoundaryFinder finder(stars, cloud.points, source);
   const auto scaled = [&](double x) { return std::clamp(std::ldexp(x, -cloud.exponent), -infinity, infinity); };
   const bool any = std::any_of(stars.ends.begin(), stars.ends.end(), [](std::uint8_t ends) { return ends != 0; });
-  if (any && viewpoint != nullptr) finder.lookFrom(viewpoint->unaryExpr(scaled));
+  if (any && viewpoint != nullptr) finder.lookFrom(viewpoint->unaryExpr(scaled), workers);
   Buffer<WorkerState> states(workers.count());
   workers.forBlocks("boundary", stars.size(), block_size, [&](std::int64_t begin, std::int64_t end, int worker) {
     for (int p = static_cast<int>(begin); p < end; ++p) boundary[p] = finder.find(p, states[worker]);

@@ -37,7 +37,7 @@ NeighborGraph findNeighbors(const RankedCloud& cloud, int k, const Workers& work
   graph.distance.resize(cloud.size());
   graph.on_line.resize(cloud.size());
   if (graph.k == 0) return graph;
-  const NeighborSearch search(cloud.points);
+  const NeighborSearch search(cloud.points, workers);
   Buffer<Buffer<Neighbor>> found(workers.count());
   workers.forBlocks("neighbours", cloud.size(), block_size, [&](std::int64_t begin, std::int64_t end, int worker) {
     Buffer<Neighbor>& neighbors = found[worker];

@@ -87,11 +87,11 @@ NeighborSource neighborSource(const CloudOptions& options, const RankedCloud& cl
   } else {
     source.k = std::min(options.neighbors, std::max(0, cloud.size() - 1));
     report.neighbors_clamped = source.k < options.neighbors;
-    workers.report("tree", 0);
     if (options.structure != nullptr) {
+      workers.report("tree", 0);
       source.scan = takeStructure(*options.structure, cloud, status, representative, report);
     } else {
-      source.search = std::make_unique<NeighborSearch>(cloud.points);
+      source.search = std::make_unique<NeighborSearch>(cloud.points, workers);
     }
   }
   report.neighbors = source.k;

@@ -1,21 +1,16 @@
 #include "cloud/neighbors.h"
 
-#include <flann/algorithms/dist.h>
-#include <flann/algorithms/kdtree_single_index.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 
 #include "base/buffer.h"
-#include "base/foreign_memory.h"
 #include "base/point_buffer.h"
+#include "cloud/kd_forest.h"
 
 namespace tufted {
 namespace {
-
-using Distance = flann::L2_Simple<double>;
 
 /// The k smallest candidates by (distance, index), without the query point itself.
 ///
@@ -23,7 +18,7 @@ using Distance = flann::L2_Simple<double>;
 /// rounded terms. So the bound shown to FLANN is a little wider than the k-th distance, which is all the slack its
 /// rounding needs, and ties are decided here. L2_Simple adds the squared differences in the order x, y, z, so its
 /// distances are the same bits for any tree.
-class NearestSet : public flann::ResultSet<double> {
+class NearestSet : public RankSet {
  public:
   /// @param radius of a ball that holds k points beside the query point, or infinity
   NearestSet(int self, int k, double radius, Buffer<Neighbor>& found)
@@ -52,7 +47,7 @@ class AscendingSet final : public NearestSet {
   using NearestSet::NearestSet;
 
   void addPoint(double squared_distance, size_t index) override {
-    const Neighbor candidate{squared_distance, static_cast<int>(index)};
+    const Neighbor candidate{squared_distance, rankOf(index)};
     if (candidate.index == self_ || (full() && !(candidate < found_.back()))) return;
     if (full()) found_.pop_back();
     std::size_t place = found_.size();
@@ -69,8 +64,9 @@ class UnorderedSet final : public NearestSet {
   using NearestSet::NearestSet;
 
   void addPoint(double squared_distance, size_t index) override {
-    if (static_cast<int>(index) == self_) return;
-    found_.push_back({squared_distance, static_cast<int>(index)});
+    const int rank = rankOf(index);
+    if (rank == self_) return;
+    found_.push_back({squared_distance, rank});
     if (found_.size() < 2 * k_) return;
     choose();
     setWorst(found_.back().squared_distance);
@@ -103,7 +99,7 @@ class UnorderedSet final : public NearestSet {
 
 /// All points in a ball that shrinks to reach as far as the nearest and a little beyond: the roundings of squares,
 /// which lose digits where they underflow.
-class NearestTies final : public flann::ResultSet<double> {
+class NearestTies final : public RankSet {
  public:
   explicit NearestTies(Buffer<Neighbor>& found) : found_(found) { found_.clear(); }
 
@@ -112,7 +108,7 @@ class NearestTies final : public flann::ResultSet<double> {
 
   void addPoint(double squared_distance, size_t index) override {
     if (!(squared_distance < worst_)) return;
-    found_.push_back({squared_distance, static_cast<int>(index)});
+    found_.push_back({squared_distance, rankOf(index)});
     worst_ = std::min(worst_, squared_distance * (1 + 1e-12) + 16 * std::numeric_limits<double>::denorm_min());
   }
 
@@ -129,7 +125,7 @@ class NearestTies final : public flann::ResultSet<double> {
 };
 
 /// All points in a ball, at most most_candidates.
-class WholeBall : public flann::ResultSet<double> {
+class WholeBall : public RankSet {
  public:
   WholeBall(double radius, Buffer<int>& found) : found_(found) {
     found_.clear();
@@ -141,7 +137,7 @@ class WholeBall : public flann::ResultSet<double> {
   bool isTooFull() const { return found_.size() > NeighborSearch::most_candidates; }
 
   void addPoint(double, size_t index) override {
-    found_.push_back(static_cast<int>(index));
+    found_.push_back(rankOf(index));
     if (isTooFull()) worst_ = -1;  // nothing is nearer: the search ends
   }
 
@@ -196,22 +192,10 @@ double findCenter(const PointsView& points, int first, int count, SearchedBall& 
 
 }  // namespace
 
-struct NeighborSearch::Tree : InWorkspace {
-  flann::KDTreeSingleIndex<Distance> index;
-  flann::SearchParams params{flann::FLANN_CHECKS_UNLIMITED};
+NeighborSearch::NeighborSearch(const PointsView& points) : NeighborSearch(points, Workers(1, Progress())) {}
 
-  explicit Tree(const PointsView& points)
-      // The points are in Morton order already, so FLANN's reordered copy would only cost memory.
-      : index(flann::Matrix<double>(const_cast<double*>(points.data()), static_cast<size_t>(points.rows()), 3),
-              flann::KDTreeSingleIndexParams(16, false)) {
-    index.buildIndex();
-  }
-};
-
-NeighborSearch::NeighborSearch(const PointsView& points) : points_(points) {
-  if (points.rows() < 2) return;
-  const ForeignMemory building;
-  tree_ = std::make_unique<Tree>(points);
+NeighborSearch::NeighborSearch(const PointsView& points, const Workers& workers) : points_(points) {
+  if (points.rows() >= 2) forest_ = std::make_unique<KdForest>(points, workers);
 }
 
 NeighborSearch::~NeighborSearch() = default;
@@ -221,15 +205,14 @@ void NeighborSearch::nearest(int p, int k, Buffer<Neighbor>& found, NeighborOrde
   k = std::min(k, available);
   found.clear();
   if (k <= 0) return;
-  const ForeignMemory query;
   const double* const point = points_.row(p).data();
   const auto search = [&](double radius) {
     if (order == NeighborOrder::ascending) {
       AscendingSet set(p, k, radius, found);
-      tree_->index.findNeighbors(set, point, tree_->params);
+      forest_->search(point, p, set);
     } else {
       UnorderedSet set(p, k, radius, found);
-      tree_->index.findNeighbors(set, point, tree_->params);
+      forest_->search(point, p, set);
       set.choose();
     }
   };
@@ -242,12 +225,11 @@ void NeighborSearch::nearest(int p, int k, Buffer<Neighbor>& found, NeighborOrde
 
 void NeighborSearch::nearestTo(const Eigen::RowVector3d& position, Buffer<Neighbor>& found) const {
   NearestTies ties(found);
-  if (!tree_) {
+  if (!forest_) {
     if (points_.rows() == 1) ties.addPoint((points_.row(0) - position).squaredNorm(), 0);
     return;
   }
-  const ForeignMemory query;
-  tree_->index.findNeighbors(ties, position.data(), tree_->params);
+  forest_->search(position.data(), 0, ties);
   ties.finish();
 }
 
@@ -268,8 +250,7 @@ bool NeighborSearch::candidates(int first, int count, int k, Buffer<int>& found,
   bounds.resize(static_cast<std::size_t>(wanted));
 
   ShrinkingBall set(2 * spread, bounds, found);
-  const ForeignMemory query;
-  tree_->index.findNeighbors(set, ball.center.data(), tree_->params);
+  forest_->search(ball.center.data(), first, set);
   ball.reach = std::sqrt(bounds.front());
   ball.radius = ball.reach + 2 * spread;
   return !set.isTooFull() && bounds.front() > least_square;
@@ -279,16 +260,12 @@ bool NeighborSearch::candidatesWithin(int first, int count, double around, Buffe
                                       SearchedBall& ball) const {
   ball.radius = findCenter(points_, first, count, ball) + around;
   WholeBall set(ball.radius, found);
-  const ForeignMemory query;
-  tree_->index.findNeighbors(set, ball.center.data(), tree_->params);
+  forest_->search(ball.center.data(), first, set);
   return !set.isTooFull() && around * around > least_square;
 }
 
 std::size_t NeighborSearch::bytes() const {
-  // Tree nodes by FLANN's own count, then a pointer and an index per point.
-  return tree_ ? static_cast<std::size_t>(tree_->index.usedMemory()) +
-                     static_cast<std::size_t>(points_.rows()) * (sizeof(double*) + sizeof(int))
-               : 0;
+  return forest_ ? forest_->bytes() : 0;
 }
 
 }  // namespace tufted

@@ -5,7 +5,9 @@
 #include <memory>
 
 #include "base/buffer.h"
+#include "base/parallel.h"
 #include "base/point_buffer.h"
+#include "cloud/kd_forest.h"
 #include "tufted/types.h"
 
 namespace tufted {
@@ -42,12 +44,14 @@ struct SearchedBall {
   double reach = 0;   ///< a point q of the group has at least k neighbours within reach + distance(q, center)
 };
 
-/// Exact nearest neighbours by FLANN's KDTreeSingleIndex in double.
+/// Exact nearest neighbours among all points.
 class NeighborSearch : public InWorkspace {
  public:
   static constexpr int most_candidates = 1024;
 
   /// @param points n x 3, distinct, finite, in Morton order; borrowed for the life of the search
+  NeighborSearch(const PointsView& points, const Workers& workers);
+  /// Built by the calling thread alone.
   explicit NeighborSearch(const PointsView& points);
   ~NeighborSearch();
   NeighborSearch(const NeighborSearch&) = delete;
@@ -79,8 +83,7 @@ class NeighborSearch : public InWorkspace {
   std::size_t bytes() const;
 
  private:
-  struct Tree;
-  std::unique_ptr<Tree> tree_;
+  std::unique_ptr<KdForest> forest_;  ///< null with fewer than two points
   PointsView points_;
 };
 

@@ -69,6 +69,49 @@ TEST(Neighbors, AreTheSameInAnyOrderAndWhateverWasSearchedBefore) {
   }
 }
 
+TEST(Neighbors, AreTheSameInAnyNumberOfTrees) {
+  const shapes::Cloud crowds = [] {
+    shapes::Cloud cloud = shapes::sphere(40000);
+    cloud.points.topRows(20000) = 1e-3 * cloud.points.topRows(20000).eval();
+    return cloud;
+  }();
+  std::vector<PointStatus> status;
+  std::vector<int> representative;
+  for (const auto& cloud : {crowds, shapes::squareLattice(200)}) {
+    const RankedCloud ranked = rankPoints(cloud.points, status, representative);
+    const Progress silent;
+    const Workers workers(3, silent);
+    const NeighborSearch one(ranked.points), several(ranked.points, workers);
+    EXPECT_NE(one.bytes(), several.bytes());  // there are several
+    Buffer<Neighbor> expected, found;
+    const auto expectSame = [&](int i) {
+      ASSERT_EQ(found.size(), expected.size());
+      for (std::size_t j = 0; j < found.size(); ++j) {
+        ASSERT_EQ(found[j].index, expected[j].index) << cloud.name << ' ' << i << " neighbour " << j;
+        ASSERT_EQ(found[j].squared_distance, expected[j].squared_distance);
+      }
+    };
+    SearchBefore before;
+    for (int p = 0; p < ranked.size(); p += 3) {
+      one.nearest(p, 30, expected);
+      several.nearest(p, 30, found, NeighborOrder::ascending, &before);
+      expectSame(p);
+    }
+    GroupScratch scratch;
+    nearestOfEach(one, ranked.points, 0, ranked.size(), 30, kernels(), scratch, expected);
+    nearestOfEach(several, ranked.points, 0, ranked.size(), 30, kernels(), scratch, found);
+    expectSame(-1);
+    for (int p = 0; p < ranked.size(); p += 100) {
+      const Eigen::RowVector3d position = 1.01 * ranked.points.row(p);
+      one.nearestTo(position, expected);
+      several.nearestTo(position, found);
+      std::sort(expected.begin(), expected.end());
+      std::sort(found.begin(), found.end());
+      expectSame(p);
+    }
+  }
+}
+
 TEST(Neighbors, OfEachAreThoseOfOne) {
   for (const auto& cloud : oddClouds()) {
     std::vector<PointStatus> status;

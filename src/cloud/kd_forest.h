@@ -1,0 +1,48 @@
+#pragma once
+
+#include <flann/util/result_set.h>
+
+#include <cstddef>
+
+#include "base/buffer.h"
+#include "base/parallel.h"
+#include "base/point_buffer.h"
+
+namespace tufted {
+
+/// What collects the points that a KdForest finds. Only those nearer than worstDist() are shown to it.
+class RankSet : public flann::ResultSet<double> {
+ protected:
+  /// @param index as shown to addPoint()
+  int rankOf(std::size_t index) const { return first_ + static_cast<int>(index); }
+
+ private:
+  friend class KdForest;
+  int first_ = 0;
+};
+
+/// FLANN's KDTreeSingleIndex in double over consecutive points, a tree for each thread that may build one.
+///
+/// What is found does not depend on the number of trees, but its order does.
+class KdForest : public InWorkspace {
+ public:
+  /// @param points n x 3, n > 0; borrowed for the life of the forest
+  KdForest(const PointsView& points, const Workers& workers);
+  ~KdForest();
+  KdForest(const KdForest&) = delete;
+  KdForest& operator=(const KdForest&) = delete;
+
+  /// @param position 3 coordinates
+  /// @param near_rank the tree of this point is searched first, which bounds the search of the others
+  void search(const double* position, int near_rank, RankSet& found) const;
+
+  std::size_t bytes() const;
+
+ private:
+  struct Tree;
+  void search(const Tree& tree, const double* position, RankSet& found) const;
+  int size_;
+  Buffer<Tree> trees_;
+};
+
+}  // namespace tufted
