@@ -20,9 +20,9 @@ constexpr std::int64_t most_triangles = INT32_MAX / 6;
 /// An IntrinsicTriangulation while it grows.
 struct CoverBuffer {
   int vertices = 0;
-  Buffer<std::array<int, 3>> faces;
-  Buffer<int> glue;
-  Buffer<double> length;
+  RawBuffer<std::array<int, 3>> faces;
+  RawBuffer<int> glue;
+  RawBuffer<double> length;
 
   std::int64_t size() const { return std::ssize(faces); }
 };

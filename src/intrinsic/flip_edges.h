@@ -1,8 +1,11 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <limits>
+#include <utility>
 
 #include "base/buffer.h"
 #include "intrinsic/cover.h"
@@ -72,51 +75,123 @@ void flip(Triangulation& t, int side, int mate) {
   t.length[side] = t.length[mate] = flipped;
 }
 
-/// Algorithm 2 from the given sides on. `Cover` has
-///   triangulation()                    a reference to an IntrinsicTriangulation or CoverBuffer
-///   void resolve(int side)             sees to it that the side is glued; may add faces
-///   void flipped(int side, int mate)   hears of each flip
+/// Numbers of sides, [begin, end).
+struct SideRange {
+  int begin = 0, end = std::numeric_limits<int>::max();
+
+  bool isWhole() const { return end == std::numeric_limits<int>::max(); }
+  bool contains(int side) const { return begin <= side && side < end; }
+};
+
+/// Algorithm 2 within a range of sides: no face that is glued to one outside of it is flipped. `Cover` as for
+/// flipEdges().
 template <class Cover>
-FlipCounts flipEdges(Cover& cover, const Buffer<int>& seeds, const Workers& workers) {
-  constexpr std::uint8_t most_flips = 100;    // per edge
-  constexpr std::uint8_t queued_flag = 0x80;  // beside the count
-  constexpr std::int64_t report_every = 1 << 16;
-  auto& t = cover.triangulation();
-  FlipCounts counts;
-
-  // Per place of a side: the flips done there and queued_flag. A flip moves its outer edges to other places and queues
-  // them anew, so no edge is missed, and the bound per place ends the loop whatever the lengths are.
-  Buffer<std::uint8_t> state;
-  Buffer<int> queue;  // depth first
-  const auto push = [&](int side) {
-    cover.resolve(side);
-    state.resize(t.glue.size());
-    const int edge = std::min(side, t.glue[side]);
-    if ((state[edge] & queued_flag) != 0) return;
-    state[edge] |= queued_flag;
-    queue.push_back(edge);
-  };
-  for (const int side : seeds) push(side);
-
-  while (!queue.empty()) {
-    const int side = queue.back(), mate = t.glue[side];
-    queue.pop_back();
-    state[side] &= static_cast<std::uint8_t>(~queued_flag);
-    if (isDelaunay(t, side, mate)) continue;
-    if (state[side] >= most_flips) {
-      ++counts.failures;
-      continue;
-    }
-    const std::array<int, 4> outer = {nextSide(side), previousSide(side), nextSide(mate), previousSide(mate)};
-    for (const int o : outer) cover.resolve(o);  // only sides that are glued may move
-    flip(t, side, mate);
-    cover.flipped(side, mate);
-    ++state[side];
-    if (++counts.flips % report_every == 0)
-      workers.report("flips", 1 - static_cast<double>(queue.size()) / static_cast<double>(t.glue.size()));
-    for (const int o : outer) push(o);
+class RangeFlipper {
+ public:
+  /// @param queue scratch
+  /// @param left what has to be looked at in a wider range is added here
+  RangeFlipper(Cover& cover, SideRange range, Buffer<int>& queue, Buffer<int>& left)
+      : cover_(cover), range_(range), queue_(queue), left_(left) {
+    queue_.clear();
   }
-  return counts;
+
+  void push(int side) {
+    if (!isInside(side)) return left_.push_back(side);
+    const int edge = std::min(side, cover_.triangulation().glue[side]);
+    std::uint8_t& state = cover_.state(edge);
+    if ((state & queued_flag) != 0) return;
+    state |= queued_flag;
+    queue_.push_back(edge);
+  }
+
+  /// @param report called with the share that is done, now and then
+  template <class Report>
+  FlipCounts run(const Report& report) {
+    auto& t = cover_.triangulation();
+    FlipCounts counts;
+    while (!queue_.empty()) {  // depth first
+      const int side = queue_.back(), mate = t.glue[side];
+      queue_.pop_back();
+      std::uint8_t& state = cover_.state(side);
+      state &= static_cast<std::uint8_t>(~queued_flag);
+      if (isDelaunay(t, side, mate)) continue;
+      if (state >= most_flips) {
+        ++counts.failures;
+        continue;
+      }
+      const std::array<int, 4> outer = {nextSide(side), previousSide(side), nextSide(mate), previousSide(mate)};
+      if (!std::all_of(outer.begin(), outer.end(), [this](int o) { return isInside(o); })) {
+        left_.push_back(side);
+        continue;
+      }
+      flip(t, side, mate);
+      cover_.flipped(side, mate);
+      ++state;
+      if (++counts.flips % report_every == 0)
+        report(1 - static_cast<double>(queue_.size()) / static_cast<double>(t.glue.size()));
+      for (const int o : outer) push(o);
+    }
+    return counts;
+  }
+
+ private:
+  // A flip moves its outer edges to other places and queues them anew, so no edge is missed, and the bound per place
+  // ends the loop whatever the lengths are.
+  static constexpr std::uint8_t most_flips = 100;    // per place of an edge
+  static constexpr std::uint8_t queued_flag = 0x80;  // beside their count
+  static constexpr std::int64_t report_every = 1 << 16;
+
+  /// Whether the side, which is, is glued to one that is; only such may move.
+  bool isInside(int side) const {
+    return cover_.resolve(side, range_) && range_.contains(cover_.triangulation().glue[side]);
+  }
+
+  Cover& cover_;
+  const SideRange range_;
+  Buffer<int>& queue_;
+  Buffer<int>& left_;
+};
+
+/// Algorithm 2. Blocks of the cover are flipped each by itself, in parallel; then, in ever larger blocks, what had to
+/// wait since it goes across. The blocks do not depend on the number of threads. `Cover` has
+///   triangulation()                         a reference to an IntrinsicTriangulation or CoverBuffer
+///   blocks()                                their number
+///   sidesOf(first, last)                    the SideRange of blocks [first, last)
+///   start(block, push)                      calls push(side) for the sides to begin with
+///   resolve(int side, const SideRange&)     sees to it that the side is glued; may add faces, but within the range
+///                                           alone, else false
+///   state(int side)                         a reference to a byte, 0 at first
+///   flipped(int side, int mate)             hears of each flip
+template <class Cover>
+FlipCounts flipEdges(Cover& cover, const Workers& workers) {
+  constexpr std::int64_t growth = 8;
+  Buffer<Buffer<int>> queues(workers.count()), left;
+  FlipCounts sum;
+  for (std::int64_t merged = 1;; merged *= growth) {  // blocks in one
+    const std::int64_t count = (cover.blocks() + merged - 1) / merged;
+    const Buffer<Buffer<int>> waiting = std::exchange(left, Buffer<Buffer<int>>(count));
+    Buffer<FlipCounts> counts(count);
+    const auto flipBlock = [&](std::int64_t b, SideRange range, int worker, const auto& report) {
+      RangeFlipper<Cover> flipper(cover, range, queues[worker], left[b]);
+      const auto push = [&flipper](int side) { flipper.push(side); };
+      if (merged == 1) cover.start(b, push);
+      for (std::int64_t i = growth * b; i < std::min(growth * (b + 1), std::ssize(waiting)); ++i)
+        std::for_each(waiting[i].begin(), waiting[i].end(), push);
+      counts[b] = flipper.run(report);
+    };
+    if (count == 1) {
+      flipBlock(0, {}, 0, [&workers](double share) { workers.report("flips", share); });
+    } else {
+      workers.forBlocks("flips", count, 1, [&](std::int64_t b, std::int64_t, int worker) {
+        flipBlock(b, cover.sidesOf(b * merged, std::min((b + 1) * merged, cover.blocks())), worker, [](double) {});
+      });
+    }
+    for (const FlipCounts& part : counts) {
+      sum.flips += part.flips;
+      sum.failures += part.failures;
+    }
+    if (std::all_of(left.begin(), left.end(), [](const auto& part) { return part.empty(); })) return sum;
+  }
 }
 
 }  // namespace tufted

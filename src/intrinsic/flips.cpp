@@ -4,41 +4,53 @@
 namespace tufted {
 namespace {
 
-constexpr std::int64_t block_size = 16384;
+constexpr std::int64_t block_size = 16384;  // triangles
 
 /// A cover that is all there.
 class WholeCover {
  public:
-  explicit WholeCover(IntrinsicTriangulation& cover) : cover_(cover) {}
+  WholeCover(IntrinsicTriangulation& cover, const Workers& workers)
+      : cover_(cover), triangles_(cover.size() / 2), state_(cover.glue.size()), seeds_(blocks()) {
+    workers.forBlocks("flips", triangles_, block_size,
+                      [&](std::int64_t begin, std::int64_t, int) { findSeeds(begin / block_size); });
+  }
+
   IntrinsicTriangulation& triangulation() { return cover_; }
-  void resolve(int) {}
+  std::int64_t blocks() const { return (triangles_ + block_size - 1) / block_size; }
+  SideRange sidesOf(std::int64_t first, std::int64_t last) const {
+    return {static_cast<int>(6 * first * block_size), static_cast<int>(6 * std::min(last * block_size, triangles_))};
+  }
+  template <class Push>
+  void start(std::int64_t block, const Push& push) const {
+    std::for_each(seeds_[block].begin(), seeds_[block].end(), push);
+  }
+  bool resolve(int, const SideRange&) const { return true; }
+  std::uint8_t& state(int side) { return state_[side]; }
   void flipped(int, int) {}
 
  private:
-  IntrinsicTriangulation& cover_;
-};
-
-/// The sides, one per edge, that are not Delaunay at the start, in order.
-Buffer<int> findSeeds(const IntrinsicTriangulation& cover, const Workers& workers) {
-  Buffer<Buffer<int>> found((cover.size() + block_size - 1) / block_size);
-  workers.forBlocks("flips", cover.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
-    for (int side = static_cast<int>(3 * begin); side < 3 * end; ++side) {
-      const int mate = cover.glue[side];
+  /// The sides of a block that are not Delaunay at the start, in order.
+  void findSeeds(std::int64_t block) {
+    const SideRange sides = sidesOf(block, block + 1);
+    for (int side = sides.begin; side < sides.end; ++side) {
+      const int mate = cover_.glue[side];
       // An edge that is not Delaunay has an obtuse angle on at least one side.
-      if (isOppositeObtuse(cover, side) && oppositeCotan(cover, side) + oppositeCotan(cover, mate) < flip_below)
-        found[begin / block_size].push_back(std::min(side, mate));
+      if (isOppositeObtuse(cover_, side) && oppositeCotan(cover_, side) + oppositeCotan(cover_, mate) < flip_below)
+        seeds_[block].push_back(side);
     }
-  });
-  Buffer<int> seeds;
-  for (const auto& part : found) seeds.insert(seeds.end(), part.begin(), part.end());
-  return seeds;
-}
+  }
+
+  IntrinsicTriangulation& cover_;
+  const std::int64_t triangles_;
+  Buffer<std::uint8_t> state_;  ///< of each side
+  Buffer<Buffer<int>> seeds_;   ///< of each block
+};
 
 }  // namespace
 
 FlipCounts flipToDelaunay(IntrinsicTriangulation& cover, const Workers& workers) {
-  WholeCover whole(cover);
-  return flipEdges(whole, findSeeds(cover, workers), workers);
+  WholeCover whole(cover, workers);
+  return flipEdges(whole, workers);
 }
 
 }  // namespace tufted

@@ -7,12 +7,14 @@
 
 #include "base/buffer.h"
 #include "intrinsic/flip_edges.h"
+#include "intrinsic/flip_seeds.h"
 #include "intrinsic/geometry.h"
 
 namespace tufted {
 namespace {
 
-constexpr std::int64_t block_size = 8192;
+constexpr std::int64_t block_size = 4096;  // stars
+constexpr std::size_t spare = 8;           // room for stars without a number, one for so many with
 
 /// Triangles of star p before link entry i.
 int trianglesBefore(const Stars& stars, int p, int i) {
@@ -55,18 +57,31 @@ void setLengths(Triangulation& cover, int t, const std::array<double, 3>& side_l
 /// What flipEdges() works on.
 class Flipping {
  public:
-  explicit Flipping(PartialCover& cover) : cover_(cover) {}
+  Flipping(PartialCover& cover, Buffer<Buffer<FlipSeed>> seeds) : cover_(cover), seeds_(std::move(seeds)) {}
+
   CoverBuffer& triangulation() { return cover_.cover_; }
-  void resolve(int side) { cover_.resolve(side); }
-  void flipped(int side, int mate) {
-    for (const int face : {side / 3, mate / 3}) {
-      cover_.moved_[face / 2] = 1;
-      for (const int corner : cover_.cover_.faces[face]) cover_.flipped_[corner] = 1;
-    }
+  std::int64_t blocks() const { return std::ssize(seeds_); }
+  SideRange sidesOf(std::int64_t first, std::int64_t last) const {
+    return {6 * cover_.block_begin_[first], 6 * cover_.block_begin_[last]};
   }
+  template <class Push>
+  void start(std::int64_t block, const Push& push) {
+    for (const FlipSeed& seed : seeds_[block])
+      if (!cover_.isPresent(seed.side.star)) cover_.add(seed.side.star);  // while there is room for them
+    for (const FlipSeed& seed : seeds_[block]) {
+      const bool up = cover_.runsUp(seed.side);
+      if (seed.is_plus) push(cover_.sideNumber(seed.side, up, cover_.first_));
+      if (seed.is_minus) push(cover_.sideNumber(seed.side, !up, cover_.first_));
+    }
+    release(seeds_[block]);
+  }
+  bool resolve(int side, const SideRange& range) { return cover_.resolve(side, range); }
+  std::uint8_t& state(int side) { return cover_.state_[side]; }
+  void flipped(int side, int mate) { cover_.moved_[side / 6] = cover_.moved_[mate / 6] = 1; }
 
  private:
   PartialCover& cover_;
+  Buffer<Buffer<FlipSeed>> seeds_;
 };
 
 PartialCover::PartialCover(const Stars& stars, const EdgeLengths& length, const StarPools& pools)
@@ -78,27 +93,45 @@ PartialCover::PartialCover(const Stars& stars, const EdgeLengths& length, const 
   cover_.vertices = stars.size();
 }
 
-void PartialCover::add(int p) {
-  const int first = static_cast<int>(entry_of_.size());
-  first_[p] = first;
-  for (int i = stars_.offset[p]; i < stars_.offset[p + 1]; ++i)
-    if (stars_.hasTriangle(i)) entry_of_.push_back(i);
-  const auto triangles = entry_of_.size();
+void PartialCover::makeRoom(std::size_t triangles) {
+  entry_of_.resize(triangles);
+  state_.resize(6 * triangles);
   moved_.resize(triangles);
   cover_.faces.resize(2 * triangles);
-  cover_.glue.resize(6 * triangles, unglued);
+  cover_.glue.resize(6 * triangles);
   cover_.length.resize(6 * triangles);
+}
+
+bool PartialCover::hasRoom(int p) const {
+  const int block = p / block_size;
+  return next_[block] + trianglesBefore(stars_, p, stars_.offset[p + 1]) <= block_begin_[block + 1];
+}
+
+void PartialCover::add(int p) {
+  const int count = trianglesBefore(stars_, p, stars_.offset[p + 1]);
+  if (hasRoom(p)) {
+    first_[p] = std::exchange(next_[p / block_size], next_[p / block_size] + count);
+  } else {
+    first_[p] = static_cast<int>(entry_of_.size());
+    makeRoom(entry_of_.size() + count);
+  }
+  int t = first_[p];
   int measured = -1;  // link entry of a spoke, and its length
   double spoke = 0;
-  for (int t = first; t < static_cast<int>(triangles); ++t) {
-    const int i = entry_of_[t], next = stars_.after(p, i), a = stars_.link[i], b = stars_.link[next];
+  for (int i = stars_.offset[p]; i < stars_.offset[p + 1]; ++i) {
+    if (!stars_.hasTriangle(i)) continue;
+    const int next = stars_.after(p, i), a = stars_.link[i], b = stars_.link[next];
     const double from_p = measured == i ? spoke : length_(p, a);
     spoke = length_(b, p);
     measured = next;
+    entry_of_[t] = i;
     addTriangle(cover_, t, p, a, b);
     setLengths(cover_, t, {from_p, length_(a, b), spoke});
+    std::fill_n(cover_.glue.begin() + 6 * t, 6, unglued);
+    std::fill_n(state_.begin() + 6 * t, 6, std::uint8_t{0});
+    ++t;
   }
-  forEachSpoke(stars_, p, first, [&](int before, int after) { glueSpoke(cover_, before, after); });
+  forEachSpoke(stars_, p, first_[p], [&](int before, int after) { glueSpoke(cover_, before, after); });
 }
 
 StarSide PartialCover::starSide(int side) const {
@@ -116,99 +149,73 @@ int PartialCover::sideNumber(const StarSide& side, bool is_front, const Buffer<i
   return is_front ? frontSide(t, side.side) : backSide(t, side.side);
 }
 
-void PartialCover::resolve(int side) {
-  if (cover_.glue[side] != unglued) return;
+bool PartialCover::resolve(int side, const SideRange& range) {
+  if (cover_.glue[side] != unglued) return true;
   const StarSide here = starSide(side);
   // The plus copy is the front where the front runs up.
   const bool is_plus = runsUp(here) == (side % 6 < 3);
   const StarSide there = mateOf(here, is_plus);
-  if (!isPresent(there.star)) add(there.star);
+  if (!range.contains(6 * block_begin_[there.star / block_size])) return false;
+  if (!isPresent(there.star)) {
+    if (!hasRoom(there.star) && !range.isWhole()) return false;
+    add(there.star);
+  }
   glueSides(cover_, side, sideNumber(there, runsUp(there) != is_plus, first_));
+  return true;
 }
 
-double PartialCover::cotanAt(const StarSide& side) const {
-  const int a = tail(stars_, side), b = head(stars_, side), c = apex(stars_, side);
-  return oppositeCotan(length_(a, b), length_(b, c), length_(c, a));
-}
-
-double PartialCover::roughCotan(const StarSide& side) const {
-  if (length_.added > 0) return cotanAt(side);
-  const auto [ux, uy, uz] = length_.offset(tail(stars_, side), apex(stars_, side));
-  const auto [vx, vy, vz] = length_.offset(head(stars_, side), apex(stars_, side));
-  const double x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
-  const double sine = x * x + y * y + z * z;  // times both lengths, squared
-  const double longer = std::max(ux * ux + uy * uy + uz * uz, vx * vx + vy * vy + vz * vz);
-  return sine > 1e-8 * longer * longer ? (ux * vx + uy * vy + uz * vz) / std::sqrt(sine) : cotanAt(side);
-}
-
-Buffer<int> PartialCover::findSeeds(const StarMetric& metric, const Workers& workers) {
-  struct Seed {
-    StarSide side;
-    bool is_plus, is_minus;
-  };
-  Buffer<Buffer<Seed>> found((stars_.size() + block_size - 1) / block_size);
+void PartialCover::reserve(const Buffer<Buffer<FlipSeed>>& seeds, const Workers& workers) {
+  // Flips stay near the points that disagree. What is reserved but not used costs no memory; growing later would.
+  block_begin_.assign(seeds.size() + 1, 0);
   workers.forBlocks("flips", stars_.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
-    Buffer<Seed>& seeds = found[begin / block_size];
-    for (int p = static_cast<int>(begin); p < end; ++p) {
-      for (int i = stars_.offset[p]; i < stars_.offset[p + 1]; ++i) {
-        if (!(metric.cotan_sum[i] < flip_below)) continue;
-        const StarSide spoke{p, i, 0};
-        seeds.push_back({spoke, true, true});
-        // The copy between the links of the two neighbours, which is in no pool.
-        if (pools_.isPooled(spoke)) continue;
-        const int x = stars_.link[before(stars_, p, i)], j = entryOf(stars_, x, p);
-        const bool follows = stars_.link[stars_.after(x, j)] == stars_.link[i];
-        seeds.push_back({{x, follows ? j : before(stars_, x, j), 1}, true, true});
-      }
-    }
-    pools_.forEachPool(static_cast<int>(begin), static_cast<int>(end), [&](const auto& pool) {
-      // The plus copy of each faces the minus copy of the next.
-      const double first = roughCotan(pool[0].side);
-      double here = first;
-      for (std::size_t i = 0; i < pool.size(); ++i) {
-        const StarSide &side = pool[i].side, &facing = pool[i + 1 == pool.size() ? 0 : i + 1].side;
-        const double next = i + 1 == pool.size() ? first : roughCotan(facing);
-        if (!(here + next > flip_below / 2) && cotanAt(side) + cotanAt(facing) < flip_below)
-          seeds.push_back({side, true, false});
-        here = next;
-      }
-    });
+    const auto degree = [this](std::int64_t p) { return stars_.offset[p + 1] - stars_.offset[p]; };
+    int room = 1;  // by which blocks are told apart
+    for (const FlipSeed& seed : seeds[begin / block_size]) room += degree(seed.side.star);
+    for (std::int64_t p = begin; p < end; ++p) room += stars_.disagrees[p] != 0 ? 2 * degree(p) : 0;
+    block_begin_[begin / block_size + 1] = std::min(room, stars_.offset[end] - stars_.offset[begin] + 1);
   });
-  Buffer<int> sides;
-  for (const auto& part : found) {
-    for (const Seed& seed : part) {
-      if (!isPresent(seed.side.star)) add(seed.side.star);
-      const bool up = runsUp(seed.side);
-      if (seed.is_plus) sides.push_back(sideNumber(seed.side, up, first_));
-      if (seed.is_minus) sides.push_back(sideNumber(seed.side, !up, first_));
+  std::partial_sum(block_begin_.begin(), block_begin_.end(), block_begin_.begin());
+  next_.assign(block_begin_.begin(), block_begin_.end() - 1);
+  const std::size_t triangles = block_begin_.back(), others = stars_.link.size() + next_.size() - triangles;
+  makeRoom(triangles + std::min(others, triangles / spare));
+  makeRoom(triangles);
+}
+
+void PartialCover::findFlippedPoints() {
+  for (int p = 0; p < stars_.size(); ++p) {
+    if (!isPresent(p)) continue;
+    int t = first_[p];
+    for (int i = stars_.offset[p]; i < stars_.offset[p + 1]; ++i) {
+      if (!stars_.hasTriangle(i) || !isMoved(t++)) continue;
+      // Corners that a face has later were corners of one that was flipped before.
+      flipped_[p] = flipped_[stars_.link[i]] = flipped_[stars_.link[stars_.after(p, i)]] = 1;
     }
   }
-  return sides;
-}
-
-void PartialCover::reserve() {
-  // Flips stay near the points that disagree, and what is reserved but not used costs no memory. Growing by doubling
-  // would.
-  std::int64_t triangles = 0;
-  for (int p = 0; p < stars_.size(); ++p)
-    if (stars_.disagrees[p] != 0) triangles += stars_.offset[p + 1] - stars_.offset[p];
-  triangles = std::min(stars_.triangles(), 2 * triangles);
-  entry_of_.reserve(static_cast<std::size_t>(triangles));
-  moved_.reserve(static_cast<std::size_t>(triangles));
-  cover_.faces.reserve(static_cast<std::size_t>(2 * triangles));
-  cover_.glue.reserve(static_cast<std::size_t>(6 * triangles));
-  cover_.length.reserve(static_cast<std::size_t>(6 * triangles));
 }
 
 FlipCounts PartialCover::flipToDelaunay(const StarMetric& metric, const Workers& workers) {
-  reserve();
-  const Buffer<int> seeds = findSeeds(metric, workers);
-  Flipping flipping(*this);
-  return flipEdges(flipping, seeds, workers);
+  Buffer<Buffer<FlipSeed>> seeds = findFlipSeeds(stars_, length_, pools_, metric, block_size, workers);
+  if (std::all_of(seeds.begin(), seeds.end(), [](const auto& part) { return part.empty(); })) return {};
+  reserve(seeds, workers);
+  Flipping flipping(*this, std::move(seeds));
+  const FlipCounts counts = flipEdges(flipping, workers);
+  findFlippedPoints();
+  return counts;
+}
+
+std::size_t PartialCover::bytes() const {
+  constexpr std::size_t of_triangle = 2 * sizeof(cover_.faces[0]) + 6 * sizeof(cover_.glue[0]) +
+                                      6 * sizeof(cover_.length[0]) + sizeof(entry_of_[0]) + 6 * sizeof(state_[0]);
+  std::size_t triangles = 0;
+  for (int p = 0; p < stars_.size(); ++p)
+    if (isPresent(p)) triangles += trianglesBefore(stars_, p, stars_.offset[p + 1]);
+  return of_triangle * triangles;
 }
 
 void PartialCover::keepMovedFaces() {
   release(cover_.glue);
+  release(state_);
+  release(entry_of_);
   std::size_t kept = 0;
   for (std::size_t f = 0; f < cover_.faces.size(); ++f) {
     if (moved_[f / 2] == 0) continue;
@@ -216,10 +223,11 @@ void PartialCover::keepMovedFaces() {
     std::copy_n(cover_.length.begin() + 3 * f, 3, cover_.length.begin() + 3 * kept++);
   }
   cover_.faces.resize(kept);
-  cover_.faces.shrink_to_fit();
   cover_.length.resize(3 * kept);
-  cover_.length.shrink_to_fit();
   only_moved_ = true;
+  if (Workspace::current() != nullptr) return;  // which keeps the memory anyway
+  cover_.faces.shrink_to_fit();
+  cover_.length.shrink_to_fit();
 }
 
 void PartialCover::dropFaces() {
@@ -249,7 +257,7 @@ void PartialCover::fillStar(int p, const Buffer<int>& first, IntrinsicTriangulat
   forEachSpoke(stars_, p, first[p], [&](int before, int after) { glueSpoke(whole, before, after); });
 }
 
-void PartialCover::copyStar(int p, const Buffer<int>& first, const Buffer<int>& triangle,
+void PartialCover::copyStar(int p, const Buffer<int>& first, const RawBuffer<int>& triangle,
                             IntrinsicTriangulation& whole) const {
   const int from = 6 * first_[p], to = 6 * first[p];
   for (int s = 0; s < 6 * (first[p + 1] - first[p]); ++s) {
@@ -265,7 +273,7 @@ IntrinsicTriangulation PartialCover::complete(const Workers& workers) const {
   const int n = stars_.size();
   Buffer<int> first(static_cast<std::size_t>(n) + 1);  // triangle of each star
   for (int p = 0; p < n; ++p) first[p + 1] = first[p] + trianglesBefore(stars_, p, stars_.offset[p + 1]);
-  Buffer<int> triangle(entry_of_.size());  // number in the whole of each that is present
+  RawBuffer<int> triangle(entry_of_.size());  // number in the whole of each that is present
   for (int p = 0; p < n; ++p) {
     if (isPresent(p))
       std::iota(triangle.begin() + first_[p], triangle.begin() + first_[p] + first[p + 1] - first[p], first[p]);

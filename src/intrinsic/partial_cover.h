@@ -8,6 +8,8 @@
 #include "cloud/agreement.h"
 #include "intrinsic/cover.h"
 #include "intrinsic/edge_lengths.h"
+#include "intrinsic/flip_edges.h"
+#include "intrinsic/flip_seeds.h"
 #include "intrinsic/star_metric.h"
 #include "intrinsic/star_pools.h"
 
@@ -15,6 +17,9 @@ namespace tufted {
 
 /// The tufted cover of a union of stars, with only those stars present as faces whose edges were flipped or looked at.
 /// What is absent is as the stars say: the sides of a star that leave it are glued as soon as somebody asks.
+///
+/// Triangles are numbered as their stars are added, but within a range for each block of stars, so that threads can add
+/// stars of different blocks.
 class PartialCover {
  public:
   /// All borrowed for the life of the cover.
@@ -23,12 +28,13 @@ class PartialCover {
   /// Algorithm 2.
   FlipCounts flipToDelaunay(const StarMetric& metric, const Workers& workers);
 
-  /// The faces of the stars that are present; 2 t and 2 t + 1 are front and back of a triangle until they are flipped.
-  const CoverBuffer& faces() const { return cover_; }
+  /// Of the faces that are present.
+  std::size_t bytes() const;
   /// Gives the memory of all faces back but the moved ones, of how they are glued too. There is no complete() any more.
   void keepMovedFaces();
   /// Gives back what keepMovedFaces() left.
   void dropFaces();
+
   bool isPresent(int p) const { return first_[p] >= 0; }
   /// Of a star that is present; its triangles have consecutive numbers, in the order of its link.
   int firstTriangle(int p) const { return first_[p]; }
@@ -48,33 +54,41 @@ class PartialCover {
 
  private:
   friend class Flipping;
-  void reserve();
+  /// Sets the ranges of the blocks.
+  void reserve(const Buffer<Buffer<FlipSeed>>& seeds, const Workers& workers);
+  void makeRoom(std::size_t triangles);
+  /// Whether star p fits into the range of its block.
+  bool hasRoom(int p) const;
+  /// Adds a star behind all ranges if need be.
   void add(int p);
-  void resolve(int side);
+  /// Whether the side is glued; if not it is, unless that takes a star of a block outside the range, or one that does
+  /// not fit into the range of its block.
+  bool resolve(int side, const SideRange& range);
+  void findFlippedPoints();
+
   StarSide starSide(int side) const;
   /// The side whose minus copy the plus copy of this one is glued to, or the other way round. The plus copy runs from
   /// the smaller to the larger vertex.
   StarSide mateOf(const StarSide& side, bool is_plus) const;
-  Buffer<int> findSeeds(const StarMetric& metric, const Workers& workers);
-  double cotanAt(const StarSide& side) const;
-  /// The same to within 1e-11, with fewer roots where the triangle allows it.
-  double roughCotan(const StarSide& side) const;
   int sideNumber(const StarSide& side, bool is_front, const Buffer<int>& first) const;
   bool runsUp(const StarSide& side) const { return tail(stars_, side) < head(stars_, side); }
   /// Writes the star of p into the whole cover as the stars have it, then as flips have left it.
   /// @param first the first triangle of each star in the whole
   void fillStar(int p, const Buffer<int>& first, IntrinsicTriangulation& whole) const;
-  void copyStar(int p, const Buffer<int>& first, const Buffer<int>& triangle, IntrinsicTriangulation& whole) const;
+  void copyStar(int p, const Buffer<int>& first, const RawBuffer<int>& triangle, IntrinsicTriangulation& whole) const;
 
   const Stars& stars_;
   const EdgeLengths& length_;
   const StarPools& pools_;
   CoverBuffer cover_;
-  Buffer<int> first_;             ///< n, the first triangle of a star, -1 where absent
-  Buffer<int> entry_of_;          ///< link entry of each triangle that is present
-  Buffer<std::uint8_t> moved_;    ///< of each triangle that is present
-  Buffer<std::uint8_t> flipped_;  ///< n
-  bool only_moved_ = false;       ///< faces, without numbers
+  Buffer<int> first_;              ///< n, the first triangle of a star, -1 where absent
+  Buffer<int> block_begin_;        ///< where the range of each block of stars begins, and the last one ends
+  Buffer<int> next_;               ///< the next number of each block
+  RawBuffer<int> entry_of_;        ///< link entry of each triangle that is present
+  RawBuffer<std::uint8_t> state_;  ///< of each side that is present, see flipEdges()
+  Buffer<std::uint8_t> moved_;     ///< of each triangle
+  Buffer<std::uint8_t> flipped_;   ///< n
+  bool only_moved_ = false;        ///< faces, without numbers
 };
 
 }  // namespace tufted

@@ -55,7 +55,7 @@ class StarUnion final : public CoverSource {
   }
 
   double mollifyLength() const { return length_.added; }
-  std::size_t bytes() const { return bytesOfCover(cover_.faces()); }
+  std::size_t bytes() const { return cover_.bytes(); }
 
  private:
   const Stars stars_;
