@@ -59,5 +59,10 @@ TEST(CloudBuild, IsTheSameOnNoise) {
   }
 }
 
+TEST(CloudBuild, IsTheSameInManyBlocks) {
+  for (const Preset preset : {Preset::clean, Preset::scan})
+    expectSame("blocks", shapes::withNoise(shapes::sphere(40000), 0.005).points, cloudOptions(preset));
+}
+
 }  // namespace
 }  // namespace tufted
