@@ -38,9 +38,8 @@ class SeedFinder {
       const double first = roughCotan(pool[0].side);
       double here = first;
       for (std::size_t i = 0; i < pool.size(); ++i) {
-        const StarSide &side = pool[i].side, &facing = pool[i + 1 == pool.size() ? 0 : i + 1].side;
-        const double next = i + 1 == pool.size() ? first : roughCotan(facing);
-        if (!(here + next > flip_below / 2) && cotanAt(side) + cotanAt(facing) < flip_below) add({side, true, false});
+        const double next = i + 1 == pool.size() ? first : roughCotan(pool[i + 1].side);
+        if (!(here + next > flip_below / 2)) add({pool[i].side, true, false});
         here = next;
       }
     });

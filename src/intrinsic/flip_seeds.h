@@ -10,8 +10,8 @@
 
 namespace tufted {
 
-/// A side that is glued to another along an edge that is not Delaunay: its plus copy, its minus copy or both. The plus
-/// copy runs from the smaller to the larger vertex.
+/// A side that is glued to another along an edge that is not Delaunay, or within rounding of that: its plus copy, its
+/// minus copy or both. The plus copy runs from the smaller to the larger vertex.
 struct FlipSeed {
   StarSide side;
   bool is_plus, is_minus;

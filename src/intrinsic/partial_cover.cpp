@@ -13,8 +13,7 @@
 namespace tufted {
 namespace {
 
-constexpr std::int64_t block_size = 4096;  // stars
-constexpr std::size_t spare = 8;           // room for stars without a number, one for so many with
+constexpr std::size_t spare = 8;  // room for stars without a number, one for so many with
 
 /// Triangles of star p before link entry i.
 int trianglesBefore(const Stars& stars, int p, int i) {
@@ -200,6 +199,8 @@ FlipCounts PartialCover::flipToDelaunay(const StarMetric& metric, const Workers&
   Flipping flipping(*this, std::move(seeds));
   const FlipCounts counts = flipEdges(flipping, workers);
   findFlippedPoints();
+  for (const int begin : block_begin_) faces_begin_.push_back(2 * static_cast<std::size_t>(begin));
+  faces_begin_.back() = cover_.faces.size();
   return counts;
 }
 
@@ -216,11 +217,14 @@ void PartialCover::keepMovedFaces() {
   release(cover_.glue);
   release(state_);
   release(entry_of_);
-  std::size_t kept = 0;
-  for (std::size_t f = 0; f < cover_.faces.size(); ++f) {
-    if (moved_[f / 2] == 0) continue;
-    cover_.faces[kept] = cover_.faces[f];
-    std::copy_n(cover_.length.begin() + 3 * f, 3, cover_.length.begin() + 3 * kept++);
+  std::size_t kept = 0, f = 0;
+  for (std::size_t& end : faces_begin_) {
+    for (; f < end; ++f) {
+      if (moved_[f / 2] == 0) continue;
+      cover_.faces[kept] = cover_.faces[f];
+      std::copy_n(cover_.length.begin() + 3 * f, 3, cover_.length.begin() + 3 * kept++);
+    }
+    end = kept;
   }
   cover_.faces.resize(kept);
   cover_.length.resize(3 * kept);

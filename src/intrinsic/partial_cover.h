@@ -22,6 +22,8 @@ namespace tufted {
 /// stars of different blocks.
 class PartialCover {
  public:
+  static constexpr int block_size = 4096;  // stars
+
   /// All borrowed for the life of the cover.
   PartialCover(const Stars& stars, const EdgeLengths& length, const StarPools& pools);
 
@@ -40,10 +42,12 @@ class PartialCover {
   int firstTriangle(int p) const { return first_[p]; }
   /// Whether the front or the back of triangle t was flipped.
   bool isMoved(int t) const { return moved_[t] != 0; }
-  /// Calls visit(corners, lengths of sides) for front and back of each triangle that isMoved().
+  /// Calls visit(corners, lengths of sides) for front and back of each triangle that isMoved(), of one block of stars;
+  /// the last has those that did not fit into theirs.
   template <class Visit>
-  void forEachMovedFace(const Visit& visit) const {
-    for (std::size_t f = 0; f < cover_.faces.size(); ++f)
+  void forEachMovedFace(std::size_t block, const Visit& visit) const {
+    if (faces_begin_.empty()) return;
+    for (std::size_t f = faces_begin_[block]; f < faces_begin_[block + 1]; ++f)
       if (only_moved_ || moved_[f / 2] != 0) visit(cover_.faces[f], cover_.length.data() + 3 * f);
   }
   /// Whether a face at p was flipped.
@@ -81,14 +85,15 @@ class PartialCover {
   const EdgeLengths& length_;
   const StarPools& pools_;
   CoverBuffer cover_;
-  Buffer<int> first_;              ///< n, the first triangle of a star, -1 where absent
-  Buffer<int> block_begin_;        ///< where the range of each block of stars begins, and the last one ends
-  Buffer<int> next_;               ///< the next number of each block
-  RawBuffer<int> entry_of_;        ///< link entry of each triangle that is present
-  RawBuffer<std::uint8_t> state_;  ///< of each side that is present, see flipEdges()
-  Buffer<std::uint8_t> moved_;     ///< of each triangle
-  Buffer<std::uint8_t> flipped_;   ///< n
-  bool only_moved_ = false;        ///< faces, without numbers
+  Buffer<int> first_;                ///< n, the first triangle of a star, -1 where absent
+  Buffer<int> block_begin_;          ///< where the range of each block of stars begins, and the last one ends
+  Buffer<int> next_;                 ///< the next number of each block
+  Buffer<std::size_t> faces_begin_;  ///< those of the faces of each block, and the end of all; empty before flips
+  RawBuffer<int> entry_of_;          ///< link entry of each triangle that is present
+  RawBuffer<std::uint8_t> state_;    ///< of each side that is present, see flipEdges()
+  Buffer<std::uint8_t> moved_;       ///< of each triangle
+  Buffer<std::uint8_t> flipped_;     ///< n
+  bool only_moved_ = false;          ///< faces, without numbers
 };
 
 }  // namespace tufted

@@ -10,16 +10,14 @@
 
 namespace tufted {
 
-/// What the faces of the cover add to the weights of edges between mixed points, filed under the smaller of the two,
-/// and a third of each face's area to each mixed corner (Section 3.3). Everything in an order that ranks decide.
+/// The weights of edges between mixed points, summed over the faces of the cover and filed under both ends, and to each
+/// mixed point a third of the area of each face at it (Section 3.3). Sums run in an order that ranks decide.
 /// @param mixed n, 1 for a mixed point
+/// @param keep_cover false: its faces are dropped when they have been read
 /// @param scale of one face, see finishLaplacian()
 /// @param mass n, is added to
 /// @param report degenerate_faces counts faces without area at a mixed point
-Rows collectTerms(const GluedStars& glued, const Buffer<std::uint8_t>& mixed, double scale, RawBuffer<double>& mass,
-                  const Workers& workers, Report& report);
-
-/// The terms of each edge, in their order, summed, and filed under both of its points.
-Rows mergeTerms(Rows terms, const Workers& workers);
+Rows mixedRows(const GluedStars& glued, const Buffer<std::uint8_t>& mixed, bool keep_cover, double scale,
+               RawBuffer<double>& mass, const Workers& workers, Report& report);
 
 }  // namespace tufted

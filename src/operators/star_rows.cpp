@@ -32,9 +32,7 @@ class StarAssembler {
         mass_[p] = mixed_[p] == 0 ? 2 * scale_ * metric_.area[p] : 0;  // 2 sheets, 3 stars, a third
       }
     });
-    Rows terms = collectTerms(glued, mixed_, scale_, mass_, workers, report);
-    if (!keep_cover) glued.cover.dropFaces();
-    mixed_rows_ = mergeTerms(std::move(terms), workers);
+    mixed_rows_ = mixedRows(glued, mixed_, keep_cover, scale_, mass_, workers, report);
   }
 
   double mass(int p) const { return mass_[p]; }
