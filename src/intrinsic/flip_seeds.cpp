@@ -35,11 +35,11 @@ class SeedFinder {
   void findInPools(int begin, int end, const Add& add) const {
     pools_.forEachPool(begin, end, [&](const auto& pool) {
       // The plus copy of each faces the minus copy of the next.
-      const double first = roughCotan(pool[0].side);
+      const double first = roughCotan(pool[0].side());
       double here = first;
       for (std::size_t i = 0; i < pool.size(); ++i) {
-        const double next = i + 1 == pool.size() ? first : roughCotan(pool[i + 1].side);
-        if (!(here + next > flip_below / 2)) add({pool[i].side, true, false});
+        const double next = i + 1 == pool.size() ? first : roughCotan(pool[i + 1].side());
+        if (!(here + next > flip_below / 2)) add({pool[i].side(), true, false});
         here = next;
       }
     });

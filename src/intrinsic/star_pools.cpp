@@ -51,7 +51,8 @@ void StarPools::collect(const Workers& workers) {
   std::partial_sum(offset_.begin(), offset_.end(), offset_.begin());
   pooled_.resize(static_cast<std::size_t>(offset_.back()));
   Buffer<int> fill(offset_.begin(), offset_.end() - 1);
-  forEachPooled([&](const StarSide& side, const auto& ends) { pooled_[fill[ends.first]++] = {ends.second, side}; });
+  forEachPooled(
+      [&](const StarSide& side, const auto& ends) { pooled_[fill[ends.first]++] = Pooled(ends.second, side); });
 }
 
 void StarPools::sort(const PointsView& points, const Workers& workers) {
@@ -61,13 +62,13 @@ void StarPools::sort(const PointsView& points, const Workers& workers) {
     for (int low = static_cast<int>(begin); low < end; ++low) {
       // They came in the order of stars and entries, which decides ties.
       stableSort(pooled_.data() + offset_[low], pooled_.data() + offset_[low + 1], sides,
-                 [](const Pooled& a, const Pooled& b) { return a.high < b.high; });
+                 [](const Pooled& a, const Pooled& b) { return a.high() < b.high(); });
       for (int i = offset_[low]; i < offset_[low + 1];) {
         const int stop = endOfPool(i);
         if (stop - i > 2) {  // any order of two is the same one
-          const DihedralOrder order(points, low, pooled_[i].high);
+          const DihedralOrder order(points, low, pooled_[i].high());
           keys.clear();
-          for (int j = i; j < stop; ++j) keys.emplace_back(order.key(apex(stars_, pooled_[j].side)), pooled_[j]);
+          for (int j = i; j < stop; ++j) keys.emplace_back(order.key(apex(stars_, pooled_[j].side())), pooled_[j]);
           stableSort(keys.data(), keys.data() + keys.size(), sorted,
                      [](const auto& a, const auto& b) { return a.first < b.first; });
           for (int j = i; j < stop; ++j) pooled_[j] = keys[j - i].second;
@@ -80,9 +81,9 @@ void StarPools::sort(const PointsView& points, const Workers& workers) {
 
 int StarPools::endOfPool(int i) const {
   int stop = i + 1;
-  const StarSide& side = pooled_[i].side;
+  const StarSide side = pooled_[i].side();
   const int last = offset_[std::min(tail(stars_, side), head(stars_, side)) + 1];
-  while (stop < last && pooled_[stop].high == pooled_[i].high) ++stop;
+  while (stop < last && pooled_[stop].high() == pooled_[i].high()) ++stop;
   return stop;
 }
 
@@ -92,12 +93,12 @@ StarSide StarPools::neighbor(const StarSide& side, int step) const {
   if (stars_.disagrees[to] == 0) return acrossAgreeing(side, to, from);
   const int low = std::min(from, to);
   int at = offset_[low];
-  while (pooled_[at].side != side) ++at;
+  while (pooled_[at].side() != side) ++at;
   int begin = at, end = at + 1;
-  while (begin > offset_[low] && pooled_[begin - 1].high == pooled_[at].high) --begin;
-  while (end < offset_[low + 1] && pooled_[end].high == pooled_[at].high) ++end;
+  while (begin > offset_[low] && pooled_[begin - 1].high() == pooled_[at].high()) --begin;
+  while (end < offset_[low + 1] && pooled_[end].high() == pooled_[at].high()) ++end;
   const int count = end - begin;
-  return pooled_[begin + (at - begin + step + count) % count].side;
+  return pooled_[begin + (at - begin + step + count) % count].side();
 }
 
 StarSide StarPools::acrossAgreeing(const StarSide& side, int agreeing, int other) const {

@@ -65,9 +65,21 @@ class StarPools {
     }
   }
 
-  struct Pooled {
-    int high;  ///< larger vertex
-    StarSide side;
+  class Pooled {
+   public:
+    Pooled() = default;
+    Pooled(int high, const StarSide& side)
+        : high_(high), star_(side.star), entry_and_side_(4 * static_cast<unsigned>(side.entry) + side.side) {}
+
+    /// The larger vertex.
+    int high() const { return high_; }
+    StarSide side() const {
+      return {star_, static_cast<int>(entry_and_side_ / 4), static_cast<int>(entry_and_side_ % 4)};
+    }
+
+   private:
+    int high_, star_;
+    unsigned entry_and_side_;  // there are fewer than 2^30 entries
   };
 
  private:
