@@ -51,6 +51,11 @@ struct HeightSolutions {
   alignas(64) double least_pivot[kernel_lane], most_pivot[kernel_lane];
 };
 
+/// Unit vectors, one per lane, or zeros.
+struct Normals {
+  alignas(64) double x[kernel_lane], y[kernel_lane], z[kernel_lane];
+};
+
 /// Heights that are reached from 0 over gaps of a bounded size, and the extremes of all.
 struct Reached {
   double lowest, highest;
@@ -125,6 +130,10 @@ struct Kernels {
   /// Heights along `normal`, and which of them are reached over gaps of at most `gap`.
   /// @param[out] heights room for whole lanes
   Reached (*reachHeights)(const Offsets& offsets, const double* normal, double gap, double* heights);
+  /// The same along each normal.
+  /// @param[out] heights of each offset one lane, in which normals are side by side
+  /// @param[out] reached one lane
+  void (*reachAlong)(const Offsets& offsets, const Normals& normals, double gap, double* heights, Reached* reached);
   /// Puts those from the lowest to the highest height to the front, filled up to whole lanes with zeros.
   /// @param[out] x, y, z room for whole lanes; may be what is given
   /// @returns how many

@@ -1,6 +1,7 @@
 // The kernels, compiled once for each kind of processor: TUFTED_KERNELS names the table to define.
 #include "cloud/inverted_hull.h"
 #include "cloud/kernels.h"
+#include "cloud/reached_heights.h"
 
 namespace tufted {
 namespace {
@@ -189,60 +190,6 @@ void solveHeights(const HeightSystems& systems, HeightSolutions& solutions) {
   store(largest, solutions.most_pivot);
 }
 
-/// How far one comes from 0, up and down, over gaps of at most `gap` between the heights. Each round goes as far as one
-/// gap reaches, and two go farther than that: there are few.
-void reachFarthest(const double* heights, int count, double gap, Reached& reached) {
-  double high = 0, low = 0;
-  bool goes_up = reached.top > gap, goes_down = -reached.bottom > gap;
-  while (goes_up || goes_down) {
-    Lane next_high = all(high), next_low = all(low);
-    for (int i = 0; i < count; i += lane_size) {
-      const Lane height = load(heights + i);
-      next_high = select(both(isAtMost(height - all(high), all(gap)), isLess(next_high, height)), height, next_high);
-      next_low = select(both(isAtMost(all(low) - height, all(gap)), isLess(height, next_low)), height, next_low);
-    }
-    const double up = most(next_high), down = least(next_low);
-    goes_up = up > high && reached.top - up > gap;
-    goes_down = down < low && down - reached.bottom > gap;
-    high = up;
-    low = down;
-  }
-  reached.highest = reached.top - high > gap ? high : reached.top;
-  reached.lowest = low - reached.bottom > gap ? low : reached.bottom;
-}
-
-Reached reachHeights(const Offsets& given, const double* normal, double gap, double* heights) {
-  const Offsets offsets = given;  // a copy, which what is written below cannot change
-  const Lane x = all(normal[0]), y = all(normal[1]), z = all(normal[2]);
-  Lane top = all(0), bottom = all(0);
-  for (int i = 0; i < offsets.count; i += lane_size) {
-    const Lane height = load(offsets.x + i) * x + (load(offsets.y + i) * y + load(offsets.z + i) * z);
-    store(height, heights + i);
-    top = most(top, height);
-    bottom = least(bottom, height);
-  }
-  Reached reached{0, 0, least(bottom), most(top)};
-  reachFarthest(heights, offsets.count, gap, reached);
-  return reached;
-}
-
-int keepReached(const Offsets& given, const double* heights, const Reached& given_reached, double* x, double* y,
-                double* z) {
-  const Offsets offsets = given;  // copies, which what is written below cannot change
-  const Lane lowest = all(given_reached.lowest), highest = all(given_reached.highest);
-  int kept = 0;
-  for (int i = 0; i < offsets.count; i += lane_size) {
-    const Lane height = load(heights + i);
-    const Mask are = both(firstOf(offsets.count - i), both(isAtMost(lowest, height), isAtMost(height, highest)));
-    squeeze(are, load(offsets.x + i), x + kept);
-    squeeze(are, load(offsets.y + i), y + kept);
-    squeeze(are, load(offsets.z + i), z + kept);
-    kept += countOf(are);
-  }
-  for (int i = kept; i % lane_size != 0; ++i) x[i] = y[i] = z[i] = 0;
-  return kept;
-}
-
 constexpr double least_gap = 1e-3;  // between the two smallest eigenvalues over the largest, for the closed form
 constexpr int most_steps = 8;
 
@@ -337,7 +284,8 @@ void measureFans(const Fans& given, double added) {
 }  // namespace
 
 extern const Kernels TUFTED_KERNELS;
-const Kernels TUFTED_KERNELS = {takeWithin,   rankValues,  extent,       sumOffsets, sumHeights,  solveHeights,
-                                reachHeights, keepReached, findSmallest, project,    measureFans, wrapInvertedLanes};
+const Kernels TUFTED_KERNELS = {takeWithin,   rankValues,   extent,           sumOffsets,  sumHeights,
+                                solveHeights, reachHeights, reachAlong,       keepReached, findSmallest,
+                                project,      measureFans,  wrapInvertedLanes};
 
 }  // namespace tufted

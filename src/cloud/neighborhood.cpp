@@ -56,12 +56,16 @@ void saveAll(const Neighborhood& hood, const OffsetBuffer& offsets, HoodScratch&
   scratch.offsets_of_all = offsets;
 }
 
+bool isWhole(const Reached& reached) {
+  return reached.lowest <= reached.bottom && reached.highest >= reached.top;
+}
+
 /// Whether all neighbours are reached from p, along `normal`, over gaps of at most a quarter of the reach. Leaves their
 /// heights, and which of them are.
 bool isOneSheet(const Offsets& neighbors, const Eigen::Vector3d& normal, double reach, HoodScratch& scratch) {
   scratch.heights.resize(static_cast<std::size_t>(toLanes(neighbors.count)));
   scratch.sheet = kernels().reachHeights(neighbors, normal.data(), sheet_gap * reach, scratch.heights.data());
-  return scratch.sheet.lowest <= scratch.sheet.bottom && scratch.sheet.highest >= scratch.sheet.top;
+  return isWhole(scratch.sheet);
 }
 
 /// Those of the neighbours last looked at that are reached.
@@ -213,17 +217,30 @@ bool NeighborhoodFinder::findSheet(const PrincipalAxes& before, Neighborhood& ho
   const OffsetBuffer& all = is_cut ? scratch.offsets_of_all : offsets;
   const Offsets corners = all.view();
   const auto corner = [&corners](int i) { return Eigen::Vector3d(corners.x[i], corners.y[i], corners.z[i]); };
-  std::array<Eigen::Vector3d, HoodScratch::most_tried> normals;
-  std::size_t count = 0;
+  Normals planes{};
+  std::size_t plane_count = 0;
   for (int i = 1; i < std::min(corners.count, most_corners); ++i) {
     for (int j = 0; j < i; ++j) {
       const Eigen::Vector3d u = corner(i), v = corner(j), normal = u.cross(v);
-      if (!(normal.norm() > least_sine * u.norm() * v.norm())) continue;
-      normals[count] = normal.normalized();
-      if (isOneSheet(corners, normals[count], hood.reach, scratch)) continue;
-      scratch.tried[count].takeReached(all, scratch.heights.data(), scratch.sheet);
-      if (scratch.tried[count].count() + 1 >= least_plane) ++count;
+      const double length = normal.norm();
+      if (!(length > least_sine * u.norm() * v.norm())) continue;
+      planes.x[plane_count] = normal.x() / length;
+      planes.y[plane_count] = normal.y() / length;
+      planes.z[plane_count++] = normal.z() / length;
     }
+  }
+  std::array<Reached, kernel_lane> reached;
+  scratch.heights.resize(static_cast<std::size_t>(toLanes(corners.count)));
+  scratch.heights_along.resize(static_cast<std::size_t>(kernel_lane * corners.count));
+  kernels().reachAlong(corners, planes, sheet_gap * hood.reach, scratch.heights_along.data(), reached.data());
+  std::array<Eigen::Vector3d, HoodScratch::most_tried> normals;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < plane_count; ++i) {
+    if (isWhole(reached[i])) continue;
+    for (int j = 0; j < corners.count; ++j) scratch.heights[j] = scratch.heights_along[kernel_lane * j + i];
+    scratch.tried[count].takeReached(all, scratch.heights.data(), reached[i]);
+    if (scratch.tried[count].count() + 1 < least_plane) continue;
+    normals[count++] = {planes.x[i], planes.y[i], planes.z[i]};
   }
 
   // What a plane through three points reaches has a plane of its own, along which it is cut once more.
@@ -231,13 +248,19 @@ bool NeighborhoodFinder::findSheet(const PrincipalAxes& before, Neighborhood& ho
   std::array<PrincipalAxes, HoodScratch::most_tried> first_axes, axes;
   for (std::size_t i = 0; i < count; ++i) covariances[i] = covarianceOf(scratch.tried[i].view(), hood.radius);
   principalAxes(std::span(covariances).first(count), first_axes);
+  std::array<std::size_t, HoodScratch::most_tried> cut;
+  std::size_t cut_count = 0;
   for (std::size_t i = 0; i < count; ++i) {
     OffsetBuffer& tried = scratch.tried[i];
     if (isOneSheet(tried.view(), first_axes[i].normal, hood.reach, scratch)) continue;
     tried.takeReached(tried, scratch.heights.data(), scratch.sheet);
-    covariances[i] = covarianceOf(tried.view(), hood.radius);
+    covariances[cut_count] = covarianceOf(tried.view(), hood.radius);
+    cut[cut_count++] = i;
   }
-  principalAxes(std::span(covariances).first(count), axes);
+  std::array<PrincipalAxes, HoodScratch::most_tried> cut_axes;
+  principalAxes(std::span(covariances).first(cut_count), cut_axes);
+  axes = first_axes;
+  for (std::size_t i = 0; i < cut_count; ++i) axes[cut[i]] = cut_axes[i];
 
   std::size_t best = count;
   for (std::size_t i = 0; i < count; ++i) {

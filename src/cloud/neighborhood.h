@@ -37,6 +37,7 @@ struct HoodScratch {
   Buffer<Neighbor> found;
   OffsetBuffer offsets_of_all;
   Buffer<double> heights;
+  Buffer<double> heights_along;                ///< see Kernels::reachAlong
   Reached sheet;                               ///< see isOneSheet()
   Buffer<Neighbor> all;                        ///< before any were left out; empty while none were
   static constexpr int most_tried = 6;         ///< planes through p and two of four others

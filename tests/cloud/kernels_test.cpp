@@ -203,6 +203,38 @@ TEST(Kernels, ReachHeightsOverGapsThatAreNotTooWide) {
   EXPECT_GT(ends, 20);  // gaps on both sides
 }
 
+TEST(Kernels, ReachAlongEachNormalWhatIsReachedAlongItAlone) {
+  shapes::Random random(8);
+  int ends = 0;
+  for (int count = 0; count < 120; ++count) {
+    const int room = toLanes(count);
+    Buffer<double> x(room), y(room), z(room), height(room), along(static_cast<std::size_t>(kernel_lane) * count);
+    for (int i = 0; i < count; ++i) x[i] = random.normal(), y[i] = random.normal(), z[i] = random.normal();
+    const Offsets offsets{count, x.data(), y.data(), z.data()};
+    Normals normals{};  // one is zero
+    for (int j = 0; j + 1 < kernel_lane; ++j) {
+      const Eigen::Vector3d normal = Eigen::Vector3d(random.normal(), random.normal(), random.normal()).normalized();
+      normals.x[j] = normal.x(), normals.y[j] = normal.y(), normals.z[j] = normal.z();
+    }
+    const double gap = 4.0 / (count + 1);
+    for (const Kernels* kernel : {&portableKernels(), &kernels()}) {
+      std::array<Reached, kernel_lane> reached;
+      kernel->reachAlong(offsets, normals, gap, along.data(), reached.data());
+      for (int j = 0; j < kernel_lane; ++j) {
+        const std::array<double, 3> normal = {normals.x[j], normals.y[j], normals.z[j]};
+        const Reached alone = portableKernels().reachHeights(offsets, normal.data(), gap, height.data());
+        EXPECT_EQ(reached[j].highest, alone.highest) << count;
+        EXPECT_EQ(reached[j].lowest, alone.lowest) << count;
+        EXPECT_EQ(reached[j].top, alone.top) << count;
+        EXPECT_EQ(reached[j].bottom, alone.bottom) << count;
+        for (int i = 0; i < count; ++i) ASSERT_EQ(along[kernel_lane * i + j], height[i]);
+        ends += alone.highest < alone.top && alone.lowest > alone.bottom ? 1 : 0;
+      }
+    }
+  }
+  EXPECT_GT(ends, 100);  // gaps on both sides
+}
+
 TEST(Kernels, MeasureTrianglesByTheFormulasOfGeometry) {
   constexpr int count = 37;
   constexpr double added = 0.25;
