@@ -112,10 +112,9 @@ class RangeFlipper {
     while (!queue_.empty()) {  // depth first
       const int side = queue_.back(), mate = t.glue[side];
       queue_.pop_back();
-      std::uint8_t& state = cover_.state(side);
-      state &= static_cast<std::uint8_t>(~queued_flag);
+      cover_.state(side) &= static_cast<std::uint8_t>(~queued_flag);
       if (isDelaunay(t, side, mate)) continue;
-      if (state >= most_flips) {
+      if (cover_.state(side) >= most_flips) {
         ++counts.failures;
         continue;
       }
@@ -126,7 +125,7 @@ class RangeFlipper {
       }
       flip(t, side, mate);
       cover_.flipped(side, mate);
-      ++state;
+      ++cover_.state(side);  // not where it was before, if faces were added
       if (++counts.flips % report_every == 0)
         report(1 - static_cast<double>(queue_.size()) / static_cast<double>(t.glue.size()));
       for (const int o : outer) push(o);
