@@ -10,7 +10,7 @@
 
 namespace tufted {
 
-/// What collects the points that a KdForest finds. Only those nearer than worstDist() are shown to it.
+/// What collects the points that a KdForest finds: all that are nearer than worstDist(), and others.
 class RankSet : public flann::ResultSet<double> {
  protected:
   /// @param index as shown to addPoint()
@@ -23,7 +23,7 @@ class RankSet : public flann::ResultSet<double> {
 
 /// FLANN's KDTreeSingleIndex in double over consecutive points, a tree for each thread that may build one.
 ///
-/// What is found does not depend on the number of trees, but its order does.
+/// The order in which points are found depends on the number of trees, and which are found beyond the last worstDist().
 class KdForest : public InWorkspace {
  public:
   /// @param points n x 3, n > 0; borrowed for the life of the forest

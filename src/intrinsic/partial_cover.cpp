@@ -164,14 +164,15 @@ bool PartialCover::resolve(int side, const SideRange& range) {
 }
 
 void PartialCover::reserve(const Buffer<Buffer<FlipSeed>>& seeds, const Workers& workers) {
-  // Flips stay near the points that disagree. What is reserved but not used costs no memory; growing later would.
+  // Flips stay near the points that disagree. What is reserved but not used costs next to no memory; growing would.
   block_begin_.assign(seeds.size() + 1, 0);
   workers.forBlocks("flips", stars_.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
-    const auto degree = [this](std::int64_t p) { return stars_.offset[p + 1] - stars_.offset[p]; };
-    int room = 1;  // by which blocks are told apart
+    const auto degree = [this](std::int64_t p) { return std::int64_t{stars_.offset[p + 1]} - stars_.offset[p]; };
+    std::int64_t room = 1;  // by which blocks are told apart
     for (const FlipSeed& seed : seeds[begin / block_size]) room += degree(seed.side.star);
     for (std::int64_t p = begin; p < end; ++p) room += stars_.disagrees[p] != 0 ? 2 * degree(p) : 0;
-    block_begin_[begin / block_size + 1] = std::min(room, stars_.offset[end] - stars_.offset[begin] + 1);
+    const std::int64_t all = std::int64_t{stars_.offset[end]} - stars_.offset[begin] + 1;
+    block_begin_[begin / block_size + 1] = static_cast<int>(std::min(room, all));
   });
   std::partial_sum(block_begin_.begin(), block_begin_.end(), block_begin_.begin());
   next_.assign(block_begin_.begin(), block_begin_.end() - 1);

@@ -50,10 +50,13 @@ void checkOptions(const Points& points, const CloudOptions& options) {
 #endif
 }
 
-[[noreturn]] void tooMany(std::int64_t points, std::int64_t triangles) {
-  throw InvalidInput(std::string(function_name) + ": " + std::to_string(points) + " points in stars of " +
-                     std::to_string(triangles) + " triangles, must be at most " + std::to_string(most_triangles) +
-                     " triangles (about 59 million points)");
+/// Of the links of all stars; somewhat fewer than triangles that have numbers, since flips keep some in reserve.
+constexpr std::int64_t most_entries = most_triangles - most_triangles / 64;
+
+[[noreturn]] void tooMany(std::int64_t points, std::int64_t entries) {
+  throw InvalidInput(std::string(function_name) + ": " + std::to_string(points) + " points with " +
+                     std::to_string(entries) + " neighbours in their stars, must be at most " +
+                     std::to_string(most_entries) + " neighbours (about 58 million points)");
 }
 
 /// The union of all stars, front and back of every copy of a triangle. With `Gluing::star` the two faces of a star that
@@ -170,7 +173,7 @@ void buildCloudLaplacian(const Points& points, const CloudOptions& options, Clou
   StageClock clock(report);
 
   RankedCloud cloud = rankPoints(points, result.status, result.representative, workers);
-  if (cloud.size() > most_triangles / 6) tooMany(cloud.size(), 6 * static_cast<std::int64_t>(cloud.size()));
+  if (cloud.size() > most_entries / 6) tooMany(cloud.size(), 6 * static_cast<std::int64_t>(cloud.size()));
   clock.finish("order", static_cast<std::size_t>(cloud.size()) * (3 * sizeof(double) + sizeof(int)));
 
   NeighborSource source = neighborSource(options, cloud, result.status, result.representative, workers, report);
@@ -188,9 +191,7 @@ void buildCloudLaplacian(const Points& points, const CloudOptions& options, Clou
   const bool has_own_areas = options.steps.mass == Mass::star;
   const Buffer<int> caller = has_own_areas ? cloud.caller : Buffer<int>();
   const int exponent = cloud.exponent;
-  // Link entries, since numbers are kept for some that have no triangle; and a few more.
-  const auto most_numbered = static_cast<std::size_t>(most_triangles - most_triangles / 64);
-  if (stars.link.size() > most_numbered) tooMany(stars.size(), stars.triangles());
+  if (std::ssize(stars.link) > most_entries) tooMany(stars.size(), std::ssize(stars.link));
   Buffer<double> areas;
   const bool stars_agree = options.gluing == Gluing::star && options.order == FaceOrder::angle;
   if (stars_agree && build == CloudBuild::automatic) {
