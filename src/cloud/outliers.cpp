@@ -63,10 +63,9 @@ void isolateOutliers(Stars& stars, const RankedCloud& cloud, const NeighborSourc
     found = false;
     workers.forBlocks("outliers", stars.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
       Buffer<Neighbor> neighbors;
-      SearchBefore before;
       for (int p = static_cast<int>(begin); p < end; ++p) {
         if (verdicts[p] != untried || !isSuspect(stars, cloud.points, p, round > 0)) continue;
-        source.nearest(cloud.points, p, source.k, neighbors, NeighborOrder::ascending, &before);
+        source.nearest(cloud.points, p, source.k, neighbors);
         verdicts[p] = isOutlier(stars, cloud.points, p, neighbors) ? outlier : sound;
       }
     });

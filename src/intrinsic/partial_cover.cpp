@@ -2,13 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <numeric>
+#include <utility>
 
 #include "base/buffer.h"
 #include "intrinsic/flip_edges.h"
 #include "intrinsic/flip_seeds.h"
-#include "intrinsic/geometry.h"
 
 namespace tufted {
 namespace {
@@ -66,7 +65,7 @@ class Flipping {
   template <class Push>
   void start(std::int64_t block, const Push& push) {
     for (const FlipSeed& seed : seeds_[block])
-      if (!cover_.isPresent(seed.side.star)) cover_.add(seed.side.star);  // while there is room for them
+      if (!cover_.isPresent(seed.side.star)) cover_.add(seed.side.star, false);  // while there is room for them
     for (const FlipSeed& seed : seeds_[block]) {
       const bool up = cover_.runsUp(seed.side);
       if (seed.is_plus) push(cover_.sideNumber(seed.side, up, cover_.first_));
@@ -101,16 +100,12 @@ void PartialCover::makeRoom(std::size_t triangles) {
   cover_.length.resize(6 * triangles);
 }
 
-bool PartialCover::hasRoom(int p) const {
-  const int block = p / block_size;
-  return next_[block] + trianglesBefore(stars_, p, stars_.offset[p + 1]) <= block_begin_[block + 1];
-}
-
-void PartialCover::add(int p) {
-  const int count = trianglesBefore(stars_, p, stars_.offset[p + 1]);
-  if (hasRoom(p)) {
-    first_[p] = std::exchange(next_[p / block_size], next_[p / block_size] + count);
+bool PartialCover::add(int p, bool may_grow) {
+  const int block = p / block_size, count = trianglesBefore(stars_, p, stars_.offset[p + 1]);
+  if (next_[block] + count <= block_begin_[block + 1]) {
+    first_[p] = std::exchange(next_[block], next_[block] + count);
   } else {
+    if (!may_grow) return false;
     first_[p] = static_cast<int>(entry_of_.size());
     makeRoom(entry_of_.size() + count);
   }
@@ -131,6 +126,7 @@ void PartialCover::add(int p) {
     ++t;
   }
   forEachSpoke(stars_, p, first_[p], [&](int before, int after) { glueSpoke(cover_, before, after); });
+  return true;
 }
 
 StarSide PartialCover::starSide(int side) const {
@@ -155,10 +151,7 @@ bool PartialCover::resolve(int side, const SideRange& range) {
   const bool is_plus = runsUp(here) == (side % 6 < 3);
   const StarSide there = mateOf(here, is_plus);
   if (!range.contains(6 * block_begin_[there.star / block_size])) return false;
-  if (!isPresent(there.star)) {
-    if (!hasRoom(there.star) && !range.isWhole()) return false;
-    add(there.star);
-  }
+  if (!isPresent(there.star) && !add(there.star, range.isWhole())) return false;
   glueSides(cover_, side, sideNumber(there, runsUp(there) != is_plus, first_));
   return true;
 }
@@ -208,9 +201,9 @@ FlipCounts PartialCover::flipToDelaunay(const StarMetric& metric, const Workers&
 std::size_t PartialCover::bytes() const {
   constexpr std::size_t of_triangle = 2 * sizeof(cover_.faces[0]) + 6 * sizeof(cover_.glue[0]) +
                                       6 * sizeof(cover_.length[0]) + sizeof(entry_of_[0]) + 6 * sizeof(state_[0]);
-  std::size_t triangles = 0;
-  for (int p = 0; p < stars_.size(); ++p)
-    if (isPresent(p)) triangles += trianglesBefore(stars_, p, stars_.offset[p + 1]);
+  if (next_.empty()) return 0;
+  std::size_t triangles = entry_of_.size() - block_begin_.back();  // behind the ranges
+  for (std::size_t b = 0; b < next_.size(); ++b) triangles += next_[b] - block_begin_[b];
   return of_triangle * triangles;
 }
 

@@ -61,10 +61,8 @@ class PartialCover {
   /// Sets the ranges of the blocks.
   void reserve(const Buffer<Buffer<FlipSeed>>& seeds, const Workers& workers);
   void makeRoom(std::size_t triangles);
-  /// Whether star p fits into the range of its block.
-  bool hasRoom(int p) const;
-  /// Adds a star behind all ranges if need be.
-  void add(int p);
+  /// Adds a star. Where it does not fit into the range of its block it goes behind all if that `may_grow`, else false.
+  bool add(int p, bool may_grow);
   /// Whether the side is glued; if not it is, unless that takes a star of a block outside the range, or one that does
   /// not fit into the range of its block.
   bool resolve(int side, const SideRange& range);

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <numeric>
-#include <utility>
 
 #include "cloud/agreement.h"
 #include "intrinsic/fan_buffer.h"

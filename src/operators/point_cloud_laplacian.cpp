@@ -92,7 +92,7 @@ void addStars(const Stars& stars, Gluing gluing, IntrinsicTriangulation& cover, 
   });
 }
 
-/// Boundary tags and normals in the caller's order; coincident points take the frame of their representative.
+/// Boundary tags and normals in the caller's order; coincident points take the normal of their representative.
 void describePoints(const Stars& stars, const Buffer<Boundary>& boundary, const RankedCloud& cloud,
                     const Workers& workers, Laplacian& result) {
   const auto n = static_cast<Eigen::Index>(result.status.size());
