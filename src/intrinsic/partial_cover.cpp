@@ -44,6 +44,21 @@ void glueSpoke(Triangulation& cover, int before, int after) {
   glueSides(cover, backSide(before, 2), backSide(after, 0));
 }
 
+/// Calls visit(i, a, b, lengths of the sides p a, a b, b p) for each triangle (p, a, b), with the link entry of a.
+template <class Visit>
+void forEachTriangle(const Stars& stars, const EdgeLengths& length, int p, const Visit& visit) {
+  int measured = -1;  // link entry of a spoke, and its length
+  double spoke = 0;
+  for (int i = stars.offset[p]; i < stars.offset[p + 1]; ++i) {
+    if (!stars.hasTriangle(i)) continue;
+    const int next = stars.after(p, i), a = stars.link[i], b = stars.link[next];
+    const double from_p = measured == i ? spoke : length(p, a);
+    spoke = length(b, p);
+    measured = next;
+    visit(i, a, b, std::array{from_p, length(a, b), spoke});
+  }
+}
+
 /// @param side_length of the sides 0, 1 and 2 of the front
 template <class Triangulation>
 void setLengths(Triangulation& cover, int t, const std::array<double, 3>& side_length) {
@@ -110,21 +125,14 @@ bool PartialCover::add(int p, bool may_grow) {
     makeRoom(entry_of_.size() + count);
   }
   int t = first_[p];
-  int measured = -1;  // link entry of a spoke, and its length
-  double spoke = 0;
-  for (int i = stars_.offset[p]; i < stars_.offset[p + 1]; ++i) {
-    if (!stars_.hasTriangle(i)) continue;
-    const int next = stars_.after(p, i), a = stars_.link[i], b = stars_.link[next];
-    const double from_p = measured == i ? spoke : length_(p, a);
-    spoke = length_(b, p);
-    measured = next;
+  forEachTriangle(stars_, length_, p, [&](int i, int a, int b, const std::array<double, 3>& side_length) {
     entry_of_[t] = i;
     addTriangle(cover_, t, p, a, b);
-    setLengths(cover_, t, {from_p, length_(a, b), spoke});
+    setLengths(cover_, t, side_length);
     std::fill_n(cover_.glue.begin() + 6 * t, 6, unglued);
     std::fill_n(state_.begin() + 6 * t, 6, std::uint8_t{0});
     ++t;
-  }
+  });
   forEachSpoke(stars_, p, first_[p], [&](int before, int after) { glueSpoke(cover_, before, after); });
   return true;
 }
@@ -235,23 +243,21 @@ void PartialCover::dropFaces() {
 
 void PartialCover::fillStar(int p, const Buffer<int>& first, IntrinsicTriangulation& whole) const {
   int t = first[p];
-  for (int i = stars_.offset[p]; i < stars_.offset[p + 1]; ++i) {
-    if (!stars_.hasTriangle(i)) continue;
-    addTriangle(whole, t, p, stars_.link[i], stars_.link[stars_.after(p, i)]);
-    const auto& [a, b, c] = whole.faces[2 * t];
-    setLengths(whole, t, {length_(a, b), length_(b, c), length_(c, a)});
+  forEachTriangle(stars_, length_, p, [&](int i, int a, int b, const std::array<double, 3>& side_length) {
+    addTriangle(whole, t, p, a, b);
+    setLengths(whole, t, side_length);
     for (int s = 0; s < 3; ++s) {
       const StarSide side{p, i, s};
       const int neighbor = s == 0 ? before(stars_, p, i) : stars_.after(p, i);
       if (s != 1 && stars_.hasTriangle(neighbor)) continue;  // a spoke between two triangles
-      for (const bool is_front : {true, false}) {
-        const bool is_plus = runsUp(side) == is_front;
-        const StarSide mate = mateOf(side, is_plus);
-        whole.glue[is_front ? frontSide(t, s) : backSide(t, s)] = sideNumber(mate, runsUp(mate) != is_plus, first);
-      }
+      const bool is_up = runsUp(side);
+      const StarSide at_front = mateOf(side, is_up);
+      const StarSide at_back = pools_.isPooled(side) ? mateOf(side, !is_up) : at_front;  // of two faces
+      whole.glue[frontSide(t, s)] = sideNumber(at_front, runsUp(at_front) != is_up, first);
+      whole.glue[backSide(t, s)] = sideNumber(at_back, runsUp(at_back) == is_up, first);
     }
     ++t;
-  }
+  });
   forEachSpoke(stars_, p, first[p], [&](int before, int after) { glueSpoke(whole, before, after); });
 }
 
