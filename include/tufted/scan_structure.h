@@ -9,8 +9,8 @@ namespace tufted {
 
 /// How a scanner took the points of a cloud: in rows, each point at a place along its row. Rows are those of an image
 /// or the rings of a spinning scanner; consecutive rows were taken side by side. With it neighbours are found without a
-/// tree, and on rings however far apart those are. See imageStructure(), ringStructure()
-/// and findRings().
+/// tree, and on rings however far apart those are. The part of an image that holds points must have at most 2^24
+/// pixels or 64 per entry. See imageStructure(), ringStructure() and findRings().
 struct ScanStructure {
   std::vector<int> row;          ///< N; row of the image or number of the ring; negative: the point has no place
   std::vector<double> position;  ///< N; column of the image, or azimuth in radians; not finite: the point has no place

@@ -32,18 +32,30 @@ class ImageSearch final : public ScanSearch {
  public:
   ImageSearch(const RankedScan& scan, const RankedCloud& cloud)
       : origin_(scan.origin.transpose()), place_(scan.row.size(), -1) {
+    // Only of the part of the image that holds points.
+    std::int64_t first_row = INT32_MAX, first_column = INT32_MAX;
     for (int p = 0; p < cloud.size(); ++p) {
       if (scan.row[p] < 0) continue;
       ++places_;
-      rows_ = std::max<std::int64_t>(rows_, scan.row[p] + std::int64_t(1));
-      columns_ = std::max<std::int64_t>(columns_, static_cast<std::int64_t>(scan.position[p]) + 1);
+      const std::int64_t row = scan.row[p], column = static_cast<std::int64_t>(scan.position[p]);
+      first_row = std::min(first_row, row);
+      first_column = std::min(first_column, column);
+      rows_ = std::max(rows_, row + 1);
+      columns_ = std::max(columns_, column + 1);
     }
-    if (rows_ * columns_ > std::max(most_pixels, pixels_per_point * places_)) {
-      throw InvalidInput("pointCloudLaplacian: structure places " + std::to_string(places_) + " points in " +
+    if (places_ > 0) {
+      rows_ -= first_row;
+      columns_ -= first_column;
+    }
+    // By what the caller gave: how many of the points are usable must not decide.
+    if (rows_ * columns_ > std::max(most_pixels, pixels_per_point * scan.entries)) {
+      throw InvalidInput("pointCloudLaplacian: structure places " + std::to_string(scan.entries) + " points in " +
                          std::to_string(rows_) + " rows of " + std::to_string(columns_) +
                          " columns, must be at most 64 pixels per point");
     }
-    const auto pixelOf = [&](int p) { return scan.row[p] * columns_ + static_cast<std::int64_t>(scan.position[p]); };
+    const auto pixelOf = [&](int p) {
+      return (scan.row[p] - first_row) * columns_ + static_cast<std::int64_t>(scan.position[p]) - first_column;
+    };
     begin_.assign(static_cast<std::size_t>(rows_ * columns_) + 1, 0);
     for (int p = 0; p < cloud.size(); ++p)
       if (scan.row[p] >= 0) ++begin_[pixelOf(p) + 1];
@@ -62,7 +74,8 @@ class ImageSearch final : public ScanSearch {
       points_.row(place) = cloud.points.row(p);
     }
     row_.resize(rank_.size());
-    for (int place = 0; place < static_cast<int>(places_); ++place) row_[place] = scan.row[rank_[place]];
+    for (int place = 0; place < static_cast<int>(places_); ++place)
+      row_[place] = static_cast<int>(scan.row[rank_[place]] - first_row);
     findJumps();
   }
 

@@ -47,7 +47,7 @@ RankedScan rankScan(const ScanStructure& structure, const RankedCloud& cloud, co
   }
   Buffer<int> rank(status.size(), -1);
   for (int r = 0; r < cloud.size(); ++r) rank[cloud.caller[r]] = r;
-  RankedScan scan{Buffer<int>(cloud.size(), -1), Buffer<double>(cloud.size(), 0), {}};
+  RankedScan scan{Buffer<int>(cloud.size(), -1), Buffer<double>(cloud.size(), 0), {}, std::ssize(status)};
   for (int axis = 0; axis < 3; ++axis) scan.origin[axis] = std::ldexp(structure.origin[axis], -cloud.exponent);
   for (std::size_t i = 0; i < status.size(); ++i) {
     const int p = rank[representative[i]];

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -39,6 +40,7 @@ struct RankedScan {
   Buffer<int> row;          ///< n, -1: no place
   Buffer<double> position;  ///< n
   Eigen::Vector3d origin;   ///< in units of the cloud
+  std::int64_t entries;     ///< of the structure: points of the caller, those that are not usable too
 };
 
 /// Brings a structure into rank order; of coincident points that with the smallest row and position stands for all.

@@ -123,6 +123,32 @@ TEST(ImageStructure, FindsNeighborsAcrossPixelsWithoutAPoint) {
   EXPECT_NEAR(laplacian.report.area, (side - 1) * (side - 1), 1e-9 * side * side);
 }
 
+TEST(ImageStructure, OfFewUsablePointsIsAnImageAllTheSame) {
+  // More than 2^24 pixels, and 64 for each entry but not for each point that is finite.
+  const int width = 20000, height = 900, entries = 300000;
+  Points points = Points::Constant(entries, 3, std::numeric_limits<double>::quiet_NaN());
+  ScanStructure structure = imageStructure(entries, 1);
+  for (int i = 0; i < entries; ++i) {
+    structure.row[i] = i % height;
+    structure.position[i] = (i * 67LL) % width;
+  }
+  structure.row.front() = 0, structure.position.front() = 0;
+  structure.row.back() = height - 1, structure.position.back() = width - 1;
+  for (const int i : {0, entries - 1}) points.row(i) << structure.position[i], structure.row[i], 1000;
+  EXPECT_EQ(build(points, structure).report.isolated, 2);
+  structure.position.back() = 100 * width;
+  EXPECT_THROW(build(points, structure), InvalidInput);
+}
+
+TEST(ImageStructure, OfAPartFarFromTheFirstPixelIsThatOfThePart) {
+  const shapes::Cloud camera = shapes::depthCamera({.width = 64, .height = 48});
+  const ScanStructure image = imageStructure(64, 48);
+  ScanStructure part = image;
+  for (int& row : part.row) row += 1 << 30;
+  for (double& column : part.position) column += 1 << 30;
+  EXPECT_TRUE(support::sameBits(build(camera.points, part).L, build(camera.points, image).L));
+}
+
 TEST(RingStructure, OfTwoPointsEachIsAStrip) {
   Points points(2 * 40, 3);
   std::vector<int> ring;
