@@ -8,6 +8,7 @@
 
 #include "base/buffer.h"
 #include "base/point_buffer.h"
+#include "base/power_of_two.h"
 #include "cloud/agreement.h"
 
 namespace tufted {
@@ -52,9 +53,12 @@ struct SquaredRadius {
   double numerator, denominator;
 
   SquaredRadius(const PointsView& points, int p, int a, int b, double length) {
-    const Eigen::Vector3d u = points.row(a) - points.row(p), v = points.row(b) - points.row(p);
+    // In a unit near `length`: sixth powers of what the points are scaled to may leave the range of a double.
+    const double unit = magnitudeOf(length), in_units = 1 / unit, measure = length * in_units;
+    const Eigen::Vector3d u = in_units * (points.row(a) - points.row(p)),
+                          v = in_units * (points.row(b) - points.row(p));
     numerator = u.squaredNorm() * v.squaredNorm() * (u - v).squaredNorm();
-    denominator = 4 * u.cross(v).squaredNorm() * (length * length);
+    denominator = 4 * u.cross(v).squaredNorm() * (measure * measure);
   }
   bool isAtMost(double square) const { return denominator > 0 && numerator <= square * denominator; }
 };

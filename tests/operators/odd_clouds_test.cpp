@@ -149,6 +149,24 @@ TEST(OddCloud, TinyAndHugeScalesChangeOnlyTheUnit) {
   }
 }
 
+TEST(OddCloud, PiecesOfAnyScaleAreTreatedAlike) {
+  // Noise has triangles that the votes condemn. L is not compared: where copies of one triangle end a star, the order
+  // that they are glued in goes by rank.
+  Points points = shapes::withNoise(shapes::square(2000), 0.02).points;
+  points.array() += 1;
+  const auto n = points.rows();
+  const Laplacian one = build(points, {.mollify = 0});
+  EXPECT_GT(one.report.dropped_triangles, 0);
+  for (const double scale : {0x1p-20, 0x1p-190, 0x1p190}) {
+    const Laplacian both = build(stack(points, scale * points), {.mollify = 0});
+    EXPECT_EQ(both.report.components, 2) << scale;
+    EXPECT_EQ(both.report.dropped_triangles, 2 * one.report.dropped_triangles) << scale;
+    for (int v = 0; v < 3; ++v) EXPECT_EQ(both.report.votes[v], 2 * one.report.votes[v]) << scale;
+    EXPECT_TRUE(both.M.head(n).isApprox(one.M, 1e-12)) << scale;
+    EXPECT_TRUE((both.M.tail(n) / (scale * scale)).isApprox(one.M, 1e-12)) << scale;
+  }
+}
+
 TEST(OddCloud, AllOddAtOnce) {
   Points points = stack(sphere(1000), Points(sphere(1000) * 1e-3));
   points = stack(points, Points(points.topRows(200)));
