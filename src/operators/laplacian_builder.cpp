@@ -16,6 +16,7 @@ struct LaplacianBuilder::State {
       build();
     } catch (...) {
       forget();
+      workspace.trim();
       throw;
     }
     workspace.trim();

@@ -138,6 +138,14 @@ TEST(LaplacianBuilder, FramesLikeOneAnotherHoldNoMoreAndMore) {
   EXPECT_EQ(builder.bytes(), 0);
 }
 
+TEST(LaplacianBuilder, FramesThatFailHoldNothing) {
+  LaplacianBuilder builder;
+  builder.pointCloud(shapes::sphere(5000).points);
+  for (int frame = 0; frame < 2; ++frame)
+    EXPECT_THROW(builder.pointCloud(shapes::sphere(100).points, {.neighbors = 2}), InvalidInput);
+  EXPECT_EQ(builder.bytes(), 0);
+}
+
 TEST(LaplacianBuilder, FramesThatGrowLeaveLittleBehind) {
   LaplacianBuilder builder;
   for (int points = 300; points <= 3000; points += 30) builder.pointCloud(shapes::sphere(points).points);
