@@ -17,12 +17,13 @@ struct CloudDescription {
   double spacing = 0;         ///< median distance to the nearest neighbour
   double spacing_low = 0;     ///< below which it is for one point in twenty
   double spacing_high = 0;    ///< above which it is for one point in twenty
-  double float_step = 0;      ///< distance of neighbouring floats at the farthest coordinate
+  double float_step = 0;      ///< distance of neighbouring floats at the farthest coordinate; infinite where none are;
+                              ///< not zero for a single point
   std::int64_t on_lines = 0;  ///< points whose k nearest neighbours lie on one line, as those on a scanner's rings do
   std::int64_t outliers = 0;  ///< points whose nearest neighbour is more than five times as far as is usual around them
   std::int64_t components = 0;  ///< of the graph that joins each point with its k nearest
   int neighbors = 0;            ///< k in use
-  double seconds = 0;           ///< that finding the neighbours took
+  double seconds = 0;           ///< that sorting the points and finding their neighbours took
 };
 
 /// Describes a cloud before a Laplacian is built on it, at the cost of finding the neighbours.

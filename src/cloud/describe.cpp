@@ -83,8 +83,9 @@ std::int64_t countComponents(const NeighborGraph& graph) {
   return components;
 }
 
-/// Distance of the float nearest to |x| from the next larger one.
+/// Distance of the float nearest to |x| from the next larger one; infinite where floats end before.
 double floatStep(double x) {
+  if (std::abs(x) >= std::numeric_limits<float>::max()) return std::numeric_limits<double>::infinity();
   const float value = std::abs(static_cast<float>(x));
   return static_cast<double>(std::nextafter(value, std::numeric_limits<float>::infinity())) -
          static_cast<double>(value);

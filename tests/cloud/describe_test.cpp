@@ -77,6 +77,7 @@ TEST(DescribeCloud, FloatsAreCoarseFarFromTheOrigin) {
   const CloudDescription far = describeCloud(points);
   EXPECT_EQ(far.float_step, 0.5);  // 5.4e6 lies between 2^22 and 2^23
   EXPECT_NEAR(far.spacing, describeCloud(shapes::sphere(1000).points).spacing, 1e-8);
+  EXPECT_EQ(describeCloud(0x1p130 * points).float_step, std::numeric_limits<double>::infinity());
 }
 
 TEST(DescribeCloud, TheUnitOfLengthIsTheCallers) {
