@@ -7,6 +7,7 @@
 #include <mutex>
 #include <numeric>
 #include <optional>
+#include <string>
 #include <utility>
 
 #include "base/buffer.h"
@@ -19,6 +20,7 @@
 #include "cloud/star_gap.h"
 #include "cloud/surface_moves.h"
 #include "cloud/tangent_frame.h"
+#include "tufted/errors.h"
 
 namespace tufted {
 namespace {
@@ -308,6 +310,10 @@ Stars buildStars(const RankedCloud& cloud, const NeighborSource& source, const C
     builder.build(begin, end, states[worker], noisy[number]);
     in_order.take(number, states[worker].block);
   });
+  if (std::ssize(stars.link) > INT32_MAX) {
+    throw InvalidInput("pointCloudLaplacian: " + std::to_string(stars.link.size()) +
+                       " neighbours in the stars of all points, must be at most " + std::to_string(INT32_MAX));
+  }
   std::partial_sum(stars.offset.begin(), stars.offset.end(), stars.offset.begin());
 
   for (const NoisyPoints& points : noisy) report.denoised += std::ssize(points.rank);

@@ -142,16 +142,18 @@ void lumpAreas(const IntrinsicTriangulation& cover, const Buffer<double>& areas,
 
 }  // namespace
 
+void requireNumbers(std::int64_t entries) {
+  if (entries <= INT32_MAX) return;
+  throw InvalidInput("pointCloudLaplacian and meshLaplacian: " + std::to_string(entries) +
+                     " entries of L, must be at most " + std::to_string(INT32_MAX) + ", what an int can number");
+}
+
 void assembleLaplacian(const IntrinsicTriangulation& cover, const Buffer<int>& caller, int size, double scale,
                        const Workers& workers, Laplacian& result) {
   Report& report = result.report;
   const Buffer<double> areas = faceAreas(cover, workers);
   UpperRows upper = sumWeights(cover, areas, scale, workers);
-  const auto most_entries = 2 * std::accumulate(upper.size.begin(), upper.size.end(), std::int64_t{0}) + cover.vertices;
-  if (most_entries > INT32_MAX) {
-    throw InvalidInput("assembleLaplacian: " + std::to_string(most_entries) + " entries of L, must be at most " +
-                       std::to_string(INT32_MAX) + ", what an int can number");
-  }
+  requireNumbers(2 * std::accumulate(upper.size.begin(), upper.size.end(), std::int64_t{0}) + cover.vertices);
   clampNegative(upper, sumDiagonal(upper), report);
   toCallerOrder(upper, sumDiagonal(upper), caller, size, result.L);
   upper = {};

@@ -48,10 +48,13 @@ Laplacian meshLaplacian(const Points& points, const Triangles& triangles, const 
 void buildMeshLaplacian(const Points& points, const Triangles& triangles, const MeshOptions& options,
                         Laplacian& result) {
   checkCommon(function_name, options);
-  if (points.rows() > INT32_MAX || triangles.rows() > most_triangles) {
-    throw InvalidInput(std::string(function_name) + ": " + std::to_string(triangles.rows()) +
-                       " triangles, must be at most " + std::to_string(most_triangles));
-  }
+  const auto requireAtMost = [](std::int64_t most, std::int64_t count, const char* what) {
+    if (count > most)
+      throw InvalidInput(std::string(function_name) + ": " + std::to_string(count) + " " + what + ", must be at most " +
+                         std::to_string(most));
+  };
+  requireAtMost(INT32_MAX, points.rows(), "points");
+  requireAtMost(most_triangles, triangles.rows(), "triangles");
   const Workers workers(options.threads, options.progress);
   restart(result, points.rows(), workers);
   Report& report = result.report;

@@ -3,14 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <string>
 #include <utility>
 
 #include "base/buffer.h"
 #include "base/disjoint_sets.h"
 #include "operators/column.h"
 #include "operators/mixed_rows.h"
-#include "tufted/errors.h"
 
 namespace tufted {
 namespace {
@@ -109,10 +107,7 @@ void assembleStars(const GluedStars& glued, bool keep_cover, const Buffer<int>& 
     }
   });
   const std::int64_t entries = std::accumulate(count.begin(), count.end(), std::int64_t{0});
-  if (entries > INT32_MAX) {
-    throw InvalidInput("assembleStars: " + std::to_string(entries) + " entries of L, must be at most " +
-                       std::to_string(INT32_MAX) + ", what an int can number");
-  }
+  requireNumbers(entries);
   SparseMatrix& L = result.L;
   L.resize(size, size);
   resizeEntries(L, entries);
