@@ -8,41 +8,12 @@
 #include "base/buffer.h"
 #include "intrinsic/flip_edges.h"
 #include "intrinsic/flip_seeds.h"
+#include "intrinsic/star_triangles.h"
 
 namespace tufted {
 namespace {
 
 constexpr std::size_t spare = 8;  // room for stars without a number, one for so many with
-
-/// Triangles of star p before link entry i.
-int trianglesBefore(const Stars& stars, int p, int i) {
-  int count = 0;
-  for (int j = stars.offset[p]; j < i; ++j) count += stars.hasTriangle(j) ? 1 : 0;
-  return count;
-}
-
-/// Calls glue(before, after) for each spoke of star p between two triangles, numbered from `first` on.
-template <class Glue>
-void forEachSpoke(const Stars& stars, int p, int first, const Glue& glue) {
-  int t = first, previous = -1, at_begin = -1;
-  for (int i = stars.offset[p]; i < stars.offset[p + 1]; ++i) {
-    if (!stars.hasTriangle(i)) {
-      previous = -1;
-      continue;
-    }
-    if (i == stars.offset[p]) at_begin = t;
-    if (previous >= 0) glue(previous, t);
-    previous = t++;
-  }
-  if (previous >= 0 && at_begin >= 0) glue(previous, at_begin);
-}
-
-/// Triangle (p, a, v) ends on the spoke v p with side 2, triangle (p, v, b) begins on it with side 0.
-template <class Triangulation>
-void glueSpoke(Triangulation& cover, int before, int after) {
-  glueSides(cover, frontSide(before, 2), frontSide(after, 0));
-  glueSides(cover, backSide(before, 2), backSide(after, 0));
-}
 
 /// Calls visit(i, a, b, lengths of the sides p a, a b, b p) for each triangle (p, a, b), with the link entry of a.
 template <class Visit>
@@ -116,7 +87,7 @@ void PartialCover::makeRoom(std::size_t triangles) {
 }
 
 bool PartialCover::add(int p, bool may_grow) {
-  const int block = p / block_size, count = trianglesBefore(stars_, p, stars_.offset[p + 1]);
+  const int block = p / block_size, count = triangleCount(stars_, p);
   if (next_[block] + count <= block_begin_[block + 1]) {
     first_[p] = std::exchange(next_[block], next_[block] + count);
   } else {
@@ -133,7 +104,7 @@ bool PartialCover::add(int p, bool may_grow) {
     std::fill_n(state_.begin() + 6 * t, 6, std::uint8_t{0});
     ++t;
   });
-  forEachSpoke(stars_, p, first_[p], [&](int before, int after) { glueSpoke(cover_, before, after); });
+  glueSpokes(stars_, p, first_[p], cover_);
   return true;
 }
 
@@ -258,7 +229,7 @@ void PartialCover::fillStar(int p, const Buffer<int>& first, IntrinsicTriangulat
     }
     ++t;
   });
-  forEachSpoke(stars_, p, first[p], [&](int before, int after) { glueSpoke(whole, before, after); });
+  glueSpokes(stars_, p, first[p], whole);
 }
 
 void PartialCover::copyStar(int p, const Buffer<int>& first, const RawBuffer<int>& triangle,
@@ -276,7 +247,7 @@ void PartialCover::copyStar(int p, const Buffer<int>& first, const RawBuffer<int
 IntrinsicTriangulation PartialCover::complete(const Workers& workers) const {
   const int n = stars_.size();
   Buffer<int> first(static_cast<std::size_t>(n) + 1);  // triangle of each star
-  for (int p = 0; p < n; ++p) first[p + 1] = first[p] + trianglesBefore(stars_, p, stars_.offset[p + 1]);
+  for (int p = 0; p < n; ++p) first[p + 1] = first[p] + triangleCount(stars_, p);
   RawBuffer<int> triangle(entry_of_.size());  // number in the whole of each that is present
   for (int p = 0; p < n; ++p) {
     if (isPresent(p))

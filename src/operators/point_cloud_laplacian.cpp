@@ -11,6 +11,7 @@
 #include "cloud/surface_stars.h"
 #include "cloud/tangent_frame.h"
 #include "intrinsic/star_areas.h"
+#include "intrinsic/star_triangles.h"
 #include "operators/build.h"
 #include "operators/pipeline.h"
 #include "operators/star_laplacian.h"
@@ -64,30 +65,14 @@ constexpr std::int64_t most_entries = most_triangles - most_triangles / 64;
 void addStars(const Stars& stars, Gluing gluing, IntrinsicTriangulation& cover, const Workers& workers) {
   const int n = stars.size();
   Buffer<int> first(static_cast<std::size_t>(n) + 1);
-  for (int p = 0; p < n; ++p) {
-    first[p + 1] = first[p];
-    for (int i = stars.offset[p]; i < stars.offset[p + 1]; ++i) first[p + 1] += stars.hasTriangle(i) ? 1 : 0;
-  }
+  for (int p = 0; p < n; ++p) first[p + 1] = first[p] + triangleCount(stars, p);
   resizeCover(cover, n, first[n]);
   workers.forBlocks("union", n, block_size, [&](std::int64_t begin, std::int64_t end, int) {
     for (int p = static_cast<int>(begin); p < end; ++p) {
-      int t = static_cast<int>(first[p]);
-      int previous = -1;     // triangle before link vertex i, if there is one
-      int first_entry = -1;  // triangle after the first link vertex
-      for (int i = stars.offset[p]; i < stars.offset[p + 1]; ++i) {
-        const bool has = stars.hasTriangle(i);
-        if (has) addTriangle(cover, t, p, stars.link[i], stars.link[stars.after(p, i)]);
-        if (i == stars.offset[p] && has) first_entry = t;
-        // Triangle (p, a, v) ends on the spoke v p with side 2, triangle (p, v, b) begins on it with side 0.
-        const auto glueSpoke = [&](int before, int after) {
-          glueSides(cover, frontSide(before, 2), frontSide(after, 0));
-          glueSides(cover, backSide(before, 2), backSide(after, 0));
-        };
-        if (gluing == Gluing::star && has && previous >= 0) glueSpoke(previous, t);
-        previous = has ? t++ : -1;
-        const bool is_last = i + 1 == stars.offset[p + 1];
-        if (gluing == Gluing::star && is_last && previous >= 0 && first_entry >= 0) glueSpoke(previous, first_entry);
-      }
+      int t = first[p];
+      for (int i = stars.offset[p]; i < stars.offset[p + 1]; ++i)
+        if (stars.hasTriangle(i)) addTriangle(cover, t++, p, stars.link[i], stars.link[stars.after(p, i)]);
+      if (gluing == Gluing::star) glueSpokes(stars, p, first[p], cover);
     }
   });
 }
