@@ -69,13 +69,14 @@ bool isOneSheet(const Offsets& neighbors, const Eigen::Vector3d& normal, double 
 }
 
 /// Those of the neighbours last looked at that are reached.
-void takeSheet(const HoodScratch& scratch, Buffer<Neighbor>& neighbors) {
+void takeSheet(const HoodScratch& scratch, Neighborhood& hood, OffsetBuffer& offsets) {
   std::size_t kept = 0;
-  for (std::size_t i = 0; i < neighbors.size(); ++i) {
-    neighbors[kept] = neighbors[i];
+  for (std::size_t i = 0; i < hood.neighbors.size(); ++i) {
+    hood.neighbors[kept] = hood.neighbors[i];
     kept += scratch.heights[i] >= scratch.sheet.lowest && scratch.heights[i] <= scratch.sheet.highest ? 1 : 0;
   }
-  neighbors.resize(kept);
+  hood.neighbors.resize(kept);
+  offsets.takeReached(offsets, scratch.heights.data(), scratch.sheet);
 }
 
 }  // namespace
@@ -179,9 +180,7 @@ bool NeighborhoodFinder::grow(int p, int most, Neighborhood& hood, OffsetBuffer&
 bool NeighborhoodFinder::keepSheet(const Eigen::Vector3d& normal, Neighborhood& hood, OffsetBuffer& offsets,
                                    HoodScratch& scratch) const {
   if (hood.neighbors.empty() || isOneSheet(offsets.view(), normal, hood.reach, scratch)) return false;
-  saveAll(hood, offsets, scratch);
-  takeSheet(scratch, hood.neighbors);
-  offsets.takeReached(offsets, scratch.heights.data(), scratch.sheet);
+  takeSheet(scratch, hood, offsets);
   return true;
 }
 
@@ -189,16 +188,21 @@ void NeighborhoodFinder::splitSheets(Neighborhood& hood, OffsetBuffer& offsets, 
   if (hood.neighbors.empty()) return;
   const PrincipalAxes before = hood.axes;
   scratch.all.clear();
+  const auto cut = [&](const Eigen::Vector3d& normal) {
+    if (hood.neighbors.empty() || isOneSheet(offsets.view(), normal, hood.reach, scratch)) return false;
+    saveAll(hood, offsets, scratch);
+    takeSheet(scratch, hood, offsets);
+    return true;
+  };
   for (std::size_t j = 0; j < few_neighbors.size(); ++j) {
     if (std::ssize(hood.neighbors) <= few_neighbors[j]) break;
     const PrincipalAxes& axes = hood.axes_of_few[j];
     if (!(flatness(axes) < flatter[j] * flatness(before) && axes.variance[0] < 0.05 * axes.variance[1])) continue;
-    if (!keepSheet(axes.normal, hood, offsets, scratch)) continue;
+    if (!cut(axes.normal)) continue;
     hood.axes = principalAxes(offsets.view());
     break;
   }
-  for (int i = 0; i < most_splits && keepSheet(hood.axes.normal, hood, offsets, scratch); ++i)
-    hood.axes = principalAxes(offsets.view());
+  for (int i = 0; i < most_splits && cut(hood.axes.normal); ++i) hood.axes = principalAxes(offsets.view());
   if (scratch.all.empty()) {
     hood.split = flatness(before) > flat_sheet && findSheet(before, hood, offsets, scratch);
   } else if (std::ssize(hood.neighbors) + 1 <= least_sheet) {

@@ -39,7 +39,7 @@ struct HoodScratch {
   Buffer<double> heights;
   Buffer<double> heights_along;                ///< see Kernels::reachAlong
   Reached sheet;                               ///< see isOneSheet()
-  Buffer<Neighbor> all;                        ///< before any were left out; empty while none were
+  Buffer<Neighbor> all;                        ///< of splitSheets(): before any were left out; empty while none were
   static constexpr int most_tried = 6;         ///< planes through p and two of four others
   std::array<OffsetBuffer, most_tried> tried;  ///< see findSheet()
   SearchBefore before;
