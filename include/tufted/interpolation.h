@@ -53,8 +53,8 @@ Eigen::MatrixXd componentMeans(const Laplacian& laplacian, const Eigen::MatrixXd
 /// mean (weighted by M) is taken out; and u is made to have mean 0.
 /// @param f N x c, finite at active points
 /// @return N x c, NaN at points that are isolated or not finite
-/// @throws InvalidInput for a wrong number of rows or values that are not finite
-/// @throws SolverFailure when the system cannot be solved
+/// @throws InvalidInput for a wrong number of rows, values that are not finite, or options out of range
+/// @throws SolverFailure when the system cannot be solved; Cancelled when `options.progress` returns false
 Eigen::MatrixXd poisson(const Laplacian& laplacian, const Eigen::MatrixXd& f, const SolverOptions& options = {},
                         SolveReport* report = nullptr);
 
@@ -66,8 +66,8 @@ Eigen::MatrixXd poisson(const Laplacian& laplacian, const Eigen::MatrixXd& f, co
 /// Green's function of points (Figure 19), a column for each: L g = delta - M / area, with mean 0 over the component.
 /// On a sphere of radius 1 g approximates -(ln((1 - cos angle) / 2) + 1) / (4 pi).
 /// @return N x c; 0 in other components, NaN at points that are isolated or not finite
-/// @throws InvalidInput for no point, or an index out of range or of a point on no component
-/// @throws SolverFailure when the system cannot be solved
+/// @throws InvalidInput for no point, an index out of range or of a point on no component, or options out of range
+/// @throws SolverFailure when the system cannot be solved; Cancelled when `options.progress` returns false
 Eigen::MatrixXd greensFunction(const Laplacian& laplacian, const std::vector<int>& points,
                                const SolverOptions& options = {}, SolveReport* report = nullptr);
 

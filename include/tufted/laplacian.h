@@ -52,7 +52,9 @@ struct Laplacian {
 
 /// The point cloud Laplacian of Section 5.7.
 /// @param points N x 3; NaN and infinite rows keep their index and are skipped.
-/// @throws InvalidInput for options out of range, arrays of the wrong size, more than 59 million points
+/// @throws InvalidInput for options out of range, arrays of the wrong size, indices of neighbours out of range, a
+/// structure beside neighborhoods or one that is none (see ScanStructure), Delaunay::cgal without TUFTED_WITH_GPL, more
+/// than about 58 million points
 /// @throws Cancelled when `options.progress` returns false
 Laplacian pointCloudLaplacian(const Points& points, const CloudOptions& options = {});
 

@@ -9,7 +9,8 @@
 
 namespace tufted {
 
-/// Called from the calling thread with a stage's name and the fraction of it that is done, in [0, 1].
+/// Called from the calling thread with a stage's name and the fraction of it that is begun, in [0, 1]. A stage may come
+/// several times in a row, each time from 0; its names are for people and finer than those of Report::stages.
 /// Returns false to stop the build, which then throws `Cancelled`.
 using Progress = std::function<bool(std::string_view stage, double fraction)>;
 
@@ -41,7 +42,7 @@ enum class Growth {
 /// When a star is wrapped again from twice as many neighbours.
 enum class StarSearch {
   once,      ///< closed, but a circumcircle leaves the ball that was searched
-  thorough,  ///< the same again and again up to twice the neighbourhood; and once when it is open
+  thorough,  ///< the same again and again up to twice the neighbourhood; and up to twice when it is open
 };
 
 /// Which triangles of the stars are dropped.
@@ -71,7 +72,8 @@ enum class Preset {
 };
 
 /// What is done about clouds that are not exact samples of one surface. By default those of Preset::scan. With the
-/// caller's neighborhoods nothing is grown, split or searched again and outliers stay; with a structure outliers stay.
+/// caller's neighborhoods nothing is grown, split or searched again and outliers stay. With a structure outliers stay;
+/// on rings, moreover, no sheets are split, only lines are grown, and open stars are not searched again.
 struct CloudSteps {
   Growth growth = Growth::line;
   bool split_sheets = true;  ///< neighbours beyond a gap along the normal belong to another surface and are left out

@@ -30,7 +30,7 @@ struct Report {
   std::int64_t lost_points = 0;
 
   // Clouds
-  int neighbors = 0;                       ///< k in use, after clamping to N - 1
+  int neighbors = 0;                       ///< k in use, after clamping to N - 1; of the caller's lists the longest
   bool neighbors_clamped = false;          ///< the caller's k exceeded N - 1
   std::int64_t rejected_normals = 0;       ///< caller's normals that are zero or not finite, replaced by PCA
   std::int64_t rejected_neighbors = 0;     ///< caller's neighbours that repeat or name the point or an unusable one
@@ -42,7 +42,7 @@ struct Report {
   std::int64_t outliers = 0;               ///< points without a star: they hover over a surface, see CloudSteps
   std::int64_t denoised = 0;               ///< points moved onto a surface for the lengths, see Lengths
   std::int64_t grown_stars = 0;            ///< times k was doubled because a closed star was not certified
-  std::int64_t closed_stars = 0;           ///< open stars that closed with twice the neighbours
+  std::int64_t closed_stars = 0;           ///< open stars that closed with two or four times the neighbours
   std::int64_t open_stars = 0;             ///< points whose Voronoi cell is not compact
   std::int64_t dropped_triangles = 0;      ///< star triangles removed: filtered, with outliers, too flat, across jumps
   std::array<std::int64_t, 3> votes = {};  ///< distinct triangles found by 1, 2, 3 of their corners

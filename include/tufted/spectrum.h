@@ -52,7 +52,7 @@ struct Spectrum {
 /// whose areas all underflow, have 0.
 /// @param k >= 1, less than the number of active points of positive area; without the null space, less than that minus
 ///        the number of components
-/// @throws InvalidInput for k or options out of range, or arrays of the wrong size
+/// @throws InvalidInput for k or options out of range, arrays of the wrong size, or an M that is negative or not finite
 /// @throws SolverFailure when L cannot be factorised or the iterations do not suffice
 /// @throws Cancelled when `options.progress` returns false
 Spectrum spectrum(const Laplacian& laplacian, int k, const SpectrumOptions& options = {});

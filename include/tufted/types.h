@@ -24,13 +24,14 @@ enum class PointStatus : std::uint8_t {
   active = 0,      ///< has a positive diagonal in L
   not_finite = 1,  ///< NaN, infinite, or more than 1e70 median spreads or 1e152 away from the rest
   coincident = 2,  ///< equals an earlier point of the cloud, its `representative`
-  isolated = 3,    ///< no triangle: too few neighbours, all collinear, or an unreferenced vertex
+  isolated = 3,    ///< no triangle: too few neighbours, all collinear or of other sheets, an outlier, or a vertex that
+                   ///< no triangle names
 };
 
 /// Why the surface ends at a point. Told by what lies beyond, where triangles are missing around the point: the middle
 /// half of the gap between its triangles is looked at, as far as twice its longest edge to a neighbour.
 enum class Boundary : std::uint8_t {
-  none = 0,  ///< it does not: triangles all around; points without a row belong to no surface that could end
+  none = 0,  ///< it does not: triangles all around; isolated points belong to no surface that could end
   rim = 1,   ///< nothing lies beyond: the sampling ends, at a border or at a hole (meshes: a vertex of a free edge)
   jump = 2,  ///< another surface lies there: behind, before or beside this one, as at a depth discontinuity
   lost = 3,  ///< this surface goes on, but its triangles were dropped or not found: an outlier, uneven sampling;

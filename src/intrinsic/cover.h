@@ -38,10 +38,11 @@ void addTriangle(Triangulation& cover, int t, int i, int j, int k) {
 /// Makes room for `triangles` triangles.
 void resizeCover(IntrinsicTriangulation& cover, int vertices, std::int64_t triangles);
 
-/// The side of the back that lies on side `s` of the front of triangle `t`.
+/// Side `s` of the front of triangle `t`.
 constexpr int frontSide(int t, int s) {
   return 6 * t + s;
 }
+/// The side of the back that lies on it.
 constexpr int backSide(int t, int s) {
   return 6 * t + 5 - s;
 }

@@ -32,7 +32,8 @@ class PartialCover {
 
   /// Of the faces that are present.
   std::size_t bytes() const;
-  /// Gives the memory of all faces back but the moved ones, of how they are glued too. There is no complete() any more.
+  /// Gives the memory of all faces back but the moved ones, of how they are glued too. There is no bytes()
+  /// and no complete() any more.
   void keepMovedFaces();
   /// Gives back what keepMovedFaces() left.
   void dropFaces();
