@@ -154,7 +154,7 @@ Build::Build(const Sample& sample, const Variant& variant, const Build* core)
 double Build::searchSeconds() const {
   double seconds = 0;
   for (const StageCost& stage : laplacian_.report.stages) {
-    if (stage.name == "tree" || stage.name == "structure" || stage.name == "neighbors") seconds += stage.seconds;
+    if (stage.name == "tree" || stage.name == "neighbors") seconds += stage.seconds;
   }
   return seconds;
 }

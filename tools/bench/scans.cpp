@@ -135,7 +135,8 @@ int main(int argc, char** argv) {
     app.add_option("--seeds", settings.seeds, "samples per dataset")->check(CLI::Range(1, 1000))->capture_default_str();
     app.add_option("--filter", settings.filter, "only rows whose `what / dataset / metric` contains this");
     app.add_option("--builds", settings.builds, "only these besides the core: scan, lidar, image, rings")
-        ->delimiter(',');
+        ->delimiter(',')
+        ->check(CLI::IsMember({"scan", "lidar", "image", "rings"}));
     app.add_option("--json", settings.json, "write all figures to this file as well");
     app.add_flag("--quick", settings.quick, "a quarter of the points, coarser rooms, few marks");
     CLI11_PARSE(app, argc, argv);
