@@ -41,7 +41,8 @@ struct Laplacian {
   Report report;
 
   /// The tufted cover after flips to intrinsic Delaunay, vertices numbered as the caller's points. On clouds the first
-  /// call builds it, which takes up to half as long as the build of L and M; any number of threads may call.
+  /// call builds it, which takes half as long as the build of L and M or less, but as long for five million points; any
+  /// number of threads may call.
   /// @throws InvalidInput after `keep_cover = false`
   const IntrinsicTriangulation& cover() const;
   bool hasCover() const { return stored_cover != nullptr || cover_source != nullptr; }
