@@ -1,5 +1,6 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -130,7 +131,9 @@ std::vector<std::string> findOddities(const Json& info) {
     odd.push_back("points whose neighbours lie on one line, as on the rings of a spinning scanner: " +
                   std::to_string(info["on_lines"].get<std::int64_t>()));
   const double spacing = info["spacing"].get<double>(), step = info["float_step"].get<double>();
-  if (spacing > 0 && step > coarse_step * spacing)
+  if (std::isinf(step))
+    odd.push_back("coordinates beyond the range of floats");
+  else if (spacing > 0 && step > coarse_step * spacing)
     odd.push_back("so far from the origin that floats would move points by up to " +
                   std::to_string(step / 2 / spacing) + " of the spacing");
   return odd;

@@ -70,6 +70,9 @@ TEST_F(Info, WarnsOfFloatsThatAreTooCoarse) {
   EXPECT_EQ(cloud["float_step"], 0.5);
   EXPECT_EQ(cloud["spacing"], 0.25);
   EXPECT_TRUE(isOdd(cloud, "so far from the origin")) << cloud["odd"];
+  const Json huge = info(dir_.write("huge.xyz", "1e40 0 0\n2e40 0 0\n1e40 1e40 0\n2e40 1e40 0\n"));
+  EXPECT_TRUE(huge["float_step"].is_null());  // no such float
+  EXPECT_TRUE(isOdd(huge, "coordinates beyond the range of floats"));
 }
 
 TEST_F(Info, TheTextHoldsTheSame) {
