@@ -7,12 +7,12 @@
 #include <mutex>
 #include <numeric>
 #include <optional>
-#include <string>
 #include <utility>
 
 #include "base/buffer.h"
 #include "base/point_buffer.h"
 #include "base/power_of_two.h"
+#include "base/require.h"
 #include "cloud/delaunay_star.h"
 #include "cloud/inverted_star.h"
 #include "cloud/neighborhood.h"
@@ -20,7 +20,6 @@
 #include "cloud/star_gap.h"
 #include "cloud/surface_moves.h"
 #include "cloud/tangent_frame.h"
-#include "tufted/errors.h"
 
 namespace tufted {
 namespace {
@@ -310,10 +309,7 @@ Stars buildStars(const RankedCloud& cloud, const NeighborSource& source, const C
     builder.build(begin, end, states[worker], noisy[number]);
     in_order.take(number, states[worker].block);
   });
-  if (std::ssize(stars.link) > INT32_MAX) {
-    throw InvalidInput("pointCloudLaplacian: " + std::to_string(stars.link.size()) +
-                       " neighbours in the stars of all points, must be at most " + std::to_string(INT32_MAX));
-  }
+  requireAtMost(INT32_MAX, std::ssize(stars.link), "pointCloudLaplacian", "neighbours in the stars of all points");
   std::partial_sum(stars.offset.begin(), stars.offset.end(), stars.offset.begin());
 
   for (const NoisyPoints& points : noisy) report.denoised += std::ssize(points.rank);

@@ -4,16 +4,15 @@
 #include <atomic>
 #include <cmath>
 #include <numeric>
-#include <string>
 #include <utility>
 
 #include "base/buffer.h"
 #include "base/disjoint_sets.h"
+#include "base/require.h"
 #include "intrinsic/geometry.h"
 #include "operators/column.h"
 #include "operators/face_areas.h"
 #include "operators/rows.h"
-#include "tufted/errors.h"
 
 namespace tufted {
 namespace {
@@ -142,18 +141,13 @@ void lumpAreas(const IntrinsicTriangulation& cover, const Buffer<double>& areas,
 
 }  // namespace
 
-void requireNumbers(std::int64_t entries) {
-  if (entries <= INT32_MAX) return;
-  throw InvalidInput("pointCloudLaplacian and meshLaplacian: " + std::to_string(entries) +
-                     " entries of L, must be at most " + std::to_string(INT32_MAX) + ", what an int can number");
-}
-
 void assembleLaplacian(const IntrinsicTriangulation& cover, const Buffer<int>& caller, int size, double scale,
                        const Workers& workers, Laplacian& result) {
   Report& report = result.report;
   const Buffer<double> areas = faceAreas(cover, workers);
   UpperRows upper = sumWeights(cover, areas, scale, workers);
-  requireNumbers(2 * std::accumulate(upper.size.begin(), upper.size.end(), std::int64_t{0}) + cover.vertices);
+  const auto entries = 2 * std::accumulate(upper.size.begin(), upper.size.end(), std::int64_t{0}) + cover.vertices;
+  requireAtMost(INT32_MAX, entries, "pointCloudLaplacian and meshLaplacian", "entries of L");
   clampNegative(upper, sumDiagonal(upper), report);
   toCallerOrder(upper, sumDiagonal(upper), caller, size, result.L);
   upper = {};

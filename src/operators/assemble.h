@@ -18,9 +18,6 @@ inline void resizeEntries(SparseMatrix& L, std::int64_t entries) {
   L.data().resize(entries, Workspace::current() != nullptr ? 0.125 : 0);
 }
 
-/// @throws InvalidInput for more entries of L than an int can number
-void requireNumbers(std::int64_t entries);
-
 /// Cotan Laplacian and lumped areas of a cover (Algorithm 3, lines 6 to 15), times `scale`.
 ///
 /// Sums run in the cover's own numbering, so they do not depend on the caller's. The diagonal is minus the sum of the

@@ -3,6 +3,7 @@
 
 #include "base/buffer.h"
 #include "base/point_buffer.h"
+#include "base/require.h"
 #include "base/scaling.h"
 #include "operators/build.h"
 #include "operators/pipeline.h"
@@ -48,13 +49,8 @@ Laplacian meshLaplacian(const Points& points, const Triangles& triangles, const 
 void buildMeshLaplacian(const Points& points, const Triangles& triangles, const MeshOptions& options,
                         Laplacian& result) {
   checkCommon(function_name, options);
-  const auto requireAtMost = [](std::int64_t most, std::int64_t count, const char* what) {
-    if (count > most)
-      throw InvalidInput(std::string(function_name) + ": " + std::to_string(count) + " " + what + ", must be at most " +
-                         std::to_string(most));
-  };
-  requireAtMost(INT32_MAX, points.rows(), "points");
-  requireAtMost(most_triangles, triangles.rows(), "triangles");
+  requireAtMost(INT32_MAX, points.rows(), function_name, "points");
+  requireAtMost(most_triangles, triangles.rows(), function_name, "triangles");
   const Workers workers(options.threads, options.progress);
   restart(result, points.rows(), workers);
   Report& report = result.report;

@@ -7,6 +7,7 @@
 
 #include "base/buffer.h"
 #include "base/disjoint_sets.h"
+#include "base/require.h"
 #include "operators/column.h"
 #include "operators/mixed_rows.h"
 
@@ -107,7 +108,7 @@ void assembleStars(const GluedStars& glued, bool keep_cover, const Buffer<int>& 
     }
   });
   const std::int64_t entries = std::accumulate(count.begin(), count.end(), std::int64_t{0});
-  requireNumbers(entries);
+  requireAtMost(INT32_MAX, entries, "pointCloudLaplacian", "entries of L");
   SparseMatrix& L = result.L;
   L.resize(size, size);
   resizeEntries(L, entries);
