@@ -178,8 +178,9 @@ bool NeighborhoodFinder::grow(int p, int most, Neighborhood& hood, OffsetBuffer&
 }
 
 bool NeighborhoodFinder::keepSheet(const Eigen::Vector3d& normal, Neighborhood& hood, OffsetBuffer& offsets,
-                                   HoodScratch& scratch) const {
+                                   HoodScratch& scratch, bool saves_all) const {
   if (hood.neighbors.empty() || isOneSheet(offsets.view(), normal, hood.reach, scratch)) return false;
+  if (saves_all) saveAll(hood, offsets, scratch);
   takeSheet(scratch, hood, offsets);
   return true;
 }
@@ -188,21 +189,16 @@ void NeighborhoodFinder::splitSheets(Neighborhood& hood, OffsetBuffer& offsets, 
   if (hood.neighbors.empty()) return;
   const PrincipalAxes before = hood.axes;
   scratch.all.clear();
-  const auto cut = [&](const Eigen::Vector3d& normal) {
-    if (hood.neighbors.empty() || isOneSheet(offsets.view(), normal, hood.reach, scratch)) return false;
-    saveAll(hood, offsets, scratch);
-    takeSheet(scratch, hood, offsets);
-    return true;
-  };
   for (std::size_t j = 0; j < few_neighbors.size(); ++j) {
     if (std::ssize(hood.neighbors) <= few_neighbors[j]) break;
     const PrincipalAxes& axes = hood.axes_of_few[j];
     if (!(flatness(axes) < flatter[j] * flatness(before) && axes.variance[0] < 0.05 * axes.variance[1])) continue;
-    if (!cut(axes.normal)) continue;
+    if (!keepSheet(axes.normal, hood, offsets, scratch, true)) continue;
     hood.axes = principalAxes(offsets.view());
     break;
   }
-  for (int i = 0; i < most_splits && cut(hood.axes.normal); ++i) hood.axes = principalAxes(offsets.view());
+  for (int i = 0; i < most_splits && keepSheet(hood.axes.normal, hood, offsets, scratch, true); ++i)
+    hood.axes = principalAxes(offsets.view());
   if (scratch.all.empty()) {
     hood.split = flatness(before) > flat_sheet && findSheet(before, hood, offsets, scratch);
   } else if (std::ssize(hood.neighbors) + 1 <= least_sheet) {

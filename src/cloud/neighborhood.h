@@ -83,7 +83,9 @@ class NeighborhoodFinder {
   bool isUneven(const Neighborhood& hood) const;
   /// Keeps the neighbours whose heights along `normal` are reached from p over gaps of at most a quarter of the reach.
   /// True if some were left out.
-  bool keepSheet(const Eigen::Vector3d& normal, Neighborhood& hood, OffsetBuffer& offsets, HoodScratch& scratch) const;
+  /// @param saves_all keep all as they are aside before the first are left out
+  bool keepSheet(const Eigen::Vector3d& normal, Neighborhood& hood, OffsetBuffer& offsets, HoodScratch& scratch,
+                 bool saves_all = false) const;
   void splitSheets(Neighborhood& hood, OffsetBuffer& offsets, HoodScratch& scratch) const;
   /// For where the planes of several neighbours stand across two sheets: the largest sheet along a plane through p and
   /// two of the nearest four. False, and the neighbourhood as it was before any were left out, if there is none.
