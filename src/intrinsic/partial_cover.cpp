@@ -246,8 +246,7 @@ void PartialCover::copyStar(int p, const Buffer<int>& first, const RawBuffer<int
 
 IntrinsicTriangulation PartialCover::complete(const Workers& workers) const {
   const int n = stars_.size();
-  Buffer<int> first(static_cast<std::size_t>(n) + 1);  // triangle of each star
-  for (int p = 0; p < n; ++p) first[p + 1] = first[p] + triangleCount(stars_, p);
+  const Buffer<int> first = firstTriangles(stars_);
   RawBuffer<int> triangle(entry_of_.size());  // number in the whole of each that is present
   for (int p = 0; p < n; ++p) {
     if (isPresent(p))

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "base/buffer.h"
 #include "cloud/stars.h"
 #include "intrinsic/cover.h"
 
@@ -16,6 +17,13 @@ inline int trianglesBefore(const Stars& stars, int p, int i) {
 
 inline int triangleCount(const Stars& stars, int p) {
   return trianglesBefore(stars, p, stars.offset[p + 1]);
+}
+
+/// The number of the first triangle of each star, and how many there are in all; n + 1.
+inline Buffer<int> firstTriangles(const Stars& stars) {
+  Buffer<int> first(static_cast<std::size_t>(stars.size()) + 1);
+  for (int p = 0; p < stars.size(); ++p) first[p + 1] = first[p] + triangleCount(stars, p);
+  return first;
 }
 
 /// Glues the faces of star p across each spoke between two triangles, front to front and back to back.

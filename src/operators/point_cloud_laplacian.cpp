@@ -64,8 +64,7 @@ constexpr std::int64_t most_entries = most_triangles - most_triangles / 64;
 /// share a spoke are glued to each other here, front to front and back to back.
 void addStars(const Stars& stars, Gluing gluing, IntrinsicTriangulation& cover, const Workers& workers) {
   const int n = stars.size();
-  Buffer<int> first(static_cast<std::size_t>(n) + 1);
-  for (int p = 0; p < n; ++p) first[p + 1] = first[p] + triangleCount(stars, p);
+  const Buffer<int> first = firstTriangles(stars);
   resizeCover(cover, n, first[n]);
   workers.forBlocks("union", n, block_size, [&](std::int64_t begin, std::int64_t end, int) {
     for (int p = static_cast<int>(begin); p < end; ++p) {
