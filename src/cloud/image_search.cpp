@@ -49,9 +49,9 @@ class ImageSearch final : public ScanSearch {
     }
     // By what the caller gave: how many of the points are usable must not decide.
     if (rows_ * columns_ > std::max(most_pixels, pixels_per_point * scan.entries)) {
-      throw InvalidInput("pointCloudLaplacian: structure places " + std::to_string(scan.entries) + " points in " +
-                         std::to_string(rows_) + " rows of " + std::to_string(columns_) +
-                         " columns, must be at most 64 pixels per point");
+      throw InvalidInput("pointCloudLaplacian: structure has points in " + std::to_string(rows_) + " rows of " +
+                         std::to_string(columns_) + " columns, must be at most 64 pixels for each of its " +
+                         std::to_string(scan.entries) + " entries");
     }
     const auto pixelOf = [&](int p) {
       return (scan.row[p] - first_row) * columns_ + static_cast<std::int64_t>(scan.position[p]) - first_column;

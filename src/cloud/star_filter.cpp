@@ -55,8 +55,8 @@ struct SquaredRadius {
   SquaredRadius(const PointsView& points, int p, int a, int b, double length) {
     // In a unit near `length`: sixth powers of what the points are scaled to may leave the range of a double.
     const double unit = magnitudeOf(length), in_units = 1 / unit, measure = length * in_units;
-    const Eigen::Vector3d u = in_units * (points.row(a) - points.row(p)),
-                          v = in_units * (points.row(b) - points.row(p));
+    const Eigen::Vector3d u = in_units * (points.row(a) - points.row(p));
+    const Eigen::Vector3d v = in_units * (points.row(b) - points.row(p));
     numerator = u.squaredNorm() * v.squaredNorm() * (u - v).squaredNorm();
     denominator = 4 * u.cross(v).squaredNorm() * (measure * measure);
   }
