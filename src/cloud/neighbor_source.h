@@ -29,6 +29,10 @@ struct NeighborSource {
   /// Whether the points found get sparser with their distance by design.
   bool isGraded() const { return scan != nullptr && scan->isGraded(); }
 
+  /// Whether a neighbourhood is the whole cloud of n points: then its shape is that of the cloud, and no sign of noise,
+  /// other sheets, outliers or rims.
+  bool isWholeCloud(Eigen::Index n) const { return n <= k + Eigen::Index{1}; }
+
   /// `count` neighbours of p, or the caller's list as it is. See NeighborSearch::nearest and ScanSearch::nearest, whose
   /// neighbours ascend in any case.
   /// @returns the region that was searched

@@ -82,7 +82,8 @@ void takeSheet(const HoodScratch& scratch, Neighborhood& hood, OffsetBuffer& off
 }  // namespace
 
 bool NeighborhoodFinder::splitsSheets() const {
-  return options_.steps.split_sheets && !source_.isFixed() && !source_.isGraded();
+  return options_.steps.split_sheets && !source_.isFixed() && !source_.isGraded() &&
+         !source_.isWholeCloud(points_.rows());
 }
 
 int NeighborhoodFinder::mostNeighbors() const {

@@ -78,7 +78,7 @@ class NeighborhoodFinder {
  private:
   void take(int k, const ScanSearch::Searched& searched, Neighborhood& hood) const;
   bool query(int p, int k, Neighborhood& hood, OffsetBuffer& offsets, HoodScratch& scratch) const;
-  /// Rings would be taken for sheets.
+  /// Rings, and the far side of a small cloud, would be taken for sheets.
   bool splitsSheets() const;
   bool isUneven(const Neighborhood& hood) const;
   /// Keeps the neighbours whose heights along `normal` are reached from p over gaps of at most a quarter of the reach.

@@ -54,7 +54,7 @@ int isolate(Stars& stars, int p) {
 
 void isolateOutliers(Stars& stars, const RankedCloud& cloud, const NeighborSource& source, const Workers& workers,
                      Report& report) {
-  if (source.search == nullptr || stars.size() <= source.k + 1) return;
+  if (source.search == nullptr) return;
   enum Verdict : std::uint8_t { untried, sound, outlier, isolated };
   Buffer<Verdict> verdicts(stars.size(), untried);
   // Outliers that see each other alone become suspect once one of them is isolated.

@@ -111,8 +111,8 @@ std::int64_t dropTriangles(Stars& stars, const Workers& workers, const Test& tes
 
 }  // namespace
 
-void filterStars(Stars& stars, const PointsView& points, int k, Filter filter, const Workers& workers, Report& report) {
-  if (stars.size() <= k + 1) return;
+void filterStars(Stars& stars, const PointsView& points, Filter filter, const Workers& workers, Report& report) {
+  if (stars.size() == 0) return;
   const bool any_isolated = std::any_of(stars.isolated.begin(), stars.isolated.end(), [](auto is) { return is != 0; });
   // No triangle smaller than this is condemned, so that their corners need not be looked at.
   const double harmless = *std::min_element(stars.reach.begin(), stars.reach.end());

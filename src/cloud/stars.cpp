@@ -104,6 +104,7 @@ class StarBuilder {
         finder_(cloud.points, source, options),
         wrap_(options.delaunay == Delaunay::star ? delaunayStar : cgalBackend()),
         has_short_cut_(options.delaunay == Delaunay::star),
+        denoises_(stars.move.rows() > 0),
         stars_(stars) {}
 
   /// Leaves the stars in state.block.
@@ -122,8 +123,7 @@ class StarBuilder {
       const std::span hoods(state.hoods.data() + group, state.hoods.data() + group_end);
       finder_.fitPlanes(first + group, hoods, state.offsets);
       for (int i = group; i < group_end; ++i) takeFrame(first + i, state.hoods[i], state.offsets[i - group], state);
-      if (options_.steps.lengths == Lengths::denoised)
-        moveNoisyPoints(first + group, hoods, state.offsets, state.fits, stars_.move, noisy);
+      if (denoises_) moveNoisyPoints(first + group, hoods, state.offsets, state.fits, stars_.move, noisy);
       state.seconds[1] += watch.restart();
       for (int i = group; i < group_end; ++i) wrapStar(first + i, state.hoods[i], state.offsets[i - group], state);
       state.seconds[2] += watch.restart();
@@ -271,7 +271,7 @@ class StarBuilder {
   NeighborhoodFinder finder_;
   const Kernels& kernels_ = kernels();
   Wrap wrap_;
-  bool has_short_cut_;
+  bool has_short_cut_, denoises_;
   Stars& stars_;
 };
 
@@ -296,7 +296,7 @@ Stars buildStars(const RankedCloud& cloud, const NeighborSource& source, const C
   stars.isolated.resize(n);
   stars.flat.resize(n);
   stars.normals.resize(n);
-  if (options.steps.lengths == Lengths::denoised) stars.move.setZero(n);
+  if (options.steps.lengths == Lengths::denoised && !source.isWholeCloud(n)) stars.move.setZero(n);
 
   Stopwatch wall;
   const std::int64_t blocks = (n + block_size - 1) / block_size;

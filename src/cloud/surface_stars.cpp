@@ -11,9 +11,10 @@ Stars surfaceStars(const RankedCloud& cloud, const NeighborSource& source, const
                    const Workers& workers, Report& report) {
   Stars stars = buildStars(cloud, source, options, workers, report);  // books its own stages
   StageClock clock(report);
-  if (options.steps.isolate_outliers) isolateOutliers(stars, cloud, source, workers, report);
+  const bool is_whole = source.isWholeCloud(cloud.size());
+  if (options.steps.isolate_outliers && !is_whole) isolateOutliers(stars, cloud, source, workers, report);
   clock.finish("outliers", 0);
-  filterStars(stars, cloud.points, source.k, options.steps.filter, workers, report);
+  if (!is_whole) filterStars(stars, cloud.points, options.steps.filter, workers, report);
   stars.disagrees = findDisagreement(stars, workers);
   countVotes(stars, stars.disagrees, workers, report);
   clock.finish("filter", 0);

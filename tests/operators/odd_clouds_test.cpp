@@ -1,6 +1,7 @@
 // Odd data has a defined result and is counted; a caller's mistake is named.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cfloat>
 #include <cmath>
 
@@ -40,6 +41,49 @@ TEST(OddCloud, FewPointsUseAllTheyHave) {
     EXPECT_EQ(report.neighbors, std::min(30, std::max(0, n - 1)));
     EXPECT_EQ(report.neighbors_clamped, n <= 30);
     EXPECT_EQ(report.dropped_triangles, 0);
+  }
+}
+
+TEST(OddCloud, AFewPointsOfASphereAreActiveInAllPresets) {
+  for (const Preset preset : {Preset::clean, Preset::scan, Preset::lidar}) {
+    for (int n = 4; n <= 31; ++n) {
+      for (std::uint64_t seed = 101; seed <= 109; ++seed) {
+        const Points points = shapes::sphere(n, shapes::Sampling::uniform, seed).points;
+        EXPECT_EQ(build(points, cloudOptions(preset)).report.active, n) << n << " points, seed " << seed;
+      }
+    }
+  }
+}
+
+/// Even permutations of these coordinates, with all signs.
+Points corners(const std::vector<Eigen::Vector3d>& some) {
+  std::vector<Eigen::Vector3d> all;
+  for (const Eigen::Vector3d& corner : some) {
+    for (int turn = 0; turn < 3; ++turn) {
+      for (int signs = 0; signs < 8; ++signs) {
+        Eigen::Vector3d next(corner[turn], corner[(turn + 1) % 3], corner[(turn + 2) % 3]);
+        for (int axis = 0; axis < 3; ++axis) next[axis] *= (signs >> axis & 1) != 0 ? -1 : 1;
+        if (std::find(all.begin(), all.end(), next) == all.end()) all.push_back(next);
+      }
+    }
+  }
+  Points points(std::ssize(all), 3);
+  for (Eigen::Index i = 0; i < points.rows(); ++i) points.row(i) = all[i];
+  return points;
+}
+
+TEST(OddCloud, TheCornersOfRegularSolidsAreActiveInAllPresets) {
+  const double golden = (1 + std::sqrt(5.0)) / 2;
+  const Points octahedron = corners({{1, 0, 0}}), cube = corners({{1, 1, 1}}), icosahedron = corners({{0, 1, golden}}),
+               dodecahedron = corners({{1, 1, 1}, {0, 1 / golden, golden}});
+  Points tetrahedron(4, 3);
+  tetrahedron << 1, 1, 1, 1, -1, -1, -1, 1, -1, -1, -1, 1;
+  const std::vector<Points> solids = {tetrahedron, octahedron, cube, icosahedron, dodecahedron};
+  const std::vector<int> sizes = {4, 6, 8, 12, 20};
+  for (std::size_t s = 0; s < solids.size(); ++s) {
+    ASSERT_EQ(solids[s].rows(), sizes[s]);
+    for (const Preset preset : {Preset::clean, Preset::scan, Preset::lidar})
+      EXPECT_EQ(build(solids[s], cloudOptions(preset)).report.active, sizes[s]);
   }
 }
 
