@@ -66,6 +66,8 @@ struct Report {
   double area = 0;                   ///< sum of M
   double cover_area = 0;             ///< sum of the cover's areas, which M is where Mass::cover is chosen
   std::int64_t cover_masses = 0;     ///< points whose mass is the cover's because their own star holds no triangle
+  std::int64_t bounded_masses = 0;   ///< points whose mass comes from parts of their triangles because a Voronoi area
+                                     ///< in or next to their star exceeds what stars hold, see Mass::star
   std::int64_t nonzeros = 0;         ///< stored entries of L
   std::int64_t components = 0;       ///< connected components among active points
   std::int64_t clamped_weights = 0;  ///< negative weights set to 0, within 1e-9 of the larger diagonal

@@ -1,5 +1,9 @@
 #include "intrinsic/star_areas.h"
 
+#include <algorithm>
+#include <atomic>
+#include <utility>
+
 #include "base/point_buffer.h"
 #include "intrinsic/edge_lengths.h"
 #include "intrinsic/fan_buffer.h"
@@ -9,7 +13,8 @@ namespace tufted {
 namespace {
 
 constexpr std::int64_t block_size = 8192;
-constexpr double least_share = 0.1;  // of the mixed area, which a sound Voronoi area exceeds by far
+/// Bounds of a Voronoi area in mixed areas.
+constexpr double least_share = 0.1, most_share = 10;
 
 /// The two areas of p in one triangle (p, a, b), or in several.
 struct CornerAreas {
@@ -26,10 +31,10 @@ CornerAreas cornerAreas(const Fans& fans, int at) {
   const double voronoi = (pa * pa * cot_b + pb * pb * cot_a) / 8;
   if (cotanNumerator(fans.rim[at], pa, pb) < 0) return {voronoi, area / 2};
   if (cot_a < 0 || cot_b < 0) return {voronoi, area / 4};
-  return {voronoi, voronoi};
+  return {voronoi, std::min(voronoi, area)};  // cotangents of a needle may overflow
 }
 
-/// Whether p and all its link vertices have closed stars that lost nothing.
+/// Whether the stars of p and of all its link vertices are whole.
 bool isInside(const Stars& stars, int p) {
   if (stars.ends[p] != 0) return false;
   for (int i = stars.offset[p]; i < stars.offset[p + 1]; ++i)
@@ -37,9 +42,23 @@ bool isInside(const Stars& stars, int p) {
   return true;
 }
 
+/// Whether the Voronoi areas of p and of all its link vertices are within their bounds.
+bool isBound(const Stars& stars, const RawBuffer<std::uint8_t>& is_bound, int p) {
+  if (is_bound[p] == 0) return false;
+  for (int i = stars.offset[p]; i < stars.offset[p + 1]; ++i)
+    if (is_bound[stars.link[i]] == 0) return false;
+  return true;
+}
+
 }  // namespace
 
-double starArea(const Stars& stars, int p, const Fans& fans, int at) {
+void StarAreas::resize(int count) {
+  voronoi.resize(count);
+  mixed.resize(count);
+  is_bound.resize(count);
+}
+
+void StarAreas::measure(const Stars& stars, int p, const Fans& fans, int at) {
   CornerAreas sum;
   for (int i = stars.offset[p]; i < stars.offset[p + 1]; ++i, ++at) {
     if (!stars.hasTriangle(i)) continue;
@@ -47,19 +66,37 @@ double starArea(const Stars& stars, int p, const Fans& fans, int at) {
     sum.voronoi += corner.voronoi;
     sum.mixed += corner.mixed;
   }
-  const bool fits = stars.flat[p] != 0 && sum.voronoi > least_share * sum.mixed && isInside(stars, p);
-  return fits ? sum.voronoi : sum.mixed;
+  voronoi[p] = sum.voronoi;
+  mixed[p] = sum.mixed;
+  is_bound[p] = sum.voronoi > least_share * sum.mixed && sum.voronoi < most_share * sum.mixed ? 1 : 0;
 }
 
-Buffer<double> starAreas(const Stars& stars, const PointsView& points, const Workers& workers) {
+OwnAreas chooseAreas(const Stars& stars, StarAreas areas, const Workers& workers) {
+  std::atomic<std::int64_t> bounded{0};
+  workers.forBlocks("mass", stars.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    std::int64_t bounded_here = 0;
+    for (int p = static_cast<int>(begin); p < end; ++p) {
+      if (stars.flat[p] == 0 || !isInside(stars, p)) continue;
+      if (isBound(stars, areas.is_bound, p))
+        areas.mixed[p] = areas.voronoi[p];
+      else
+        ++bounded_here;
+    }
+    bounded.fetch_add(bounded_here, std::memory_order_relaxed);
+  });
+  return {std::move(areas.mixed), bounded};
+}
+
+OwnAreas ownAreas(const Stars& stars, const PointsView& points, const Workers& workers) {
   const EdgeLengths length{points, stars.move};
-  Buffer<double> areas(stars.size());
+  StarAreas areas;
+  areas.resize(stars.size());
   workers.forBlocks("mass", stars.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
     FanBuffer buffer;
     forEachFan(stars, length, Numbers{begin, end}, buffer,
-               [&](int p, const Fans& fans, int at) { areas[p] = starArea(stars, p, fans, at); });
+               [&](int p, const Fans& fans, int at) { areas.measure(stars, p, fans, at); });
   });
-  return areas;
+  return chooseAreas(stars, std::move(areas), workers);
 }
 
 }  // namespace tufted

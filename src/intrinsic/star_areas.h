@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+
+#include "base/buffer.h"
 #include "base/parallel.h"
 #include "base/point_buffer.h"
 #include "cloud/kernels.h"
@@ -7,17 +10,36 @@
 
 namespace tufted {
 
-/// The area that belongs to point p in its own star; 0 without triangles.
-///
-/// The Voronoi area where p and all its link vertices have whole stars and the neighbourhood is next to a plane: there
-/// the stars agree, and the areas of neighbours fit together. Elsewhere the mixed area (Meyer et al. 2003), which no
-/// obtuse triangle can turn negative.
-/// @param fans unmollified; `at` is the first triangle of the star
-double starArea(const Stars& stars, int p, const Fans& fans, int at);
+/// The two areas that may belong to each point in its own star; both are 0 without triangles.
+struct StarAreas {
+  RawBuffer<double> voronoi;         ///< n, signed; means nothing where circumcentres lie far beyond the star
+  RawBuffer<double> mixed;           ///< n, of Meyer et al. 2003; never negative, never more than the star's triangles
+  RawBuffer<std::uint8_t> is_bound;  ///< n, 1 where the Voronoi area is between a tenth of and ten times the mixed one
 
-/// The same for each, by the lengths between the moved points.
+  void resize(int count);
+  /// Measures star p.
+  /// @param fans unmollified; `at` is the first triangle of the star
+  void measure(const Stars& stars, int p, const Fans& fans, int at);
+};
+
+/// The area that belongs to each point in its own star.
+struct OwnAreas {
+  RawBuffer<double> area;    ///< n
+  std::int64_t bounded = 0;  ///< points that would have taken their Voronoi area, were it not for its bounds
+};
+
+/// The Voronoi area where p and all its link vertices have whole stars, the neighbourhood is next to a plane, and the
+/// Voronoi areas of p and its link vertices are within their bounds: there the stars agree, and the areas of neighbours
+/// fit together. Elsewhere the mixed area.
+///
+/// Where a surface is as narrow as its triangles are long, Voronoi cells reach far beyond it: without bounds a point
+/// could get more than the whole surface. So no point gets more than ten times the area of its star's triangles. Cells
+/// of random points on a surface keep within the bounds, all but one in 20,000.
+OwnAreas chooseAreas(const Stars& stars, StarAreas areas, const Workers& workers);
+
+/// Measures all stars by the lengths between the moved points, and chooses.
 /// @param points n x 3, by rank
-/// @returns n areas in units of `points` squared
-Buffer<double> starAreas(const Stars& stars, const PointsView& points, const Workers& workers);
+/// @returns areas in units of `points` squared
+OwnAreas ownAreas(const Stars& stars, const PointsView& points, const Workers& workers);
 
 }  // namespace tufted

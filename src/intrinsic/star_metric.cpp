@@ -7,7 +7,6 @@
 
 #include "base/buffer.h"
 #include "intrinsic/fan_buffer.h"
-#include "intrinsic/star_areas.h"
 
 namespace tufted {
 namespace {
@@ -22,8 +21,8 @@ struct BlockSums {
 
 class StarMeasurer {
  public:
-  StarMeasurer(const Stars& stars, const EdgeLengths& length, StarMetric& metric, Buffer<double>* own_area)
-      : stars_(stars), length_(length), metric_(metric), own_area_(own_area) {}
+  StarMeasurer(const Stars& stars, const EdgeLengths& length, StarMetric& metric, StarAreas* own_areas)
+      : stars_(stars), length_(length), metric_(metric), own_areas_(own_areas) {}
 
   void measure(int begin, int end, FanBuffer& buffer, BlockSums& sums) const {
     forEachFan(stars_, length_, Numbers{begin, end}, buffer,
@@ -37,7 +36,7 @@ class StarMeasurer {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     double area = 0, first = nan, before = nan;  // cotangents opposite spokes, in the first and the last triangle
     bool is_flat = false;
-    if (own_area_ != nullptr) (*own_area_)[p] = starArea(stars_, p, fans, at);
+    if (own_areas_ != nullptr) own_areas_->measure(stars_, p, fans, at);
     for (int i = begin; i < end; ++i, ++at) {
       if (!stars_.hasTriangle(i)) {
         metric_.cotan_sum[i] = before = nan;
@@ -62,21 +61,21 @@ class StarMeasurer {
   const Stars& stars_;
   const EdgeLengths& length_;
   StarMetric& metric_;
-  Buffer<double>* const own_area_;
+  StarAreas* const own_areas_;
 };
 
 }  // namespace
 
 StarMetric measureStars(const Stars& stars, const EdgeLengths& length, RawBuffer<double> memory, const Workers& workers,
-                        Buffer<double>* own_area) {
+                        StarAreas* own_areas) {
   StarMetric metric;
   metric.cotan_sum = std::move(memory);
   metric.cotan_sum.resize(stars.link.size());
   metric.area.resize(stars.size());
   metric.is_flat.resize(stars.size());
-  if (own_area != nullptr) own_area->resize(stars.size());
+  if (own_areas != nullptr) own_areas->resize(stars.size());
   Buffer<BlockSums> sums((stars.size() + block_size - 1) / block_size);
-  const StarMeasurer measurer(stars, length, metric, own_area);
+  const StarMeasurer measurer(stars, length, metric, own_areas);
   workers.forBlocks("lengths", stars.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
     FanBuffer buffer;
     measurer.measure(static_cast<int>(begin), static_cast<int>(end), buffer, sums[begin / block_size]);

@@ -7,6 +7,7 @@
 #include "cloud/stars.h"
 #include "intrinsic/cover.h"
 #include "intrinsic/edge_lengths.h"
+#include "intrinsic/star_areas.h"
 
 namespace tufted {
 
@@ -20,8 +21,8 @@ struct StarMetric {
 };
 
 /// @param memory for cotan_sum, whatever is in it: new pages cost more than what is written to them
-/// @param[out] own_area if given, starAreas(), on the same way
+/// @param[out] own_areas if given, what chooseAreas() takes, on the same way
 StarMetric measureStars(const Stars& stars, const EdgeLengths& length, RawBuffer<double> memory, const Workers& workers,
-                        Buffer<double>* own_area = nullptr);
+                        StarAreas* own_areas = nullptr);
 
 }  // namespace tufted

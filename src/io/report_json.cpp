@@ -52,6 +52,7 @@ Json reportObject(const Report& report) {
       {"area", report.area},
       {"cover_area", report.cover_area},
       {"cover_masses", report.cover_masses},
+      {"bounded_masses", report.bounded_masses},
       {"nonzeros", report.nonzeros},
       {"components", report.components},
       {"clamped_weights", report.clamped_weights},

@@ -111,16 +111,17 @@ void takeTangents(const Workers& workers, Laplacian& result) {
 }
 
 /// Makes the stars' own areas M where they are positive and the point has a row.
-void takeAreas(const Buffer<double>& areas, const Buffer<int>& caller, int exponent, Laplacian& result) {
+void takeAreas(const OwnAreas& own, const Buffer<int>& caller, int exponent, Laplacian& result) {
   const PowerOfTwo area_unit(2 * exponent);
   for (std::size_t p = 0; p < caller.size(); ++p) {
     const int i = caller[p];
     if (result.status[i] != PointStatus::active) continue;
-    if (areas[p] > 0)
-      result.M[i] = area_unit.times(areas[p]);
+    if (own.area[p] > 0)
+      result.M[i] = area_unit.times(own.area[p]);
     else
       ++result.report.cover_masses;
   }
+  result.report.bounded_masses = own.bounded;
   result.report.area = result.M.sum();
 }
 
@@ -176,17 +177,17 @@ void buildCloudLaplacian(const Points& points, const CloudOptions& options, Clou
   const Buffer<int> caller = has_own_areas ? cloud.caller : Buffer<int>();
   const int exponent = cloud.exponent;
   if (std::ssize(stars.link) > most_entries) tooMany(stars.size(), std::ssize(stars.link));
-  Buffer<double> areas;
+  OwnAreas own;
   const bool stars_agree = options.gluing == Gluing::star && options.order == FaceOrder::angle;
   if (stars_agree && build == CloudBuild::automatic) {
     result.stored_cover.reset();
-    areas = finishFromStars(std::move(stars), std::move(cloud), options, workers, clock, result);
+    own = finishFromStars(std::move(stars), std::move(cloud), options, workers, clock, result);
   } else {
-    if (has_own_areas) areas = starAreas(stars, cloud.points, workers);
+    if (has_own_areas) own = ownAreas(stars, cloud.points, workers);
     clock.finish("mass", 0);
     finishFromCover(std::move(stars), cloud, options, workers, clock, result);
   }
-  if (has_own_areas) takeAreas(areas, caller, exponent, result);
+  if (has_own_areas) takeAreas(own, caller, exponent, result);
   takeTangents(workers, result);
   clock.finish("tangents", static_cast<std::size_t>(result.frames.tangents.size()) * sizeof(double));
   workers.report("done", 1);

@@ -22,9 +22,11 @@ class StarUnion final : public CoverSource {
         cover_(stars_, length_, pools_) {}
 
   /// Lengths, mollified (Section 4.5).
-  /// @param[out] own_area if given, starAreas()
-  StarMetric measure(double delta, RawBuffer<double> memory, const Workers& workers, Buffer<double>* own_area) {
-    StarMetric metric = measureStars(stars_, length_, std::move(memory), workers, own_area);
+  /// @param[out] own if given, ownAreas()
+  StarMetric measure(double delta, RawBuffer<double> memory, const Workers& workers, OwnAreas* own) {
+    StarAreas areas;
+    StarMetric metric = measureStars(stars_, length_, std::move(memory), workers, own != nullptr ? &areas : nullptr);
+    if (own != nullptr) *own = chooseAreas(stars_, std::move(areas), workers);
     const double missing = delta * metric.mean.length - metric.least_slack;
     if (!(missing > 0)) return metric;
     length_.added = missing;
@@ -70,8 +72,8 @@ class StarUnion final : public CoverSource {
 
 }  // namespace
 
-Buffer<double> finishFromStars(Stars stars, RankedCloud cloud, const CloudOptions& options, const Workers& workers,
-                               StageClock& clock, Laplacian& result) {
+OwnAreas finishFromStars(Stars stars, RankedCloud cloud, const CloudOptions& options, const Workers& workers,
+                         StageClock& clock, Laplacian& result) {
   const int exponent = cloud.exponent;
   RawBuffer<double> memory = std::move(stars.radius);
   BuildFigures figures{.triangles = stars.triangles()};
@@ -80,9 +82,9 @@ Buffer<double> finishFromStars(Stars stars, RankedCloud cloud, const CloudOption
                                       static_cast<int>(result.status.size()), workers);
   clock.finish("cover", 0);
 
-  Buffer<double> own_area;
+  OwnAreas own;
   const StarMetric metric = stars_and_cover->measure(options.mollify, std::move(memory), workers,
-                                                     options.steps.mass == Mass::star ? &own_area : nullptr);
+                                                     options.steps.mass == Mass::star ? &own : nullptr);
   figures.mean = metric.mean;
   figures.mollify_length = stars_and_cover->mollifyLength();
   clock.finish("lengths", bytesOf(metric.cotan_sum) + bytesOf(metric.area));
@@ -94,7 +96,7 @@ Buffer<double> finishFromStars(Stars stars, RankedCloud cloud, const CloudOption
   finishResult(figures, exponent, result);
   if (options.keep_cover) result.cover_source = stars_and_cover;
   clock.finish("matrices", bytesOfMatrices(result));
-  return own_area;
+  return own;
 }
 
 }  // namespace tufted

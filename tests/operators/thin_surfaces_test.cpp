@@ -1,0 +1,81 @@
+// Surfaces as narrow as their samples are far apart: no point may get more than there is.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "shapes/random.h"
+#include "shapes/shapes.h"
+#include "tufted/tufted.h"
+
+namespace tufted {
+namespace {
+
+// Constants of the library were chosen on seeds 1 to 9.
+constexpr std::uint64_t first_seed = 101, last_seed = 105;
+
+Points turned(const Points& points) {
+  const Eigen::AngleAxisd turn(0.7, Eigen::Vector3d(1, 2, 3).normalized());
+  return points * turn.toRotationMatrix().transpose();
+}
+
+/// Random points of the rectangle 1 x width.
+Points ribbon(int n, double width, std::uint64_t seed) {
+  Points points = shapes::square(n, shapes::Sampling::uniform, shapes::Rim::none, seed).points;
+  points.col(1) *= width;
+  return points;
+}
+
+class Ribbon : public testing::TestWithParam<double> {};
+
+TEST_P(Ribbon, HasTheAreaOfItsCoverAndOfItsSurfaceWherePointsFillIt) {
+  const double width = GetParam();
+  struct Size {
+    int points;
+    std::uint64_t seeds;
+  };
+  for (const auto [n, seeds] : {Size{300, 10}, Size{1000, 10}, Size{3000, 10}, Size{10000, 2}, Size{30000, 1}}) {
+    const bool is_filled = width >= std::sqrt(width / n);
+    for (std::uint64_t seed = first_seed; seed < first_seed + seeds; ++seed) {
+      const Points points = ribbon(n, width, seed);
+      for (const Points& placed : {points, turned(points)}) {
+        const Report report = pointCloudLaplacian(placed, {.keep_cover = false}).report;
+        EXPECT_NEAR(report.area, report.cover_area, 0.25 * report.cover_area) << n << " points, seed " << seed;
+        if (!is_filled) continue;
+        EXPECT_NEAR(report.area, width, 0.25 * width) << n << " points, seed " << seed;
+      }
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Widths, Ribbon, testing::Values(1e-1, 1e-2, 1e-3, 1e-4));
+
+TEST(Line, HasAtMostFourTimesTheAreaOfItsCover) {
+  for (const int n : {5, 10, 30, 31, 40, 300}) {
+    for (const double scatter : {0.0, 1e-12, 1e-6}) {
+      for (std::uint64_t seed = first_seed; seed <= last_seed; ++seed) {
+        shapes::Random random(seed);
+        const auto vector = [&] { return Eigen::RowVector3d(random.uniform(), random.uniform(), random.uniform()); };
+        for (const double length : {1e-3, 1.0, 1e6}) {
+          const Eigen::RowVector3d line = length * vector().normalized();
+          Points points(n, 3);
+          for (int i = 0; i < n; ++i) points.row(i) = random.uniform() * line + scatter * length * vector();
+          const Report report = pointCloudLaplacian(points).report;
+          EXPECT_LE(report.area, 4 * report.cover_area)
+              << n << " points, scatter " << scatter << ", length " << length << ", seed " << seed;
+        }
+      }
+    }
+  }
+}
+
+TEST(MassReport, CountsBoundedAreasOfRibbonsAndNextToNoneOfSurfaces) {
+  EXPECT_GT(pointCloudLaplacian(ribbon(1000, 1e-3, first_seed)).report.bounded_masses, 10);
+  std::int64_t bounded = 0;
+  for (std::uint64_t seed = first_seed; seed <= last_seed; ++seed)
+    bounded += pointCloudLaplacian(shapes::sphere(16000, shapes::Sampling::uniform, seed).points).report.bounded_masses;
+  EXPECT_LE(bounded, 160000 / 500);
+}
+
+}  // namespace
+}  // namespace tufted
