@@ -61,8 +61,8 @@ enum class Lengths {
 enum class Mass {
   cover,  ///< a third of the area of each face of the cover around the point
   /// The Voronoi area in the point's own star, which noise, rims and uneven sampling distort less. Where the surface
-  /// ends or bends next to the point, or a Voronoi area there is not between a tenth of and ten times the mixed area of
-  /// Meyer et al. 2003, the mixed area: so no point gets more than ten times the triangles of its star.
+  /// ends or bends next to the point, or a Voronoi area there exceeds 20 times the mixed area of Meyer et al. 2003, the
+  /// mixed area: so no point gets more than 20 times the triangles of its star.
   star,
 };
 

@@ -14,7 +14,7 @@ namespace tufted {
 struct StarAreas {
   RawBuffer<double> voronoi;         ///< n, signed; means nothing where circumcentres lie far beyond the star
   RawBuffer<double> mixed;           ///< n, of Meyer et al. 2003; never negative, never more than the star's triangles
-  RawBuffer<std::uint8_t> is_bound;  ///< n, 1 where the Voronoi area is between a tenth of and ten times the mixed one
+  RawBuffer<std::uint8_t> is_bound;  ///< n, 1 where the Voronoi area is at most 20 times the mixed one, either sign
 
   void resize(int count);
   /// Measures star p.
@@ -28,13 +28,12 @@ struct OwnAreas {
   std::int64_t bounded = 0;  ///< points that would have taken their Voronoi area, were it not for its bounds
 };
 
-/// The Voronoi area where p and all its link vertices have whole stars, the neighbourhood is next to a plane, and the
-/// Voronoi areas of p and its link vertices are within their bounds: there the stars agree, and the areas of neighbours
-/// fit together. Elsewhere the mixed area.
+/// The Voronoi area where p and all its link vertices have whole stars and Voronoi areas within their bounds, that of p
+/// is not far below the mixed area, and the neighbourhood is next to a plane: there the stars agree, and the areas of
+/// neighbours fit together. Elsewhere the mixed area.
 ///
 /// Where a surface is as narrow as its triangles are long, Voronoi cells reach far beyond it: without bounds a point
-/// could get more than the whole surface. So no point gets more than ten times the area of its star's triangles. Cells
-/// of random points on a surface keep within the bounds, all but one in 20,000.
+/// could get more than the whole surface. So no point gets more than 20 times the area of its star's triangles.
 OwnAreas chooseAreas(const Stars& stars, StarAreas areas, const Workers& workers);
 
 /// Measures all stars by the lengths between the moved points, and chooses.
