@@ -44,7 +44,7 @@ void writeNpy(const OutputPath& to, const char* descr, const T* values, std::siz
 
 void writeReport(const OutputPath& to, const Results& results) {
   io::OutputFile file(to);
-  file.write(io::reportJson(results.laplacian.report, results.geometry, results.options, results.conventions));
+  file.write(io::reportJson(results.laplacian, results.geometry, results.options, results.conventions));
   file.close();
 }
 

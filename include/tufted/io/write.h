@@ -58,7 +58,7 @@ std::vector<std::string> resultFiles(const std::vector<Format>& formats);
 ///   M.spmat             the diagonal matrix of the N masses, in the same way
 ///   points.ply          the points, little endian; the triangles of a mesh
 ///   points.pcd          the points, binary
-///   report.json         the Report, with sign and scale stated, and what was changed in reading the input
+///   report.json         the kind and the Report, with sign and scale stated, and what was changed in reading the input
 /// The points have x y z and normals (where known), the fields of the input, mass (float64), boundary, status (uint8)
 /// and representative (int32). x y z are float32 where that loses nothing, else float64: PCL turns wider coordinates
 /// into zeros when it converts them to its point types. So are normals of the input; normals of the build are float32.
