@@ -69,7 +69,7 @@ std::vector<std::string> resultFiles(const std::vector<Format>& formats);
 /// all are complete, renamed one after the other: no file is ever half there, but for a moment new files stand beside
 /// old ones. Files of these names are replaced; those of formats that were not asked for stay.
 /// @throws InvalidInput if the arrays of `laplacian` and `geometry` differ in length, the name of a field is not one
-///         word, or the cover is asked for and was not kept
+///         word, the pose of the sensor is none, or the cover is asked for and was not kept
 /// @throws IoError naming the path
 /// @throws Cancelled when `options.progress` returns false
 void writeLaplacian(const std::filesystem::path& dir, const Laplacian& laplacian, const Geometry& geometry,
