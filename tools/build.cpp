@@ -67,8 +67,7 @@ tufted::Laplacian buildLaplacian(const tufted::Geometry& geometry, const Input& 
   build.cloud.steps = tufted::cloudSteps(build.preset);
   // The position is at hand where a file states one, and where an image of depths leaves it at the origin.
   build.viewpoint = {geometry.viewpoint[0], geometry.viewpoint[1], geometry.viewpoint[2]};
-  if ((geometry.height > 1 || !build.viewpoint.isZero(0)) && build.viewpoint.allFinite())
-    build.cloud.viewpoint = &build.viewpoint;
+  if (geometry.height > 1 || !build.viewpoint.isZero(0)) build.cloud.viewpoint = &build.viewpoint;
   build.cloud.progress = progress;
   build.cloud.keep_cover = keep_cover;
   build.mesh.order = build.cloud.order;

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "command.h"
+#include "inactive.h"
 #include "input.h"
 #include "interrupt.h"
 #include "options.h"
@@ -22,7 +23,8 @@ using Json = nlohmann::ordered_json;
 constexpr const char* description = "Say what a file holds, what is odd about it, and what building L and M will cost.";
 
 constexpr const char* footer =
-    R"(On clouds the nearest neighbours are found, nothing is built; meshes are built, which takes no longer.
+    R"(On clouds the nearest neighbours are found, nothing is built; meshes are built, which takes no longer. (So are clouds of
+one or two points, or all on lines: whether any of their points is active shows only then.)
   spacing       median distance to the nearest neighbour (and its 5 % and 95 % quantiles)
   float step    distance of neighbouring floats at the farthest coordinate; above a tenth of the spacing it is odd
   on lines      points whose nearest neighbours lie on one line, as on the rings of a scanner
@@ -183,6 +185,17 @@ void print(const Json& info) {
   std::printf("%-15s %.2g s, %.0f MB\n", "to expect", real("expected_seconds"), real("expected_bytes") / 1e6);
 }
 
+/// Says why no point is active, as far as that can be told: clouds are built only where it may be so, which they are
+/// not otherwise.
+std::string findNothing(const Settings& settings, const tufted::Geometry& geometry,
+                        const tufted::CloudDescription& cloud) {
+  const std::int64_t usable = cloud.points - cloud.not_finite - cloud.coincident;
+  if (usable >= 3 && cloud.on_lines < usable) return "";
+  tufted::CloudOptions options = settings.cloud;
+  options.keep_cover = false;
+  return nothingActive(tufted::pointCloudLaplacian(geometry.points, options));
+}
+
 int runInfo(Settings settings) {
   ProgressBar bar;
   settings.cloud.progress = [&bar](std::string_view stage, double fraction) {
@@ -195,15 +208,20 @@ int runInfo(Settings settings) {
   Json info = describeFile(settings, geometry);
   const tufted::CloudDescription points = tufted::describeCloud(geometry.points, settings.cloud);
   addExtent(points, info);
+  std::string nothing;
   if (geometry.is_mesh) {
     const tufted::MeshOptions options = {
         .threads = settings.cloud.threads, .keep_cover = false, .progress = settings.cloud.progress};
-    addMesh(tufted::meshLaplacian(geometry.points, geometry.triangles, options).report, info);
+    const tufted::Laplacian laplacian = tufted::meshLaplacian(geometry.points, geometry.triangles, options);
+    addMesh(laplacian.report, info);
+    nothing = nothingActive(laplacian);
   } else {
     addCloud(points, info);
+    nothing = findNothing(settings, geometry, points);
   }
   info["odd"] = findOddities(info);
   bar.clear();
+  if (!nothing.empty()) warn(bar, settings.input.name() + ": " + nothing);
   if (settings.json)
     std::printf("%s\n", info.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
   else

@@ -13,6 +13,7 @@
 
 #include "build.h"
 #include "command.h"
+#include "inactive.h"
 #include "input.h"
 #include "interrupt.h"
 #include "options.h"
@@ -163,6 +164,8 @@ int runLaplacian(Settings& settings) {
     write.cloud = &settings.build.cloud;
   tufted::writeLaplacian(settings.out, laplacian, geometry, write);
   bar.clear();
+  if (const std::string nothing = nothingActive(laplacian); !nothing.empty())
+    warn(bar, settings.input.name() + ": " + nothing);
   printSummary(settings, geometry, laplacian,
                std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   return exit_done;

@@ -9,6 +9,7 @@
 #include <optional>
 #include <system_error>
 
+#include "inactive.h"
 #include "interrupt.h"
 #include "options.h"
 #include "output.h"
@@ -93,6 +94,25 @@ void write(const OperatorSettings& settings, const Operator& source, const Resul
     tufted::writeResults(settings.out, source.laplacian, source.geometry, results.arrays, options);
 }
 
+/// Why nothing can be computed, where that is known: no point is active. Otherwise an empty string.
+std::string whyNothing(const Operator& source) {
+  const bool is_built = !source.laplacian.status.empty() || source.points() == 0;
+  return is_built ? nothingActive(source.laplacian) : "";
+}
+
+/// Takes a step of a command. What it refuses because no point is active is the data's fault and not the command
+/// line's, which is right for other files.
+template <class Step>
+auto blameData(const Operator& source, const Step& step) {
+  try {
+    return step();
+  } catch (const tufted::InvalidInput& error) {
+    const std::string why = whyNothing(source);
+    if (why.empty()) throw;
+    throw tufted::IoError(source.name + ": " + why + ": " + error.what());
+  }
+}
+
 }  // namespace
 
 void addOperatorOptions(CLI::App& command, OperatorSettings& settings) {
@@ -141,14 +161,15 @@ int runWithOperator(OperatorSettings& settings, const Check& check, const Comput
   else
     readFolder(settings, source);
   checkpoint();
-  check(source);
+  blameData(source, [&] { check(source); });
   if (settings.folder.empty())
     source.laplacian =
         buildLaplacian(source.geometry, settings.input, settings.build, settings.needs_cover, source.progress);
   checkpoint();
-  Results results = compute(source);
+  Results results = blameData(source, [&] { return compute(source); });
   write(settings, source, results);
   bar.clear();
+  if (const std::string why = whyNothing(source); !why.empty()) warn(bar, source.name + ": " + why);
   results.summary.add("written to", "%s", settings.out.c_str());
   results.summary.print();
   return exit_done;

@@ -49,7 +49,8 @@ std::vector<double> azimuthsOf(const tufted::Field& field, const tufted::Points&
 tufted::ScanStructure ringsOf(const tufted::Geometry& geometry, const std::string& name) {
   const auto& pose = geometry.viewpoint;
   const Eigen::Vector3d origin(pose[0], pose[1], pose[2]);
-  const Eigen::Quaterniond turn(pose[3], pose[4], pose[5], pose[6]);
+  Eigen::Quaterniond turn(pose[3], pose[4], pose[5], pose[6]);
+  turn.coeffs() /= turn.coeffs().cwiseAbs().maxCoeff();  // the square of its length neither over- nor underflows
   // In the scanner's frame, whose z axis it turns around.
   const tufted::Points seen = (geometry.points.rowwise() - origin.transpose()) * turn.normalized().toRotationMatrix();
   const auto byElevation = [&] {

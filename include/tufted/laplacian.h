@@ -30,14 +30,19 @@ class CoverSource {
 /// L is -Delta integrated: libigl and PMP use the opposite sign. M holds lumped areas.
 ///   Poisson        L u = M f
 ///   eigenproblem   L x = lambda M x
+/// The faces of the cover count 1/2 (it has a front and a back), on clouds times 1/3 (each triangle is found by its
+/// three corners).
 struct Laplacian {
+  /// Set by the builds, and by readLaplacian() from the file. One that is put together by hand is taken for a mesh's
+  /// unless it says otherwise. Frames say nothing of it: a mesh may have some, and a cloud none.
+  Kind kind = Kind::mesh;
   SparseMatrix L;                   ///< N x N, column-major, compressed, rows ascending; no unit (lengths cancel)
   VectorXd M;                       ///< N areas in length^2, see Mass; their sum approximates the surface area
   VectorXd cover_areas;             ///< N; areas lumped from the faces of the cover, equal to M with Mass::cover
   std::vector<PointStatus> status;  ///< N
   std::vector<int> representative;  ///< N; the point itself unless coincident, then the lowest equal index
   std::vector<Boundary> boundary;   ///< N; why the surface ends at a point, if it does
-  Frames frames;                    ///< clouds only; 0 x 3 on meshes
+  Frames frames;                    ///< of clouds; 0 x 3 on meshes, where those of meshFrames() may be stored
   Report report;
 
   /// The tufted cover after flips to intrinsic Delaunay, vertices numbered as the caller's points. On clouds the first

@@ -19,6 +19,12 @@ using Polygons = std::vector<std::vector<int>>;
 using SparseMatrix = Eigen::SparseMatrix<double>;
 using VectorXd = Eigen::VectorXd;
 
+/// What a Laplacian is of; its scale depends on that, see Laplacian.
+enum class Kind : std::uint8_t {
+  cloud,  ///< points alone: a triangle lies under the cover once for each corner that found it
+  mesh,   ///< points and triangles: each lies under the cover once
+};
+
 /// Why a point does or does not take part. A point that does not has a zero row, column and mass.
 enum class PointStatus : std::uint8_t {
   active = 0,      ///< has a positive diagonal in L

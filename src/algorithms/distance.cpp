@@ -15,6 +15,7 @@
 #include "base/number_text.h"
 #include "base/parallel.h"
 #include "base/stage_clock.h"
+#include "operators/face_scale.h"
 #include "operators/surface_faces.h"
 #include "tufted/check.h"
 #include "tufted/errors.h"
@@ -135,9 +136,8 @@ DistanceSolver::DistanceSolver(const Laplacian& laplacian, const DistanceOptions
   const Stopwatch watch;
   auto state = std::make_unique<State>();
   const Workers workers(options.solver.threads, options.solver.progress);
-  const double scale = laplacian.frames.normals.rows() > 0 ? 1.0 / 6 : 1.0 / 2;  // see Laplacian
   state->L = laplacian.L;
-  state->surface = distinctFaces(checkedCover(laplacian), scale, workers);
+  state->surface = distinctFaces(checkedCover(laplacian), faceScale(laplacian.kind), workers);
   state->components = findComponents(laplacian);
   state->representative = laplacian.representative;
   state->threads = options.solver.threads;

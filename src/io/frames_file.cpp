@@ -37,10 +37,10 @@ void writeFrames(const OutputPath& to, const Frames& frames) {
   file.close();
 }
 
-Frames readFrames(const std::filesystem::path& path, const std::vector<PointStatus>& status) {
+Frames readFrames(const std::filesystem::path& path, std::size_t points) {
   const std::string bytes = readBytes(path);
   const NpyArray array = parseNpy(bytes, path);
-  const auto n = std::ssize(status);
+  const auto n = static_cast<std::int64_t>(points);
   const bool fits = array.shape.size() == 3 && array.shape[1] == 3 && array.shape[2] == 3;
   if (!fits || (array.shape[0] != n && array.shape[0] != 0))
     refuse(path, "is not an array of " + std::to_string(n) + " x 3 x 3 values, three axes for each row of L");
@@ -48,11 +48,14 @@ Frames readFrames(const std::filesystem::path& path, const std::vector<PointStat
   if (numbers.empty()) return {};  // of a mesh; a part of an array without data has no address
   const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 9, Eigen::RowMajor>> axes(numbers.data(), array.shape[0],
                                                                                          9);
-  Frames frames{axes.rightCols<3>(), axes.leftCols<3>()};
-  for (Eigen::Index i = 0; i < axes.rows(); ++i)
+  return {axes.rightCols<3>(), axes.leftCols<3>()};
+}
+
+void requireOrthonormal(const std::filesystem::path& path, const Frames& frames,
+                        const std::vector<PointStatus>& status) {
+  for (Eigen::Index i = 0; i < frames.normals.rows(); ++i)
     if (status[i] == PointStatus::active && !isOrthonormal(frames.tangents.row(i), frames.normals.row(i)))
       refuse(path, "the frame of point " + std::to_string(i) + " is not orthonormal");
-  return frames;
 }
 
 }  // namespace tufted::io

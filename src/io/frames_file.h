@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <filesystem>
 #include <vector>
 
@@ -15,8 +16,12 @@ Eigen::Matrix<double, Eigen::Dynamic, 9, Eigen::RowMajor> axesOf(const Frames& f
 /// Writes them as N x 3 x 3, float64.
 void writeFrames(const OutputPath& to, const Frames& frames);
 
+/// @throws IoError unless there is a frame for each of so many points, or none at all
+Frames readFrames(const std::filesystem::path& path, std::size_t points);
+
 /// @param status of the points
-/// @throws IoError unless there is an orthonormal frame for each active point, or none at all
-Frames readFrames(const std::filesystem::path& path, const std::vector<PointStatus>& status);
+/// @throws IoError naming the first active point whose frame is not orthonormal
+void requireOrthonormal(const std::filesystem::path& path, const Frames& frames,
+                        const std::vector<PointStatus>& status);
 
 }  // namespace tufted::io

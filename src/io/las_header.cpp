@@ -139,6 +139,8 @@ class LasHeaderParser {
       for (int c = 0; c < extra.count; ++c) {
         if ((options & 0x08) != 0) extra.scale[c] = at<double>(place + 112 + 8 * c);
         if ((options & 0x10) != 0) extra.offset[c] = at<double>(place + 136 + 8 * c);
+        if (!std::isfinite(extra.scale[c])) refuseByte(path_, place + 112 + 8 * c, "a scale that is not finite");
+        if (!std::isfinite(extra.offset[c])) refuseByte(path_, place + 136 + 8 * c, "an offset that is not finite");
       }
     } else {
       refuseByte(path_, place + 2, "unknown type " + std::to_string(kind) + " of an extra value");

@@ -5,6 +5,7 @@
 
 #include "io/errors.h"
 #include "io/line_scanner.h"
+#include "io/pose.h"
 
 namespace tufted::io {
 namespace {
@@ -59,6 +60,7 @@ class PcdHeaderParser {
     } else if (word == "VIEWPOINT") {
       if (tokens.size() != header_.viewpoint.size() + 1) scanner_.refuse("seven numbers expected");
       for (std::size_t t = 1; t < tokens.size(); ++t) header_.viewpoint[t - 1] = scanner_.number(t);
+      if (const char* const fault = poseFault(header_.viewpoint)) scanner_.refuse(fault);
     } else if (word != "VERSION") {
       scanner_.refuse("unknown keyword " + quote(word));
     }

@@ -1,6 +1,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "io/columns.h"
 #include "io/errors.h"
@@ -102,6 +103,7 @@ void readCamera(const PlyElement& element, PlyBody& body, std::array<double, 7>&
     std::byte bytes[sizeof(double)];
     body.value(property.type, bytes);
     values[name - names.begin()] = valueOf(property.type, bytes);
+    if (!std::isfinite(values[name - names.begin()])) body.refuse("a viewpoint that is not finite");
   }
   body.endItem();
   using Matrix = Eigen::Matrix<double, 3, 3, Eigen::RowMajor>;

@@ -7,6 +7,7 @@
 #include "io/columns.h"
 #include "io/errors.h"
 #include "io/line_scanner.h"
+#include "io/pose.h"
 
 namespace tufted::io {
 namespace {
@@ -50,8 +51,10 @@ class PlyHeaderParser {
     } else if (tokens[0] == "obj_info") {
       if (tokens.size() == 3 && tokens[1] == "num_cols") header_.columns = scanner_.integer(2);
       if (tokens.size() == 3 && tokens[1] == "num_rows") header_.rows = scanner_.integer(2);
-      if (tokens.size() == header_.viewpoint.size() + 2 && tokens[1] == "viewpoint")
+      if (tokens.size() == header_.viewpoint.size() + 2 && tokens[1] == "viewpoint") {
         for (std::size_t t = 2; t < tokens.size(); ++t) header_.viewpoint[t - 2] = scanner_.number(t);
+        if (const char* const fault = poseFault(header_.viewpoint)) scanner_.refuse(fault);
+      }
     } else if (tokens[0] != "comment") {
       scanner_.refuse("unknown keyword " + quote(tokens[0]));
     }

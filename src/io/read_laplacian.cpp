@@ -11,6 +11,7 @@
 #include "io/frames_file.h"
 #include "io/npy.h"
 #include "io/npz_reader.h"
+#include "io/promises.h"
 #include "tufted/io/results.h"
 
 namespace tufted {
@@ -19,12 +20,12 @@ namespace {
 using Json = nlohmann::json;
 using Path = std::filesystem::path;
 
-/// A symmetric matrix, so csc and csr are the same.
 SparseMatrix readMatrix(const Path& path) {
   const io::NpzReader archive(path);
   const std::string format_bytes = archive.read("format");
   const std::string_view format = io::parseNpy(format_bytes, path).values;
-  if (format.substr(0, 3) != "csc" && format.substr(0, 3) != "csr")
+  const bool by_rows = format.starts_with("csr");
+  if (!by_rows && !format.starts_with("csc"))
     io::refuse(path, "is a matrix of the format " + io::quote(format) + ", must be csc or csr");
   const std::vector<double> shape = archive.numbers("shape"), data = archive.numbers("data");
   const double most = std::numeric_limits<int>::max();
@@ -41,7 +42,8 @@ SparseMatrix readMatrix(const Path& path) {
   std::vector<Eigen::Triplet<double>> entries;  // in any order within a column, as scipy allows
   entries.reserve(data.size());
   for (int j = 0; j < n; ++j)
-    for (int k = start[j]; k < start[j + 1]; ++k) entries.emplace_back(indices[k], j, data[k]);
+    for (int k = start[j]; k < start[j + 1]; ++k)
+      entries.emplace_back(by_rows ? j : indices[k], by_rows ? indices[k] : j, data[k]);
   matrix.setFromTriplets(entries.begin(), entries.end());
   return matrix;
 }
@@ -54,10 +56,12 @@ std::vector<double> readArray(const Path& path, std::size_t length) {
   return io::numbersOf(array, path);
 }
 
-/// Members of the report that algorithms look at.
+/// Members of the report that algorithms and validate() look at.
 void readReport(const Json& json, Report& report) {
   const auto take = [&](const char* name, auto& value) {
-    if (json.contains(name) && json[name].is_number()) value = json[name].get<std::decay_t<decltype(value)>>();
+    using Value = std::decay_t<decltype(value)>;
+    const Json member = json.value(name, Json());
+    if (std::is_integral_v<Value> ? member.is_number_integer() : member.is_number()) value = member.get<Value>();
   };
   take("points", report.points);
   take("active", report.active);
@@ -73,14 +77,32 @@ void readReport(const Json& json, Report& report) {
   take("mean_squared_edge", report.mean_squared_edge);
   take("area", report.area);
   take("cover_area", report.cover_area);
+  take("flips", report.flips);
+  take("flip_failures", report.flip_failures);
   take("nonzeros", report.nonzeros);
   take("components", report.components);
+  take("clamped_weights", report.clamped_weights);
+  take("clamped_large", report.clamped_large);
+  take("largest_clamped", report.largest_clamped);
 }
 
+/// Directories of before there was `kind` have the options of the build, if the command wrote them.
+/// @param needed whether anything depends on it, which is the scale of the cover
+Kind readKind(const Json& json, bool needed, const Path& path) {
+  const Json kind = json.value("kind", Json());
+  if (kind == "cloud") return Kind::cloud;
+  if (kind == "mesh") return Kind::mesh;
+  if (!kind.is_null()) io::refuse(path, "is of the kind " + io::quote(kind.dump()) + ", must be cloud or mesh");
+  const bool of_cloud = json.contains("cloud_options"), of_mesh = json.contains("mesh_options");
+  if (needed && of_cloud == of_mesh)
+    io::refuse(path, "does not say of what the cover is, must have \"kind\": \"cloud\" or \"kind\": \"mesh\"");
+  return of_cloud ? Kind::cloud : Laplacian().kind;
+}
+
+/// Undoes WriteOptions::dummy. Whatever else points that are not active have stays, to be found by those who check.
 void removeDummies(Laplacian& laplacian) {
-  laplacian.L.prune([&](Eigen::Index i, Eigen::Index j, double) {
-    return laplacian.status[i] == PointStatus::active && laplacian.status[j] == PointStatus::active;
-  });
+  laplacian.L.prune(
+      [&](Eigen::Index i, Eigen::Index j, double) { return i != j || laplacian.status[i] == PointStatus::active; });
   for (std::size_t i = 0; i < laplacian.status.size(); ++i)
     if (laplacian.status[i] != PointStatus::active) laplacian.M[static_cast<Eigen::Index>(i)] = 0;
 }
@@ -94,7 +116,7 @@ bool hasWritten(const Json& written, const std::string& name) {
 
 }  // namespace
 
-Laplacian readLaplacian(const std::filesystem::path& dir, bool with_cover) {
+Laplacian readUncheckedLaplacian(const std::filesystem::path& dir, bool with_cover) {
   const Path report_path = dir / "report.json";
   const Json json = Json::parse(io::readBytes(report_path), nullptr, false);
   if (!json.is_object() || !json.contains("report") || !json["report"].is_object())
@@ -103,6 +125,8 @@ Laplacian readLaplacian(const std::filesystem::path& dir, bool with_cover) {
   for (const char* name : {"L.npz", "M.npy", "status.npy", "representative.npy", "boundary.npy", "frames.npy"})
     if (!hasWritten(written, name)) io::refuse(report_path, std::string("is of a run that did not write ") + name);
   Laplacian laplacian;
+  const bool takes_cover = with_cover && hasWritten(written, "cover.npz");
+  laplacian.kind = readKind(json, takes_cover, report_path);
   laplacian.L = readMatrix(dir / "L.npz");
   const auto n = static_cast<std::size_t>(laplacian.L.rows());
   const std::vector<double> mass = readArray(dir / "M.npy", n);
@@ -114,14 +138,25 @@ Laplacian readLaplacian(const std::filesystem::path& dir, bool with_cover) {
       io::integersOf(readArray(dir / "representative.npy", n), 0, last, dir / "representative.npy");
   for (const int code : io::integersOf(readArray(dir / "boundary.npy", n), 0, 3, dir / "boundary.npy"))
     laplacian.boundary.push_back(static_cast<Boundary>(code));
-  laplacian.frames = io::readFrames(dir / "frames.npy", laplacian.status);
-  if (with_cover && hasWritten(written, "cover.npz"))
+  laplacian.frames = io::readFrames(dir / "frames.npy", n);
+  if (takes_cover)
     laplacian.stored_cover =
         std::make_shared<const IntrinsicTriangulation>(io::readCover(dir / "cover.npz", static_cast<int>(n)));
   readReport(json["report"], laplacian.report);
   if (written.is_object() && written.value("sign", Json()) == "igl") laplacian.L = -laplacian.L;
-  removeDummies(laplacian);
+  if (written.is_object() && written.value("dummy", Json()) == true) removeDummies(laplacian);
   laplacian.cover_areas = laplacian.M;
+  return laplacian;
+}
+
+Laplacian readLaplacian(const std::filesystem::path& dir, bool with_cover) {
+  Laplacian laplacian = readUncheckedLaplacian(dir, with_cover);
+  const auto n = std::ssize(laplacian.status);
+  const auto counted = laplacian.report.points;  // 0 where a program of one's own left it out
+  if (counted != n && counted != 0)
+    io::refuse(dir / "report.json",
+               "counts " + std::to_string(counted) + " points, and L has " + std::to_string(n) + " rows");
+  io::requirePromises(dir, laplacian);
   return laplacian;
 }
 

@@ -126,17 +126,18 @@ std::string toJson(const Report& report) {
   return reportObject(report).dump(indent) + "\n";
 }
 
-std::string io::reportJson(const Report& report, const Geometry& geometry, const WriteOptions& options,
+std::string io::reportJson(const Laplacian& laplacian, const Geometry& geometry, const WriteOptions& options,
                            const std::vector<Convention>& conventions) {
   Json json = {{"tufted", TUFTED_VERSION}};
   if (!options.source.empty()) json["source"] = options.source;
+  json["kind"] = laplacian.kind == Kind::cloud ? "cloud" : "mesh";
   json["input"] = {{"polygons", geometry.polygons}, {"merged_vertices", geometry.merged_vertices}};
   if (options.cloud) json["cloud_options"] = optionsObject(*options.cloud);
   if (options.mesh) json["mesh_options"] = commonOptions(*options.mesh);
   json["write_options"] = {
       {"files", resultFiles(options.formats)}, {"sign", name(options.sign)}, {"dummy", options.dummy}};
   json["conventions"] = conventionsObject(conventions);
-  json["report"] = reportObject(report);
+  json["report"] = reportObject(laplacian.report);
   // A path need not be UTF-8.
   return json.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
 }

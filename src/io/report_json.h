@@ -9,7 +9,7 @@
 namespace tufted::io {
 
 /// The text of report.json: version, source, what was changed in reading it, options, conventions, report.
-std::string reportJson(const Report& report, const Geometry& geometry, const WriteOptions& options,
+std::string reportJson(const Laplacian& laplacian, const Geometry& geometry, const WriteOptions& options,
                        const std::vector<Convention>& conventions);
 
 }  // namespace tufted::io

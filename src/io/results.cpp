@@ -8,6 +8,7 @@
 #include "io/output_file.h"
 #include "io/pcd_writer.h"
 #include "io/ply_writer.h"
+#include "io/pose.h"
 #include "io/stage_results.h"
 #include "tufted/errors.h"
 
@@ -25,6 +26,8 @@ void check(const Laplacian& laplacian, const Geometry& geometry, const std::vect
                          std::to_string(n));
   };
   if (!options.copies.empty()) require("geometry", geometry.points.rows());
+  if (const char* const fault = io::poseFault(geometry.viewpoint); !options.copies.empty() && fault != nullptr)
+    throw InvalidInput(std::string("writeResults: ") + fault);
   for (const ResultArray& array : arrays) {
     if (array.per_point) require(array.name, array.values.rows());
     if (array.name.empty() || array.name.find_first_of(" \t\r\n/") != std::string::npos)

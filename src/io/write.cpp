@@ -16,6 +16,7 @@
 #include "io/output_matrices.h"
 #include "io/pcd_writer.h"
 #include "io/ply_writer.h"
+#include "io/pose.h"
 #include "io/report_json.h"
 #include "io/staged_files.h"
 #include "tufted/errors.h"
@@ -44,7 +45,7 @@ void writeNpy(const OutputPath& to, const char* descr, const T* values, std::siz
 
 void writeReport(const OutputPath& to, const Results& results) {
   io::OutputFile file(to);
-  file.write(io::reportJson(results.laplacian.report, results.geometry, results.options, results.conventions));
+  file.write(io::reportJson(results.laplacian, results.geometry, results.options, results.conventions));
   file.close();
 }
 
@@ -120,6 +121,8 @@ void check(const Laplacian& laplacian, const Geometry& geometry) {
   if (geometry.normals.rows() > 0) require("normals", geometry.normals.rows(), points);
   if (geometry.height > 1)
     require("the grid of width times height", static_cast<std::size_t>(geometry.width) * geometry.height, points);
+  if (const char* const fault = io::poseFault(geometry.viewpoint))
+    throw InvalidInput(std::string("writeLaplacian: ") + fault);
   for (const Field& field : geometry.fields) {
     require("the field " + field.name, field.bytes.size(), points * field.count * io::sizeOf(field.type));
     if (field.name.empty() || field.name.find_first_of(" \t\r\n") != std::string::npos)

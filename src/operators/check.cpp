@@ -76,7 +76,7 @@ bool checkShape(const Laplacian& laplacian, std::vector<std::string>& faults) {
   expect("entries of M", laplacian.M.size());
   expect("representatives", std::ssize(laplacian.representative));
   expect("marks of the boundary", std::ssize(laplacian.boundary));
-  if (laplacian.frames.normals.rows() + laplacian.frames.tangents.rows() > 0) {  // a cloud
+  if (laplacian.kind == Kind::cloud || laplacian.frames.normals.rows() + laplacian.frames.tangents.rows() > 0) {
     expect("normals", laplacian.frames.normals.rows());
     expect("tangents", laplacian.frames.tangents.rows());
   }

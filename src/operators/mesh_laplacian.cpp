@@ -6,6 +6,7 @@
 #include "base/require.h"
 #include "base/scaling.h"
 #include "operators/build.h"
+#include "operators/face_scale.h"
 #include "operators/pipeline.h"
 
 namespace tufted {
@@ -52,7 +53,7 @@ void buildMeshLaplacian(const Points& points, const Triangles& triangles, const 
   requireAtMost(INT32_MAX, points.rows(), function_name, "points");
   requireAtMost(most_triangles, triangles.rows(), function_name, "triangles");
   const Workers workers(options.threads, options.progress);
-  restart(result, points.rows(), workers);
+  restart(result, Kind::mesh, points.rows(), workers);
   Report& report = result.report;
   StageClock clock(report);
   const int n = static_cast<int>(points.rows());
@@ -84,8 +85,8 @@ void buildMeshLaplacian(const Points& points, const Triangles& triangles, const 
 
   Buffer<int> caller(n);
   std::iota(caller.begin(), caller.end(), 0);
-  finishLaplacian(std::move(cover), scaled, PointBuffer(), caller, scaling.exponent, 1.0 / 2, options, workers, clock,
-                  result);
+  finishLaplacian(std::move(cover), scaled, PointBuffer(), caller, scaling.exponent, faceScale(result.kind), options,
+                  workers, clock, result);
   workers.report("done", 1);
 }
 

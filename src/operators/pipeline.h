@@ -48,7 +48,8 @@ inline void countBoundary(Boundary boundary, Report& report) {
 }
 
 /// Forgets the result of another frame, but for the memory of its arrays.
-inline void restart(Laplacian& result, std::int64_t points, const Workers& workers) {
+inline void restart(Laplacian& result, Kind kind, std::int64_t points, const Workers& workers) {
+  result.kind = kind;
   result.cover_source.reset();
   std::vector<StageCost> stages = std::move(result.report.stages);
   stages.clear();

@@ -13,6 +13,7 @@
 #include "intrinsic/star_areas.h"
 #include "intrinsic/star_triangles.h"
 #include "operators/build.h"
+#include "operators/face_scale.h"
 #include "operators/pipeline.h"
 #include "operators/star_laplacian.h"
 
@@ -135,8 +136,8 @@ void finishFromCover(Stars stars, const RankedCloud& cloud, const CloudOptions& 
   stars = {};
   glueEdges(*cover, cloud.points, {options.order, options.seed}, workers);
   clock.finish("cover", bytesOfCover(*cover));
-  finishLaplacian(std::move(cover), cloud.points, move, cloud.caller, cloud.exponent, 1.0 / 2 / 3, options, workers,
-                  clock, result);
+  finishLaplacian(std::move(cover), cloud.points, move, cloud.caller, cloud.exponent, faceScale(result.kind), options,
+                  workers, clock, result);
 }
 
 }  // namespace
@@ -153,7 +154,7 @@ void buildCloudLaplacian(const Points& points, const CloudOptions& options, Clou
   const Workers workers(options.threads, options.progress);
   const Eigen::Vector3d* viewpoint = options.viewpoint;
   if (viewpoint == nullptr && options.structure != nullptr) viewpoint = &options.structure->origin;
-  restart(result, points.rows(), workers);
+  restart(result, Kind::cloud, points.rows(), workers);
   Report& report = result.report;
   StageClock clock(report);
 

@@ -5,6 +5,7 @@
 
 #include "base/buffer.h"
 #include "intrinsic/partial_cover.h"
+#include "operators/face_scale.h"
 #include "operators/star_rows.h"
 
 namespace tufted {
@@ -44,7 +45,8 @@ class StarUnion final : public CoverSource {
       pools_.drop();
       cover_.keepMovedFaces();
     }
-    assembleStars({stars_, metric, length_, cover_}, keep_cover, cloud_.caller, size_, 1.0 / 2 / 3, workers, result);
+    assembleStars({stars_, metric, length_, cover_}, keep_cover, cloud_.caller, size_, faceScale(result.kind), workers,
+                  result);
   }
 
   const IntrinsicTriangulation& cover() const override {

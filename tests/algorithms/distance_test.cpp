@@ -66,6 +66,24 @@ TEST(Distance, IsFiniteAndMonotoneAtAHundredThousandEdges) {
   for (int i = 0; i <= squares; ++i) ASSERT_NEAR(distance[2 * i], i, 0.1);
 }
 
+TEST(Distance, FramesSayNothingOfItsScale) {
+  const shapes::Mesh ball = shapes::icosphere(3);
+  Laplacian mesh = meshLaplacian(ball.points, ball.triangles);
+  const VectorXd on_mesh = DistanceSolver(mesh).query({0});
+  mesh.frames = meshFrames(ball.points, ball.triangles);
+  EXPECT_TRUE(support::sameBits(DistanceSolver(mesh).query({0}), on_mesh));
+  EXPECT_LE(meanError(on_mesh, shapes::sphereDistances(ball.points, 0)), 0.02);
+
+  const Points points = shapes::sphere(2000).points;
+  for (const Gluing gluing : {Gluing::star, Gluing::vertex_pair}) {
+    Laplacian cloud = pointCloudLaplacian(points, {.gluing = gluing});
+    const VectorXd on_cloud = DistanceSolver(cloud).query({0});
+    cloud.frames = {};
+    EXPECT_TRUE(support::sameBits(DistanceSolver(cloud).query({0}), on_cloud));
+    EXPECT_LE(meanError(on_cloud, shapes::sphereDistances(points, 0)), 0.04);
+  }
+}
+
 TEST(Distance, FromSeveralSourcesIsThatFromTheNearest) {
   const Points points = shapes::sphere(8000).points;
   const DistanceSolver solver(pointCloudLaplacian(points));

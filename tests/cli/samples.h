@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <random>
+#include <sstream>
 #include <string>
+#include <vector>
 
 // Contents of files, and what the tests of all subcommands ask.
 
@@ -24,4 +26,15 @@ inline std::string sphere(int points) {
 
 inline bool isOneLine(const std::string& text) {
   return std::count(text.begin(), text.end(), '\n') == 1;
+}
+
+inline std::vector<std::string> linesOf(const std::string& text) {
+  std::istringstream stream(text);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(stream, line);) lines.push_back(line);
+  return lines;
+}
+
+inline bool contains(const std::string& text, const std::string& part) {
+  return text.find(part) != std::string::npos;
 }

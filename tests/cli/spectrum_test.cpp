@@ -121,6 +121,58 @@ TEST_F(SpectrumCommand, DamagedFoldersAreOneLineAndOne) {
   withFile("points.ply", "ply");
 }
 
+TEST_F(SpectrumCommand, BrokenPromisesInAFolderAreOneLineAndOne) {
+  const std::string file = dir_.write("sphere.xyz", sphere(100));
+  run({"laplacian", file, "--out", in("laplacian"), "--sign", "igl"});
+  const std::string M = readAll(dir_ / "laplacian/M.npy");
+  std::string negative = M, representative = readAll(dir_ / "laplacian/representative.npy");
+  negative[negative.size() - 1] = static_cast<char>(negative[negative.size() - 1] | 0x80);  // the sign
+  dir_.write("laplacian/M.npy", negative);
+  expectRefusal({"spectrum", "--operator", in("laplacian")}, "M.npy: M(99) = -", 1);
+  expectRefusal({"poisson", "--operator", in("laplacian"), "--field", "x"}, "M.npy: M(99) = -", 1);
+  dir_.write("laplacian/M.npy", M);
+  representative[representative.size() - 4] = 5;
+  dir_.write("laplacian/representative.npy", representative);
+  expectRefusal({"spectrum", "--operator", in("laplacian")}, "representative.npy: point 99 names 5", 1);
+}
+
+TEST_F(SpectrumCommand, WhereNoPointIsActiveEveryCommandSaysSo) {
+  const std::string file = dir_.write("line.xyz", "0 0 0\n1 0 0\n2 0 0\n1 0 0\nnan 0 0\n3 0 0\n");
+  const std::string nothing = ": no point is active: 1 not finite, 1 coincident, 4 isolated";
+  const Result built = runTufted({"laplacian", file, "--out", in("laplacian"), "--format", "npz,ply,cover"});
+  EXPECT_EQ(built.code, 0);
+  EXPECT_EQ(built.err, "tufted: " + file + nothing + "\n");
+  EXPECT_EQ(runTufted({"info", file}).err, "tufted: " + file + nothing + "\n");
+  const std::vector<std::vector<std::string>> commands = {{"spectrum", "--count", "2"},
+                                                          {"hks", "--count", "2"},
+                                                          {"embed", "--dimension", "1"},
+                                                          {"filter", "--positions", "--count", "1"},
+                                                          {"filter", "--positions", "--wavelength", "1"},
+                                                          {"distance", "--source", "0"},
+                                                          {"distance", "--near", "0,0,0"},
+                                                          {"interpolate", "--pin", "0=1"},
+                                                          {"interpolate", "--pin", "0=1", "--method", "biharmonic"},
+                                                          {"poisson", "--field", "x", "--pin", "0=1"},
+                                                          {"green", "--source", "0"},
+                                                          {"operators", "--count", "2"}};
+  for (const std::string& source : {file, in("laplacian")}) {
+    const auto with = [&](std::vector<std::string> command) {
+      if (source != file) command.emplace_back("--operator");
+      command.push_back(source);
+      return command;
+    };
+    for (const std::vector<std::string>& command : commands) expectRefusal(with(command), source + nothing + ": ", 1);
+    std::vector<std::string> poisson = with({"poisson", "--field", "x"});
+    poisson.insert(poisson.end(), {"--out", in("u")});
+    const Result solved = runTufted(poisson);
+    EXPECT_EQ(solved.code, 0);
+    EXPECT_EQ(solved.err, "tufted: " + source + nothing + "\n");
+    for (const double u : values("u/u.npy")) EXPECT_TRUE(std::isnan(u));
+  }
+  const std::string none = dir_.write("none.pcd", "FIELDS x y z\nPOINTS 0\nDATA ascii\n");
+  expectRefusal({"spectrum", none}, none + ": no point is active, there are none: ", 1);
+}
+
 TEST_F(SpectrumCommand, HksWritesSignaturesOfHeatAndOfWaves) {
   const std::string file = dir_.write("sphere.xyz", sphere(500));
   run({"hks", file, "--out", in("heat"), "--count", "30", "--samples", "7"});

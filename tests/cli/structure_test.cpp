@@ -82,6 +82,43 @@ TEST_F(Structures, TakesTheAzimuthsOfAFileInAnyUnit) {
   EXPECT_NE(result.err.find("azimuth"), std::string::npos) << result.err;
 }
 
+TEST_F(Structures, AViewpointThatIsNoneIsTheFilesFaultWhateverIsAskedOfIt) {
+  for (const char* pose : {"nan 0 0 1 0 0 0", "0 -inf 0 1 0 0 0", "0 0 0 1 0 nan 0", "1 2 3 0 0 0 0"}) {
+    std::string text = ringScan(0, 360);
+    text.insert(text.find("POINTS"), std::string("VIEWPOINT ") + pose + "\n");
+    const std::string file = dir_.write("rings.pcd", text), refusal = "tufted: " + file + ": line 8: a viewpoint ";
+    for (const std::vector<std::string>& command : {std::vector<std::string>{"laplacian"},
+                                                    {"laplacian", "--structure", "image"},
+                                                    {"laplacian", "--structure", "rings"},
+                                                    {"spectrum", "--structure", "rings"},
+                                                    {"poisson", "--field", "ring"}}) {
+      std::vector<std::string> arguments = command;
+      arguments.insert(arguments.end(), {file, "--out", out()});
+      const Result result = runTufted(arguments);
+      EXPECT_EQ(result.code, 1) << command.back() << ": " << result.err;
+      EXPECT_TRUE(result.err.starts_with(refusal) && isOneLine(result.err)) << result.err;
+    }
+    EXPECT_TRUE(runTufted({"info", file}).err.starts_with(refusal));
+    EXPECT_NE(runTufted({"validate", file}).out.find(file + ": line 8: a viewpoint "), std::string::npos);
+  }
+}
+
+TEST_F(Structures, TheLengthOfTheQuaternionDoesNotMatter) {
+  const auto matrix = [&](const std::string& quaternion) {
+    std::string text = ringScan(0, 360);
+    text.replace(text.find("azimuth"), 7, "shuttle");
+    text.insert(text.find("POINTS"), "VIEWPOINT 0 0 0 " + quaternion + "\n");
+    const Result result =
+        runTufted({"laplacian", dir_.write("rings.pcd", text), "--out", out(), "--structure", "rings"});
+    EXPECT_EQ(result.code, 0) << result.err;
+    return readAll(dir_ / "out/L.npz");
+  };
+  const std::string turned = matrix("1 1 0 0");  // a quarter turn, so that the rings stand upright
+  EXPECT_FALSE(matrix("1 0 0 0") == turned);
+  for (const char* quaternion : {"1e-200 1e-200 0 0", "1e200 1e200 0 0", "-3 -3 0 0"})
+    EXPECT_TRUE(matrix(quaternion) == turned) << quaternion;
+}
+
 TEST_F(Structures, TakesTheAzimuthsOfAFileWhoseRingsItHasToFind) {
   // The azimuths turn the other way and start elsewhere, which changes nothing, or are all one, which joins nothing.
   const auto matrix = [&](const std::string& azimuth, double slope) {

@@ -17,17 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-std::vector<std::string> linesOf(const std::string& text) {
-  std::istringstream stream(text);
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(stream, line);) lines.push_back(line);
-  return lines;
-}
-
-bool contains(const std::string& text, const std::string& part) {
-  return text.find(part) != std::string::npos;
-}
-
 /// The files of a run, as its JSON names them.
 std::vector<std::string> filesOf(const json& document) {
   std::vector<std::string> files;
@@ -288,8 +277,14 @@ TEST_F(Validate, PathsThatHoldNothingAreOneLineAndOne) {
 
 TEST_F(Validate, MistakesOnTheCommandLineAreOneLineAndTwo) {
   const std::string file = writeTetrahedron();
-  const std::vector<std::vector<std::string>> mistakes = {
-      {}, {""}, {file, "--jobs", "0"}, {file, "--time", "-1"}, {file, "--memory", "0"}, {file, "--as", "surface"}};
+  const std::vector<std::vector<std::string>> mistakes = {{},
+                                                          {""},
+                                                          {file, "--jobs", "0"},
+                                                          {file, "--time", "-1"},
+                                                          {file, "--memory", "0"},
+                                                          {file, "--as", "surface"},
+                                                          {"--operator", ""},
+                                                          {"--operator", dir_.path(), "--as", "mesh"}};
   for (std::vector<std::string> arguments : mistakes) {
     arguments.insert(arguments.begin(), "validate");
     const Result result = runTufted(arguments);
@@ -307,6 +302,7 @@ TEST_P(ValidateFolder, NothingFails) {
   const json document = json::parse(result.out);
   EXPECT_EQ(document["summary"]["failed"], 0);
   EXPECT_EQ(document["summary"]["refused"], 0);  // today's readers accept them all
+  EXPECT_EQ(document["summary"]["empty"], 0);
   EXPECT_EQ(document["summary"]["ok"], document["files"].size());
 }
 

@@ -10,6 +10,7 @@
 #include <string_view>
 #include <vector>
 
+#include "tufted/check.h"
 #include "tufted/errors.h"
 #include "tufted/io/results.h"
 
@@ -76,6 +77,11 @@ void checkLaplacian(const tufted::Laplacian& laplacian) {
   require(std::ssize(laplacian.representative) == n && std::ssize(laplacian.boundary) == n);
   for (const int i : laplacian.representative) require(i >= 0 && i < n);
   require(laplacian.frames.normals.rows() == 0 || laplacian.frames.normals.rows() == n);
+  // What the reader judges by itself, validate() finds kept.
+  for (const std::string& fault : tufted::validate(laplacian).faults)
+    for (const char* promise : {"storage", "status", "boundary", "finite", "off-diagonal sign", "positive diagonal",
+                                "mass", "inactive is zero", "symmetry", "row sum", "representative"})
+      require(!fault.starts_with(std::string(promise) + ": "));
   if (!laplacian.hasCover()) return;
   const tufted::IntrinsicTriangulation& cover = laplacian.cover();
   for (const auto& face : cover.faces)

@@ -49,7 +49,7 @@ bool checkSizes(const Laplacian& laplacian, Eigen::Index n, std::vector<std::str
   expect("status", std::ssize(laplacian.status), n);
   expect("representative", std::ssize(laplacian.representative), n);
   expect("boundary", std::ssize(laplacian.boundary), n);
-  if (laplacian.frames.normals.rows() > 0) {  // a cloud
+  if (laplacian.kind == Kind::cloud) {
     expect("normals", laplacian.frames.normals.rows(), n);
     expect("tangents", laplacian.frames.tangents.rows(), n);
   }
@@ -221,7 +221,7 @@ void checkStatus(const Laplacian& laplacian, const Points& points, std::vector<s
   Breach status("status"), representative("representative");
   std::vector<int> expected(n);
   std::iota(expected.begin(), expected.end(), 0);
-  if (laplacian.frames.normals.rows() > 0) {  // a cloud
+  if (laplacian.kind == Kind::cloud) {
     std::vector<int> order;
     for (int i = 0; i < n; ++i) {
       if (laplacian.status[i] != PointStatus::not_finite && points.row(i).allFinite()) order.push_back(i);

@@ -1,6 +1,7 @@
 #include "malformed_files.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <initializer_list>
@@ -33,6 +34,34 @@ std::string compressed(std::uint32_t packed, std::uint32_t unpacked) {
 }  // namespace
 
 namespace {
+
+std::string seenFrom(const std::string& pose) {
+  return "FIELDS x y z\nVIEWPOINT " + pose + "\nPOINTS 1\nDATA ascii\n1 2 3\n";
+}
+
+std::string plySeenFrom(const std::string& pose) {
+  return "ply\nformat ascii 1.0\nobj_info viewpoint " + pose +
+         "\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n1 2 3\n";
+}
+
+/// As PCL writes the sensor: where it is and its axes.
+std::string plyWithCamera(const std::string& values) {
+  std::string text = "ply\nformat ascii 1.0\nelement vertex 1\n";
+  for (const char* name : {"x", "y", "z"}) text += std::string("property float ") + name + "\n";
+  text += "element camera 1\n";
+  for (const char* name : {"view_px", "view_py", "view_pz", "x_axisx", "x_axisy", "x_axisz", "y_axisx", "y_axisy",
+                           "y_axisz", "z_axisx", "z_axisy", "z_axisz"})
+    text += std::string("property float ") + name + "\n";
+  return text + "end_header\n1 2 3\n" + values + "\n";
+}
+
+/// A point with a value of its own, an 8-bit integer with a scale and an offset.
+std::string scaledLas(double scale, double offset) {
+  LasFile file(4, 6, 1);
+  file.describe("height", 1, scale, offset);
+  file.addPoint(1, 2, 3);
+  return file.bytes();
+}
 
 LasFile las() {
   LasFile file(4, 6);
@@ -198,6 +227,15 @@ std::vector<Malformed> malformedFiles() {
       {"size_0.pcd", "FIELDS x y z\nSIZE 4 0 4\nTYPE F F F\nWIDTH 1\nHEIGHT 1\nDATA ascii\n1 2 3\n", "line 2: out of"},
       {"two_fields.pcd", "FIELDS x y z\nSIZE 4 4 4\nFIELDS x\nDATA ascii\n1 2 3\n", "line 3: a second list"},
       {"viewpoint.pcd", "FIELDS x y z\nVIEWPOINT 0 0 0\nDATA ascii\n", "line 2: seven numbers"},
+      {"viewpoint_nan.pcd", seenFrom("nan 0 0 1 0 0 0"), "line 2: a viewpoint that is not finite"},
+      {"viewpoint_inf.pcd", seenFrom("0 0 0 1 0 inf 0"), "line 2: a viewpoint that is not finite"},
+      {"viewpoint_zero.pcd", seenFrom("1 2 3 0 0 -0 0"), "line 2: a viewpoint whose quaternion has the length 0"},
+      {"viewpoint_nan.ply", plySeenFrom("0 nan 0 1 0 0 0"), "line 3: a viewpoint that is not finite"},
+      {"viewpoint_zero.ply", plySeenFrom("0 0 0 0 0 0 0"), "line 3: a viewpoint whose quaternion has the length 0"},
+      {"camera.ply", plyWithCamera("0 0 inf 1 0 0 0 1 0 0 0 1"), "line 22: a viewpoint that is not finite"},
+      {"camera_turned.ply", plyWithCamera("0 0 0 nan 0 0 0 1 0 0 0 1"), "line 22: a viewpoint that is not finite"},
+      {"scale_nan.las", scaledLas(NAN, 0), "byte 541: a scale that is not finite"},
+      {"offset_inf.las", scaledLas(1, INFINITY), "byte 565: an offset that is not finite"},
       {"missing_x.pcd", "FIELDS y z\nPOINTS 1\nDATA ascii\n1 2\n", "line 3: has no fields x, y, z"},
       {"count_4e9.ply", ply("4000000000", "0", "", "binary_little_endian"), "line 3: a count of '4000000000'"},
       {"count_2_64.ply", ply("18446744073709551615", "0", ""), "line 3"},

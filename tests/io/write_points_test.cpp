@@ -17,6 +17,7 @@
 #include "sample_laplacian.h"
 #include "temporary_dir.h"
 #include "tufted/errors.h"
+#include "tufted/io/results.h"
 #include "tufted/io/write.h"
 
 namespace {
@@ -190,6 +191,19 @@ TEST(WritePcd, TheSensorsPoseKeepsItsDoublesAndPclReadsIt) {
   ASSERT_EQ(pcl::PCDReader().read((dir / "out/points.pcd").string(), cloud, origin, orientation, version), 0);
   EXPECT_EQ(origin.head<3>(), Eigen::Vector3f(500000.1234567891f, 5400000.987654321f, 1.5f));
   EXPECT_EQ(orientation.coeffs(), Eigen::Vector4f(0, 0.8f, 0, 0.6f));
+}
+
+TEST(WritePoints, WhatIsNoPoseIsAMistake) {
+  const TemporaryDir dir;
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  auto geometry = nearby();
+  for (const std::array<double, 7> pose :
+       {std::array<double, 7>{nan, 0, 0, 1, 0, 0, 0}, {0, 0, 0, 1, 0, 0, INFINITY}, {1, 2, 3, 0, 0, 0, 0}}) {
+    geometry.viewpoint = pose;
+    EXPECT_THROW(tufted::writeLaplacian(dir / "out", sampleLaplacian(), geometry, both), tufted::InvalidInput);
+    EXPECT_THROW(tufted::writeResults(dir / "out", sampleLaplacian(), geometry, {}), tufted::InvalidInput);
+    EXPECT_FALSE(std::filesystem::exists(dir / "out"));
+  }
 }
 
 TEST(WritePoints, FieldsOfOneNameAreAllKept) {

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "shapes/shapes.h"
+#include "tufted/gradient.h"
 
 namespace tufted {
 namespace {
@@ -62,6 +63,19 @@ TEST(LaplacianCheck, LooksAtTheCoverOnlyWhereItIsKept) {
   const LaplacianCheck check = validate(sphereWithOddPoints(false));
   EXPECT_FALSE(check.cover.has_value());
   EXPECT_TRUE(check.ok());
+}
+
+TEST(LaplacianCheck, OfCloudsAndOfThemAloneItExpectsFrames) {
+  Laplacian cloud = sphereWithOddPoints();
+  cloud.frames = {};
+  EXPECT_EQ(validate(cloud).faults, (std::vector<std::string>{"size: 2 times, first 0 normals for 502 points"}));
+  const shapes::Mesh ball = shapes::icosphere(2);
+  Laplacian mesh = meshLaplacian(ball.points, ball.triangles);
+  EXPECT_TRUE(validate(mesh).ok());
+  mesh.frames = meshFrames(ball.points, ball.triangles);
+  EXPECT_TRUE(validate(mesh).ok());
+  mesh.frames.normals.conservativeResize(5, Eigen::NoChange);
+  EXPECT_FALSE(validate(mesh).ok());
 }
 
 TEST(LaplacianCheck, MeasuresErrorsAgainstTheDiagonal) {

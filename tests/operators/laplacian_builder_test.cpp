@@ -36,6 +36,7 @@ void expectSameReport(const Report& a, const Report& b) {
 }
 
 void expectSame(const Laplacian& a, const Laplacian& b) {
+  EXPECT_EQ(a.kind, b.kind);
   EXPECT_TRUE(sameBits(a.L, b.L));
   EXPECT_TRUE(sameBits(a.M, b.M));
   EXPECT_TRUE(sameBits(a.cover_areas, b.cover_areas));

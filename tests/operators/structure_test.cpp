@@ -10,6 +10,7 @@
 #include "shapes/random.h"
 #include "shapes/shapes.h"
 #include "support/compare.h"
+#include "support/refusal.h"
 #include "tufted/tufted.h"
 
 namespace tufted {
@@ -213,6 +214,20 @@ TEST(ScanStructure, KeepsEveryPromiseWhereverItPutsThePoints) {
     }
     SCOPED_TRACE("round " + std::to_string(round));
     build(points, structure, static_cast<Preset>(round % 3));
+  }
+}
+
+TEST(ScanStructure, OfASensorThatIsNowhereIsAMistake) {
+  const shapes::Cloud camera = shapes::depthCamera({.width = 20, .height = 15});
+  for (const double nowhere : {std::nan(""), HUGE_VAL, -HUGE_VAL}) {
+    ScanStructure structure = imageStructure(camera.width, camera.height, {0, nowhere, 0});
+    for (const bool has_rings : {false, true}) {
+      structure.has_rings = has_rings;
+      EXPECT_EQ(support::refusal([&] { pointCloudLaplacian(camera.points, {.structure = &structure}); }),
+                "pointCloudLaplacian: structure.origin is not finite, must be");
+    }
+    const Eigen::Vector3d viewpoint(nowhere, 0, 0);
+    EXPECT_THROW(pointCloudLaplacian(camera.points, {.viewpoint = &viewpoint}), InvalidInput);
   }
 }
 

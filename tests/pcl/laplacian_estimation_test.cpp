@@ -71,6 +71,23 @@ TEST(LaplacianEstimation, LooksForJumpsFromTheSensorOfAnOrganizedCloud) {
   EXPECT_EQ(computed(estimation).boundary, pointCloudLaplacian(points, {.viewpoint = &elsewhere}).boundary);
 }
 
+TEST(LaplacianEstimation, ASensorThatIsNowhereIsAMistake) {
+  auto cloud = cloudOf(shapes::depthCamera({.width = 40, .height = 30}).points);
+  cloud->width = 40;
+  cloud->height = 30;
+  Estimation estimation;
+  estimation.setInputCloud(cloud);
+  EXPECT_EQ(computed(estimation).kind, Kind::cloud);
+  cloud->sensor_origin_ = {0, nan, 0, 0};
+  for (const bool organized : {false, true}) {
+    estimation.setOrganizedSearch(organized);
+    Laplacian result;
+    const std::string console = consoleOf([&] { estimation.compute(result); });
+    EXPECT_NE(console.find("finite"), std::string::npos) << console;
+    EXPECT_TRUE(isEmpty(result));
+  }
+}
+
 TEST(LaplacianEstimation, ByPixelsIsTheCoresByTheImage) {
   const auto scan = shapes::depthCamera({.width = 64, .height = 48}, 3);
   auto cloud = cloudOf(scan.points);

@@ -19,6 +19,7 @@
 #include <thread>
 #include <vector>
 
+#include "../inactive.h"
 #include "../options.h"
 #include "../progress_bar.h"
 #include "children.h"
@@ -39,8 +40,8 @@ constexpr const char* footer =
     R"(Takes files, and folders with all that is below them and has a known extension; links to folders are followed.
 Each file has a process of its own, so that none can stop the run. Prints a line per file, in the order given:
 
-  result   OK, REFUSED (the reader gives its reason; also a folder that cannot be listed) or FAILED (what broke, or how
-           the process ended)
+  result   OK, EMPTY (nothing broke, but no point is active: L and M are zero), REFUSED (the reader gives its reason;
+           also a folder that cannot be listed) or FAILED (what broke, or how the process ended)
   seconds  from the start of its process to its end: reading, building, checking
   MB       peak memory of its process
   nnz/row  stored entries of L per active point
@@ -53,10 +54,14 @@ Each file has a process of its own, so that none can stop the run. Prints a line
   parts    connected components
   active, not fin(ite), coinc(ident), isol(ated): points by status
 
-The intrinsic triangulation is checked as well. The exit code is 1 if a file FAILED, and 0 otherwise.)";
+The intrinsic triangulation is checked as well. The exit code is 1 if a file FAILED, and 0 otherwise.
+
+--operator takes what `tufted laplacian --out DIR` has written: --sign igl and --dummy are undone, and the same is
+checked, of the intrinsic triangulation if --format had `cover`. A folder without it all, or one whose arrays do not fit
+each other, is REFUSED.)";
 
 struct Settings {
-  std::vector<std::filesystem::path> paths;
+  std::vector<std::filesystem::path> paths, operators;
   FileSettings file;
   double seconds = 600;
   int jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
@@ -106,7 +111,7 @@ class Results {
   void add(std::size_t number, Json row, ProgressBar& bar) {
     ++known_;
     const std::string result = row.at("result");
-    ++(result == "OK" ? ok_ : result == "REFUSED" ? refused_ : failed_);
+    ++(result == "OK" ? ok_ : result == "EMPTY" ? empty_ : result == "REFUSED" ? refused_ : failed_);
     rows_[number] = std::move(row);
     if (!as_lines_) return;
     for (; printed_ < rows_.size() && !rows_[printed_].is_null(); ++printed_) {
@@ -117,6 +122,7 @@ class Results {
 
   std::size_t known() const { return known_; }
   int failed() const { return failed_; }
+  int empty() const { return empty_; }
 
   void printHeader() const {
     if (as_lines_) print(tableHeader());
@@ -124,13 +130,14 @@ class Results {
   void printSummary(double seconds) const {
     if (as_lines_) {
       std::string text = std::to_string(rows_.size()) + (rows_.size() == 1 ? " file: " : " files: ");
-      text += std::to_string(ok_) + " OK, " + std::to_string(refused_) + " REFUSED, " + std::to_string(failed_);
+      text += std::to_string(ok_) + " OK, " + (empty_ > 0 ? std::to_string(empty_) + " EMPTY, " : "");
+      text += std::to_string(refused_) + " REFUSED, " + std::to_string(failed_);
       char end[32];
       std::snprintf(end, sizeof(end), " FAILED, %.1f s", seconds);
       return print(text + end);
     }
-    const Json summary = {
-        {"files", rows_.size()}, {"ok", ok_}, {"refused", refused_}, {"failed", failed_}, {"seconds", seconds}};
+    const Json summary = {{"files", rows_.size()}, {"ok", ok_},         {"empty", empty_},
+                          {"refused", refused_},   {"failed", failed_}, {"seconds", seconds}};
     const Json document = {{"tufted", TUFTED_VERSION}, {"files", rows_}, {"summary", summary}};
     print(document.dump(2, ' ', false, Json::error_handler_t::replace));
   }
@@ -145,7 +152,7 @@ class Results {
   std::vector<Json> rows_;
   bool as_lines_;
   std::size_t known_ = 0, printed_ = 0;
-  int ok_ = 0, refused_ = 0, failed_ = 0;
+  int ok_ = 0, empty_ = 0, refused_ = 0, failed_ = 0;
 };
 
 constexpr const char* protection = "./";
@@ -163,7 +170,11 @@ std::string withoutProtection(std::string& path) {
 
 int runValidate(Settings settings) {
   const auto start = std::chrono::steady_clock::now();
-  const std::vector<Found> files = findFiles(settings.paths);
+  std::vector<Found> files = findFiles(settings.paths);
+  for (const std::filesystem::path& folder : settings.operators) {
+    if (!std::filesystem::is_directory(folder)) throw tufted::IoError(folder.string() + ": no such folder");
+    files.push_back({.path = folder, .is_operator = true});
+  }
   const int jobs = std::min<int>(settings.jobs, static_cast<int>(files.size()));
   const int processors = static_cast<int>(std::thread::hardware_concurrency());
   // Every further thread would allocate a stack, and so make a limit of memory depend on the machine.
@@ -176,7 +187,7 @@ int runValidate(Settings settings) {
   std::vector<std::size_t> numbers;                 // and of its file
   for (std::size_t i = 0; i < files.size(); ++i) {
     if (files[i].refusal.empty()) {
-      arguments.push_back(fileArguments(files[i].path, settings.file));
+      arguments.push_back(fileArguments(files[i], settings.file));
       numbers.push_back(i);
     } else {
       results.add(i, describeRefusal(files[i]), bar);
@@ -193,8 +204,12 @@ int runValidate(Settings settings) {
   runChildren(arguments, jobs, settings.seconds, ended, wait);
   bar.clear();
   results.printSummary(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  const std::string of = " of " + std::to_string(files.size()) + " ";
+  std::string empty;
+  if (results.empty() > 0) empty = std::to_string(results.empty()) + of + "EMPTY: no point is active";
   if (results.failed() > 0)
-    throw std::runtime_error(std::to_string(results.failed()) + " of " + std::to_string(files.size()) + " FAILED");
+    throw std::runtime_error(std::to_string(results.failed()) + of + "FAILED" + (empty.empty() ? "" : ", ") + empty);
+  if (!empty.empty()) warn(bar, empty);
   return exit_done;
 }
 
@@ -210,18 +225,25 @@ void addValidate(CLI::App& app, Run& run) {
   CLI::App& command = *app.add_subcommand(name, description);
   command.footer(footer);
   const auto settings = std::make_shared<Settings>();
-  command.add_option("PATH", settings->paths, "Files and folders")
-      ->required()
+  CLI::Option* const paths = command.add_option("PATH", settings->paths, "Files and folders")
+                                 ->check(notEmpty)
+                                 ->transform(CLI::Validator(withoutProtection, ""));
+  command.add_option("--operator", settings->operators, "A Laplacian that `tufted laplacian --out DIR` wrote")
+      ->allow_extra_args(false)  // what follows may be PATH
       ->check(notEmpty)
-      ->transform(CLI::Validator(withoutProtection, ""));
+      ->transform(CLI::Validator(withoutProtection, ""))
+      ->type_name("DIR");
   addNumber(command, "--jobs", settings->jobs, 1, 1024, "At most this many files at once (processors)")->type_name("N");
   addNumber(command, "--time", settings->seconds, 0.0, 1e9, "Limit per file in seconds, 0 for none (600)")
       ->type_name("S");
   addNumber(command, "--memory", settings->file.memory, 1, std::numeric_limits<int>::max(),
             "Limit per file in MB: what one thread allocates for it (none)")
       ->type_name("MB");
-  addChoice(command, "--as", settings->file.as, kinds, "Take files that may be either as one of them");
+  addChoice(command, "--as", settings->file.as, kinds, "Take files that may be either as one of them")->needs(paths);
   command.add_flag("--json", settings->json, "One JSON document instead of lines, with all figures");
-  command.callback([&run, settings] { run = [=] { return runValidate(*settings); }; });
+  command.callback([&run, settings] {
+    if (settings->paths.empty() && settings->operators.empty()) throw CLI::RequiredError("PATH or --operator");
+    run = [=] { return runValidate(*settings); };
+  });
   addValidateFile(app, run);
 }

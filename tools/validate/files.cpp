@@ -67,7 +67,7 @@ std::vector<Found> findFiles(const std::vector<fs::path>& paths) {
     }
     names += (names.empty() ? "" : ", ") + path.string();
   }
-  if (found.empty())
+  if (found.empty() && !paths.empty())
     throw tufted::IoError(names + (paths.size() == 1 ? ": holds" : ": hold") + " no file of a known type");
   return found;
 }

@@ -4,10 +4,11 @@
 #include <string>
 #include <vector>
 
-/// A file to validate, or a folder that is none.
+/// A file to validate, or what `tufted laplacian` wrote into a folder, or a folder that holds neither.
 struct Found {
   std::filesystem::path path;
-  std::string refusal;  ///< of a folder: why it cannot be listed; else empty
+  std::string refusal = {};  ///< of a folder: why it cannot be listed; else empty
+  bool is_operator = false;  ///< the folder of --operator
 };
 
 /// What `paths` stand for, in their order: a file stands for itself, whatever its name, and a folder for the files

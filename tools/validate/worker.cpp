@@ -16,11 +16,13 @@
 #include <string_view>
 #include <utility>
 
+#include "../inactive.h"
 #include "../interrupt.h"
 #include "../options.h"
 #include "../peak_memory.h"
 #include "tufted/check.h"
 #include "tufted/errors.h"
+#include "tufted/io/results.h"
 
 namespace {
 
@@ -98,8 +100,9 @@ void addFigures(Json& row, const tufted::LaplacianCheck& check, const tufted::Re
   if (check.cover) row["cover"] = coverObject(*check.cover);
 }
 
-/// Reads, builds and checks; `row` keeps what is known when this throws, and `stage` says where.
-void validateFile(const std::filesystem::path& file, const FileSettings& settings, Json& row, std::string& stage) {
+/// Reads a file and builds the Laplacian.
+tufted::Laplacian buildFrom(const std::filesystem::path& file, const FileSettings& settings, Json& row,
+                            std::string& stage) {
   StopWatch watch;
   stage = "read";
   const tufted::Geometry geometry = tufted::read(file, settings.as);
@@ -107,27 +110,48 @@ void validateFile(const std::filesystem::path& file, const FileSettings& setting
   row["kind"] = geometry.is_mesh ? "mesh" : "cloud";
   row["points"] = geometry.points.rows();
   row["faces"] = geometry.triangles.rows();
-  const tufted::Laplacian laplacian = build(geometry, settings.threads, [&stage](std::string_view now, double) {
+  tufted::Laplacian laplacian = build(geometry, settings.threads, [&stage](std::string_view now, double) {
     stage = now;
     return true;
   });
   row["seconds_build"] = watch.lap();
+  return laplacian;
+}
+
+/// Reads a Laplacian, whatever it holds.
+tufted::Laplacian readFrom(const std::filesystem::path& folder, Json& row, std::string& stage) {
+  StopWatch watch;
+  stage = "read";
+  tufted::Laplacian laplacian = tufted::readUncheckedLaplacian(folder);
+  row["seconds_read"] = watch.lap();
+  row["kind"] = laplacian.kind == tufted::Kind::mesh ? "mesh" : "cloud";
+  row["points"] = laplacian.status.size();
+  return laplacian;
+}
+
+/// Reads, builds and checks; `row` keeps what is known when this throws, and `stage` says where.
+void validateFile(const Found& file, const FileSettings& settings, Json& row, std::string& stage) {
+  const tufted::Laplacian laplacian =
+      file.is_operator ? readFrom(file.path, row, stage) : buildFrom(file.path, settings, row, stage);
   stage = "check";
+  StopWatch watch;
   const tufted::LaplacianCheck check = tufted::validate(laplacian);
   row["seconds_check"] = watch.lap();
   addFigures(row, check, laplacian.report);
-  row["result"] = check.ok() ? "OK" : "FAILED";
+  const std::string nothing = nothingActive(laplacian);
+  row["result"] = !check.ok() ? "FAILED" : nothing.empty() ? "OK" : "EMPTY";
   row["reasons"] = check.faults;
+  if (!nothing.empty()) row["reasons"].push_back(nothing);
 }
 
-int runValidateFile(const std::filesystem::path& file, const FileSettings& settings) {
+int runValidateFile(const Found& file, const FileSettings& settings) {
   dieWithTheCommand();
   releaseInterrupt();  // nothing is left behind, and the command tells how this process ended
   if (settings.memory) limitMemory(*settings.memory);
   Json row;
   std::string stage;
   const auto end = [&row, &file](const char* result, std::string reason) {
-    const std::string path = file.string() + ": ";
+    const std::string path = file.path.string() + ": ";
     if (reason.starts_with(path)) reason.erase(0, path.size());  // the row has it already
     row["result"] = result;
     row["reasons"] = {std::move(reason)};
@@ -153,21 +177,23 @@ int runValidateFile(const std::filesystem::path& file, const FileSettings& setti
 
 }  // namespace
 
-std::vector<std::string> fileArguments(const std::filesystem::path& file, const FileSettings& settings) {
+std::vector<std::string> fileArguments(const Found& file, const FileSettings& settings) {
   std::vector<std::string> arguments = {name, "--threads", std::to_string(settings.threads)};
   if (settings.memory) arguments.insert(arguments.end(), {"--memory", std::to_string(*settings.memory)});
   for (const auto& [key, value] : kinds)
     if (value == settings.as) arguments.insert(arguments.end(), {"--as", key});
-  arguments.insert(arguments.end(), {"--", file.string()});
+  if (file.is_operator) arguments.emplace_back("--operator");
+  arguments.insert(arguments.end(), {"--", file.path.string()});
   return arguments;
 }
 
 void addValidateFile(CLI::App& app, Run& run) {
   CLI::App& command = *app.add_subcommand(name, "One file of validate, in a process of its own");
   command.group("");  // not in the help
-  const auto file = std::make_shared<std::filesystem::path>();
+  const auto file = std::make_shared<Found>();
   const auto settings = std::make_shared<FileSettings>();
-  command.add_option("FILE", *file)->required();
+  command.add_option("FILE", file->path)->required();
+  command.add_flag("--operator", file->is_operator);
   addNumber(command, "--threads", settings->threads, 1, 1 << 16, "");
   addNumber(command, "--memory", settings->memory, 1, std::numeric_limits<int>::max(), "");
   addChoice(command, "--as", settings->as, kinds, "");

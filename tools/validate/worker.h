@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "../command.h"
+#include "files.h"
 #include "tufted/io/read.h"
 
 /// What the process of one file is told.
@@ -16,8 +17,9 @@ struct FileSettings {
   std::optional<int> memory;  ///< limit in MB
 };
 
-/// The command line on which this program validates `file` and writes what it found on stdout, as a line of JSON.
-std::vector<std::string> fileArguments(const std::filesystem::path& file, const FileSettings& settings);
+/// The command line on which this program validates a file or the folder of an operator and writes what it found on
+/// stdout, as a line of JSON.
+std::vector<std::string> fileArguments(const Found& file, const FileSettings& settings);
 
 /// The hidden subcommand that does so.
 void addValidateFile(CLI::App& app, Run& run);

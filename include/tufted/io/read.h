@@ -35,7 +35,8 @@ struct Geometry {
   std::vector<Field> fields;  ///< everything else per point, in the file's order
   int width = 0;              ///< columns of an organized cloud; N otherwise
   int height = 1;             ///< rows of an organized cloud; 1 otherwise
-  /// Pose of the sensor as PCD states it: translation x y z, then the unit quaternion w x y z.
+  /// Pose of the sensor as PCD states it: translation x y z, then the quaternion w x y z, of any length but 0. All
+  /// finite: readers refuse other files, writers other poses.
   std::array<double, 7> viewpoint = {0, 0, 0, 1, 0, 0, 0};
   bool is_mesh = false;
   Triangles triangles;               ///< F x 3; polygons are triangulated, in order

@@ -32,18 +32,29 @@ std::vector<std::string> resultFiles(const std::vector<ResultArray>& arrays, con
 ///   points.ply, points.pcd as writeLaplacian writes them, with each array per point as a field NAME of float32;
 ///                          several columns: NAME_0, NAME_1, ... in PLY, COUNT values in PCD
 ///   report.json            options.report
-/// @throws InvalidInput if arrays differ in length, a name is not one word or a format is neither ply nor pcd
+/// @throws InvalidInput if arrays differ in length, a name is not one word, the pose of the sensor is none or a
+///         format is neither ply nor pcd
 /// @throws IoError naming the path
 /// @throws Cancelled when `options.progress` returns false
 void writeResults(const std::filesystem::path& dir, const Laplacian& laplacian, const Geometry& geometry,
                   const std::vector<ResultArray>& arrays, const ResultOptions& options = {});
 
 /// Reads what writeLaplacian wrote with Format::npz: L.npz, M.npy, status.npy, representative.npy, boundary.npy,
-/// frames.npy, and of report.json the counts, lengths and areas. Sign::igl and dummy values are undone. `cover_areas`
-/// is M.
+/// frames.npy, and of report.json the kind, counts, lengths and areas. Sign::igl and dummy values are undone.
+/// `cover_areas` is M. Where report.json has no kind, as those of before there was one, it goes by the options of the
+/// build that are there; without these a cover is refused, and nothing else depends on it.
+///
+/// What is read must be a Laplacian, by the rules of validate(): L is symmetric bit for bit, its off-diagonals are <= 0
+/// and its rows sum to 0 within the rounding of their own sum; active points have a positive diagonal, all others no
+/// entry and no mass; nothing is negative or not finite in M; a coincident point names an earlier one that stands for
+/// itself. This is O(N), a fifth of the time of reading; the factorisation and the cover are left to validate().
 /// @param with_cover takes cover.npz as well, where Format::cover was among those written; otherwise there is no cover
-/// @throws IoError naming the file that is missing, damaged or does not fit the others
+/// @throws IoError naming the file that is missing, damaged or does not fit the others, or the entry that breaks a rule
 Laplacian readLaplacian(const std::filesystem::path& dir, bool with_cover = true);
+
+/// The same without these rules, for validate(), which says how often each promise is broken.
+/// @throws IoError naming the file that is missing, damaged or does not fit the others
+Laplacian readUncheckedLaplacian(const std::filesystem::path& dir, bool with_cover = true);
 
 /// Reads numbers of any type from a .npy file.
 /// @return N x c, one column for an array of N values

@@ -58,7 +58,7 @@ std::vector<std::string> resultFiles(const std::vector<Format>& formats);
 ///   M.spmat             the diagonal matrix of the N masses, in the same way
 ///   points.ply          the points, little endian; the triangles of a mesh
 ///   points.pcd          the points, binary
-///   report.json         the Report, with sign and scale stated, and what was changed in reading the input
+///   report.json         the kind and the Report, with sign and scale stated, and what was changed in reading the input
 /// The points have x y z and normals (where known), the fields of the input, mass (float64), boundary, status (uint8)
 /// and representative (int32). x y z are float32 where that loses nothing, else float64: PCL turns wider coordinates
 /// into zeros when it converts them to its point types. So are normals of the input; normals of the build are float32.
@@ -69,7 +69,7 @@ std::vector<std::string> resultFiles(const std::vector<Format>& formats);
 /// all are complete, renamed one after the other: no file is ever half there, but for a moment new files stand beside
 /// old ones. Files of these names are replaced; those of formats that were not asked for stay.
 /// @throws InvalidInput if the arrays of `laplacian` and `geometry` differ in length, the name of a field is not one
-///         word, or the cover is asked for and was not kept
+///         word, the pose of the sensor is none, or the cover is asked for and was not kept
 /// @throws IoError naming the path
 /// @throws Cancelled when `options.progress` returns false
 void writeLaplacian(const std::filesystem::path& dir, const Laplacian& laplacian, const Geometry& geometry,

@@ -16,7 +16,7 @@ void tufted::LaplacianEstimation<PointT>::compute(Laplacian& result) {
     const Points points = detail::toPoints(*input_, *indices_);
     CloudOptions options = options_;
     const Eigen::Vector3d sensor = input_->sensor_origin_.template head<3>().template cast<double>();
-    if (options.viewpoint == nullptr && input_->isOrganized() && sensor.allFinite()) options.viewpoint = &sensor;
+    if (options.viewpoint == nullptr && input_->isOrganized()) options.viewpoint = &sensor;
     result = detail::cloudLaplacian<PointT>(input_, *indices_, points, search_, organized_, options);
   } catch (const std::exception& error) {
     PCL_ERROR("[tufted::%s::compute] %s\n", getClassName().c_str(), error.what());
