@@ -20,7 +20,7 @@ constexpr Index block_size = 8;
 constexpr int search_steps = 8;
 constexpr int longest_search = 40;
 /// A column of which less is left by orthogonalisation is noise, compared with the largest eigenvalue.
-constexpr double least_part = 1e-12;
+constexpr double least_part = 1e-15;
 /// Of the largest eigenvalue: as much is uncertain in products with A.
 constexpr double rounding = 1e-13;
 
