@@ -21,14 +21,21 @@ void addReport(const tufted::SolveReport& report, Results& results) {
 }
 
 void addReport(const tufted::SpectrumReport& report, Results& results) {
-  results.report["report"] = {
-      {"null_space", report.null_space}, {"iterations", report.iterations},       {"counted", report.counted},
-      {"residual", report.residual},     {"orthogonality", report.orthogonality}, {"seconds", report.seconds},
-      {"solver", toJson(report.solver)}};
+  results.report["report"] = {{"method", report.method},         {"null_space", report.null_space},
+                              {"iterations", report.iterations}, {"counted", report.counted},
+                              {"residual", report.residual},     {"backward_error", report.backward_error},
+                              {"weak_pair", report.weak_pair},   {"orthogonality", report.orthogonality},
+                              {"seconds", report.seconds},       {"solver", toJson(report.solver)}};
   results.summary.add("exactly zero", "%d", report.null_space);
   if (report.iterations > 0)
     results.summary.add("iterations", "%d, residual %.1e, %s", report.iterations, report.residual,
                         report.solver.method.c_str());
+  else if (!report.method.empty())
+    results.summary.add("method", "%s, residual %.1e", report.method.c_str(), report.residual);
+  if (report.weak_pair >= 0)
+    results.summary.add("nearly disconnected",
+                        "pair %d, above and below 0: its residual is rounding, backward error %.1e", report.weak_pair,
+                        report.backward_error);
   results.summary.add("took", "%.3g s", report.seconds);
 }
 

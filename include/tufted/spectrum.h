@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <string>
 
 #include "tufted/laplacian.h"
 #include "tufted/options.h"
@@ -12,8 +13,14 @@ namespace tufted {
 
 struct SpectrumOptions {
   /// Of |A x - theta x| / theta in the norm of M, A the inverse of L after M and theta = 1 / lambda; in (0, 1). The
-  /// error of an eigenvalue is about its square.
+  /// error of an eigenvalue is about its square. No pair leaves spectrum() whose residual, as in SpectrumReport, is
+  /// above ten times this plus 16 times what rounding of L x leaves, eps ||L| |x|| / (lambda |M x|). Where it is
+  /// above both 1e-8 and ten times this, its eigenvalue must also be that of x^T L x, summed by differences, to 1e-8.
   double tolerance = 1e-10;
+  /// Dense matrices take the place of the search for k above three tenths of the points, and for up to 150 points, but
+  /// for no more points than this, >= 0: they take 24 bytes per pair of points, which `memory_limit` bounds as well,
+  /// and time with the cube of the points that cannot be interrupted (3,000 take 200 MB and about half a minute).
+  int dense_limit = 3000;
   bool null_space = true;                         ///< false: only positive eigenvalues, the k smallest
   int max_iterations = 1000;                      ///< of eight solves each, >= 1; beyond them SolverFailure
   SolverMethod method = SolverMethod::automatic;  ///< of the inverse
@@ -24,10 +31,15 @@ struct SpectrumOptions {
 
 /// What finding a spectrum did.
 struct SpectrumReport {
-  int null_space = 0;        ///< eigenvalues that are exactly 0: one for each connected component that has an area
-  int iterations = 0;        ///< of block Lanczos, eight solves each
-  bool counted = false;      ///< that none is missing was counted (Sylvester's law of inertia), not only searched for
-  double residual = 0;       ///< greatest |L x - lambda M x| / (lambda |M x|), Euclidean norms, of lambda > 0
+  std::string method;         ///< "block Lanczos" or "dense"; empty where constants alone were asked for
+  int null_space = 0;         ///< eigenvalues that are exactly 0: one for each connected component that has an area
+  int iterations = 0;         ///< of block Lanczos, eight solves each; 0 by dense matrices
+  bool counted = false;       ///< that none is missing is certain: counted by Sylvester's law of inertia, or dense
+  double residual = 0;        ///< greatest |L x - lambda M x| / (lambda |M x|), Euclidean norms, of lambda > 0
+  double backward_error = 0;  ///< greatest |L x - lambda M x|_i / (|L| |x| + lambda M |x|)_i of any i and lambda > 0
+  /// The first pair whose residual is above 1e-8 by rounding alone, -1: none. L is nearly disconnected between the
+  /// points where that vector is above and below 0: no vector of doubles has a smaller residual.
+  int weak_pair = -1;
   double orthogonality = 0;  ///< greatest |entry| of the Gram matrix X^T M X minus the identity
   double seconds = 0;        ///< wall-clock, with making the solver
   SolverReport solver;
@@ -40,7 +52,8 @@ struct Spectrum {
   SpectrumReport report;
 };
 
-/// The first k eigenpairs of L x = lambda M x (Section 5.3), by Lanczos' method on the inverse with blocks of vectors.
+/// The first k eigenpairs of L x = lambda M x (Section 5.3), by Lanczos' method on the inverse with blocks of vectors,
+/// or where most pairs are wanted by dense matrices.
 ///
 /// The null space is exact: eigenvalue 0, and for each connected component the function that is constant there and 0
 /// elsewhere, components of larger area first. All other vectors have sum(M x) = 0 on each component. Of both signs of
@@ -53,7 +66,8 @@ struct Spectrum {
 /// @param k >= 1, less than the number of active points of positive area; without the null space, less than that minus
 ///        the number of components
 /// @throws InvalidInput for k or options out of range, arrays of the wrong size, or an M that is negative or not finite
-/// @throws SolverFailure when L cannot be factorised or the iterations do not suffice
+/// @throws SolverFailure when L cannot be factorised, the iterations do not suffice, or a pair, which it names, keeps a
+///         residual above what SpectrumOptions::tolerance says
 /// @throws Cancelled when `options.progress` returns false
 Spectrum spectrum(const Laplacian& laplacian, int k, const SpectrumOptions& options = {});
 

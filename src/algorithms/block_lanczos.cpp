@@ -20,7 +20,9 @@ constexpr Index block_size = 8;
 constexpr int search_steps = 8;
 constexpr int longest_search = 40;
 /// A column of which less is left by orthogonalisation is noise, compared with the largest eigenvalue.
-constexpr double least_part = 1e-12;
+constexpr double least_part = 1e-15;
+/// Of the largest eigenvalue: as much is uncertain in products with A.
+constexpr double rounding = 1e-13;
 
 class BlockLanczos {
  public:
@@ -36,7 +38,8 @@ class BlockLanczos {
   LanczosResult run() {
     addRandom();
     LanczosResult result;
-    while (result.iterations < options_.max_iterations) {
+    bool found = false;
+    while (!found && result.iterations < options_.max_iterations) {
       workers_.report("eigenpairs", found_);
       const bool exhausted = !step();
       ++result.iterations;
@@ -44,21 +47,41 @@ class BlockLanczos {
       const bool cheap = size_ * size_ < problem_.mass.size();  // to decompose, beside the products of a step
       if (!exhausted && !full && !cheap && result.iterations % 8 != 0) continue;
       decompose();
-      result.converged =
-          exhausted ? size_ >= problem_.wanted : countConverged() == problem_.wanted && isComplete(result.iterations);
-      if (result.converged || exhausted) break;
+      if (exhausted) {
+        found = size_ >= problem_.wanted && isWhole();
+        break;
+      }
+      found = countConverged() == problem_.wanted && isComplete(result.iterations);
       // A search may have made room already.
-      if (size_ + fresh_ > most_) restart(problem_.wanted + (most_ - problem_.wanted) / 3);
+      if (!found && size_ + fresh_ > most_) restart(problem_.wanted + (most_ - problem_.wanted) / 3);
     }
-    if (!result.converged) return result;
-    result.values = values_.head(problem_.wanted);
-    multiplyInPlace(basis_.leftCols(size_), vectors_.leftCols(problem_.wanted), quiet_);
-    basis_.conservativeResize(Eigen::NoChange, problem_.wanted);
-    result.vectors = std::move(basis_);
+    if (found) finish(result);
     return result;
   }
 
  private:
+  /// The pairs with their residuals. Those that told of convergence followed from the basis, and what it has lost is
+  /// not seen in it.
+  void finish(LanczosResult& result) {
+    result.values = values_.head(problem_.wanted);
+    multiplyInPlace(basis_.leftCols(size_), vectors_.leftCols(problem_.wanted), quiet_);
+    basis_.conservativeResize(Eigen::NoChange, problem_.wanted);
+    result.vectors = std::move(basis_);
+    result.images = problem_.apply(result.vectors);
+    result.residuals.resize(problem_.wanted);
+    result.converged = true;
+    for (Index i = 0; i < problem_.wanted; ++i) {
+      const double theta = result.values[i];
+      const VectorXd rest = result.images.col(i) - theta * result.vectors.col(i);
+      result.residuals[i] = std::sqrt(rest.cwiseProduct(problem_.mass).dot(rest)) / theta;
+      if (!(theta > 0 && result.residuals[i] <= options_.tolerance + rounding * scale_ / theta))
+        result.converged = false;
+    }
+  }
+
+  /// Whether nothing is known to be missing where the space is used up.
+  bool isWhole() const { return !problem_.is_complete || problem_.is_complete(values_.head(problem_.wanted)) != false; }
+
   /// Whether nothing was missed among what has converged; otherwise sets out to search.
   bool isComplete(int iteration) {
     const VectorXd now = values_.head(problem_.wanted);
@@ -129,6 +152,8 @@ class BlockLanczos {
   bool orthonormalizeTogether(Index count, double least) {
     auto all = basis_.leftCols(size_ + count);
     for (int pass = 0; pass < 4; ++pass) {
+      // Rounding leads into the space that A maps to 0, too, and grows wherever much of a column is taken away.
+      problem_.deflate(all.rightCols(count));
       const MatrixXd products = innerProducts(all, problem_.mass, all.rightCols(count), quiet_);
       const auto known = products.topRows(size_), own = products.bottomRows(count);
       const Eigen::LLT<MatrixXd> gram(own - known.transpose() * known);
@@ -153,6 +178,7 @@ class BlockLanczos {
       const auto known = basis_.leftCols(size_ + count);
       double norm = 0;
       for (int pass = 0; pass < 4; ++pass) {
+        problem_.deflate(column);
         subtractProduct(column, known, innerProducts(known, problem_.mass, column, quiet_), quiet_);
         norm = std::sqrt(column.cwiseProduct(problem_.mass).dot(column));
         if (!(norm > (pass == 0 ? least : 0.5))) break;

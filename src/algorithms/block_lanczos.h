@@ -27,9 +27,12 @@ struct LanczosOptions {
 };
 
 struct LanczosResult {
-  Eigen::VectorXd values;   ///< the `wanted` largest eigenvalues, descending; none where it did not converge
-  Eigen::MatrixXd vectors;  ///< n x wanted, mass-orthonormal
-  int iterations = 0;       ///< blocks that A was applied to
+  Eigen::VectorXd values;     ///< the `wanted` largest eigenvalues, descending; none where iterations do not suffice
+  Eigen::MatrixXd vectors;    ///< n x wanted, mass-orthonormal
+  Eigen::MatrixXd images;     ///< A times `vectors`
+  Eigen::VectorXd residuals;  ///< |A x - theta x| / theta of each pair, measured on `images`
+  int iterations = 0;         ///< blocks that A was applied to
+  /// All residuals are at most the tolerance and what rounding of A leaves, 1e-13 of the largest eigenvalue.
   bool converged = false;
 };
 

@@ -3,9 +3,12 @@
 
 #include <gtest/gtest.h>
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
 
 #include "algorithms/tall_matrix.h"
+#include "shapes/shapes.h"
+#include "tufted/tufted.h"
 
 namespace tufted {
 namespace {
@@ -70,6 +73,59 @@ TEST(BlockLanczos, SearchesUntilNothingIsMissingAndStaysExact) {
     expectLargest(problem, values, 1e-6);
     EXPECT_EQ(calls, 1);
   }
+}
+
+/// The inverse of a sphere's Laplacian: a constant is its null space, and eigenvalues have a range of some thousands.
+LanczosProblem inverseOf(const Laplacian& laplacian, const Solver& solver, Index wanted) {
+  const VectorXd mass = laplacian.M / laplacian.M.sum();
+  return {.apply = [mass, &solver](const Eigen::Ref<const MatrixXd>& x) { return solver.solve(mass.asDiagonal() * x); },
+          .deflate = [mass](Eigen::Ref<MatrixXd> x) { x.rowwise() -= mass.transpose() * x; },
+          .mass = mass,
+          .dimension = mass.size() - 1,
+          .wanted = wanted,
+          .is_complete = {}};
+}
+
+TEST(BlockLanczos, TakesMostOfASpaceWithoutLeadingIntoTheNullSpace) {
+  const Workers workers(1, silent);
+  for (const int n : {300, 400}) {
+    for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
+      const Laplacian laplacian =
+          pointCloudLaplacian(shapes::sphere(n, shapes::Sampling::uniform, seed).points, cloudOptions(Preset::clean));
+      ASSERT_EQ(laplacian.report.active, n);
+      const Solver solver = Solver::laplacian(laplacian);
+      const VectorXd mass = laplacian.M / laplacian.M.sum(), scale = mass.cwiseSqrt().cwiseInverse();
+      const VectorXd dense =
+          Eigen::SelfAdjointEigenSolver<MatrixXd>(scale.asDiagonal() * MatrixXd(laplacian.L) * scale.asDiagonal())
+              .eigenvalues();
+      for (const Index wanted : {n / 2, 2 * n / 3, n - 2, n - 1}) {
+        const LanczosProblem problem = inverseOf(laplacian, solver, wanted);
+        const LanczosResult found = largestEigenpairs(problem, {.tolerance = 1e-10, .max_iterations = 1000}, workers);
+        ASSERT_TRUE(found.converged) << n << ", " << wanted;
+        EXPECT_LE(found.residuals.maxCoeff(), 1e-9) << n << ", " << wanted;
+        const MatrixXd rest = problem.apply(found.vectors) - found.vectors * found.values.asDiagonal();
+        for (Index i = 0; i < wanted; ++i) {
+          EXPECT_LE(std::sqrt(rest.col(i).cwiseAbs2().dot(mass)), 1e-9 * found.values[i]) << n << ", " << i;
+          EXPECT_NEAR(found.values[i] * dense[i + 1], 1, 1e-8) << n << ", " << wanted << ", " << i;
+        }
+        EXPECT_LE((mass.transpose() * found.vectors).cwiseAbs().maxCoeff(), 1e-13) << n << ", " << wanted;
+      }
+    }
+  }
+}
+
+TEST(BlockLanczos, DoesNotClaimPairsOfASpaceThatIsUsedUp) {
+  // No operator that is not self-adjoint has orthonormal eigenvectors; the projection on the whole space seems to.
+  LanczosProblem problem = turned(VectorXd::LinSpaced(40, 2, 1), 39);
+  problem.apply = [symmetric = problem.apply](const Eigen::Ref<const MatrixXd>& x) {
+    MatrixXd image = symmetric(x);
+    image.row(0) += 1e-3 * x.row(1);
+    return image;
+  };
+  const Workers workers(1, silent);
+  const LanczosResult found = largestEigenpairs(problem, {.tolerance = 1e-10, .max_iterations = 500}, workers);
+  EXPECT_FALSE(found.converged);
+  EXPECT_GE(found.residuals.maxCoeff(), 1e-5);
 }
 
 TEST(TallMatrix, TakesProductsOverNothing) {

@@ -26,6 +26,19 @@ TEST_F(SpectrumCommand, WritesEigenpairsAndACopyOfThePoints) {
   EXPECT_GT(json["report"]["iterations"], 0);
 }
 
+TEST_F(SpectrumCommand, HasItsResidualsWhereMostOfTheSpaceIsAskedFor) {
+  const std::string file = dir_.write("sphere.xyz", sphere(400));
+  for (const char* count : {"200", "268", "399"}) {
+    const Result result = run({"spectrum", file, "--out", in("out"), "--count", count, "--format", "none"});
+    EXPECT_NE(result.out.find("dense, residual "), std::string::npos) << result.out;
+    const auto json = report("out");
+    EXPECT_EQ(json["report"]["method"], "dense");
+    EXPECT_LE(json["report"]["residual"], 1e-9);
+    EXPECT_LE(json["report"]["backward_error"], 1e-11);
+    EXPECT_EQ(json["report"]["weak_pair"], -1);
+  }
+}
+
 TEST_F(SpectrumCommand, TakesAFormerLaplacianAsItWouldBuildItself) {
   std::string points = sphere(400);
   points += points.substr(0, points.find('\n') + 1) + "nan 0 0\n";  // a copy of the first, and one that is nowhere

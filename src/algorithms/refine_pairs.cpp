@@ -1,0 +1,67 @@
+#include "algorithms/refine_pairs.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <cmath>
+
+#include "algorithms/tall_matrix.h"
+
+namespace tufted {
+namespace {
+
+using Eigen::Index;
+using Eigen::MatrixXd;
+
+/// Of the smallest eigenvalue: up to there the inverse is exact to about 1e-12.
+constexpr double range_of_inverse = 1e4;
+
+/// How many pairs the inverse refines. Equal eigenvalues are not parted.
+Index countLow(const VectorXd& values) {
+  const double bound = range_of_inverse * values[0];
+  Index low = 1;
+  while (low < values.size() && (values[low] <= bound || values[low] - values[low - 1] <= 1e-6 * values[low])) ++low;
+  return low;
+}
+
+bool orthonormalize(const VectorXd& mass, const Workers& workers, Eigen::Ref<MatrixXd> x) {
+  const Eigen::LLT<MatrixXd> gram(innerProducts(x, mass, x, workers));
+  if (gram.info() != Eigen::Success) return false;
+  multiplyInPlace(x, gram.matrixU().solve(MatrixXd::Identity(x.cols(), x.cols())), workers);
+  return true;
+}
+
+/// Of products that are symmetric but for rounding.
+Eigen::SelfAdjointEigenSolver<MatrixXd> decompose(const MatrixXd& products) {
+  return Eigen::SelfAdjointEigenSolver<MatrixXd>((products + products.transpose()) / 2);
+}
+
+}  // namespace
+
+bool refinePairs(const Eigenproblem& problem, const InverseTimes& inverse, bool mixed, const Workers& workers,
+                 Eigenpairs& pairs) {
+  const Index count = pairs.values.size(), low = countLow(pairs.values);
+  auto x = pairs.vectors.leftCols(low);
+  // A step of the inverse takes out what rounding left of high frequencies, and fills in points without mass.
+  MatrixXd image = pairs.images.cols() > 0 ? MatrixXd(pairs.images.leftCols(low)) : inverse(x);
+  pairs.images.resize(0, 0);
+  if (mixed) {
+    const auto inverted = decompose(innerProducts(x, problem.mass, image, workers));
+    pairs.values.head(low) = inverted.eigenvalues().reverse().cwiseInverse();
+    multiplyInPlace(image, inverted.eigenvectors().rowwise().reverse(), workers);
+  }
+  x = image * pairs.values.head(low).asDiagonal();
+  if (!orthonormalize(problem.mass, workers, x)) return false;
+  if (low == count) return true;
+
+  auto y = pairs.vectors.rightCols(count - low);
+  problem.fillMassless(y);
+  problem.deflate(y);
+  subtractProduct(y, x, innerProducts(x, problem.mass, y, workers), workers);
+  if (!orthonormalize(problem.mass, workers, y)) return false;
+  const auto direct = decompose(innerProducts(y, VectorXd::Ones(y.rows()), problem.L * y, workers));
+  pairs.values.tail(count - low) = direct.eigenvalues();
+  multiplyInPlace(y, direct.eigenvectors(), workers);
+  return true;
+}
+
+}  // namespace tufted
