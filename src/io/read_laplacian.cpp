@@ -71,9 +71,12 @@ void readReport(const Json& json, Report& report) {
   take("triangles", report.triangles);
   take("mean_edge", report.mean_edge);
   take("mean_squared_edge", report.mean_squared_edge);
+  take("mollify_area", report.mollify_area);
+  take("star_masses", report.star_masses);
   take("area", report.area);
   take("cover_area", report.cover_area);
   take("nonzeros", report.nonzeros);
+  if (!json.contains("star_masses")) report.star_masses = report.active;  // of a version that did not say
   take("components", report.components);
 }
 
@@ -121,7 +124,7 @@ Laplacian readLaplacian(const std::filesystem::path& dir, bool with_cover) {
   readReport(json["report"], laplacian.report);
   if (written.is_object() && written.value("sign", Json()) == "igl") laplacian.L = -laplacian.L;
   removeDummies(laplacian);
-  laplacian.cover_areas = laplacian.M;
+  if (laplacian.report.star_masses == 0) laplacian.cover_areas = laplacian.M;
   return laplacian;
 }
 

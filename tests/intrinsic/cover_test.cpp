@@ -95,7 +95,7 @@ TEST(Mollify, LeavesGoodTrianglesAlone) {
   const shapes::Mesh sphere = shapes::icosphere(2);
   IntrinsicTriangulation cover = coverOf(sphere.points, sphere.triangles);
   const std::vector<double> before = cover.length;
-  EXPECT_EQ(mollify(cover, 1e-4 * before[0], workers), 0);
+  EXPECT_EQ(mollify(cover, 1e-4 * before[0], workers).length, 0);
   EXPECT_EQ(cover.length, before);
 }
 
@@ -105,7 +105,9 @@ TEST(Mollify, AddsTheLeastLengthThatLeavesDeltaOfSlack) {
   Triangles triangle(1, 3);
   triangle << 0, 1, 2;
   IntrinsicTriangulation cover = coverOf(points, triangle);
-  EXPECT_DOUBLE_EQ(mollify(cover, 0.01, workers), 0.01);
+  const Mollification added = mollify(cover, 0.01, workers);
+  EXPECT_DOUBLE_EQ(added.length, 0.01);
+  EXPECT_DOUBLE_EQ(added.area, 2 * triangleArea(2.01, 1.01, 1.01));  // there was none
   EXPECT_NEAR(triangleSlack(cover.length[0], cover.length[1], cover.length[2]), 0.01, 1e-15);
 }
 

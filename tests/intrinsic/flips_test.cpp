@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
 #include "operators/build.h"
@@ -48,13 +49,13 @@ TEST(Flips, LeadToOneTriangulationWhateverTheBlocks) {
 }
 
 TEST(Flips, LeaveNoEdgeOfNeedlesThatIsNotDelaunay) {
-  // Clusters far smaller than the gaps between them, joined at random: angles come as close to pi as mollified lengths
-  // allow, and their cotangents to 1e6, where the last bit of a length is worth 100.
+  // Points of all magnitudes, joined at random: angles come as close to pi as mollified lengths allow, and their
+  // cotangents to 1e6, where the last bit of a length is worth 100.
   for (int seed = 1; seed <= 300; ++seed) {
     shapes::Random random(seed);
     Points points(40, 3);
     for (int i = 0; i < points.rows(); ++i)
-      for (int axis = 0; axis < 3; ++axis) points(i, axis) = random.below(3) + 1e-13 * random.uniform();
+      for (int axis = 0; axis < 3; ++axis) points(i, axis) = std::ldexp(random.uniform(-1, 1), random.below(81) - 40);
     Triangles triangles(120, 3);
     for (int t = 0; t < triangles.rows(); ++t)
       for (int s = 0; s < 3; ++s) triangles(t, s) = random.below(40);

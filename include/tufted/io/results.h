@@ -40,7 +40,7 @@ void writeResults(const std::filesystem::path& dir, const Laplacian& laplacian, 
 
 /// Reads what writeLaplacian wrote with Format::npz: L.npz, M.npy, status.npy, representative.npy, boundary.npy,
 /// frames.npy, and of report.json the counts, lengths and areas. Sign::igl and dummy values are undone. `cover_areas`
-/// is M.
+/// is M where that holds the cover's areas, else empty.
 /// @param with_cover takes cover.npz as well, where Format::cover was among those written; otherwise there is no cover
 /// @throws IoError naming the file that is missing, damaged or does not fit the others
 Laplacian readLaplacian(const std::filesystem::path& dir, bool with_cover = true);
