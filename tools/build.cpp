@@ -50,7 +50,7 @@ void addRareBuildOptions(CLI::App& command, Build& build) {
        addChoice(command, "--delaunay", build.cloud.delaunay, backends, "Who finds the stars, clouds only (star)")});
   addChoice(command, "--order", build.cloud.order, orders, "Order of the faces around an edge (angle)");
   addNumber(command, "--mollify", build.mollify, 0.0, 1.0,
-            "Mollification in mean edge lengths, at most 1 (1e-5 clouds, 1e-4 meshes)")
+            "Mollification in mean edge lengths, at most 1 (1e-5 clouds, 1e-6 meshes)")
       ->type_name("D");
 }
 

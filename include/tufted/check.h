@@ -11,8 +11,22 @@
 
 namespace tufted {
 
-/// What `validate` measures on L, M, status and the cover themselves. Only the clamped weights and the edges that were
-/// given up leave no trace there; for those the report is asked.
+/// L, M and cover_areas against what the faces of the cover say: L is assembled once more, corner by corner.
+///
+/// Where the cover is a cloud's that was built from stars, masses are compared with the areas of these; on meshes and
+/// with Mass::cover with the cover's. Masses of stars that are not there any more, as with other gluings and after
+/// reading from files, leave nothing to compare each with: there the sum of M must lie within what areas of stars can
+/// be, between 3/40 of and 30 times that of the cover without Report::mollify_area.
+struct SurfaceCheck {
+  double weight_error = 0;         ///< greatest |L_ij - L'_ij| over the larger diagonal of L' at i and j
+  double area_error = 0;           ///< greatest relative error of cover_areas, 0 where these are not known
+  double mass_error = 0;           ///< greatest relative error of M, 0 where `masses_compared` is false
+  bool masses_compared = false;    ///< each mass was compared with the area it must be
+  std::int64_t coarse_points = 0;  ///< not compared: lengths at them are below 1e-292, where doubles have fewer digits
+};
+
+/// What `validate` measures on L, M, status and the cover themselves. Only the edges that were given up, and without a
+/// cover the clamped weights, leave no trace there; for those the report is asked.
 struct LaplacianCheck {
   std::array<std::int64_t, 4> status = {};  ///< number of points, by PointStatus
   std::int64_t components = 0;              ///< connected components among points with a row
@@ -28,7 +42,10 @@ struct LaplacianCheck {
   double row_sum_error = 0;            ///< greatest |sum of row i| over L_ii, active points
   bool definite = false;               ///< L + 1e-12 diag(L) of the active points has a Cholesky factor
 
-  std::optional<CoverCheck> cover;  ///< where the cover is kept
+  std::optional<CoverCheck> cover;      ///< where the cover is kept
+  std::optional<SurfaceCheck> surface;  ///< the same, and the cover is whole
+  /// A sentence per thing that could not be looked at, with its reason. Empty when everything was.
+  std::vector<std::string> not_checked;
 
   /// A sentence per broken promise: which, how often, and where first. Empty when all hold.
   std::vector<std::string> faults;
@@ -36,11 +53,14 @@ struct LaplacianCheck {
   bool ok() const { return faults.empty(); }
 };
 
-/// Checks what a Laplacian promises. Takes the memory of L once more, and then that of its Cholesky factor.
+/// Checks what a Laplacian promises. Takes the memory of L once more, and then that of its Cholesky factor; the cover
+/// of a cloud is built if it was not yet.
 ///
 /// L must be symmetric bit for bit, its off-diagonals must not be positive at all, and its rows must sum to 0 within
 /// the rounding of their own sum. The factorisation is that of D^-1/2 L D^-1/2 + 1e-12, D = diag(L): each weight is
 /// judged against its own diagonals, and the shift exceeds the rounding.
+/// Each entry of L must be that of the cover's faces within 1e-11 of the larger diagonal of its row and column, and
+/// each area and mass within 1e-11 of itself; see SurfaceCheck.
 /// Whatever the arrays hold is reported and does not throw. The rest is left at zero where their sizes or the indices
 /// of L are wrong.
 LaplacianCheck validate(const Laplacian& laplacian);

@@ -40,7 +40,8 @@ struct CoverCheck {
   std::int64_t not_oriented = 0;         ///< sides whose mate does not run the other way between the same vertices
   std::int64_t unequal_lengths = 0;      ///< sides whose mate has another length
   std::int64_t triangle_inequality = 0;  ///< faces whose lengths are not those of a triangle (negative slack)
-  std::int64_t not_delaunay = 0;         ///< edges with cot + cot below -tolerance and rounding (Equation 2)
+  std::int64_t not_delaunay = 0;         ///< edges with cot + cot below -tolerance (Equation 2), and below what the
+                                         ///< sum itself may round by: 16 epsilon (|cot| + |cot|)
   double smallest_cotan_sum = 0;         ///< the least cot + cot, at most 0
 
   bool ok() const {
@@ -48,7 +49,7 @@ struct CoverCheck {
   }
 };
 
-/// Checks what the guarantees of L rest on, for corners in [0, vertices). O(F).
+/// Checks what the guarantees of L rest on, for corners in [0, vertices) and lengths in any unit. O(F).
 CoverCheck validate(const IntrinsicTriangulation& cover, double delaunay_tolerance = 1e-9);
 
 }  // namespace tufted

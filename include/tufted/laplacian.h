@@ -22,6 +22,9 @@ class CoverSource {
  public:
   virtual ~CoverSource() = default;
   virtual const IntrinsicTriangulation& cover() const = 0;
+  /// The area of each point in its own star, N in length^2, which Mass::star makes M wherever it is positive; size 0
+  /// with Mass::cover. Measured again with each call, by all threads of the build.
+  virtual VectorXd starAreas() const { return {}; }
 };
 
 /// The Laplacian of a point cloud or a mesh, with what is known about each point.

@@ -116,7 +116,8 @@ CloudOptions cloudOptions(Preset preset);
 struct MeshOptions {
   FaceOrder order = FaceOrder::angle;
   std::uint64_t seed = 0;  ///< for FaceOrder::random
-  double mollify = 1e-4;   ///< delta of Section 4.5 in mean edge lengths; see CloudOptions
+  double mollify = 1e-6;   ///< delta of Section 4.5 in mean edge lengths; see CloudOptions. Below 3e-7 rounding may
+                           ///< break the guarantees on needles, above it needles gain area, see Report::mollify_area
   int threads = 0;         ///< at most this many; 0: what OpenMP offers
   bool keep_cover = true;  ///< false frees the cover (96 bytes per triangle)
   Progress progress = {};

@@ -58,6 +58,7 @@ struct Report {
   double mean_edge = 0;               ///< mean length over the triangles' sides, before mollification
   double mean_squared_edge = 0;       ///< mean of their squares, the unit of the smoothing's time
   double mollify_length = 0;          ///< length added to every edge (Section 4.5)
+  double mollify_area = 0;            ///< area that the cover has gained by that, before flips, in length^2
   std::int64_t degenerate_faces = 0;  ///< cover faces of no area even after mollification; they contribute nothing
   std::int64_t flips = 0;             ///< intrinsic edge flips
   std::int64_t flip_failures = 0;     ///< times an edge was given up after 100 flips; 0 unless something is wrong
@@ -65,6 +66,7 @@ struct Report {
   // Operator
   double area = 0;                   ///< sum of M
   double cover_area = 0;             ///< sum of the cover's areas, which M is where Mass::cover is chosen
+  std::int64_t star_masses = 0;      ///< points whose mass is an area of their own star, see Mass::star; 0 on meshes
   std::int64_t cover_masses = 0;     ///< points whose mass is the cover's because their own star holds no triangle
   std::int64_t bounded_masses = 0;   ///< points whose mass comes from parts of their triangles because a Voronoi area
                                      ///< in or next to their star exceeds what stars hold, see Mass::star

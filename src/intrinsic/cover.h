@@ -81,9 +81,14 @@ struct MeanLengths {
 MeanLengths measureLengths(IntrinsicTriangulation& cover, const PointsView& points, const PointsView& move,
                            const Workers& workers);
 
+/// What mollification has added.
+struct Mollification {
+  double length = 0;  ///< to each edge
+  double area = 0;    ///< to all faces together
+};
+
 /// Section 4.5: adds to all lengths the least amount that leaves every triangle inequality a slack of `delta`.
-/// Returns that amount.
-double mollify(IntrinsicTriangulation& cover, double delta, const Workers& workers);
+Mollification mollify(IntrinsicTriangulation& cover, double delta, const Workers& workers);
 
 struct FlipCounts {
   std::int64_t flips = 0;

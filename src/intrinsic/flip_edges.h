@@ -39,6 +39,25 @@ double flippedLength(const Triangulation& t, int side, int mate) {
   return std::hypot(above[0] - below[0], above[1] + below[1]);
 }
 
+/// `length` or up to 2^-42 of it less, so that an edge with this length is Delaunay in two triangles whose other sides
+/// are `outer`, the first two and the last two.
+///
+/// In exact arithmetic an edge that was flipped is Delaunay. But an angle near pi turns fast with the length opposite:
+/// rounding that in the last bit changes its cotangent by about epsilon cot^3. The shorter the edge, the more Delaunay.
+inline double delaunayLength(double length, const std::array<double, 4>& outer) {
+  constexpr double most_ulps = 1024;
+  const auto isFine = [&outer](double l) {
+    return !(cotanNumerator(l, outer[0], outer[1]) < 0 || cotanNumerator(l, outer[2], outer[3]) < 0) ||
+           !(oppositeCotan(l, outer[0], outer[1]) + oppositeCotan(l, outer[2], outer[3]) < flip_below);
+  };
+  double rounded = length;
+  for (double ulps = 1; !isFine(rounded); ulps *= 2) {
+    if (ulps > most_ulps) return length;
+    rounded = length * (1 - ulps * std::numeric_limits<double>::epsilon());
+  }
+  return rounded;
+}
+
 /// Flips the edge i j between the faces (i, j, k) and (j, i, m) to k m (Figure 12). The flipped edge keeps its two side
 /// numbers; the faces become (m, k, i) and (k, m, j), counted from these sides.
 template <class Triangulation>
@@ -46,7 +65,8 @@ void flip(Triangulation& t, int side, int mate) {
   const int jk = nextSide(side), ki = previousSide(side);
   const int im = nextSide(mate), mj = previousSide(mate);
   const int i = tail(t, side), j = head(t, side), k = head(t, jk), m = head(t, im);
-  const double flipped = flippedLength(t, side, mate);
+  const double flipped =
+      delaunayLength(flippedLength(t, side, mate), {t.length[ki], t.length[im], t.length[mj], t.length[jk]});
 
   // New places of the four outer sides: k i after `side`, then i m; m j after `mate`, then j k.
   const std::array<int, 4> from = {ki, im, mj, jk};

@@ -59,7 +59,7 @@ class SeedFinder {
     const double x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
     const double sine = x * x + y * y + z * z;  // times both lengths, squared
     const double longer = std::max(ux * ux + uy * uy + uz * uz, vx * vx + vy * vy + vz * vz);
-    return sine > 1e-8 * longer * longer ? (ux * vx + uy * vy + uz * vz) / std::sqrt(sine) : cotanAt(side);
+    return sine > 1e-4 * longer * longer ? (ux * vx + uy * vy + uz * vz) / std::sqrt(sine) : cotanAt(side);
   }
 
   const Stars& stars_;

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <utility>
 
+#include "base/power_of_two.h"
 #include "tufted/intrinsic_triangulation.h"
 
 namespace tufted {
@@ -51,6 +53,23 @@ bool isOppositeObtuse(const Triangulation& t, int side) {
 template <class Triangulation>
 double faceArea(const Triangulation& t, int face) {
   return triangleArea(t.length[3 * face], t.length[3 * face + 1], t.length[3 * face + 2]);
+}
+
+/// The lengths of a face times a power of two, by which the longest comes to lie in [1, 2): what is computed from them
+/// neither overflows nor underflows, whatever the unit of the lengths is.
+struct UnitFace {
+  std::array<double, 3> length;
+  double unit;  ///< the power of two that is 1 here
+
+  double area() const { return triangleArea(length[0], length[1], length[2]); }
+  /// Opposite side `s`. Infinite or NaN in a face of no area.
+  double cotan(int s) const { return oppositeCotan(length[s], length[(s + 1) % 3], length[(s + 2) % 3]); }
+};
+
+inline UnitFace unitFace(const IntrinsicTriangulation& t, std::int64_t face) {
+  const double* const side = t.length.data() + 3 * face;
+  const double unit = magnitudeOf(std::max({side[0], side[1], side[2]}));
+  return {{side[0] / unit, side[1] / unit, side[2] / unit}, unit};
 }
 
 /// First and last corner of a side.

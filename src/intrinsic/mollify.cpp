@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <numeric>
 
 #include "base/buffer.h"
 #include "intrinsic/cover.h"
@@ -9,9 +10,20 @@ namespace {
 
 constexpr std::int64_t block_size = 16384;
 
+/// Of all faces. Summed in blocks, so that the number of threads does not matter.
+double sumAreas(const IntrinsicTriangulation& cover, const Workers& workers) {
+  Buffer<double> sums((cover.size() + block_size - 1) / block_size);
+  workers.forBlocks("mollify", cover.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    double sum = 0;
+    for (std::int64_t f = begin; f < end; ++f) sum += faceArea(cover, static_cast<int>(f));
+    sums[begin / block_size] = sum;
+  });
+  return std::accumulate(sums.begin(), sums.end(), 0.0);
+}
+
 }  // namespace
 
-double mollify(IntrinsicTriangulation& cover, double delta, const Workers& workers) {
+Mollification mollify(IntrinsicTriangulation& cover, double delta, const Workers& workers) {
   const std::int64_t triangles = cover.size() / 2;
   Buffer<double> missing((triangles + block_size - 1) / block_size);
   workers.forBlocks("mollify", triangles, block_size, [&](std::int64_t begin, std::int64_t end, int) {
@@ -23,10 +35,10 @@ double mollify(IntrinsicTriangulation& cover, double delta, const Workers& worke
     missing[begin / block_size] = most;
   });
   const double added = missing.empty() ? 0 : *std::max_element(missing.begin(), missing.end());
-  if (added > 0) {
-    for (double& length : cover.length) length += added;
-  }
-  return added;
+  if (!(added > 0)) return {};
+  const double before = sumAreas(cover, workers);
+  for (double& length : cover.length) length += added;
+  return {added, sumAreas(cover, workers) - before};
 }
 
 }  // namespace tufted

@@ -8,12 +8,13 @@
 namespace tufted {
 namespace {
 
-/// How far the cotangent opposite a side may be off because lengths are rounded: epsilon of the longest side, seen from
-/// the shortest, over sin^3. Infinite in a face of no area.
-double needleRounding(const IntrinsicTriangulation& cover, int side, double cotan) {
-  const double a = cover.length[side], b = cover.length[nextSide(side)], c = cover.length[previousSide(side)];
-  const double aspect = std::max({a, b, c}) / std::min({a, b, c});
-  return 16 * std::numeric_limits<double>::epsilon() * aspect * std::abs(cotan) * cotan * cotan;
+/// Equation 2 for the cotangents opposite an edge. Where their sum is no number a face has no area, and there is no
+/// telling. Other sums are as far below 0 as the tolerance and a few roundings of the sum itself.
+bool isDelaunay(double here, double there, double tolerance) {
+  constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
+  const double sum = here + there;
+  if (std::isinf(sum)) return sum > 0;
+  return !(sum < -tolerance - rounding * (std::abs(here) + std::abs(there)));
 }
 
 }  // namespace
@@ -35,11 +36,9 @@ CoverCheck validate(const IntrinsicTriangulation& cover, double delaunay_toleran
     if (tail(cover, side) != head(cover, mate) || head(cover, side) != tail(cover, mate)) ++check.not_oriented;
     if (cover.length[side] != cover.length[mate]) ++check.unequal_lengths;
     if (side < mate && side / 3 != mate / 3) {
-      const double here = oppositeCotan(cover, side), there = oppositeCotan(cover, mate);
-      const double sum = here + there;
-      check.smallest_cotan_sum = std::min(check.smallest_cotan_sum, sum);
-      if (sum < -delaunay_tolerance - needleRounding(cover, side, here) - needleRounding(cover, mate, there))
-        ++check.not_delaunay;
+      const double here = unitFace(cover, side / 3).cotan(side % 3), there = unitFace(cover, mate / 3).cotan(mate % 3);
+      check.smallest_cotan_sum = std::min(check.smallest_cotan_sum, here + there);
+      if (!isDelaunay(here, there, delaunay_tolerance)) ++check.not_delaunay;
     }
   }
   for (int side = 0; side < sides; side += 3) {

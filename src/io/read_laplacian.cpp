@@ -75,11 +75,14 @@ void readReport(const Json& json, Report& report) {
   take("triangles", report.triangles);
   take("mean_edge", report.mean_edge);
   take("mean_squared_edge", report.mean_squared_edge);
+  take("mollify_area", report.mollify_area);
+  take("star_masses", report.star_masses);
   take("area", report.area);
   take("cover_area", report.cover_area);
   take("flips", report.flips);
   take("flip_failures", report.flip_failures);
   take("nonzeros", report.nonzeros);
+  if (!json.contains("star_masses")) report.star_masses = report.active;  // of a version that did not say
   take("components", report.components);
   take("clamped_weights", report.clamped_weights);
   take("clamped_large", report.clamped_large);
@@ -145,7 +148,7 @@ Laplacian readUncheckedLaplacian(const std::filesystem::path& dir, bool with_cov
   readReport(json["report"], laplacian.report);
   if (written.is_object() && written.value("sign", Json()) == "igl") laplacian.L = -laplacian.L;
   if (written.is_object() && written.value("dummy", Json()) == true) removeDummies(laplacian);
-  laplacian.cover_areas = laplacian.M;
+  if (laplacian.report.star_masses == 0) laplacian.cover_areas = laplacian.M;
   return laplacian;
 }
 

@@ -4,11 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <sstream>
 #include <utility>
 
 #include "operators/assemble.h"
+#include "operators/check_surface.h"
 #include "operators/lower_triangle.h"
+#include "operators/promise.h"
 
 namespace tufted {
 namespace {
@@ -17,35 +18,6 @@ using Eigen::Index;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
 constexpr double shift = 1e-12;  // of each diagonal; see the header
-
-/// How often a promise is broken, and where first.
-class Promise {
- public:
-  explicit Promise(const char* name) : name_(name) {}
-
-  template <class... Words>
-  void brokenBy(const Words&... words) {
-    if (count_++ > 0) return;
-    std::ostringstream text;
-    (text << ... << words);
-    first_ = text.str();
-  }
-  std::int64_t count() const { return count_; }
-  void addTo(std::vector<std::string>& faults) const {
-    if (count_ == 1) faults.push_back(std::string(name_) + ": " + first_);
-    if (count_ > 1) faults.push_back(std::string(name_) + ": " + std::to_string(count_) + " times, first " + first_);
-  }
-
- private:
-  const char* name_;
-  std::int64_t count_ = 0;
-  std::string first_;
-};
-
-/// Keeps the greatest error; one that is not a number is infinite.
-void raise(double& greatest, double error) {
-  if (!(error <= greatest)) greatest = std::isnan(error) ? INFINITY : error;
-}
 
 bool isActive(const Laplacian& laplacian, Index i) {
   return laplacian.status[i] == PointStatus::active;
@@ -189,7 +161,10 @@ void checkDefinite(const Laplacian& laplacian, const VectorXd& diagonal, Laplaci
 }
 
 void checkCover(const Laplacian& laplacian, LaplacianCheck& check) {
-  if (!laplacian.hasCover()) return;
+  if (!laplacian.hasCover()) {
+    check.not_checked.emplace_back("surface: L and M were not compared with the cover, which is not kept");
+    return;
+  }
   const IntrinsicTriangulation& cover = laplacian.cover();
   Promise numbering("cover");
   if (cover.vertices != laplacian.L.cols())
@@ -211,6 +186,16 @@ void checkCover(const Laplacian& laplacian, LaplacianCheck& check) {
   expectNone(check.cover->unequal_lengths, "sides have another length than their mates");
   expectNone(check.cover->triangle_inequality, "faces have lengths that no triangle has");
   expectNone(check.cover->not_delaunay, "edges are not Delaunay");
+  if (numbering.count() > 0 || check.cover->not_closed > 0) {
+    check.not_checked.emplace_back("surface: L and M were not compared with the cover, which is not whole");
+    return;
+  }
+  check.surface = checkSurface(laplacian, check.faults);
+  if (!check.surface->masses_compared) {
+    check.not_checked.emplace_back(
+        "mass: only the sum of M was compared with the cover, since the stars that each mass was measured in are not "
+        "kept");
+  }
 }
 
 /// Equal points name the lowest of them, all others themselves; frames of active points are orthonormal.

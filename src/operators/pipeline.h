@@ -71,6 +71,7 @@ inline std::shared_ptr<IntrinsicTriangulation> takeCover(Laplacian& result) {
 struct BuildFigures {
   MeanLengths mean = {};
   double mollify_length = 0;
+  double mollify_area = 0;
   FlipCounts flips = {};
   std::int64_t triangles = 0;
 };
@@ -104,6 +105,7 @@ inline void finishResult(const BuildFigures& figures, int exponent, Laplacian& r
   report.mean_edge = std::ldexp(figures.mean.length, exponent);
   report.mean_squared_edge = std::ldexp(figures.mean.square, 2 * exponent);
   report.mollify_length = std::ldexp(figures.mollify_length, exponent);
+  report.mollify_area = std::ldexp(figures.mollify_area, 2 * exponent);
   report.flips = figures.flips.flips;
   report.flip_failures = figures.flips.failures;
 }
@@ -134,7 +136,9 @@ void finishLaplacian(std::shared_ptr<IntrinsicTriangulation> cover, const Points
                      const Buffer<int>& caller, int exponent, double scale, const Options& options,
                      const Workers& workers, StageClock& clock, Laplacian& result) {
   BuildFigures figures{.mean = measureLengths(*cover, points, move, workers)};
-  figures.mollify_length = mollify(*cover, options.mollify * figures.mean.length, workers);
+  const Mollification mollified = mollify(*cover, options.mollify * figures.mean.length, workers);
+  figures.mollify_length = mollified.length;
+  figures.mollify_area = scale * mollified.area;
   figures.triangles = cover->size() / 2;
   clock.finish("lengths", 0);
 

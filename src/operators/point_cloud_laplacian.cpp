@@ -117,10 +117,8 @@ void takeAreas(const OwnAreas& own, const Buffer<int>& caller, int exponent, Lap
   for (std::size_t p = 0; p < caller.size(); ++p) {
     const int i = caller[p];
     if (result.status[i] != PointStatus::active) continue;
-    if (own.area[p] > 0)
-      result.M[i] = area_unit.times(own.area[p]);
-    else
-      ++result.report.cover_masses;
+    if (own.area[p] > 0) result.M[i] = area_unit.times(own.area[p]);
+    ++(own.area[p] > 0 ? result.report.star_masses : result.report.cover_masses);
   }
   result.report.bounded_masses = own.bounded;
   result.report.area = result.M.sum();

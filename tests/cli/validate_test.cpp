@@ -76,7 +76,7 @@ TEST_F(Validate, GivesEveryFileALineInOrderAndSumsUp) {
   const std::vector<std::string> lines = linesOf(result.out);
   ASSERT_EQ(lines.size(), 5u) << result.out;
   for (const char* title : {"result", "points", "faces", "seconds", "MB", "nnz/row", "flips", ">0", "clamped", "asym",
-                            "rowsum", "psd", "parts", "active", "not fin", "coinc", "isol", "file"})
+                            "rowsum", "recomp", "psd", "parts", "active", "not fin", "coinc", "isol", "file"})
     EXPECT_TRUE(contains(lines[0], title)) << title;
   EXPECT_TRUE(lines[1].starts_with("OK ") && lines[1].ends_with("  " + large)) << lines[1];
   EXPECT_TRUE(lines[2].starts_with("OK ") && lines[2].ends_with("  " + good)) << lines[2];
@@ -166,6 +166,11 @@ TEST_F(Validate, WritesOneJsonDocumentWithTheFigures) {
   EXPECT_LT(row["row_sum_error"], 1e-14);
   EXPECT_GT(row["memory_mb"], 1);
   EXPECT_EQ(row["cover"]["not_delaunay"], 0);
+  EXPECT_EQ(row["recomputed"], true);
+  EXPECT_EQ(row["masses_compared"], true);
+  EXPECT_LT(row["weight_error"], 1e-14);
+  EXPECT_LT(row["mass_error"], 1e-14);
+  EXPECT_EQ(row["not_checked"], json::array());
 }
 
 TEST_F(Validate, TheMemoryOfAFileIsNotThatOfTheCommand) {

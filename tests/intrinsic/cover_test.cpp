@@ -95,7 +95,7 @@ TEST(Mollify, LeavesGoodTrianglesAlone) {
   const shapes::Mesh sphere = shapes::icosphere(2);
   IntrinsicTriangulation cover = coverOf(sphere.points, sphere.triangles);
   const std::vector<double> before = cover.length;
-  EXPECT_EQ(mollify(cover, 1e-4 * before[0], workers), 0);
+  EXPECT_EQ(mollify(cover, 1e-4 * before[0], workers).length, 0);
   EXPECT_EQ(cover.length, before);
 }
 
@@ -105,7 +105,9 @@ TEST(Mollify, AddsTheLeastLengthThatLeavesDeltaOfSlack) {
   Triangles triangle(1, 3);
   triangle << 0, 1, 2;
   IntrinsicTriangulation cover = coverOf(points, triangle);
-  EXPECT_DOUBLE_EQ(mollify(cover, 0.01, workers), 0.01);
+  const Mollification added = mollify(cover, 0.01, workers);
+  EXPECT_DOUBLE_EQ(added.length, 0.01);
+  EXPECT_DOUBLE_EQ(added.area, 2 * triangleArea(2.01, 1.01, 1.01));  // there was none
   EXPECT_NEAR(triangleSlack(cover.length[0], cover.length[1], cover.length[2]), 0.01, 1e-15);
 }
 
@@ -178,6 +180,34 @@ TEST(Validate, FindsEveryPlantedFault) {
   EXPECT_GT(broken([](auto& c) { c.length.pop_back(); }).not_closed, 0);
   const shapes::Mesh bad = shapes::cubeMesh(4, shapes::Quality::bad);
   EXPECT_GT(validate(coverOf(bad.points, bad.triangles)).not_delaunay, 0);
+}
+
+TEST(Validate, FindsAnEdgeThatIsNotDelaunayInAnyUnit) {
+  const shapes::Mesh bad = shapes::cubeMesh(4, shapes::Quality::bad);
+  const IntrinsicTriangulation cover = coverOf(bad.points, bad.triangles);
+  const CoverCheck check = validate(cover);
+  EXPECT_LT(check.smallest_cotan_sum, -1);
+  for (const int exponent : {-900, -400, 400, 900}) {
+    IntrinsicTriangulation scaled = cover;
+    for (double& length : scaled.length) length = std::ldexp(length, exponent);
+    EXPECT_EQ(validate(scaled).not_delaunay, check.not_delaunay) << exponent;
+    EXPECT_EQ(validate(scaled).smallest_cotan_sum, check.smallest_cotan_sum) << exponent;
+  }
+}
+
+TEST(Validate, FindsANeedleThatIsNotDelaunay) {
+  // Front and back of one triangle whose corner 2 lies next to corner 0 and almost on the side opposite: both angles
+  // there are next to pi, with a cotangent of -2e5.
+  IntrinsicTriangulation cover;
+  cover.vertices = 3;
+  cover.faces = {{0, 1, 2}, {0, 2, 1}};
+  cover.glue = {5, 4, 3, 2, 1, 0};
+  const double rest = 1 - 1e-4 + 1e-15;
+  cover.length = {1, rest, 1e-4, 1e-4, rest, 1};
+  const CoverCheck check = validate(cover);
+  EXPECT_LT(check.smallest_cotan_sum, -1e5);
+  EXPECT_EQ(check.not_delaunay, 1);
+  EXPECT_EQ(check.not_closed + check.not_edge_manifold + check.not_oriented + check.unequal_lengths, 0);
 }
 
 }  // namespace

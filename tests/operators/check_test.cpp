@@ -56,12 +56,22 @@ TEST(LaplacianCheck, CountsPointsEntriesAndComponents) {
   EXPECT_TRUE(check.definite);
   ASSERT_TRUE(check.cover.has_value());
   EXPECT_TRUE(check.cover->ok());
+  ASSERT_TRUE(check.surface.has_value());
+  EXPECT_LT(check.surface->weight_error, 1e-14);
+  EXPECT_LT(check.surface->area_error, 1e-14);
+  EXPECT_TRUE(check.surface->masses_compared);
+  EXPECT_EQ(check.surface->mass_error, 0);
+  EXPECT_EQ(check.surface->coarse_points, 0);
+  EXPECT_EQ(check.not_checked, std::vector<std::string>());
   EXPECT_TRUE(check.ok());
 }
 
 TEST(LaplacianCheck, LooksAtTheCoverOnlyWhereItIsKept) {
   const LaplacianCheck check = validate(sphereWithOddPoints(false));
   EXPECT_FALSE(check.cover.has_value());
+  EXPECT_FALSE(check.surface.has_value());
+  EXPECT_EQ(check.not_checked,
+            (std::vector<std::string>{"surface: L and M were not compared with the cover, which is not kept"}));
   EXPECT_TRUE(check.ok());
 }
 

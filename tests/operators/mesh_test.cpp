@@ -148,6 +148,10 @@ TEST(MeshLaplacian, SurvivesEdgesOfLengthZeroAndSlivers) {
   for (const shapes::Mesh& mesh : {shapes::zeroLengthEdges(8), shapes::slivers(8)}) {
     const Laplacian laplacian = meshLaplacian(mesh.points, mesh.triangles);
     EXPECT_GT(laplacian.report.mollify_length, 0) << mesh.name;
+    const double plain = oracles::surfaceArea(mesh.points, mesh.triangles);
+    EXPECT_GT(laplacian.report.mollify_area, 0) << mesh.name;
+    EXPECT_NEAR(laplacian.report.mollify_area, laplacian.M.sum() - plain, 1e-12 * plain) << mesh.name;
+    EXPECT_LE(laplacian.report.mollify_area, 1e-4 * plain) << mesh.name;
     EXPECT_EQ(laplacian.report.degenerate_faces, 0) << mesh.name;
     EXPECT_TRUE(validate(laplacian.cover()).ok()) << mesh.name;
     // And without mollification nothing is lost but the flat triangles.

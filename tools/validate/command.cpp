@@ -50,11 +50,14 @@ Each file has a process of its own, so that none can stop the run. Prints a line
   clamped  largest negative weight set to 0, over the diagonal
   asym     greatest |L_ij - L_ji| over the larger diagonal
   rowsum   greatest |sum of a row| over its diagonal
+  recomp   greatest difference of L from the same assembled once more from the faces of its cover, over the larger
+           diagonal; - where there is no cover
   psd      whether L + 1e-12 diag(L) of the active points has a Cholesky factor
   parts    connected components
   active, not fin(ite), coinc(ident), isol(ated): points by status
 
-The intrinsic triangulation is checked as well. The exit code is 1 if a file FAILED, and 0 otherwise.
+The intrinsic triangulation is checked as well, and M against the areas that it must hold. What could not be checked is
+said behind the file's name. The exit code is 1 if a file FAILED, and 0 otherwise.
 
 --operator takes what `tufted laplacian --out DIR` has written: --sign igl and --dummy are undone, and the same is
 checked, of the intrinsic triangulation if --format had `cover`. A folder without it all, or one whose arrays do not fit

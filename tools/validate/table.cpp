@@ -53,6 +53,7 @@ constexpr Column columns[] = {
     {"clamped", 8, "largest_clamped", magnitude},
     {"asym", 6, "symmetry_error", magnitude},
     {"rowsum", 7, "row_sum_error", magnitude},
+    {"recomp", 7, "weight_error", magnitude},
     {"psd", 4, "definite", yesOrNo},
     {"parts", 6, "components", integer},
     {"active", 9, "active", integer},
@@ -96,6 +97,9 @@ std::string tableLine(const Json& row) {
   }
   line += "  " + row.at("file").get<std::string>();
   std::string separator = ": ";
-  for (const Json& reason : row.at("reasons")) line += std::exchange(separator, "; ") + reason.get<std::string>();
+  for (const char* member : {"reasons", "not_checked"}) {
+    if (!row.contains(member)) continue;
+    for (const Json& reason : row[member]) line += std::exchange(separator, "; ") + reason.get<std::string>();
+  }
   return oneLine(line);
 }

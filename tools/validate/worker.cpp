@@ -78,6 +78,14 @@ Json coverObject(const tufted::CoverCheck& cover) {
           {"smallest_cotan_sum", cover.smallest_cotan_sum}};
 }
 
+void addSurface(Json& row, const tufted::SurfaceCheck& surface) {
+  row.update({{"weight_error", surface.weight_error},
+              {"area_error", surface.area_error},
+              {"mass_error", surface.mass_error},
+              {"masses_compared", surface.masses_compared},
+              {"coarse_points", surface.coarse_points}});
+}
+
 void addFigures(Json& row, const tufted::LaplacianCheck& check, const tufted::Report& report) {
   row.update({{"active", check.status[0]},
               {"not_finite_points", check.status[1]},
@@ -98,6 +106,9 @@ void addFigures(Json& row, const tufted::LaplacianCheck& check, const tufted::Re
               {"row_sum_error", check.row_sum_error},
               {"definite", check.definite}});
   if (check.cover) row["cover"] = coverObject(*check.cover);
+  row["recomputed"] = check.surface.has_value();
+  if (check.surface) addSurface(row, *check.surface);
+  row["not_checked"] = check.not_checked;
 }
 
 /// Reads a file and builds the Laplacian.

@@ -41,7 +41,7 @@ void writeResults(const std::filesystem::path& dir, const Laplacian& laplacian, 
 
 /// Reads what writeLaplacian wrote with Format::npz: L.npz, M.npy, status.npy, representative.npy, boundary.npy,
 /// frames.npy, and of report.json the kind, counts, lengths and areas. Sign::igl and dummy values are undone.
-/// `cover_areas` is M. Where report.json has no kind, as those of before there was one, it goes by the options of the
+/// `cover_areas` is M where that holds the cover's areas, else empty. Where report.json has no kind, as those of before there was one, it goes by the options of the
 /// build that are there; without these a cover is refused, and nothing else depends on it.
 ///
 /// What is read must be a Laplacian, by the rules of validate(): L is symmetric bit for bit, its off-diagonals are <= 0

@@ -1,0 +1,185 @@
+#include "operators/check_surface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <tuple>
+
+#include "intrinsic/geometry.h"
+#include "operators/assemble.h"
+#include "operators/face_scale.h"
+#include "operators/promise.h"
+
+namespace tufted {
+namespace {
+
+using Eigen::Index;
+
+constexpr double tolerance = 1e-11;           // of a diagonal, an area; all data agree within 6e-15
+constexpr double smallest_length = 0x1p-970;  // 52 bits above the smallest normal number
+constexpr double smallest_area = std::numeric_limits<double>::min();
+
+// A point's share of a triangle of its star lies between 1/4 and 1/2 (mixed areas), and its Voronoi area is taken where
+// it is between 1/10 of and 20 times these. The cover counts 1/3 of the triangles of all stars.
+constexpr double least_star_share = 3.0 * 1 / 4 / 10;
+constexpr double most_star_share = 3.0 * 1 / 2 * 20;
+
+/// An edge of the cover that has no entry in L.
+struct Edge {
+  int low, high;
+  double weight;
+};
+
+/// Algorithm 3, lines 6 to 15, face by face.
+class Assembly {
+ public:
+  Assembly(const SparseMatrix& L, const IntrinsicTriangulation& cover, double scale)
+      : L_(L), weight_(L.nonZeros()), area_(VectorXd::Zero(L.cols())), is_coarse_(L.cols()) {
+    for (std::int64_t f = 0; f < cover.size(); ++f) add(cover.faces[f], unitFace(cover, f), scale);
+    mergeOthers();
+  }
+
+  /// Calls visit(i, j, weight, L_ij) for every edge of the cover and every entry of L with i > j. The weight is 0 where
+  /// L alone has an entry.
+  template <class Visit>
+  void forEachEdge(const Visit& visit) const {
+    for (int j = 0; j < L_.cols(); ++j) {
+      for (int k = L_.outerIndexPtr()[j]; k < L_.outerIndexPtr()[j + 1]; ++k)
+        if (L_.innerIndexPtr()[k] > j) visit(L_.innerIndexPtr()[k], j, weight_[k], L_.valuePtr()[k]);
+    }
+    for (const Edge& edge : others_) visit(edge.high, edge.low, edge.weight, 0.0);
+  }
+
+  /// Of points, in the caller's unit.
+  const VectorXd& area() const { return area_; }
+  /// Whether a length at point i has fewer digits than others.
+  bool isCoarse(Index i) const { return is_coarse_[i] != 0; }
+
+ private:
+  void add(const std::array<int, 3>& corner, const UnitFace& face, double scale) {
+    const double area = face.area();
+    for (int s = 0; s < 3; ++s) {
+      const double length = face.length[s] * face.unit;
+      if (length > 0 && length < smallest_length)
+        for (const int c : corner) is_coarse_[c] = 1;
+      area_[corner[s]] += scale * area / 3 * face.unit * face.unit;  // Section 3.3
+    }
+    for (int s = 0; s < 3; ++s) {
+      const int a = corner[s], b = corner[(s + 1) % 3];
+      const double cotan =
+          cotanNumerator(face.length[s], face.length[(s + 1) % 3], face.length[(s + 2) % 3]) / (4 * area);
+      if (a != b && std::isfinite(cotan)) addWeight(std::min(a, b), std::max(a, b), scale * cotan / 2);  // Section 3.3
+    }
+  }
+
+  void addWeight(int low, int high, double weight) {
+    const int* const rows = L_.innerIndexPtr();
+    const int *begin = rows + L_.outerIndexPtr()[low], *end = rows + L_.outerIndexPtr()[low + 1];
+    const int* const row = std::lower_bound(begin, end, high);
+    if (row != end && *row == high)
+      weight_[row - rows] += weight;
+    else
+      others_.push_back({low, high, weight});
+  }
+
+  void mergeOthers() {
+    std::stable_sort(others_.begin(), others_.end(),
+                     [](const Edge& a, const Edge& b) { return std::tie(a.low, a.high) < std::tie(b.low, b.high); });
+    std::size_t merged = 0;
+    for (const Edge& edge : others_) {
+      if (merged > 0 && others_[merged - 1].low == edge.low && others_[merged - 1].high == edge.high)
+        others_[merged - 1].weight += edge.weight;
+      else
+        others_[merged++] = edge;
+    }
+    others_.resize(merged);
+  }
+
+  const SparseMatrix& L_;
+  std::vector<double> weight_;  ///< by entry of L, used below the diagonal
+  std::vector<Edge> others_;
+  VectorXd area_;
+  std::vector<std::uint8_t> is_coarse_;
+};
+
+void compareWeights(const SparseMatrix& L, const Assembly& assembly, SurfaceCheck& check,
+                    std::vector<std::string>& faults) {
+  Promise surface("surface");
+  VectorXd diagonal = VectorXd::Zero(L.cols());
+  assembly.forEachEdge([&](int i, int j, double weight, double) {
+    diagonal[i] += std::max(weight, 0.0);
+    diagonal[j] += std::max(weight, 0.0);
+  });
+  assembly.forEachEdge([&](int i, int j, double weight, double found) {
+    if (assembly.isCoarse(i) || assembly.isCoarse(j)) return;
+    const double larger = std::max(diagonal[i], diagonal[j]);
+    if (weight < -weight_rounding * larger) surface.brokenBy("L(", i, ", ", j, ") = ", -weight, " by the cover");
+    const double error = std::abs(found + std::max(weight, 0.0));
+    if (error == 0) return;
+    const double relative = larger > 0 ? error / larger : INFINITY;
+    if (!(relative <= tolerance))
+      surface.brokenBy("L(", i, ", ", j, ") = ", found, ", by the cover ", -std::max(weight, 0.0));
+    raise(check.weight_error, relative);
+  });
+  surface.addTo(faults);
+}
+
+/// Area by area.
+/// @param expected of active points; others have none
+/// @returns the greatest relative error
+double compareAreas(const char* name, const char* array, const Laplacian& laplacian, const Assembly& assembly,
+                    const VectorXd& found, const VectorXd& expected, std::vector<std::string>& faults) {
+  Promise area(name);
+  double greatest = 0;
+  for (Index i = 0; i < found.size(); ++i) {
+    const double right = laplacian.status[i] == PointStatus::active ? expected[i] : 0;
+    const double error = std::abs(found[i] - right);
+    if (assembly.isCoarse(i) || error <= smallest_area) continue;
+    if (!(error <= tolerance * right)) area.brokenBy(array, "(", i, ") = ", found[i], ", by the surface ", right);
+    raise(greatest, right > 0 ? error / right : INFINITY);
+  }
+  area.addTo(faults);
+  return greatest;
+}
+
+void compareMasses(const Laplacian& laplacian, const Assembly& assembly, SurfaceCheck& check,
+                   std::vector<std::string>& faults) {
+  const VectorXd& M = laplacian.M;
+  const bool has_stars = laplacian.report.star_masses > 0;
+  VectorXd expected = assembly.area();
+  if (has_stars) {
+    const VectorXd own = laplacian.cover_source ? laplacian.cover_source->starAreas() : VectorXd();
+    if (own.size() != M.size()) {
+      double sum = 0;
+      for (Index i = 0; i < M.size(); ++i) sum += laplacian.status[i] == PointStatus::active ? expected[i] : 0;
+      const double least = least_star_share * (sum - laplacian.report.mollify_area), most = most_star_share * sum;
+      if (!(M.sum() >= least * (1 - 1e-9) - smallest_area && M.sum() <= most * (1 + 1e-9) + smallest_area)) {
+        Promise mass("mass");
+        mass.brokenBy("the sum of M is ", M.sum(), ", must lie between ", least, " and ", most);
+        mass.addTo(faults);
+      }
+      return;
+    }
+    expected = (own.array() > 0).select(own, expected);
+  }
+  check.masses_compared = true;
+  check.mass_error = compareAreas("mass", "M", laplacian, assembly, M, expected, faults);
+}
+
+}  // namespace
+
+SurfaceCheck checkSurface(const Laplacian& laplacian, std::vector<std::string>& faults) {
+  SurfaceCheck check;
+  const Assembly assembly(laplacian.L, laplacian.cover(), faceScale(laplacian.kind));
+  for (Index i = 0; i < laplacian.L.cols(); ++i) check.coarse_points += assembly.isCoarse(i) ? 1 : 0;
+  compareWeights(laplacian.L, assembly, check, faults);
+  if (laplacian.cover_areas.size() == laplacian.M.size()) {
+    check.area_error =
+        compareAreas("cover area", "cover_areas", laplacian, assembly, laplacian.cover_areas, assembly.area(), faults);
+  }
+  compareMasses(laplacian, assembly, check, faults);
+  return check;
+}
+
+}  // namespace tufted
