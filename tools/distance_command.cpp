@@ -24,7 +24,7 @@ isolated points). On meshes --face names a point inside a triangle by its baryce
 Writes into DIR, renamed one after the other when all are complete:
   distance.npy  N distances, float64
   points.ply    the points with the field distance, float32; points.pcd with --format pcd
-  report.json   sources, method, rounds, residual, seconds
+  report.json   sources, method, rounds, residual, backward error, seconds
 FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written with
 --format npz,ply,cover: the method needs the cover's triangles.)";
 

@@ -14,7 +14,7 @@ constexpr const char* description = "Green's function of points: L g = delta - M
 constexpr const char* footer = R"(Writes into DIR, renamed one after the other when all are complete:
   green.npy    N values, or N x c for c points, float64; 0 in other components, NaN at points that take no part
   points.ply   the points with the field green, float32; points.pcd with --format pcd
-  report.json  method, iterations, residual, seconds
+  report.json  method, iterations, residual, backward error, seconds, and where parts are badly joined, which
 FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written.)";
 
 struct Settings {

@@ -22,7 +22,7 @@ Points that no path joins to a pin are NaN.
 Writes into DIR, renamed one after the other when all are complete:
   values.npy   N values or N x c, float64
   points.ply   the points with the field values, float32; points.pcd with --format pcd
-  report.json  method, iterations, residual, seconds
+  report.json  method, iterations, residual, backward error, seconds, and where parts are badly joined, which
 FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written.)";
 
 enum class Method { harmonic, biharmonic };

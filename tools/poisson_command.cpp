@@ -21,7 +21,8 @@ Writes into DIR, renamed one after the other when all are complete:
   u.npy        N values, or N x c for c columns of f, float64; NaN at points that take no part
   mean.npy     without pins: what was taken out of f at each point, in the same shape
   points.ply   the points with the fields u and mean, float32; points.pcd with --format pcd
-  report.json  the greatest mean taken out, method, iterations, residual, seconds
+  report.json  the greatest mean taken out, method, iterations, residual, backward error, seconds, and where parts are
+               badly joined, which
 FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written.)";
 
 struct Settings {

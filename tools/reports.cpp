@@ -1,5 +1,9 @@
 #include "reports.h"
 
+#include <cstdint>
+#include <optional>
+#include <string>
+
 namespace {
 
 nlohmann::ordered_json toJson(const tufted::SolverReport& solver) {
@@ -10,14 +14,36 @@ nlohmann::ordered_json toJson(const tufted::SolverReport& solver) {
           {"seconds", solver.seconds}};
 }
 
+nlohmann::ordered_json toJson(const std::optional<tufted::WeakJoint>& joint) {
+  if (!joint) return nullptr;
+  nlohmann::ordered_json parts = {{{"point", joint->first}, {"size", joint->first_points}}};
+  if (joint->second >= 0) parts.push_back({{"point", joint->second}, {"size", joint->second_points}});
+  return {{"parts", parts}, {"weight", joint->weight}};
+}
+
+void addJoint(const std::optional<tufted::WeakJoint>& joint, Results& results) {
+  if (!joint) return;
+  const auto part = [](int first, std::int64_t points) {
+    return first < 0 ? std::string("what is fixed")
+                     : std::to_string(points) + " points (the first is " + std::to_string(first) + ")";
+  };
+  results.summary.add("beware", "nearly disconnected: a weight of %.3g joins %s to %s", joint->weight,
+                      part(joint->first, joint->first_points).c_str(),
+                      part(joint->second, joint->second_points).c_str());
+}
+
 }  // namespace
 
 void addReport(const tufted::SolveReport& report, Results& results) {
   results.report["report"] = {{"method", report.method},
                               {"iterations", report.iterations},
                               {"residual", report.residual},
+                              {"backward_error", report.backward_error},
+                              {"nearly_disconnected", toJson(report.weak_joint)},
                               {"seconds", report.seconds}};
-  results.summary.add("solve", "residual %.1e, %s, %.3g s", report.residual, report.method.c_str(), report.seconds);
+  results.summary.add("solve", "residual %.1e, backward error %.1e, %s, %.3g s", report.residual, report.backward_error,
+                      report.method.c_str(), report.seconds);
+  addJoint(report.weak_joint, results);
 }
 
 void addReport(const tufted::SpectrumReport& report, Results& results) {
@@ -43,9 +69,12 @@ void addReport(const tufted::DistanceReport& report, const tufted::SolverReport&
   results.report["report"] = {{"rounds", report.rounds},
                               {"iterations", report.iterations},
                               {"residual", report.residual},
+                              {"backward_error", report.backward_error},
+                              {"nearly_disconnected", toJson(report.weak_joint)},
                               {"seconds", report.seconds},
                               {"solver", toJson(solver)}};
   results.summary.add("prepared", "%s, %.3g s", solver.method.c_str(), solver.seconds);
-  results.summary.add("query", "%d rounds of heat, residual %.1e, %.3g s", report.rounds, report.residual,
-                      report.seconds);
+  results.summary.add("query", "%d rounds of heat, residual %.1e, backward error %.1e, %.3g s", report.rounds,
+                      report.residual, report.backward_error, report.seconds);
+  addJoint(report.weak_joint, results);
 }

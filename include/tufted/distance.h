@@ -2,6 +2,7 @@
 
 #include <array>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "tufted/laplacian.h"
@@ -49,10 +50,12 @@ struct DistanceOptions {
 
 /// What a query did.
 struct DistanceReport {
-  int rounds = 0;       ///< of heat: one per some 500 edge lengths
-  int iterations = 0;   ///< of conjugate gradients, the most of any solve; 0 by Cholesky
-  double residual = 0;  ///< the greatest of any solve, see SolveReport
-  double seconds = 0;   ///< wall-clock
+  int rounds = 0;                            ///< of heat: one per some 500 edge lengths
+  int iterations = 0;                        ///< of conjugate gradients, the most of any solve; 0 by Cholesky
+  double residual = 0;                       ///< the greatest of any solve, see SolveReport
+  double backward_error = 0;                 ///< the greatest of any solve, see SolveReport
+  double seconds = 0;                        ///< wall-clock
+  std::optional<WeakJoint> weak_joint = {};  ///< see SolveReport
 };
 
 /// Geodesic distance by the heat method (Crane, Weischedel, Wardetzky: "The heat method for distance computation",
@@ -78,7 +81,7 @@ class DistanceSolver {
   /// are not finite. Coincident points have the value of their representative. A source given twice counts once. Where
   /// sources fill a region, distances are those from its boundary. Sources that are isolated or not finite say nothing.
   /// @throws InvalidInput for no source, an index out of range, or no source on any component
-  /// @throws SolverFailure when multigrid does not reach its tolerance
+  /// @throws SolverFailure as Solver::solve
   /// @throws Cancelled when `progress` returns false
   VectorXd query(const std::vector<int>& sources, DistanceReport* report = nullptr,
                  const Progress& progress = {}) const;

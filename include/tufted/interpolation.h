@@ -22,14 +22,15 @@ struct Pins {
 /// M-matrix. Rounding takes it at most 1e-12 of that range outside, or by the last digit of values that are large
 /// beside it; nothing is clamped. With a single pin the component is constant.
 ///
-/// What a first solve leaves is solved for again until rounding is all that is left, whatever `options.tolerance`. The
-/// report's iterations are those of all these solves, and its residual is what is missing in the end, over what was
-/// missing of the constant that is the mean of the pins.
+/// What a first solve leaves is solved for again until rounding is all that is left, whatever `options.tolerance`: a
+/// last correction of more than 1e-12 of the range is a SolverFailure. Parts that next to nothing joins to a pin (see
+/// WeakJoint) are solved for as parts. The report's iterations are those of all these solves, and its residual is what
+/// is missing in the end, over what was missing of the constant that is the mean of the pins.
 /// @return N x c. NaN in components without a pin and, unless pinned, at points that are isolated or not finite; a
 ///         coincident point has its representative's values
 /// @throws InvalidInput for an index out of range, arrays of different sizes, values that are not finite, or no pin on
 ///         any component
-/// @throws SolverFailure when the system cannot be solved, or sums of values overflow
+/// @throws SolverFailure when the system cannot be solved to these digits, or sums of values overflow
 /// @throws Cancelled when `options.progress` returns false
 Eigen::MatrixXd harmonic(const Laplacian& laplacian, const Pins& pins, const SolverOptions& options = {},
                          SolveReport* report = nullptr);
@@ -50,7 +51,7 @@ Eigen::MatrixXd biharmonic(const Laplacian& laplacian, const Pins& pins, const S
 Eigen::MatrixXd componentMeans(const Laplacian& laplacian, const Eigen::MatrixXd& values);
 
 /// Solves L u = M f: minus the Laplacian of u is f. On a component that is only possible where f has mean 0, so its
-/// mean (weighted by M) is taken out; and u is made to have mean 0.
+/// mean (weighted by M) is taken out; and u is made to have mean 0. Refined as harmonic() is.
 /// @param f N x c, finite at active points
 /// @return N x c, NaN at points that are isolated or not finite
 /// @throws InvalidInput for a wrong number of rows, values that are not finite, or options out of range

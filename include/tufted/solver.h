@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "tufted/laplacian.h"
@@ -23,7 +24,9 @@ struct SolverOptions {
   /// Bytes that a factor may take, for `automatic`; those of all factors together, where a function holds several. 0:
   /// half of the available memory, of the system or of the process's control group, whichever is less.
   std::size_t memory_limit = 0;
-  double tolerance = 1e-12;  ///< multigrid: stops at |b - A x| <= tolerance |b|; in (0, 1)
+  /// Multigrid: |b - A x| <= tolerance |b| in the end, or where the rounding of x alone leaves more, a backward error
+  /// of at most 1e-13, see SolveReport; in (0, 1).
+  double tolerance = 1e-12;
   int max_iterations = 500;  ///< multigrid: of conjugate gradients, >= 1; beyond them SolverFailure
   int threads = 0;           ///< at most this many, over right sides; 0: what OpenMP offers
   Progress progress = {};    ///< while the solver is made; functions that make and use one show their solves, too
@@ -41,12 +44,27 @@ struct SolverReport {
   bool iterative = false;        ///< by multigrid, not by a factor
 };
 
+/// Two parts of a system that next to nothing joins: no weight between them exceeds 1e-6 of the smaller diagonal.
+struct WeakJoint {
+  int first = -1;                  ///< the smallest index of a point in one part
+  int second = -1;                 ///< the same of the other; -1: next to nothing joins the first part to anything
+  std::int64_t first_points = 0;   ///< size of the one part
+  std::int64_t second_points = 0;  ///< size of the other
+  double weight = 0;               ///< sum of the weights between them
+};
+
 /// What a solve did.
 struct SolveReport {
-  std::string method;   ///< that of the solver, see SolverReport
-  int iterations = 0;   ///< the most of any right side; 0 by Cholesky
-  double residual = 0;  ///< greatest |b - A x| / |b| of any right side, Euclidean norms
-  double seconds = 0;   ///< wall-clock
+  std::string method;  ///< that of the solver, see SolverReport
+  int iterations = 0;  ///< the most of any right side, all corrections together; 0 by Cholesky
+  /// Greatest |b - A x| / |b| of any right side, Euclidean norms. Of a Laplacian b - A x is that without the means of
+  /// b, and |b| has them, here and below.
+  double residual = 0;
+  double backward_error = 0;  ///< greatest |b - A x|_i / (|A| |x| + |b|)_i of any row i and right side
+  double seconds = 0;         ///< wall-clock
+  /// Where the residual stays above 1e-8 because the system is nearly disconnected: between which parts. x jumps there
+  /// by so much that its last digits alone leave such a residual; the backward error is small all the same.
+  std::optional<WeakJoint> weak_joint = {};
 };
 
 /// Solves systems with one symmetric matrix and many right sides: prepared once, used often. `solve` may be called from
@@ -62,17 +80,21 @@ class Solver {
 
   /// For L x = b. L is singular, a constant per connected component: so of b every component loses M times the mean
   /// sum(b) / sum(M), and x has sum(M x) = 0 on every component. (A component whose areas all underflow is weighed
-  /// equally.) Inside, one point of each component is pinned; nothing is shifted. The result is symmetric in b and x.
-  /// x is 0 and b is not looked at where points are not active.
+  /// equally.) Inside, one point of each component is pinned, and of each part of it that next to nothing joins to the
+  /// rest (see WeakJoint), whose constants are found by themselves; nothing is shifted. The result is symmetric in b
+  /// and x. x is 0 and b is not looked at where points are not active.
   /// @throws InvalidInput for options out of range or arrays of the wrong size
   /// @throws SolverFailure when L is not finite or not positive semidefinite, or no memory suffices
   /// @throws Cancelled when `options.progress` returns false
   static Solver laplacian(const Laplacian& laplacian, const SolverOptions& options = {});
 
+  /// The backward error is measured, and where it exceeds 1e-13, or parts of a Laplacian are badly joined, what is
+  /// missing is solved for again.
   /// @param b N x c right sides, which must be finite where they are looked at; several at once cost less
   /// @return N x c
   /// @throws InvalidInput for a wrong number of rows or right sides that are not finite
-  /// @throws SolverFailure when multigrid does not reach its tolerance, or memory does not suffice
+  /// @throws SolverFailure when the backward error stays above 1e-13, multigrid does not reach its tolerance, x
+  ///         overflows, or memory does not suffice
   /// @throws Cancelled when `progress` returns false
   Eigen::MatrixXd solve(const Eigen::Ref<const Eigen::MatrixXd>& b, SolveReport* report = nullptr,
                         const Progress& progress = {}) const;

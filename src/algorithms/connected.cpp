@@ -11,6 +11,28 @@ namespace {
 
 constexpr double least_weight = 1e-14;
 
+/// What weights above this part of the smaller diagonal join.
+Components joinedAbove(double least_share, const Laplacian& laplacian) {
+  const SparseMatrix& L = laplacian.L;
+  const VectorXd diagonal = L.diagonal();
+  DisjointSets sets(L.cols());
+  for (int j = 0; j < L.cols(); ++j) {
+    for (SparseMatrix::InnerIterator entry(L, j); entry; ++entry) {
+      const int i = static_cast<int>(entry.row());
+      if (i < j && std::abs(entry.value()) > least_share * std::min(diagonal[i], diagonal[j])) sets.unite(i, j);
+    }
+  }
+  Components components;
+  components.of.assign(laplacian.status.size(), -1);
+  for (int i = 0; i < static_cast<int>(laplacian.status.size()); ++i) {
+    if (laplacian.status[i] != PointStatus::active) continue;
+    components.points.push_back(i);
+    const int root = sets.root(i);  // the first point of the set
+    components.of[i] = root == i ? components.count++ : components.of[root];
+  }
+  return components;
+}
+
 }  // namespace
 
 VectorXd Components::sums(const VectorXd& values) const {
@@ -49,24 +71,11 @@ void Components::multiply(Eigen::Ref<Eigen::MatrixXd> values, const Eigen::Matri
 }
 
 Components findComponents(const Laplacian& laplacian) {
-  const SparseMatrix& L = laplacian.L;
-  const VectorXd diagonal = L.diagonal();
-  DisjointSets sets(L.cols());
-  for (int j = 0; j < L.cols(); ++j) {
-    for (SparseMatrix::InnerIterator entry(L, j); entry; ++entry) {
-      const int i = static_cast<int>(entry.row());
-      if (i < j && std::abs(entry.value()) > least_weight * std::min(diagonal[i], diagonal[j])) sets.unite(i, j);
-    }
-  }
-  Components components;
-  components.of.assign(laplacian.status.size(), -1);
-  for (int i = 0; i < static_cast<int>(laplacian.status.size()); ++i) {
-    if (laplacian.status[i] != PointStatus::active) continue;
-    components.points.push_back(i);
-    const int root = sets.root(i);  // the first point of the set
-    components.of[i] = root == i ? components.count++ : components.of[root];
-  }
-  return components;
+  return joinedAbove(least_weight, laplacian);
+}
+
+Components findParts(const Laplacian& laplacian) {
+  return joinedAbove(weak_share, laplacian);
 }
 
 }  // namespace tufted

@@ -27,4 +27,12 @@ struct Components {
 
 Components findComponents(const Laplacian& laplacian);
 
+/// Weights of at most this part of the smaller diagonal join badly. A factor loses so many digits of what flows through
+/// them: some 1e-13 over it, of a jump.
+constexpr double weak_share = 1e-6;
+
+/// The parts of the components that weights above `weak_share` of the smaller diagonal join. Nearly always the
+/// components themselves.
+Components findParts(const Laplacian& laplacian);
+
 }  // namespace tufted

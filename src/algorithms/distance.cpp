@@ -247,18 +247,19 @@ VectorXd DistanceSolver::queryAt(const std::vector<SurfacePoint>& sources, Dista
   const Sources known = state.locate(sources);
   const HeatProblem problem{
       state.surface, state.L, state.components, *state.closed, state.open ? &*state.open : nullptr, state.interior};
-  const bool measure = report != nullptr;
   DistanceReport made;
-  VectorXd distance = divergenceOfHeat(query_name, problem, known.heat, state.facesInside(known), state.threads,
-                                       progress, measure, made);
+  VectorXd distance =
+      divergenceOfHeat(query_name, problem, known.heat, state.facesInside(known), state.threads, progress, made);
   const Eigen::MatrixXd scale = state.components.normalise(distance);
   SolveReport solved;
-  distance = state.poisson->solve(query_name, distance, measure ? &solved : nullptr, progress);
+  distance = state.poisson->solve(query_name, distance, &solved, progress);
   state.components.multiply(distance, scale);
   state.shift(known, distance);
   if (report != nullptr) {
     made.iterations = std::max(made.iterations, solved.iterations);
     made.residual = greater(made.residual, solved.residual);
+    made.backward_error = greater(made.backward_error, solved.backward_error);
+    made.weak_joint = solved.weak_joint;
     made.seconds = watch.seconds();
     *report = made;
   }

@@ -24,14 +24,13 @@ constexpr Range by_iteration = {1e-9, 1e-5};
 class Rounds {
  public:
   Rounds(const std::string& function, const HeatProblem& problem, const VectorXd& heat, const Progress& progress,
-         bool measure, DistanceReport& report)
+         DistanceReport& report)
       : function_(function),
         problem_(problem),
         progress_(progress),
         range_(isIterative(problem) ? by_iteration : by_elimination),
         heat_(heat),
         passed_(static_cast<std::size_t>(heat.size()), 0),
-        measure_(measure),
         report_(report) {}
 
   /// Finds the heat of the next round; false when it has gone as far as it can.
@@ -55,9 +54,10 @@ class Rounds {
 
   VectorXd solve(const LinearSystem& system, const VectorXd& heat) {
     SolveReport solved;
-    VectorXd u = system.solve(function_, heat, measure_ ? &solved : nullptr, progress_);
+    VectorXd u = system.solve(function_, heat, &solved, progress_);
     report_.iterations = std::max(report_.iterations, solved.iterations);
     report_.residual = greater(report_.residual, solved.residual);
+    report_.backward_error = greater(report_.backward_error, solved.backward_error);
     return u;
   }
 
@@ -89,7 +89,6 @@ class Rounds {
   Range range_;
   VectorXd heat_, u_;
   std::vector<std::uint8_t> passed_;
-  bool measure_;
   DistanceReport& report_;
 };
 
@@ -110,13 +109,13 @@ std::vector<int> waitingFaces(const HeatProblem& problem, const VectorXd& heat,
 }  // namespace
 
 VectorXd divergenceOfHeat(const std::string& function, const HeatProblem& problem, const VectorXd& heat,
-                          const std::vector<std::uint8_t>& still, int threads, const Progress& progress, bool measure,
+                          const std::vector<std::uint8_t>& still, int threads, const Progress& progress,
                           DistanceReport& report) {
   const Workers workers(threads, progress);
   std::vector<int> waiting = waitingFaces(problem, heat, still);
   std::vector<std::array<double, 3>> outflow(waiting.size());
   VectorXd result = VectorXd::Zero(heat.size()), log_u;
-  Rounds rounds(function, problem, heat, progress, measure, report);
+  Rounds rounds(function, problem, heat, progress, report);
   while (!waiting.empty() && rounds.next()) {
     log_u = rounds.u().array().max(0).log();  // -infinity where nothing is
     const double valid = std::log(rounds.valid());

@@ -30,11 +30,10 @@ struct HeatProblem {
 /// `heat`. X is zero in the faces that are `still`.
 /// @param heat N, >= 0
 /// @param still by face
-/// @param measure the residual
-/// @param report gets rounds, iterations and the residual
+/// @param report gets rounds, iterations, the residual and the backward error
 /// @throws SolverFailure and Cancelled in the name of `function`
 VectorXd divergenceOfHeat(const std::string& function, const HeatProblem& problem, const VectorXd& heat,
-                          const std::vector<std::uint8_t>& still, int threads, const Progress& progress, bool measure,
+                          const std::vector<std::uint8_t>& still, int threads, const Progress& progress,
                           DistanceReport& report);
 
 }  // namespace tufted

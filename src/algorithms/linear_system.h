@@ -6,6 +6,8 @@
 
 #include "algorithms/connected.h"
 #include "algorithms/linear_backend.h"
+#include "algorithms/nearly_disconnected.h"
+#include "algorithms/remainder.h"
 #include "operators/lower_triangle.h"
 #include "tufted/solver.h"
 
@@ -21,6 +23,16 @@ struct SystemNames {
   bool factor_only = false;  ///< multigrid is not fit for the matrix
 };
 
+/// Solves by a factor end with a backward error of at most this, or in SolverFailure.
+constexpr double most_backward_error = 1e-13;
+
+/// Whether a solve is repeated for what it leaves.
+enum class Refine {
+  never,         ///< and nothing is measured: the caller does both
+  where_needed,  ///< where the backward error is too large, or parts of a Laplacian are badly joined
+  always,        ///< until corrections are next to nothing
+};
+
 /// What Solver does, for all public functions that solve systems: errors name the one that was called.
 class LinearSystem {
  public:
@@ -32,27 +44,39 @@ class LinearSystem {
   /// As Solver::solve.
   /// @param function to be named in errors
   Eigen::MatrixXd solve(const std::string& function, const Eigen::Ref<const Eigen::MatrixXd>& b, SolveReport* report,
-                        const Progress& progress) const;
+                        const Progress& progress, Refine refine = Refine::where_needed) const;
 
   const SolverReport& report() const { return report_; }
 
  private:
   LinearSystem(const SystemNames& names, const SolverOptions& options, std::size_t points);
   void prepare(const SolverOptions& options, const Workers& workers);
-  /// The right sides of the unknowns; of a Laplacian without their means.
-  Eigen::MatrixXd gathered(const Eigen::Ref<const Eigen::MatrixXd>& b) const;
-  /// Solutions into rows of points; of a Laplacian with sum(M x) = 0 on each component. Other rows are left as they
-  /// are.
-  void scatter(const Eigen::MatrixXd& solution, Eigen::Ref<Eigen::MatrixXd> x) const;
-  /// Greatest |b - A x| / |b|, of a Laplacian for b without its means.
-  double residualOf(const Eigen::Ref<const Eigen::MatrixXd>& b, const Eigen::Ref<const Eigen::MatrixXd>& x) const;
+  VectorXd exactSums(const Eigen::Ref<const VectorXd>& values) const;
+  /// The right sides by row of the system: of a Laplacian all points, without their means; otherwise the unknowns.
+  struct RightSides {
+    Eigen::MatrixXd values;
+    Eigen::MatrixXd size;  ///< |b|, with what was taken out of it
+  };
+  RightSides rightSides(const Eigen::Ref<const Eigen::MatrixXd>& b) const;
+  /// A first solution, or a correction, by row of the system; of a Laplacian with sum(M x) = 0 on each component.
+  Eigen::MatrixXd approximate(const Eigen::MatrixXd& right, const Tick& tick, int& iterations) const;
+  /// What the pinned point of a component leaves is the rounding of all others together: spreads it over them.
+  void spreadPinned(const Eigen::Ref<const VectorXd>& right, Eigen::Ref<VectorXd> x) const;
+  bool isGood(const Remainder& left, Eigen::Index column) const;
+  /// Corrects x by what it leaves.
+  /// @param made gets the residual, the backward error and iterations
+  void improve(const std::string& function, const RightSides& right, Eigen::MatrixXd& x, Refine refine,
+               const Tick& tick, SolveReport& made) const;
 
   SystemNames names_;
-  LongMatrix lower_;                        ///< over the unknowns
+  LongMatrix lower_;                        ///< over the unknowns; of a Laplacian only while it is factorised
   Selection unknowns_;                      ///< of all points
   std::optional<Components> components_;    ///< of a Laplacian
+  std::unique_ptr<PartConstants> joints_;   ///< of a Laplacian with badly joined parts
+  std::vector<int> pinned_;                 ///< of a Laplacian: the first point of each component
+  VectorXd spread_;                         ///< N; of a Laplacian with a factor: see spreadPinned
   VectorXd weights_;                        ///< N; of a Laplacian: M over its sum per component
-  SparseMatrix L_;                          ///< of a Laplacian, for the residual
+  SparseMatrix L_;                          ///< of a Laplacian, without weights that join nothing
   std::unique_ptr<LinearBackend> backend_;  ///< none: no unknowns
   SolverReport report_;
   double tolerance_;

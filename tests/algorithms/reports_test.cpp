@@ -19,6 +19,14 @@ void expectReport(const std::string& name, const Report& report, bool iterates, 
   EXPECT_TRUE(report.seconds > 0 && report.seconds < most_seconds) << name << ": " << report.seconds;
 }
 
+/// Conjugate gradients end by the residual and say nothing of small rows, factors by the backward error.
+template <class Report>
+void expectBackwardError(const std::string& name, const Report& report, bool iterates) {
+  EXPECT_TRUE(report.backward_error > 0 && report.backward_error <= (iterates ? 1 : 1e-13))
+      << name << ": " << report.backward_error;
+  EXPECT_FALSE(report.weak_joint.has_value()) << name;
+}
+
 void expectReport(const std::string& name, const SolverReport& report, bool iterates, double most_seconds) {
   EXPECT_EQ(report.method.find(iterates ? "multigrid" : "Cholesky"), 0u) << name << ": " << report.method;
   EXPECT_EQ(report.iterative, iterates) << name;
@@ -41,6 +49,7 @@ TEST(EveryReport, HasMethodIterationsResidualAndSeconds) {
       solve(&report);
       const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
       expectReport(name, report, iterates, took.count());
+      expectBackwardError(name, report, iterates);
       EXPECT_EQ(report.method.find(iterates ? "multigrid" : "Cholesky"), 0u) << name << ": " << report.method;
     };
     const Solver solver = Solver::laplacian(laplacian, options);
@@ -58,6 +67,7 @@ TEST(EveryReport, HasMethodIterationsResidualAndSeconds) {
     DistanceReport query;
     distance.query({0}, &query);
     expectReport("query", query, iterates, 10);
+    expectBackwardError("query", query, iterates);
     EXPECT_EQ(query.rounds, iterates ? query.rounds : 1);
 
     const Spectrum found = spectrum(laplacian, 10, {.method = method});

@@ -3,7 +3,9 @@
 
 #include <cmath>
 
+#include "../support/joined_grids.h"
 #include "subcommands.h"
+#include "tufted/io/write.h"
 
 namespace {
 
@@ -215,6 +217,45 @@ TEST_F(ApplicationCommands, StopAtCtrlCWhileTheySolve) {
     EXPECT_FALSE(std::filesystem::exists(in("out"))) << c.arguments[0] << ", " << c.stage;
     std::filesystem::remove_all(in("out"));
   }
+}
+
+TEST_F(ApplicationCommands, TellThatTwoPartsAreBadlyJoined) {
+  constexpr int side = 30, size = side * side;
+  tufted::Geometry geometry;
+  geometry.points = tufted::Points::Random(2 * size, 3);
+  const auto write = [&](double weight) {
+    tufted::writeLaplacian(in("joined"), tufted::support::joinedGrids(side, {weight}), geometry,
+                           {.formats = {tufted::Format::npz}});
+  };
+  write(1);
+  run({"green", "--source", "0", "--operator", in("joined"), "--out", in("f")});
+  const std::vector<std::vector<std::string>> commands = {
+      {"green", "--source", "0"},
+      {"poisson", "--values", in("f/green.npy")},
+      {"poisson", "--values", in("f/green.npy"), "--pin", "0=1"},
+      {"green", "--source", "0", "--solver", "multigrid"},
+  };
+  for (const double weight : {1e-9, 1e-12, 1e-13}) {
+    write(weight);
+    for (std::vector<std::string> command : commands) {
+      command.insert(command.end(), {"--operator", in("joined"), "--out", in("out")});
+      const std::string said = run(command).out;
+      const auto made = report("out")["report"];
+      ASSERT_TRUE(made["backward_error"].is_number()) << command[0];
+      EXPECT_LE(made["backward_error"], 1e-13) << command[0] << ", " << weight;
+      EXPECT_NE(said.find("backward error "), std::string::npos) << said;
+      const auto& joint = made["nearly_disconnected"];
+      EXPECT_NE(said.find("nearly disconnected"), std::string::npos) << said;
+      ASSERT_FALSE(joint.is_null()) << command[0] << ", " << weight;
+      EXPECT_GT(made["residual"], 1e-8);
+      EXPECT_EQ(joint["weight"], weight);
+      EXPECT_EQ(joint["parts"], nlohmann::json::parse(R"([{"point": 0, "size": 900}, {"point": 900, "size": 900}])"));
+    }
+  }
+  write(1);
+  EXPECT_EQ(run({"green", "--source", "0", "--operator", in("joined"), "--out", in("out")}).out.find("disconnected"),
+            std::string::npos);
+  EXPECT_TRUE(report("out")["report"]["nearly_disconnected"].is_null());
 }
 
 }  // namespace

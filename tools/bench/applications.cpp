@@ -43,7 +43,7 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// Of distances, where both are finite.
+/// Of distances, where the exact ones are finite; infinite where one of these has no finite distance.
 struct Error {
   double mean = 0;      ///< mean |d - exact| over mean exact
   double greatest = 0;  ///< greatest |d - exact| over greatest exact
@@ -52,7 +52,8 @@ struct Error {
 Error errorOf(const VectorXd& distance, const VectorXd& exact) {
   double sum = 0, exact_sum = 0, worst = 0, farthest = 0;
   for (Eigen::Index i = 0; i < exact.size(); ++i) {
-    if (!std::isfinite(distance[i]) || !std::isfinite(exact[i])) continue;
+    if (!std::isfinite(exact[i])) continue;
+    if (!std::isfinite(distance[i])) return {HUGE_VAL, HUGE_VAL};
     const double error = std::abs(distance[i] - exact[i]);
     sum += error, exact_sum += exact[i];
     worst = std::max(worst, error), farthest = std::max(farthest, exact[i]);

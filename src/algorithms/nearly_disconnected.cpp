@@ -1,0 +1,119 @@
+#include "algorithms/nearly_disconnected.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "base/disjoint_sets.h"
+
+namespace tufted {
+namespace {
+
+/// Shares up to this are lost in the rounding of rows.
+constexpr double least_share = 1e-14;
+
+struct Link {
+  int i, j;
+  double weight;
+  double share;  ///< of the smaller diagonal
+};
+
+/// The last link of a greatest spanning forest, which is the weakest that something depends on, and what it joins.
+/// @param points the caller's index by number; links may have the number behind them, which is no point
+std::optional<WeakJoint> weakestOf(std::vector<Link>& links, const std::vector<int>& points) {
+  const int count = static_cast<int>(points.size());
+  const auto weak =
+      std::partition(links.begin(), links.end(), [](const Link& link) { return link.share > weak_share; });
+  std::sort(weak, links.end(), [](const Link& a, const Link& b) {
+    return a.share != b.share ? a.share > b.share : a.i != b.i ? a.i < b.i : a.j < b.j;
+  });
+  DisjointSets all(count + 1), before(count + 1);
+  auto last = links.begin();
+  for (auto link = links.begin(); link != links.end() && link->share > least_share; ++link)
+    if (all.unite(link->i, link->j)) last = link;
+  if (last < weak || last == links.end()) return std::nullopt;
+  for (auto link = links.begin(); link != last; ++link) before.unite(link->i, link->j);
+  WeakJoint joint;
+  const int first = std::min(before.root(last->i), before.root(last->j));
+  const int second = std::max(before.root(last->i), before.root(last->j));
+  for (int k = 0; k < count; ++k) {
+    const int root = before.root(k);
+    if (root == first && joint.first_points++ == 0) joint.first = points[k];
+    if (root == second && joint.second_points++ == 0) joint.second = points[k];
+  }
+  for (auto link = weak; link != links.end(); ++link) {
+    const int a = before.root(link->i), b = before.root(link->j);
+    if ((a == first && b == second) || (a == second && b == first)) joint.weight += link->weight;
+  }
+  return joint;
+}
+
+}  // namespace
+
+PartConstants::PartConstants(const SparseMatrix& L, const Components& components, const Components& parts,
+                             const std::vector<std::uint8_t>& floating)
+    : number_(components.of.size(), -1) {
+  std::vector<int> number(floating.size(), -1);
+  for (std::size_t part = 0; part < floating.size(); ++part)
+    if (floating[part] != 0) number[part] = static_cast<int>(count_++);
+  for (const int i : parts.points) number_[i] = number[parts.of[i]];
+  std::vector<Eigen::Triplet<double>> entries;
+  for (const int i : parts.points) {
+    if (number_[i] < 0) continue;
+    for (SparseMatrix::InnerIterator entry(L, i); entry; ++entry) {
+      const auto j = entry.row();
+      if (components.of[j] != components.of[i] || parts.of[j] == parts.of[i]) continue;
+      entries.emplace_back(number_[i], number_[i], -entry.value());
+      if (number_[j] >= 0) entries.emplace_back(number_[i], number_[j], entry.value());
+    }
+  }
+  SparseMatrix weights(count_, count_);
+  weights.setFromTriplets(entries.begin(), entries.end());
+  factor_.compute(weights);
+}
+
+Eigen::MatrixXd PartConstants::solve(const Eigen::MatrixXd& rest) const {
+  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(count_, rest.cols());
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(rest.rows(), rest.cols());
+  for (Eigen::Index i = 0; i < rest.rows(); ++i)
+    if (number_[i] >= 0) sums.row(number_[i]) += rest.row(i);
+  const Eigen::MatrixXd constants = factor_.solve(sums);
+  for (Eigen::Index i = 0; i < rest.rows(); ++i)
+    if (number_[i] >= 0) result.row(i) = constants.row(number_[i]);
+  return result;
+}
+
+std::optional<WeakJoint> weakestJoint(const SparseMatrix& L) {
+  const VectorXd diagonal = L.diagonal();
+  std::vector<int> points(L.cols());
+  std::vector<Link> links;
+  for (int j = 0; j < L.cols(); ++j) {
+    points[j] = j;
+    for (SparseMatrix::InnerIterator entry(L, j); entry; ++entry) {
+      const int i = static_cast<int>(entry.row());
+      const double weight = std::abs(entry.value());
+      if (i < j && weight > 0) links.push_back({i, j, weight, weight / std::min(diagonal[i], diagonal[j])});
+    }
+  }
+  return weakestOf(links, points);
+}
+
+std::optional<WeakJoint> weakestJoint(const LongMatrix& lower, const std::vector<int>& points) {
+  const VectorXd diagonal = lower.diagonal();
+  VectorXd beyond = diagonal;  // the row's other entries
+  std::vector<Link> links;
+  for (Eigen::Index j = 0; j < lower.cols(); ++j) {
+    for (LongMatrix::InnerIterator entry(lower, j); entry; ++entry) {
+      const Eigen::Index i = entry.row();
+      const double weight = std::abs(entry.value());
+      if (i == j || weight == 0) continue;
+      beyond[i] -= weight, beyond[j] -= weight;
+      links.push_back({static_cast<int>(j), static_cast<int>(i), weight, weight / std::min(diagonal[i], diagonal[j])});
+    }
+  }
+  const int fixed = static_cast<int>(points.size());
+  for (int i = 0; i < fixed; ++i)
+    if (beyond[i] > 0) links.push_back({i, fixed, beyond[i], beyond[i] / diagonal[i]});
+  return weakestOf(links, points);
+}
+
+}  // namespace tufted
