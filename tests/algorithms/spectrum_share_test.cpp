@@ -187,12 +187,10 @@ Laplacian joinedGrids(int n, double weight) {
 TEST(SpectrumOfNearlyDisconnectedSurfaces, SaysSoWhereItsResidualIsRounding) {
   // Two unit squares, joined by w: the first positive eigenvalue is 2 w to first order.
   for (const int n : {9, 29}) {
-    for (const double weight : {1e-3, 1e-6, 1e-9, 1e-12, 1e-13}) {
-      if (weight < 1e-9 && n > 9) continue;  // as below
+    for (const double weight : {1e-3, 1e-6, 1e-9, 1e-12}) {
       const Laplacian laplacian = joinedGrids(n, weight);
       const Index half = laplacian.M.size() / 2;
       for (const int k : {20, n < 20 ? mostEigenpairs(laplacian) : 30}) {
-        if (weight < 1e-9 && k == 20) continue;  // iterations do not suffice, see the next test
         const Spectrum found = spectrum(laplacian, k);
         const std::string name = std::to_string(n) + ", " + numberText(weight) + ", k = " + std::to_string(k);
         EXPECT_NEAR(found.values[1] / weight, 2, weight > 1e-6 ? 0.02 : 1e-5) << name;
@@ -208,10 +206,8 @@ TEST(SpectrumOfNearlyDisconnectedSurfaces, SaysSoWhereItsResidualIsRounding) {
   }
 }
 
-TEST(SpectrumOfNearlyDisconnectedSurfaces, FailsTypedWhereTheSearchDoesNotSettle) {
-  // What the inverse leaves of its largest eigenvalue hides all others from the search.
-  for (const double weight : {1e-12, 1e-13})
-    EXPECT_THROW(spectrum(joinedGrids(9, weight), 20), SolverFailure) << weight;
+TEST(SpectrumOfNearlyDisconnectedSurfaces, FailsTypedWhereTheInverseHasNoDigits) {
+  for (const int n : {9, 29}) EXPECT_THROW(spectrum(joinedGrids(n, 1e-13), 20), SolverFailure) << n;
 }
 
 TEST(SpectrumOfMost, NamesThePairWhoseResidualIsLarge) {
