@@ -23,6 +23,8 @@ constexpr int longest_search = 40;
 constexpr double least_part = 1e-15;
 /// Of the largest eigenvalue: as much is uncertain in products with A.
 constexpr double rounding = 1e-13;
+/// An eigenvalue by so much above the next one is found at once, and spoils the digits of the others.
+constexpr double dominance = 1e4;
 
 class BlockLanczos {
  public:
@@ -51,6 +53,7 @@ class BlockLanczos {
         found = size_ >= problem_.wanted && isWhole();
         break;
       }
+      if (lockLeading()) continue;
       found = countConverged() == problem_.wanted && isComplete(result.iterations);
       // A search may have made room already.
       if (!found && size_ + fresh_ > most_) restart(problem_.wanted + (most_ - problem_.wanted) / 3);
@@ -102,6 +105,7 @@ class BlockLanczos {
 
   /// Applies A to the fresh block, books its products, and makes the next block of what is new. False when nothing is.
   bool step() {
+    if (fresh_ == 0) return false;
     MatrixXd image = problem_.apply(fresh());
     const Index known = size_ + fresh_;
     MatrixXd products = innerProducts(basis_.leftCols(known), problem_.mass, image, quiet_);
@@ -111,7 +115,7 @@ class BlockLanczos {
     size_ = known;
     const MatrixXd rest = image;
     const Index room = std::min<Index>(block_size, problem_.dimension - size_);
-    scale_ = std::max(scale_, T_.diagonal().maxCoeff());
+    scale_ = std::max(scale_, products.bottomRows(products.cols()).diagonal().maxCoeff());
     fresh_ = orthonormalize(image, room, least_part * scale_);
     if (fresh_ == 0) return addRandom();
     coupling_ = innerProducts(fresh(), problem_.mass, rest, quiet_);
@@ -198,9 +202,30 @@ class BlockLanczos {
 
   /// Eigenpairs of the projected operator, largest first.
   void decompose() {
-    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(T_.topLeftCorner(size_, size_));
-    values_ = solver.eigenvalues().reverse();
-    vectors_ = solver.eigenvectors().rowwise().reverse();
+    const Index rest = size_ - locked_;
+    values_ = T_.diagonal().head(size_);
+    vectors_ = MatrixXd::Identity(size_, size_);
+    if (rest == 0) return;
+    const Eigen::SelfAdjointEigenSolver<MatrixXd> solver(T_.block(locked_, locked_, rest, rest));
+    values_.tail(rest) = solver.eigenvalues().reverse();
+    vectors_.bottomRightCorner(rest, rest) = solver.eigenvectors().rowwise().reverse();
+  }
+
+  /// Puts pairs whose eigenvalues are far above all others aside, and begins anew without them: rounding of theirs is
+  /// in all that was found so far. False when there are none.
+  bool lockLeading() {
+    Index leading = locked_;
+    for (Index i = locked_; i + 1 < std::min(size_, problem_.wanted); ++i)
+      if (values_[i] > dominance * values_[i + 1]) leading = i + 1;
+    if (leading == locked_ || coupling_.cols() == 0) return false;
+    const MatrixXd rest = coupling_ * vectors_.bottomRows(coupling_.cols()).leftCols(leading);
+    for (Index i = locked_; i < leading; ++i)
+      if (!(rest.col(i).norm() <= rounding * values_[i])) return false;
+    restart(leading);
+    locked_ = leading;
+    scale_ = 0;
+    addRandom();
+    return true;
   }
 
   /// How many of the wanted pairs have a small residual: the coupling times the last rows of their vectors.
@@ -233,6 +258,7 @@ class BlockLanczos {
   Index most_ = 0;  ///< columns that the basis may have
   MatrixXd basis_;  ///< mass-orthonormal: `size_` columns that A has been applied to, then `fresh_` others
   Index size_ = 0, fresh_ = 0;
+  Index locked_ = 0;   ///< the first columns of the basis, eigenvectors that are not touched any more
   MatrixXd T_;         ///< basis^T diag(mass) A basis
   MatrixXd coupling_;  ///< what A leads from the last block to the fresh one
   VectorXd values_;
@@ -240,7 +266,7 @@ class BlockLanczos {
   VectorXd before_;          ///< what had converged when the search for missed eigenvalues began
   int search_from_ = 0;      ///< iteration at which it did
   bool is_missing_ = false;  ///< whether it looks for what is known to be missing
-  double scale_ = 0;         ///< the largest eigenvalue so far
+  double scale_ = 0;         ///< the largest eigenvalue so far that is not locked
   double found_ = 0;         ///< share of the wanted that has converged
 };
 

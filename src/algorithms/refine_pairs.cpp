@@ -41,8 +41,10 @@ bool refinePairs(const Eigenproblem& problem, const InverseTimes& inverse, bool 
                  Eigenpairs& pairs) {
   const Index count = pairs.values.size(), low = countLow(pairs.values);
   auto x = pairs.vectors.leftCols(low);
+  auto y = pairs.vectors.rightCols(count - low);
   // A step of the inverse takes out what rounding left of high frequencies, and fills in points without mass.
   MatrixXd image = pairs.images.cols() > 0 ? MatrixXd(pairs.images.leftCols(low)) : inverse(x);
+  if (pairs.images.cols() > 0) y = pairs.images.rightCols(count - low) * pairs.values.tail(count - low).asDiagonal();
   pairs.images.resize(0, 0);
   if (mixed) {
     const auto inverted = decompose(innerProducts(x, problem.mass, image, workers));
@@ -53,7 +55,6 @@ bool refinePairs(const Eigenproblem& problem, const InverseTimes& inverse, bool 
   if (!orthonormalize(problem.mass, workers, x)) return false;
   if (low == count) return true;
 
-  auto y = pairs.vectors.rightCols(count - low);
   problem.fillMassless(y);
   problem.deflate(y);
   subtractProduct(y, x, innerProducts(x, problem.mass, y, workers), workers);

@@ -114,6 +114,19 @@ TEST(BlockLanczos, TakesMostOfASpaceWithoutLeadingIntoTheNullSpace) {
   }
 }
 
+TEST(BlockLanczos, FindsWhatIsSmallBesideAFewHugeEigenvalues) {
+  for (const double huge : {1e5, 1e8, 1e11}) {
+    VectorXd values = VectorXd::LinSpaced(400, 1, 0.1);
+    values.head(2) << 3 * huge, huge;
+    const LanczosProblem problem = turned(values, 12);
+    const Workers workers(1, silent);
+    const LanczosResult found = largestEigenpairs(problem, {.tolerance = 1e-10, .max_iterations = 200}, workers);
+    ASSERT_TRUE(found.converged) << huge;
+    for (Index i = 0; i < 12; ++i)
+      EXPECT_NEAR(found.values[i] / values[i], 1, std::max(1e-9, 1e-15 * huge)) << huge << ", " << i;
+  }
+}
+
 TEST(BlockLanczos, DoesNotClaimPairsOfASpaceThatIsUsedUp) {
   // No operator that is not self-adjoint has orthonormal eigenvectors; the projection on the whole space seems to.
   LanczosProblem problem = turned(VectorXd::LinSpaced(40, 2, 1), 39);
