@@ -15,7 +15,7 @@ struct SpectrumOptions {
   /// Of |A x - theta x| / theta in the norm of M, A the inverse of L after M and theta = 1 / lambda; in (0, 1). The
   /// error of an eigenvalue is about its square. No pair leaves spectrum() whose residual, as in SpectrumReport, is
   /// above ten times this plus 16 times what rounding of L x leaves, eps ||L| |x|| / (lambda |M x|). Where it is
-  /// above both 1e-8 and ten times this, its eigenvalue must also be that of x^T L x, summed by differences, to 1e-8.
+  /// above both 1e-8 and ten times this, the report says so, and the eigenvalue is x^T L x summed up by differences.
   double tolerance = 1e-10;
   /// Dense matrices take the place of the search for k above three tenths of the points, and for up to 150 points, but
   /// for no more points than this, >= 0: they take 24 bytes per pair of points, which `memory_limit` bounds as well,
@@ -36,7 +36,7 @@ struct SpectrumReport {
   int iterations = 0;         ///< of block Lanczos, eight solves each; 0 by dense matrices
   bool counted = false;       ///< that none is missing is certain: counted by Sylvester's law of inertia, or dense
   double residual = 0;        ///< greatest |L x - lambda M x| / (lambda |M x|), Euclidean norms, of lambda > 0
-  double backward_error = 0;  ///< greatest |L x - lambda M x|_i / (|L| |x| + lambda M |x|)_i of any i and lambda > 0
+  double backward_error = 0;  ///< greatest |L x - lambda M x| / (||L| |x|| + lambda |M x|), of lambda > 0
   /// The first pair whose residual is above 1e-8 by rounding alone, -1: none. L is nearly disconnected between the
   /// points where that vector is above and below 0: no vector of doubles has a smaller residual.
   int weak_pair = -1;

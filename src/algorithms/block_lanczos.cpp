@@ -77,7 +77,7 @@ class BlockLanczos {
       const double theta = result.values[i];
       const VectorXd rest = result.images.col(i) - theta * result.vectors.col(i);
       result.residuals[i] = std::sqrt(rest.cwiseProduct(problem_.mass).dot(rest)) / theta;
-      if (!(theta > 0 && result.residuals[i] <= options_.tolerance + rounding * scale_ / theta))
+      if (!(theta > 0 && result.residuals[i] <= options_.tolerance + rounding * result.values[0] / theta))
         result.converged = false;
     }
   }
