@@ -37,7 +37,8 @@ Eigen::MatrixXd harmonic(const Laplacian& laplacian, const Pins& pins, const Sol
 
 /// The function of least bending with given values: the least sum over M of the squared Laplacian, so L M^-1 L u = 0 at
 /// all other points. Smooth at the pins, where harmonic functions have peaks, but not bounded by their values; at a
-/// boundary it meets the rim at a right angle, as L does not see beyond. The report is that of harmonic().
+/// boundary it meets the rim at a right angle, as L does not see beyond. The report is that of harmonic(); here a last
+/// correction of more than 1e-3 of the range is a SolverFailure.
 ///
 /// Multigrid is not fit for this: where a factor exceeds `options.memory_limit` it is a SolverFailure.
 /// @return, @throws as harmonic()

@@ -75,7 +75,12 @@ Components findComponents(const Laplacian& laplacian) {
 }
 
 Components findParts(const Laplacian& laplacian) {
-  return joinedAbove(weak_share, laplacian);
+  const int components = joinedAbove(least_weight, laplacian).count;
+  double share = weak_share;
+  Components parts = joinedAbove(share, laplacian);
+  while (parts.count > components + most_floating_parts)
+    parts = joinedAbove(share = std::max(share / 10, least_weight), laplacian);
+  return parts;
 }
 
 }  // namespace tufted

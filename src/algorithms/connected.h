@@ -30,9 +30,11 @@ Components findComponents(const Laplacian& laplacian);
 /// Weights of at most this part of the smaller diagonal join badly. A factor loses so many digits of what flows through
 /// them: some 1e-13 over it, of a jump.
 constexpr double weak_share = 1e-6;
+/// As many parts more than components are kept apart, as each takes a solve and N values.
+constexpr int most_floating_parts = 64;
 
-/// The parts of the components that weights above `weak_share` of the smaller diagonal join. Nearly always the
-/// components themselves.
+/// The parts of the components that weights above `weak_share` of the smaller diagonal join, nearly always the
+/// components themselves; above less, where there would be too many parts.
 Components findParts(const Laplacian& laplacian);
 
 }  // namespace tufted

@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "algorithms/greater.h"
 #include "algorithms/memory_limit.h"
 #include "base/number_text.h"
 #include "base/stage_clock.h"
@@ -16,14 +15,6 @@
 namespace tufted {
 namespace {
 
-/// So many right sides are solved together, on however many threads: each takes as long as among 16, and half as long
-/// as alone.
-constexpr Eigen::Index columns_per_block = 8;
-
-/// Corrections are rarely more than three.
-constexpr int most_corrections = 10;
-constexpr double negligible = 1e-15;  // of the largest value
-
 void checkOptions(const std::string& function, const SolverOptions& options) {
   if (!(options.tolerance > 0 && options.tolerance < 1))
     throw InvalidInput(function + ": tolerance = " + numberText(options.tolerance) + ", must lie in (0, 1)");
@@ -32,10 +23,6 @@ void checkOptions(const std::string& function, const SolverOptions& options) {
                        ", must be at least 1");
   if (options.threads < 0)
     throw InvalidInput(function + ": threads = " + std::to_string(options.threads) + ", must be >= 0");
-}
-
-std::string bytesText(std::size_t bytes) {
-  return numberText(static_cast<double>(bytes) / 1e6) + " MB";
 }
 
 void checkFinite(const SystemNames& names, const SparseMatrix& A) {
@@ -49,6 +36,10 @@ void checkFinite(const SystemNames& names, const SparseMatrix& A) {
 }
 
 }  // namespace
+
+std::string bytesText(std::size_t bytes) {
+  return numberText(static_cast<double>(bytes) / 1e6) + " MB";
+}
 
 LinearSystem::LinearSystem(const SystemNames& names, const SolverOptions& options, std::size_t points)
     : names_(names), unknowns_(points), tolerance_(options.tolerance), threads_(options.threads) {}
@@ -144,15 +135,10 @@ LinearSystem LinearSystem::laplacian(const SystemNames& names, const Laplacian& 
   }
   system.L_ = laplacian.L;
   system.L_.prune([&](Eigen::Index i, Eigen::Index j, double) { return components.of[i] == components.of[j]; });
-  if (parts.count > components.count) {
-    system.joints_ = std::make_unique<PartConstants>(system.L_, components, parts, floating);
-    if (!system.joints_->isDefinite())
-      throw SolverFailure(names.function + ": " + names.matrix + " is not positive semidefinite; " +
-                          names.if_indefinite);
-  }
   system.lower_ = lowerTriangle(system.L_, system.unknowns_, [](int, int, double value) { return value; });
   system.prepare(options, workers);
   system.lower_ = {};
+  if (parts.count > components.count) system.separate(parts, floating);
   if (system.backend_ && !system.report_.iterative && !system.joints_) {
     // L z = 1 at the pinned points, minus the weights.
     Eigen::MatrixXd right = -system.weights_;
@@ -166,182 +152,18 @@ LinearSystem LinearSystem::laplacian(const SystemNames& names, const Laplacian& 
   return system;
 }
 
-// Column by column and in one pass each, for these take as long as some solves.
-
-/// Of what the sums of a right side over components are off, nothing can be mended: the pinned rows keep it. So digits
-/// that sums lose are added up beside them (Kahan).
-VectorXd LinearSystem::exactSums(const Eigen::Ref<const VectorXd>& values) const {
-  VectorXd sums = VectorXd::Zero(components_->count), lost = sums;
-  for (const int i : components_->points) {
-    const int component = components_->of[i];
-    const double added = values[i] - lost[component], sum = sums[component] + added;
-    lost[component] = (sum - sums[component]) - added;
-    sums[component] = sum;
-  }
-  return sums;
-}
-
-LinearSystem::RightSides LinearSystem::rightSides(const Eigen::Ref<const Eigen::MatrixXd>& b) const {
-  RightSides right;
-  if (!components_) {
-    right.values = b(unknowns_.point, Eigen::all);
-    right.size = right.values.cwiseAbs();
-    return right;
-  }
-  right.values = right.size = Eigen::MatrixXd::Zero(b.rows(), b.cols());
-  for (Eigen::Index c = 0; c < b.cols(); ++c) {
-    const VectorXd sums = exactSums(b.col(c));
-    for (const int i : components_->points) {
-      const double taken_out = weights_[i] * sums[components_->of[i]];
-      right.values(i, c) = b(i, c) - taken_out;
-      right.size(i, c) = std::abs(b(i, c)) + std::abs(taken_out);
-    }
-  }
-  return right;
-}
-
-void LinearSystem::spreadPinned(const Eigen::Ref<const VectorXd>& right, Eigen::Ref<VectorXd> x) const {
-  VectorXd missing(components_->count);
-  for (int component = 0; component < components_->count; ++component) {
-    const int i = pinned_[component];
-    double rest = right[i];
-    for (SparseMatrix::InnerIterator entry(L_, i); entry; ++entry) rest -= entry.value() * (x[entry.row()] - x[i]);
-    missing[component] = rest;
-  }
-  for (const int i : components_->points) x[i] += missing[components_->of[i]] * spread_[i];
-}
-
-Eigen::MatrixXd LinearSystem::approximate(const Eigen::MatrixXd& right, const Tick& tick, int& iterations) const {
-  if (!components_) {
-    Eigen::MatrixXd x = right;
-    if (backend_) iterations += backend_->solve(x, tick);
-    return x;
-  }
-  Eigen::MatrixXd x = joints_ ? joints_->solve(right) : Eigen::MatrixXd::Zero(right.rows(), right.cols());
-  if (backend_) {
-    Eigen::MatrixXd solution;
-    if (joints_)
-      solution = remainderOfLaplacian(L_, components_->points, right, right, x).rest(unknowns_.point, Eigen::all);
-    else
-      solution = right(unknowns_.point, Eigen::all);
-    iterations += backend_->solve(solution, tick);
-    for (Eigen::Index c = 0; c < x.cols(); ++c)
-      for (Eigen::Index k = 0; k < solution.rows(); ++k) x(unknowns_.point[k], c) += solution(k, c);
-  }
-  for (Eigen::Index c = 0; c < x.cols(); ++c) {
-    if (spread_.size() > 0) spreadPinned(right.col(c), x.col(c));
-    VectorXd means = VectorXd::Zero(components_->count);
-    for (const int i : components_->points) means[components_->of[i]] += weights_[i] * x(i, c);
-    for (const int i : components_->points) x(i, c) -= means[components_->of[i]];
-  }
-  return x;
-}
-
-bool LinearSystem::isGood(const Remainder& left, Eigen::Index column) const {
-  return left.backward_error[column] <= most_backward_error ||
-         (report_.iterative && left.residual[column] <= tolerance_);
-}
-
-void LinearSystem::improve(const std::string& function, const RightSides& right, Eigen::MatrixXd& x, Refine refine,
-                           const Tick& tick, SolveReport& made) const {
-  const bool thorough = refine == Refine::always || joints_;
-  const auto largestOf = [](const Eigen::Ref<const VectorXd>& values) {
-    return values.size() > 0 ? values.cwiseAbs().maxCoeff() : 0;
+void LinearSystem::separate(const Components& parts, const std::vector<std::uint8_t>& floating) try {
+  int iterations = 0;
+  const auto inner = [&](const Eigen::MatrixXd& rest) {
+    return withinParts(
+        rest, [](double) {}, iterations);
   };
-  const auto measured = [&](const Eigen::MatrixXd& b, const Eigen::MatrixXd& size, Eigen::MatrixXd& solution) {
-    return components_ ? relaxLaplacian(L_, components_->points, b, size, most_backward_error, solution)
-                       : remainderOf(lower_, b, solution);
-  };
-  Remainder left = measured(right.values, right.size, x);
-  VectorXd last = VectorXd::Constant(x.cols(), HUGE_VAL);  // largest value of each column's last correction
-  std::vector<int> open;                                   // columns that go on
-  for (int c = 0; c < x.cols(); ++c)
-    if (thorough || !isGood(left, c)) open.push_back(c);
-  int rounds = 0;
-  for (; !open.empty() && rounds < most_corrections; ++rounds) {
-    if (!x.allFinite()) throw SolverFailure(function + ": the solution overflows; scale the right sides down");
-    const Eigen::MatrixXd step = approximate(left.rest(Eigen::all, open), tick, made.iterations);
-    std::vector<int> still_open;
-    for (std::size_t k = 0; k < open.size(); ++k) {
-      const int c = open[k];
-      const double largest = largestOf(step.col(static_cast<Eigen::Index>(k)));
-      if (!(largest < last[c] / 2)) continue;  // rounding is all that is left
-      Eigen::MatrixXd column = x.col(c) + step.col(static_cast<Eigen::Index>(k));
-      const Remainder now = measured(right.values.col(c), right.size.col(c), column);
-      x.col(c) = column;
-      left.rest.col(c) = now.rest;
-      left.residual[c] = now.residual[0];
-      left.backward_error[c] = now.backward_error[0];
-      // The next correction would be as much smaller than this one as this one than the last.
-      const double size = largestOf(x.col(c));
-      const bool goes_on = largest * (largest / std::min(last[c], size)) > negligible * size;
-      if (thorough ? goes_on : !isGood(left, c)) still_open.push_back(c);
-      last[c] = largest;
-    }
-    open = still_open;
-  }
-  for (Eigen::Index c = 0; c < x.cols(); ++c) {
-    made.residual = greater(made.residual, left.residual[c]);
-    made.backward_error = greater(made.backward_error, left.backward_error[c]);
-    if (isGood(left, c)) continue;
-    if (!x.col(c).allFinite()) throw SolverFailure(function + ": the solution overflows; scale the right sides down");
-    throw SolverFailure(function + ": the backward error |b - A x| / (|A| |x| + |b|) is " +
-                        numberText(left.backward_error[c]) + " after " + std::to_string(rounds) +
-                        " corrections, must be " + numberText(most_backward_error) + "; " +
-                        (report_.iterative ? names_.if_slow : names_.if_indefinite));
-  }
-}
-
-Eigen::MatrixXd LinearSystem::solve(const std::string& function, const Eigen::Ref<const Eigen::MatrixXd>& b,
-                                    SolveReport* report, const Progress& progress, Refine refine) const try {
-  const auto n = static_cast<Eigen::Index>(unknowns_.number.size());
-  if (b.rows() != n)
-    throw InvalidInput(function + ": b has " + std::to_string(b.rows()) + " rows, must have " + std::to_string(n));
-  const Stopwatch watch;
-  const Eigen::Index blocks = (b.cols() + columns_per_block - 1) / columns_per_block;
-  std::vector<SolveReport> done(static_cast<std::size_t>(blocks));
-  Eigen::MatrixXd x = Eigen::MatrixXd::Zero(n, b.cols());
-  const Workers workers(threads_, progress);
-  workers.forBlocks("solve", b.cols(), columns_per_block, [&](std::int64_t begin, std::int64_t end, int worker) {
-    if (!backend_) return;
-    SolveReport& result = done[begin / columns_per_block];
-    const RightSides right = rightSides(b.middleCols(begin, end - begin));
-    if (!right.values.allFinite()) throw InvalidInput(function + ": b has values that are not finite, must have none");
-    const auto total = static_cast<double>(b.cols()), columns = static_cast<double>(end - begin);
-    double most_done = 0;
-    const Tick tick = [&](double done_here) {
-      // Only the caller's own thread talks to the caller. Corrections begin anew and are not shown.
-      if (worker != 0) return;
-      most_done = std::max(most_done, done_here);
-      workers.report("solve", (static_cast<double>(begin) + most_done * columns) / total);
-    };
-    Eigen::MatrixXd solution = approximate(right.values, tick, result.iterations);
-    if (refine != Refine::never) improve(function, right, solution, refine, tick, result);
-    for (Eigen::Index c = 0; components_ && c < solution.cols(); ++c) x.col(begin + c) = solution.col(c);
-    for (Eigen::Index c = 0; !components_ && c < solution.cols(); ++c)
-      for (Eigen::Index k = 0; k < solution.rows(); ++k) x(unknowns_.point[k], begin + c) = solution(k, c);
-  });
-  if (report != nullptr) {
-    *report = {.method = report_.method};
-    for (const SolveReport& block : done) {
-      report->iterations = std::max(report->iterations, block.iterations);
-      report->residual = greater(report->residual, block.residual);
-      report->backward_error = greater(report->backward_error, block.backward_error);
-    }
-    if (!(report->residual <= large_residual))
-      report->weak_joint = components_ ? weakestJoint(L_) : weakestJoint(lower_, unknowns_.point);
-    report->seconds = watch.seconds();
-  }
-  return x;
+  joints_ = std::make_unique<PartConstants>(L_, components_->points, parts, floating, inner);
+  if (!joints_->isDefinite())
+    throw SolverFailure(names_.function + ": " + names_.matrix + " is not positive semidefinite; " +
+                        names_.if_indefinite);
 } catch (const NotConverged& failure) {
-  const std::string bytes =
-      report_.factor_bytes > 0 ? " (a factor would take " + bytesText(report_.factor_bytes) + ")" : "";
-  throw SolverFailure(function + ": |b - A x| / |b| is " + numberText(failure.residual) + " after " +
-                      std::to_string(failure.iterations) + " iterations of multigrid on " + names_.matrix +
-                      ", must be " + numberText(tolerance_) + "; " + names_.if_slow + bytes);
-} catch (const std::bad_alloc&) {
-  throw SolverFailure(function + ": memory does not suffice to solve for " + std::to_string(b.cols()) +
-                      " right sides; solve for fewer at once, or free what else takes memory");
+  fail(names_.function, failure);
 }
 
 }  // namespace tufted

@@ -33,6 +33,8 @@ enum class Refine {
   always,        ///< until corrections are next to nothing
 };
 
+std::string bytesText(std::size_t bytes);
+
 /// What Solver does, for all public functions that solve systems: errors name the one that was called.
 class LinearSystem {
  public:
@@ -51,6 +53,8 @@ class LinearSystem {
  private:
   LinearSystem(const SystemNames& names, const SolverOptions& options, std::size_t points);
   void prepare(const SolverOptions& options, const Workers& workers);
+  /// Makes what keeps badly joined parts apart.
+  void separate(const Components& parts, const std::vector<std::uint8_t>& floating);
   VectorXd exactSums(const Eigen::Ref<const VectorXd>& values) const;
   /// The right sides by row of the system: of a Laplacian all points, without their means; otherwise the unknowns.
   struct RightSides {
@@ -58,6 +62,8 @@ class LinearSystem {
     Eigen::MatrixXd size;  ///< |b|, with what was taken out of it
   };
   RightSides rightSides(const Eigen::Ref<const Eigen::MatrixXd>& b) const;
+  /// Of a Laplacian: with the first point of each part at 0.
+  Eigen::MatrixXd withinParts(const Eigen::MatrixXd& right, const Tick& tick, int& iterations) const;
   /// A first solution, or a correction, by row of the system; of a Laplacian with sum(M x) = 0 on each component.
   Eigen::MatrixXd approximate(const Eigen::MatrixXd& right, const Tick& tick, int& iterations) const;
   /// What the pinned point of a component leaves is the rounding of all others together: spreads it over them.
@@ -67,6 +73,8 @@ class LinearSystem {
   /// @param made gets the residual, the backward error and iterations
   void improve(const std::string& function, const RightSides& right, Eigen::MatrixXd& x, Refine refine,
                const Tick& tick, SolveReport& made) const;
+
+  [[noreturn]] void fail(const std::string& function, const NotConverged& failure) const;
 
   SystemNames names_;
   LongMatrix lower_;                        ///< over the unknowns; of a Laplacian only while it is factorised

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "algorithms/remainder.h"
 #include "base/disjoint_sets.h"
 
 namespace tufted {
@@ -49,37 +50,40 @@ std::optional<WeakJoint> weakestOf(std::vector<Link>& links, const std::vector<i
 
 }  // namespace
 
-PartConstants::PartConstants(const SparseMatrix& L, const Components& components, const Components& parts,
-                             const std::vector<std::uint8_t>& floating)
-    : number_(components.of.size(), -1) {
+PartConstants::PartConstants(const SparseMatrix& L, const std::vector<int>& points, const Components& parts,
+                             const std::vector<std::uint8_t>& floating, const Inner& inner)
+    : number_(parts.of.size(), -1) {
   std::vector<int> number(floating.size(), -1);
+  int count = 0;
   for (std::size_t part = 0; part < floating.size(); ++part)
-    if (floating[part] != 0) number[part] = static_cast<int>(count_++);
+    if (floating[part] != 0) number[part] = count++;
   for (const int i : parts.points) number_[i] = number[parts.of[i]];
-  std::vector<Eigen::Triplet<double>> entries;
-  for (const int i : parts.points) {
-    if (number_[i] < 0) continue;
-    for (SparseMatrix::InnerIterator entry(L, i); entry; ++entry) {
-      const auto j = entry.row();
-      if (components.of[j] != components.of[i] || parts.of[j] == parts.of[i]) continue;
-      entries.emplace_back(number_[i], number_[i], -entry.value());
-      if (number_[j] >= 0) entries.emplace_back(number_[i], number_[j], entry.value());
-    }
+  // A constant on the part, and beside it what the weak weights around it make of that, which is small.
+  extensions_ = Eigen::MatrixXd::Zero(L.cols(), count);
+  for (const int i : parts.points)
+    if (number_[i] >= 0) extensions_(i, number_[i]) = 1;
+  const Eigen::MatrixXd none = Eigen::MatrixXd::Zero(L.cols(), count);
+  for (int round = 0; round < 2; ++round) {
+    const Eigen::MatrixXd left = remainderOfLaplacian(L, points, none, none, extensions_).rest;
+    extensions_ += inner(left);
   }
-  SparseMatrix weights(count_, count_);
-  weights.setFromTriplets(entries.begin(), entries.end());
-  factor_.compute(weights);
+  const Eigen::MatrixXd flux = -sums(remainderOfLaplacian(L, points, none, none, extensions_).rest);
+  complement_.compute((flux + flux.transpose()) / 2);
 }
 
-Eigen::MatrixXd PartConstants::solve(const Eigen::MatrixXd& rest) const {
-  Eigen::MatrixXd sums = Eigen::MatrixXd::Zero(count_, rest.cols());
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(rest.rows(), rest.cols());
-  for (Eigen::Index i = 0; i < rest.rows(); ++i)
-    if (number_[i] >= 0) sums.row(number_[i]) += rest.row(i);
-  const Eigen::MatrixXd constants = factor_.solve(sums);
-  for (Eigen::Index i = 0; i < rest.rows(); ++i)
-    if (number_[i] >= 0) result.row(i) = constants.row(number_[i]);
+Eigen::MatrixXd PartConstants::sums(const Eigen::MatrixXd& values) const {
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(extensions_.cols(), values.cols());
+  for (Eigen::Index i = 0; i < values.rows(); ++i)
+    if (number_[i] >= 0) result.row(number_[i]) += values.row(i);
   return result;
+}
+
+Eigen::MatrixXd PartConstants::solve(const SparseMatrix& L, const std::vector<int>& points, const Eigen::MatrixXd& rest,
+                                     const Inner& inner) const {
+  Eigen::MatrixXd x = inner(rest);
+  const Eigen::MatrixXd flux = sums(remainderOfLaplacian(L, points, rest, rest.cwiseAbs(), x).rest);
+  x += extensions_ * complement_.solve(flux);
+  return x;
 }
 
 std::optional<WeakJoint> weakestJoint(const SparseMatrix& L) {

@@ -1,7 +1,8 @@
 #pragma once
 
-#include <Eigen/SparseCholesky>
+#include <Eigen/Cholesky>
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -11,29 +12,36 @@
 
 namespace tufted {
 
-/// Constants on badly joined parts of a Laplacian. A factor of the whole finds what flows from part to part as a
-/// difference of strong weights, in which the weak ones between parts are lost; sums over parts hold nothing else. So
-/// one point of each part stays out of the factor, and its constant is found here.
+/// The badly joined parts of a Laplacian. A factor of the whole finds what flows from part to part as a difference of
+/// strong weights, in which the weak ones between parts are lost; sums over parts hold nothing else. So one point of
+/// each part stays out of the factor, and its value is found here, by the Schur complement that sums of L over parts
+/// make.
 class PartConstants {
  public:
-  /// @param components of the same points; nothing flows between them
+  /// A solve with the first point of each floating part, and whatever is pinned, held at 0: N x c to N x c.
+  using Inner = std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)>;
+
+  /// @param L without weights between components
+  /// @param points that are not pinned, ascending; borrowed, and so is L, by each call
   /// @param parts see findParts
-  /// @param floating by part: 1 where the constant is sought, 0 where it is known; each component has one of these
-  PartConstants(const SparseMatrix& L, const Components& components, const Components& parts,
-                const std::vector<std::uint8_t>& floating);
+  /// @param floating by part: 1 where no point is held at a value
+  PartConstants(const SparseMatrix& L, const std::vector<int>& points, const Components& parts,
+                const std::vector<std::uint8_t>& floating, const Inner& inner);
 
-  /// Whether the weights between parts make a positive definite matrix.
-  bool isDefinite() const { return factor_.info() == Eigen::Success; }
+  /// Whether the complement is positive definite.
+  bool isDefinite() const { return complement_.info() == Eigen::Success; }
 
-  /// Constants on the floating parts for which L leads out of each what `rest` has in it.
+  /// x with L x = rest.
   /// @param rest N x c
-  /// @return N x c; 0 elsewhere
-  Eigen::MatrixXd solve(const Eigen::MatrixXd& rest) const;
+  Eigen::MatrixXd solve(const SparseMatrix& L, const std::vector<int>& points, const Eigen::MatrixXd& rest,
+                        const Inner& inner) const;
 
  private:
-  std::vector<int> number_;  ///< N; of the floating part that a point lies in, or -1
-  Eigen::Index count_ = 0;
-  Eigen::SimplicialLDLT<SparseMatrix> factor_;
+  Eigen::MatrixXd sums(const Eigen::MatrixXd& values) const;
+
+  std::vector<int> number_;     ///< N; of the floating part that a point lies in, or -1
+  Eigen::MatrixXd extensions_;  ///< N x floating parts; 1 at the first point of each, and L of it is 0 elsewhere
+  Eigen::LLT<Eigen::MatrixXd> complement_;
 };
 
 /// Of a Laplacian: the two parts of a component that the weakest path between any points joins. Nothing where no part

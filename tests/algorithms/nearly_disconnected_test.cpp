@@ -119,6 +119,43 @@ TEST(NearlyDisconnected, TheWeakestJointOfSeveralIsNamedAndAllOfThemCarryTheirFl
   EXPECT_FALSE(weakestJoint(pointCloudLaplacian(shapes::twoSpheres(1)).L).has_value());  // apart, not badly joined
 }
 
+TEST(NearlyDisconnected, PartsWhoseJointsAreNoWeakerThanTheirLengthAreSolvedTogether) {
+  // Rectangles that get wider and wider: across them weights grow, along them they fall, to 1e-7 of the diagonal.
+  constexpr int columns = 31;
+  Points points(2 * columns, 3);
+  Triangles triangles(2 * (columns - 1), 3);
+  for (int i = 0; i < columns; ++i) {
+    points.row(2 * i) << std::pow(1.5, i), 0, 0;
+    points.row(2 * i + 1) << std::pow(1.5, i), 1, 0;
+  }
+  for (int i = 0; i + 1 < columns; ++i) {
+    triangles.row(2 * i) << 2 * i, 2 * i + 2, 2 * i + 1;
+    triangles.row(2 * i + 1) << 2 * i + 1, 2 * i + 2, 2 * i + 3;
+  }
+  const Laplacian laplacian = meshLaplacian(points, triangles, {.mollify = 0});
+  ASSERT_GT(findParts(laplacian).count, findComponents(laplacian).count);
+  VectorXd along = VectorXd::Zero(2 * columns);  // L of x is 0 but at the ends
+  along.head(2).setConstant(-0.5), along.tail(2).setConstant(0.5);
+  const VectorXd truth = points.col(0).array() - laplacian.M.dot(points.col(0)) / laplacian.M.sum();
+  for (const SolverMethod method : methods) {
+    SolveReport report;
+    const VectorXd x = Solver::laplacian(laplacian, {.method = method}).solve(along, &report);
+    // Lengths are rounded, and so are the weights that come from them; what flows is not.
+    EXPECT_LE((x - truth).cwiseAbs().maxCoeff(), 1e-6 * points.col(0).maxCoeff());
+    for (int end = 2; end < 2 * columns; end += 2) {
+      double flux = 0;
+      for (int i = 0; i < end; ++i)
+        for (SparseMatrix::InnerIterator entry(laplacian.L, i); entry; ++entry)
+          if (entry.row() >= end) flux -= entry.value() * (x[i] - x[entry.row()]);
+      EXPECT_NEAR(flux, -1, 1e-7) << end;
+    }
+    EXPECT_LE(report.backward_error, 1e-13);
+  }
+  const Pins ends{{0, 1, 2 * columns - 2}, points.col(0)({0, 1, 2 * columns - 2})};
+  EXPECT_LE((harmonic(laplacian, ends) - points.col(0)).cwiseAbs().maxCoeff(), 1e-6 * points.col(0).maxCoeff());
+  EXPECT_TRUE(DistanceSolver(laplacian).query({0}).allFinite());
+}
+
 TEST(NearlyDisconnected, APartOfAPositiveDefiniteMatrixIsNamedWithWhatHoldsIt) {
   SparseMatrix A = joinedGrids(side, {1e-9}).L;
   A.coeffRef(5, 5) += 1;
