@@ -49,7 +49,7 @@ struct CoverCheck {
   }
 };
 
-/// Checks what the guarantees of L rest on, for corners in [0, vertices) and lengths in any unit. O(F).
+/// Checks what the guarantees of L rest on, for corners in [0, vertices). Lengths below 1e-292 are not judged. O(F).
 CoverCheck validate(const IntrinsicTriangulation& cover, double delaunay_tolerance = 1e-9);
 
 }  // namespace tufted

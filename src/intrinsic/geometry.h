@@ -62,6 +62,11 @@ struct UnitFace {
   double unit;  ///< the power of two that is 1 here
 
   double area() const { return triangleArea(length[0], length[1], length[2]); }
+  /// Whether a length lies so near the smallest double that it has fewer digits than others: below 2^-970, 1e-292.
+  bool isCoarse() const {
+    constexpr double smallest = 0x1p-970;
+    return std::any_of(length.begin(), length.end(), [this](double l) { return l > 0 && l * unit < smallest; });
+  }
   /// Opposite side `s`. Infinite or NaN in a face of no area.
   double cotan(int s) const { return oppositeCotan(length[s], length[(s + 1) % 3], length[(s + 2) % 3]); }
 };

@@ -36,7 +36,9 @@ CoverCheck validate(const IntrinsicTriangulation& cover, double delaunay_toleran
     if (tail(cover, side) != head(cover, mate) || head(cover, side) != tail(cover, mate)) ++check.not_oriented;
     if (cover.length[side] != cover.length[mate]) ++check.unequal_lengths;
     if (side < mate && side / 3 != mate / 3) {
-      const double here = unitFace(cover, side / 3).cotan(side % 3), there = unitFace(cover, mate / 3).cotan(mate % 3);
+      const UnitFace face = unitFace(cover, side / 3), other = unitFace(cover, mate / 3);
+      if (face.isCoarse() || other.isCoarse()) continue;
+      const double here = face.cotan(side % 3), there = other.cotan(mate % 3);
       check.smallest_cotan_sum = std::min(check.smallest_cotan_sum, here + there);
       if (!isDelaunay(here, there, delaunay_tolerance)) ++check.not_delaunay;
     }
@@ -44,7 +46,8 @@ CoverCheck validate(const IntrinsicTriangulation& cover, double delaunay_toleran
   for (int side = 0; side < sides; side += 3) {
     const double a = cover.length[side], b = cover.length[side + 1], c = cover.length[side + 2];
     // Lengths are rounded, so a face flat to the last bits may miss by as much.
-    if (!(triangleSlack(a, b, c) >= -4e-16 * (a + b + c))) ++check.triangle_inequality;
+    const double rounding = 4e-16 * (a + b + c) + 4 * std::numeric_limits<double>::denorm_min();
+    if (!(triangleSlack(a, b, c) >= -rounding)) ++check.triangle_inequality;
   }
   return check;
 }

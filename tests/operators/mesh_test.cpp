@@ -150,7 +150,8 @@ TEST(MeshLaplacian, SurvivesEdgesOfLengthZeroAndSlivers) {
     EXPECT_GT(laplacian.report.mollify_length, 0) << mesh.name;
     const double plain = oracles::surfaceArea(mesh.points, mesh.triangles);
     EXPECT_GT(laplacian.report.mollify_area, 0) << mesh.name;
-    EXPECT_NEAR(laplacian.report.mollify_area, laplacian.M.sum() - plain, 1e-12 * plain) << mesh.name;
+    // Heights of slivers, and so their areas, change with the last bits of their lengths.
+    EXPECT_NEAR(laplacian.report.mollify_area, laplacian.M.sum() - plain, 1e-9 * plain) << mesh.name;
     EXPECT_LE(laplacian.report.mollify_area, 1e-4 * plain) << mesh.name;
     EXPECT_EQ(laplacian.report.degenerate_faces, 0) << mesh.name;
     EXPECT_TRUE(validate(laplacian.cover()).ok()) << mesh.name;
