@@ -217,10 +217,10 @@ class BlockLanczos {
     Index leading = locked_;
     for (Index i = locked_; i + 1 < std::min(size_, problem_.wanted); ++i)
       if (values_[i] > dominance * values_[i + 1]) leading = i + 1;
-    if (leading == locked_ || coupling_.cols() == 0) return false;
-    const MatrixXd rest = coupling_ * vectors_.bottomRows(coupling_.cols()).leftCols(leading);
+    if (leading == locked_) return false;
+    const VectorXd rest = residuals(leading);
     for (Index i = locked_; i < leading; ++i)
-      if (!(rest.col(i).norm() <= rounding * values_[i])) return false;
+      if (!(rest[i] <= rounding * values_[i])) return false;
     restart(leading);
     locked_ = leading;
     scale_ = 0;
@@ -228,12 +228,19 @@ class BlockLanczos {
     return true;
   }
 
-  /// How many of the wanted pairs have a small residual: the coupling times the last rows of their vectors.
+  /// |A x - theta x| of the leading pairs: the coupling times the last rows of their vectors, or no more than noise
+  /// where nothing was left to be coupled.
+  VectorXd residuals(Index count) const {
+    if (coupling_.cols() == 0) return VectorXd::Constant(count, least_part * scale_);
+    return (coupling_ * vectors_.bottomRows(coupling_.cols()).leftCols(count)).colwise().norm();
+  }
+
+  /// How many of the wanted pairs have a small residual.
   Index countConverged() {
     if (size_ < problem_.wanted) return 0;
+    const VectorXd rest = residuals(problem_.wanted);
     Index count = 0;
-    const MatrixXd rest = coupling_ * vectors_.bottomRows(coupling_.cols()).leftCols(problem_.wanted);
-    for (Index i = 0; i < problem_.wanted; ++i) count += rest.col(i).norm() <= options_.tolerance * values_[i] ? 1 : 0;
+    for (Index i = 0; i < problem_.wanted; ++i) count += rest[i] <= options_.tolerance * values_[i] ? 1 : 0;
     found_ = static_cast<double>(count) / static_cast<double>(problem_.wanted);
     return count;
   }

@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <random>
 #include <string>
 #include <utility>
 #include <vector>
@@ -111,6 +112,21 @@ bool searchPairs(const Eigenproblem& problem, const InverseTimes& inverse, Index
   return found.converged;
 }
 
+/// Whether joints are so weak that nothing but rounding is left of a solve. Steps of the inverse lead to the smallest
+/// eigenvalues, where that shows.
+bool isWeak(const Eigenproblem& problem, const InverseTimes& inverse) {
+  std::mt19937_64 random(1);
+  VectorXd x(problem.mass.size()), before;
+  for (double& value : x) value = static_cast<double>(random() >> 11) * 0x1p-52 - 1;  // in [-1, 1)
+  for (int step = 0; step < 3; ++step) {
+    before = x / x.cwiseAbs().maxCoeff();
+    if (step == 0) problem.deflate(before);
+    x = inverse(before);
+  }
+  const VectorXd weighted = problem.mass.cwiseProduct(before);
+  return !((problem.L * x - weighted).norm() <= weak_residual * weighted.norm());
+}
+
 /// The pairs of positive eigenvalue, M-orthonormal.
 void findVibrations(const Laplacian& laplacian, const Eigenproblem& problem, Index wanted,
                     const SpectrumOptions& options, Spectrum& spectrum) {
@@ -131,9 +147,30 @@ void findVibrations(const Laplacian& laplacian, const Eigenproblem& problem, Ind
   const Workers workers(options.threads, progress);
   const Progress silent;
   const Workers quiet(options.threads, silent);
+  // Nothing is judged solve by solve: vectors that are 0 on parts of the surface are rounding there, and what counts is
+  // the residual of each pair.
   const InverseTimes inverse = [&](const Eigen::Ref<const MatrixXd>& x) {
-    return system.solve("spectrum", problem.mass.asDiagonal() * x, nullptr, progress);
+    return system.solve("spectrum", problem.mass.asDiagonal() * x, nullptr, progress, Refine::never);
   };
+  // But where joints are weak, every solve needs corrections; where these fail, the residuals tell.
+  const InverseTimes corrected = [&](const Eigen::Ref<const MatrixXd>& x) {
+    try {
+      return system.solve("spectrum", problem.mass.asDiagonal() * x, nullptr, progress, Refine::always);
+    } catch (const SolverFailure&) {
+      return inverse(x);
+    }
+  };
+  // Counting takes a factor beside the one that is held.
+  const std::size_t held = system.report().bytes;
+  std::function<std::optional<bool>(const VectorXd&)> is_complete;
+  if (!system.report().iterative && held < limit) {
+    is_complete = [&](const VectorXd& values) {
+      workers.report("count", 0);
+      const std::optional<bool> complete = isComplete(problem, values.cwiseInverse(), limit - held);
+      spectrum.report.counted = complete.value_or(false);
+      return complete;
+    };
+  }
   std::optional<Eigenpairs> pairs;
   if (isForDense(problem, wanted, options)) {
     workers.report("dense", 0);
@@ -142,22 +179,10 @@ void findVibrations(const Laplacian& laplacian, const Eigenproblem& problem, Ind
   }
   bool mixed = true;
   spectrum.report.method = pairs ? "dense" : "block Lanczos";
-  if (!pairs) {
-    // Counting takes a factor beside the one that is held.
-    const std::size_t held = system.report().bytes;
-    std::function<std::optional<bool>(const VectorXd&)> is_complete;
-    if (!system.report().iterative && held < limit) {
-      is_complete = [&](const VectorXd& values) {
-        workers.report("count", 0);
-        const std::optional<bool> complete = isComplete(problem, values.cwiseInverse(), limit - held);
-        spectrum.report.counted = complete.value_or(false);
-        return complete;
-      };
-    }
-    pairs.emplace();
-    mixed = !searchPairs(problem, inverse, wanted, is_complete, options, workers, *pairs, spectrum.report);
-  }
-  if (!refinePairs(problem, inverse, mixed, quiet, *pairs))
+  const InverseTimes& exact = isWeak(problem, inverse) ? corrected : inverse;
+  if (!pairs)
+    mixed = !searchPairs(problem, exact, wanted, is_complete, options, workers, pairs.emplace(), spectrum.report);
+  if (!refinePairs(problem, exact, mixed, quiet, *pairs))
     throw SolverFailure(
         "spectrum: the eigenvectors found are not independent, so digits are wrong; L is too close to "
         "singular, ask for fewer eigenvalues or set method to SolverMethod::cholesky");

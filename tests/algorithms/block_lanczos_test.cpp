@@ -6,6 +6,7 @@
 #include <Eigen/Eigenvalues>
 #include <cmath>
 
+#include "algorithms/linear_system.h"
 #include "algorithms/tall_matrix.h"
 #include "shapes/shapes.h"
 #include "tufted/tufted.h"
@@ -76,9 +77,12 @@ TEST(BlockLanczos, SearchesUntilNothingIsMissingAndStaysExact) {
 }
 
 /// The inverse of a sphere's Laplacian: a constant is its null space, and eigenvalues have a range of some thousands.
-LanczosProblem inverseOf(const Laplacian& laplacian, const Solver& solver, Index wanted) {
+LanczosProblem inverseOf(const Laplacian& laplacian, const LinearSystem& system, Index wanted) {
   const VectorXd mass = laplacian.M / laplacian.M.sum();
-  return {.apply = [mass, &solver](const Eigen::Ref<const MatrixXd>& x) { return solver.solve(mass.asDiagonal() * x); },
+  return {.apply =
+              [mass, &system](const Eigen::Ref<const MatrixXd>& x) {
+                return system.solve("test", mass.asDiagonal() * x, nullptr, silent, Refine::never);
+              },
           .deflate = [mass](Eigen::Ref<MatrixXd> x) { x.rowwise() -= mass.transpose() * x; },
           .mass = mass,
           .dimension = mass.size() - 1,
@@ -93,13 +97,13 @@ TEST(BlockLanczos, TakesMostOfASpaceWithoutLeadingIntoTheNullSpace) {
       const Laplacian laplacian =
           pointCloudLaplacian(shapes::sphere(n, shapes::Sampling::uniform, seed).points, cloudOptions(Preset::clean));
       ASSERT_EQ(laplacian.report.active, n);
-      const Solver solver = Solver::laplacian(laplacian);
+      const LinearSystem system = LinearSystem::laplacian({.function = "test", .matrix = "L"}, laplacian, {});
       const VectorXd mass = laplacian.M / laplacian.M.sum(), scale = mass.cwiseSqrt().cwiseInverse();
       const VectorXd dense =
           Eigen::SelfAdjointEigenSolver<MatrixXd>(scale.asDiagonal() * MatrixXd(laplacian.L) * scale.asDiagonal())
               .eigenvalues();
       for (const Index wanted : {n / 2, 2 * n / 3, n - 2, n - 1}) {
-        const LanczosProblem problem = inverseOf(laplacian, solver, wanted);
+        const LanczosProblem problem = inverseOf(laplacian, system, wanted);
         const LanczosResult found = largestEigenpairs(problem, {.tolerance = 1e-10, .max_iterations = 1000}, workers);
         ASSERT_TRUE(found.converged) << n << ", " << wanted;
         EXPECT_LE(found.residuals.maxCoeff(), 1e-9) << n << ", " << wanted;
