@@ -69,7 +69,9 @@ TEST_F(ValidateResults, TakesALaplacianThatWasWritten) {
   const Result table = runTufted({"validate", file, "--operator", folder});
   EXPECT_EQ(table.code, 0) << table.err;
   ASSERT_EQ(linesOf(table.out).size(), 4u) << table.out;
-  EXPECT_TRUE(linesOf(table.out)[2].starts_with("OK ") && linesOf(table.out)[2].find("  " + folder) != std::string::npos) << table.out;
+  EXPECT_TRUE(linesOf(table.out)[2].starts_with("OK ") &&
+              linesOf(table.out)[2].find("  " + folder) != std::string::npos)
+      << table.out;
 
   // Point 300, which is not finite, becomes active; then there is no such array.
   std::string status = readAll(dir_ / "laplacian/status.npy");

@@ -21,9 +21,6 @@ struct Sample {
   Laplacian laplacian;
   bool has_stars;
 };
-void PrintTo(const Sample& sample, std::ostream* out) {
-  *out << sample.name;
-}
 
 std::vector<Sample> samples() {
   const Points points = shapes::withNoise(shapes::sphere(400), 0.01).points;
