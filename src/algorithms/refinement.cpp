@@ -17,8 +17,6 @@ constexpr int most_corrections = 6;
 constexpr double negligible = 1e-15;  // of the values' range
 /// To which conjugate gradients solve at least, so that corrections become small fast.
 constexpr double correction_tolerance = 1e-10;
-/// A last correction above this part of the range means that digits are wrong: those that are promised.
-constexpr double stalled = 1e-12;
 
 Eigen::RowVectorXd norms(const Eigen::MatrixXd& values) {
   Eigen::RowVectorXd result(values.cols());
