@@ -258,4 +258,30 @@ TEST_F(ApplicationCommands, TellThatTwoPartsAreBadlyJoined) {
   EXPECT_TRUE(report("out")["report"]["nearly_disconnected"].is_null());
 }
 
+TEST_F(ApplicationCommands, TellWhichPairIsAllRounding) {
+  constexpr int side = 10;
+  tufted::Geometry geometry;
+  geometry.points = tufted::Points::Random(2 * side * side, 3);
+  for (const double weight : {1.0, 1e-9, 1e-13}) {
+    tufted::writeLaplacian(in("joined"), tufted::support::joinedGrids(side, {weight}), geometry,
+                           {.formats = {tufted::Format::npz}});
+    if (weight == 1) run({"green", "--source", "0", "--operator", in("joined"), "--out", in("f")});
+    const std::vector<std::pair<std::vector<std::string>, int>> commands = {
+        {{"spectrum", "--count", "20"}, 1},
+        {{"spectrum", "--count", "199"}, 1},
+        {{"hks", "--count", "5"}, 1},
+        {{"embed"}, 0},
+        {{"filter", "--count", "5", "--values", in("f/green.npy")}, 0}};
+    for (auto [command, pair] : commands) {
+      command.insert(command.end(), {"--operator", in("joined"), "--out", in("out")});
+      const std::string said = run(command).out;
+      const auto made = report("out")["report"];
+      EXPECT_EQ(made["weak_pair"], weight == 1 ? -1 : pair) << command[0];
+      EXPECT_EQ(said.find("nearly disconnected") == std::string::npos, weight == 1) << said;
+      EXPECT_EQ(made["residual"] > 1e-8, weight < 1) << command[0];
+      EXPECT_LE(made["backward_error"], 1e-10) << command[0];
+    }
+  }
+}
+
 }  // namespace
