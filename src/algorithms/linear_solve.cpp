@@ -21,6 +21,7 @@ constexpr Eigen::Index columns_per_block = 8;
 /// Corrections are rarely more than three.
 constexpr int most_corrections = 10;
 constexpr double negligible = 1e-15;  // of the largest value
+constexpr double last_digits = 1e-15;
 
 }  // namespace
 
@@ -54,8 +55,29 @@ LinearSystem::RightSides LinearSystem::rightSides(const Eigen::Ref<const Eigen::
       right.values(i, c) = b(i, c) - taken_out;
       right.size(i, c) = std::abs(b(i, c)) + std::abs(taken_out);
     }
+    // Rounding leaves sums that no x can have: they go into the last digits of entries that are large beside them.
+    VectorXd left = exactSums(right.values.col(c));
+    for (const int i : components_->points) {
+      double& sum = left[components_->of[i]];
+      if (sum == 0 || std::abs(sum) > last_digits * right.size(i, c)) continue;
+      const double before = right.values(i, c);
+      right.values(i, c) -= sum;
+      sum -= before - right.values(i, c);
+    }
   }
   return right;
+}
+
+void LinearSystem::balance(Eigen::MatrixXd& rest) const {
+  for (Eigen::Index c = 0; c < rest.cols(); ++c) {
+    const VectorXd sums = exactSums(rest.col(c));
+    std::vector<int> largest = pinned_;
+    for (const int i : components_->points) {
+      int& row = largest[components_->of[i]];
+      if (std::abs(rest(i, c)) > std::abs(rest(row, c))) row = i;
+    }
+    for (int component = 0; component < components_->count; ++component) rest(largest[component], c) -= sums[component];
+  }
 }
 
 void LinearSystem::spreadPinned(const Eigen::Ref<const VectorXd>& right, Eigen::Ref<VectorXd> x) const {
@@ -118,7 +140,9 @@ void LinearSystem::improve(const std::string& function, const RightSides& right,
   int rounds = 0;
   for (; !open.empty() && rounds < most_corrections; ++rounds) {
     if (!x.allFinite()) throw SolverFailure(function + ": the solution overflows; scale the right sides down");
-    const Eigen::MatrixXd step = approximate(left.rest(Eigen::all, open), tick, made.iterations);
+    Eigen::MatrixXd rest = left.rest(Eigen::all, open);
+    if (components_) balance(rest);
+    const Eigen::MatrixXd step = approximate(rest, tick, made.iterations);
     std::vector<int> still_open;
     for (std::size_t k = 0; k < open.size(); ++k) {
       const int c = open[k];

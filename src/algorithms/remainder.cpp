@@ -14,9 +14,9 @@ using Eigen::MatrixXd;
 /// Values of x below these, of the largest in their column and by themselves, are so near to underflow that they have
 /// lost digits.
 constexpr double least_part = 1e-290, least_value = 1e-300;
-/// Relaxation takes so many sweeps at most, and gives up where it would take more than this part of the rows.
+/// Relaxation takes so many sweeps at most, and gives up where it would take so many rows and more than a tenth of all.
 constexpr int most_sweeps = 30;
-constexpr std::size_t rows_per_relaxed = 10;
+constexpr std::size_t many_rows = 100;
 
 using Column = Eigen::Ref<const VectorXd>;
 
@@ -106,7 +106,7 @@ Remainder relaxLaplacian(const SparseMatrix& L, const std::vector<int>& points, 
       if (!column.measure(i, bound)) worse.push_back(i);
     for (int sweep = 0; sweep < most_sweeps && !worse.empty(); ++sweep) {
       const std::vector<int> rows = neighborsOf(L, worse);
-      if (rows.size() * rows_per_relaxed > points.size()) break;
+      if (rows.size() > many_rows && rows.size() > points.size() / 10) break;
       for (const int i : worse) {
         column.measure(i, bound);
         x(i, c) += result.rest(i, c) / L.coeff(i, i);
