@@ -19,7 +19,7 @@ struct SpectrumOptions {
   double tolerance = 1e-10;
   /// Dense matrices take the place of the search for k above three tenths of the points, and for up to 150 points, but
   /// for no more points than this, >= 0: they take 24 bytes per pair of points, which `memory_limit` bounds as well,
-  /// and time with the cube of the points that cannot be interrupted (3,000 take 200 MB and about half a minute).
+  /// and time with the cube of the points that cannot be interrupted (3,000 take 220 MB and about a minute).
   int dense_limit = 3000;
   bool null_space = true;                         ///< false: only positive eigenvalues, the k smallest
   int max_iterations = 1000;                      ///< of eight solves each, >= 1; beyond them SolverFailure
