@@ -271,5 +271,17 @@ TEST(Solver, FailsTypedWhereTheSolutionOverflows) {
   }
 }
 
+TEST(Solver, TakesRightSidesThatVanishOnPartsOfASurface) {
+  // High eigenvectors are next to nothing but around a few points.
+  for (const std::uint64_t seed : {101, 102}) {
+    const Laplacian laplacian =
+        pointCloudLaplacian(shapes::sphere(300, shapes::Sampling::uniform, seed).points, cloudOptions(Preset::clean));
+    const Eigen::MatrixXd vectors = spectrum(laplacian, 299).vectors.rightCols(298);
+    SolveReport report;
+    Solver::laplacian(laplacian).solve(laplacian.M.asDiagonal() * vectors, &report);
+    EXPECT_LE(report.residual, 1e-12);
+  }
+}
+
 }  // namespace
 }  // namespace tufted
