@@ -75,9 +75,10 @@ Components findComponents(const Laplacian& laplacian) {
 }
 
 Components findParts(const Laplacian& laplacian) {
-  const int components = joinedAbove(least_weight, laplacian).count;
   double share = weak_share;
   Components parts = joinedAbove(share, laplacian);
+  if (parts.count <= most_floating_parts) return parts;
+  const int components = findComponents(laplacian).count;
   while (parts.count > components + most_floating_parts)
     parts = joinedAbove(share = std::max(share / 10, least_weight), laplacian);
   return parts;

@@ -20,8 +20,8 @@ constexpr Eigen::Index columns_per_block = 8;
 
 /// Corrections are rarely more than three.
 constexpr int most_corrections = 10;
-constexpr double negligible = 1e-15;  // of the largest value
-constexpr double enough_residual = 1e-12;
+constexpr double negligible = 1e-15;       // of the largest value
+constexpr double enough_residual = 1e-12;  // |b - A x| / |b| of a solution whose backward error is rounding at few rows
 constexpr double last_digits = 1e-15;
 
 }  // namespace

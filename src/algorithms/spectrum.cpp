@@ -17,6 +17,7 @@
 #include "algorithms/inertia.h"
 #include "algorithms/linear_system.h"
 #include "algorithms/memory_limit.h"
+#include "algorithms/nearly_disconnected.h"
 #include "algorithms/refine_pairs.h"
 #include "algorithms/tall_matrix.h"
 #include "base/number_text.h"
@@ -31,8 +32,6 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// Beyond this rounding is told of.
-constexpr double weak_residual = 1e-8;
 /// Measured on tori of 100 to 2,000 points, where dense matrices are faster: from a share of 0.15 at 200 points, 0.25
 /// at 500 and 0.35 at 2,000; always at 100.
 constexpr Index small_space = 150;
@@ -124,7 +123,7 @@ bool isWeak(const Eigenproblem& problem, const InverseTimes& inverse) {
     x = inverse(before);
   }
   const VectorXd weighted = problem.mass.cwiseProduct(before);
-  return !((problem.L * x - weighted).norm() <= weak_residual * weighted.norm());
+  return !((problem.L * x - weighted).norm() <= large_residual * weighted.norm());
 }
 
 /// The pairs of positive eigenvalue, M-orthonormal.
@@ -209,16 +208,16 @@ void measure(const Eigenproblem& problem, const SpectrumOptions& options, Spectr
   const MatrixXd gram = innerProducts(spectrum.vectors, problem.mass, spectrum.vectors, workers);
   report.orthogonality =
       (gram - MatrixXd::Identity(gram.rows(), gram.cols())).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
-  if (!(report.orthogonality <= weak_residual))
+  if (!(report.orthogonality <= large_residual))
     throw SolverFailure("spectrum: X^T M X differs from the identity by " + numberText(report.orthogonality) +
-                        ", must be at most " + numberText(weak_residual) + "; ask for fewer eigenvalues");
+                        ", must be at most " + numberText(large_residual) + "; ask for fewer eigenvalues");
   const SparseMatrix magnitude = problem.L.cwiseAbs();
   for (Index c = report.null_space; c < spectrum.values.size(); ++c) {
     double& lambda = spectrum.values[c];
     const VectorXd x = spectrum.vectors.col(c), Lx = problem.L * x, terms = magnitude * x.cwiseAbs();
     VectorXd weighted = lambda * problem.mass.cwiseProduct(x), rest = Lx - weighted;
     double residual = rest.norm() / weighted.norm();
-    if (residual > std::max(10 * options.tolerance, weak_residual)) {
+    if (residual > std::max(10 * options.tolerance, large_residual)) {
       lambda = rayleighQuotient(problem, x);
       weighted = lambda * problem.mass.cwiseProduct(x), rest = Lx - weighted;
       residual = rest.norm() / weighted.norm();

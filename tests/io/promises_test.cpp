@@ -5,9 +5,9 @@
 #include <functional>
 #include <limits>
 #include <nlohmann/json.hpp>
-#include <random>
 
 #include "field_values.h"
+#include "odd_sphere.h"
 #include "temporary_dir.h"
 #include "tufted/check.h"
 #include "tufted/distance.h"
@@ -22,19 +22,6 @@ using tufted::Kind;
 using tufted::Laplacian;
 using tufted::PointStatus;
 using tufted::Sign;
-
-/// Random points on a sphere; point 7 is a copy of point 3, point 9 is not finite.
-tufted::Geometry cloud() {
-  std::mt19937_64 generator(101);
-  tufted::Geometry geometry;
-  geometry.points.resize(200, 3);
-  for (double& x : geometry.points.reshaped()) x = static_cast<double>(generator() >> 11) * 0x1p-53 - 0.5;
-  geometry.points.rowwise().normalize();
-  geometry.points.row(7) = geometry.points.row(3);
-  geometry.points.row(9).setConstant(std::numeric_limits<double>::quiet_NaN());
-  geometry.width = 200;
-  return geometry;
-}
 
 /// A square of 8 x 8 quads that is bent upwards.
 tufted::Geometry mesh() {
@@ -89,7 +76,7 @@ tufted::VectorXd distances(const Laplacian& laplacian) {
 }
 
 TEST_F(Promises, DistancesAreTheSameWithAndWithoutFramesAfterARoundThroughFiles) {
-  const tufted::Geometry square = mesh(), sphere = cloud();
+  const tufted::Geometry square = mesh(), sphere = tufted::oddSphere(101);
   Laplacian framed = tufted::meshLaplacian(square.points, square.triangles);
   const tufted::VectorXd on_mesh = distances(framed);
   framed.frames = tufted::meshFrames(square.points, square.triangles);
@@ -108,7 +95,7 @@ TEST_F(Promises, DistancesAreTheSameWithAndWithoutFramesAfterARoundThroughFiles)
 }
 
 TEST_F(Promises, OfAnOlderFolderTheOptionsOfTheBuildSayWhatItIs) {
-  const tufted::Geometry square = mesh(), sphere = cloud();
+  const tufted::Geometry square = mesh(), sphere = tufted::oddSphere(101);
   const tufted::CloudOptions cloud_options;
   const tufted::MeshOptions mesh_options;
   const auto forget = [](nlohmann::ordered_json& report) { ASSERT_EQ(report.erase("kind"), 1u); };
@@ -128,7 +115,7 @@ TEST_F(Promises, OfAnOlderFolderTheOptionsOfTheBuildSayWhatItIs) {
 }
 
 TEST_F(Promises, ACloudAndItsDummiesAreReadWithEitherSign) {
-  const tufted::Geometry sphere = cloud();
+  const tufted::Geometry sphere = tufted::oddSphere(101);
   const Laplacian laplacian = tufted::pointCloudLaplacian(sphere.points);
   for (const Sign sign : {Sign::psd, Sign::igl}) {
     for (const bool dummy : {false, true}) {
@@ -225,7 +212,7 @@ std::vector<Plant> plants() {
 }
 
 TEST_F(Promises, WhatBreaksOneIsRefusedByItsEntryAndNamedByValidate) {
-  const tufted::Geometry sphere = cloud();
+  const tufted::Geometry sphere = tufted::oddSphere(101);
   const Laplacian laplacian = tufted::pointCloudLaplacian(sphere.points);
   for (const Plant& plant : plants()) {
     Laplacian broken = laplacian;
@@ -244,7 +231,7 @@ TEST_F(Promises, WhatBreaksOneIsRefusedByItsEntryAndNamedByValidate) {
 }
 
 TEST_F(Promises, AreJudgedBehindDummies) {
-  const tufted::Geometry sphere = cloud();
+  const tufted::Geometry sphere = tufted::oddSphere(101);
   Laplacian broken = tufted::pointCloudLaplacian(sphere.points);
   scaleWeight(broken, 2);
   for (const Sign sign : {Sign::psd, Sign::igl}) {
@@ -254,14 +241,14 @@ TEST_F(Promises, AreJudgedBehindDummies) {
 }
 
 TEST_F(Promises, AReportOfAnotherCloudIsRefused) {
-  const tufted::Geometry sphere = cloud();
+  const tufted::Geometry sphere = tufted::oddSphere(101);
   write(tufted::pointCloudLaplacian(sphere.points), sphere);
   changeReport([](nlohmann::ordered_json& report) { report["report"]["points"] = 100; });
   EXPECT_EQ(refusal(), "report.json: counts 100 points, and L has 200 rows");
 }
 
 TEST_F(Promises, FailuresThatOnlyTheReportKnowsReachValidate) {
-  const tufted::Geometry sphere = cloud();
+  const tufted::Geometry sphere = tufted::oddSphere(101);
   Laplacian laplacian = tufted::pointCloudLaplacian(sphere.points);
   laplacian.report.flip_failures = 2;
   laplacian.report.clamped_large = 1;

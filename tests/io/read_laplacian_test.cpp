@@ -6,8 +6,8 @@
 #include <functional>
 #include <limits>
 #include <memory>
-#include <random>
 
+#include "odd_sphere.h"
 #include "temporary_dir.h"
 #include "tufted/errors.h"
 #include "tufted/io/results.h"
@@ -16,18 +16,6 @@ namespace {
 
 using tufted::Format;
 using tufted::IntrinsicTriangulation;
-
-tufted::Geometry sphere() {
-  std::mt19937_64 generator(3);
-  tufted::Geometry geometry;
-  geometry.points.resize(200, 3);
-  for (double& x : geometry.points.reshaped()) x = static_cast<double>(generator() >> 11) * 0x1p-53 - 0.5;
-  geometry.points.rowwise().normalize();
-  geometry.points.row(7) = geometry.points.row(3);
-  geometry.points.row(9).setConstant(std::numeric_limits<double>::quiet_NaN());
-  geometry.width = 200;
-  return geometry;
-}
 
 class ReadLaplacian : public testing::Test {
  protected:
@@ -55,7 +43,7 @@ class ReadLaplacian : public testing::Test {
     expectRefusal("cover.npz", word);
   }
 
-  tufted::Geometry geometry_ = sphere();
+  tufted::Geometry geometry_ = tufted::oddSphere(3);
   tufted::Laplacian laplacian_ = tufted::pointCloudLaplacian(geometry_.points);
   TemporaryDir dir_;
 };
