@@ -43,14 +43,15 @@ struct DistanceOptions {
   /// Where the surface ends, the mean of heat that cannot leave and heat that is lost, as if the surface went on
   /// (Section 3.2 of the paper on the heat method); otherwise heat that cannot leave, for one factorisation less.
   bool open_boundary = true;
-  /// Of all factorisations, three where the surface ends and two elsewhere. By multigrid `tolerance` is that of
-  /// L d = div X, so d is right to about as much; heat is solved to 1e-12 at least, whatever it says.
+  /// Of all factorisations, three where the surface ends and two elsewhere. By multigrid, or where not all factors fit,
+  /// `tolerance` is that of L d = div X, so d is right to about as much. Heat is then solved in windows, each of some
+  /// 130 edges by a factor of its own as far as `memory_limit` allows, and of some 30 edges to 1e-12 beyond.
   SolverOptions solver = {};
 };
 
 /// What a query did.
 struct DistanceReport {
-  int rounds = 0;                            ///< of heat: one per some 500 edge lengths
+  int rounds = 0;                            ///< of heat: one per some 500 edge lengths, in windows per 100 or 10
   int iterations = 0;                        ///< of conjugate gradients, the most of any solve; 0 by Cholesky
   double residual = 0;                       ///< the greatest of any solve, see SolveReport
   double backward_error = 0;                 ///< the greatest of any solve, see SolveReport
@@ -65,7 +66,10 @@ struct DistanceReport {
 ///
 /// Two things differ. X is taken from log u, which is next to linear in a face where u is not: at the same t the error
 /// on a sphere is a third. And u, which falls to a third with every edge and would soon underflow, starts again from
-/// where it could still be seen, so distances are right at any number of edges.
+/// where it could still be seen, so distances are right at any number of edges. With factors of the whole a round sees
+/// some 500 edges and costs one or two solves. In windows (see `DistanceOptions::solver`) it sees 100 edges, or 10 by
+/// conjugate gradients, and costs in proportion to its window, so that all rounds together cost as much as some
+/// factorisations of the whole, for every query.
 class DistanceSolver {
  public:
   /// @param laplacian must have its cover; not needed after construction

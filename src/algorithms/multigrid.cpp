@@ -93,7 +93,10 @@ SparseMatrix prolongation(const SparseMatrix& A, const std::vector<int>& group, 
     rho = std::max(rho, sum * inverse[j]);
   }
   SparseMatrix smoothed = A * piecewise;
-  smoothed = (inverse * (-4.0 / 3 / rho)).asDiagonal() * smoothed;
+  // Not as a product with an expression's asDiagonal(), which copies that once per column.
+  const VectorXd factor = inverse * (-4.0 / 3 / rho);
+  for (int j = 0; j < smoothed.cols(); ++j)
+    for (SparseMatrix::InnerIterator entry(smoothed, j); entry; ++entry) entry.valueRef() *= factor[entry.row()];
   return piecewise + smoothed;
 }
 

@@ -1,0 +1,92 @@
+#include "algorithms/heat_rounds.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "algorithms/greater.h"
+#include "algorithms/heat_windows.h"
+
+namespace tufted {
+namespace {
+
+/// By elimination heat keeps its relative accuracy down to underflow, because in the factor of an M-matrix and with
+/// sources >= 0 nothing but numbers of one sign is ever added.
+constexpr double valid = 1e-285;
+/// Where heat falls below this it starts again: far enough above `valid` to even out.
+constexpr double front = 1e-245;
+
+/// Every round solves with the factors of the whole.
+class RoundsByFactor : public HeatRounds {
+ public:
+  RoundsByFactor(const std::string& function, const HeatProblem& problem, const VectorXd& heat,
+                 const Progress& progress, DistanceReport& report)
+      : function_(function),
+        problem_(problem),
+        progress_(progress),
+        heat_(heat),
+        passed_(static_cast<std::size_t>(heat.size()), 0),
+        report_(report) {
+    log_valid_ = std::log(valid);
+  }
+
+  bool next() override {
+    if (report_.rounds > 0 && !restart()) return false;
+    ++report_.rounds;
+    problem_.components.normalise(heat_);
+    u_ = solve(*problem_.closed, heat_);
+    if (problem_.open != nullptr) u_ = (u_ + solve(*problem_.open, heat_.cwiseProduct(problem_.interior))) / 2;
+    problem_.components.normalise(u_);
+    log_heat_ = u_.array().max(0).log();  // -infinity where nothing is
+    return true;
+  }
+
+ private:
+  VectorXd solve(const LinearSystem& system, const VectorXd& heat) {
+    SolveReport solved;
+    VectorXd u = system.solve(function_, heat, &solved, progress_);
+    report_.residual = greater(report_.residual, solved.residual);
+    report_.backward_error = greater(report_.backward_error, solved.backward_error);
+    return u;
+  }
+
+  /// What flows from points that heat has reached into those that it has not is the heat of the next round. Past the
+  /// front the wave is the same as if it had never stopped (Huygens). Returns whether anything flows.
+  bool restart() {
+    const auto reached = [&](Eigen::Index i) { return u_[i] >= front; };
+    bool advanced = false, flows = false;
+    for (const int i : problem_.components.points) {
+      if (!reached(i) || passed_[i] != 0) continue;
+      passed_[i] = 1;
+      advanced = true;
+    }
+    heat_.setZero();
+    if (!advanced) return false;
+    for (const int i : problem_.components.points) {
+      if (passed_[i] != 0) continue;
+      for (SparseMatrix::InnerIterator entry(problem_.L, i); entry; ++entry) {
+        if (entry.row() != i && reached(entry.row())) heat_[i] -= entry.value() * (u_[entry.row()] / front);
+      }
+      flows |= heat_[i] > 0;
+    }
+    return flows;
+  }
+
+  const std::string& function_;
+  const HeatProblem& problem_;
+  const Progress& progress_;
+  VectorXd heat_, u_;
+  std::vector<std::uint8_t> passed_;
+  DistanceReport& report_;
+};
+
+}  // namespace
+
+std::unique_ptr<HeatRounds> makeHeatRounds(const std::string& function, const HeatProblem& problem,
+                                           const VectorXd& heat, const Progress& progress, DistanceReport& report) {
+  if (problem.closed != nullptr) return std::make_unique<RoundsByFactor>(function, problem, heat, progress, report);
+  return std::make_unique<HeatWindows>(function, problem, heat, progress, report);
+}
+
+}  // namespace tufted

@@ -1,0 +1,175 @@
+#include "algorithms/heat_windows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "algorithms/greater.h"
+
+namespace tufted {
+namespace {
+
+/// Edges that a window is wide at first; heat falls to 1e-61 over so many of mean length. Where a factor does not fit,
+/// windows become as narrow as what conjugate gradients see.
+constexpr int first_layers = 128, least_layers = 32;
+/// Of a window's largest heat: a factor is right down to underflow, conjugate gradients to their tolerance.
+constexpr double valid_by_factor = 1e-285, valid_by_iteration = 1e-9;
+/// Heat is right at so many times the greatest of the last layer, beyond which it is taken for 0: what is missing is
+/// the square of their ratio.
+constexpr double above_outer = 1e6;
+/// The next round starts at so many times what is right, so that faces across the front are seen whole.
+constexpr double front_above_valid = 1e4;
+/// Where short edges leave a window so narrow that its front would lie above this, it is widened.
+constexpr double highest_front = 1e-3;
+/// Points that heat has passed long ago are so hot that their exponential would overflow.
+constexpr double hottest = 600;
+constexpr double nothing = -std::numeric_limits<double>::infinity();
+
+}  // namespace
+
+HeatWindows::HeatWindows(const std::string& function, const HeatProblem& problem, const VectorXd& heat,
+                         const Progress& progress, DistanceReport& report)
+    : function_(function),
+      problem_(problem),
+      progress_(progress),
+      report_(report),
+      layers_(first_layers),
+      heat_(heat),
+      u_(VectorXd::Zero(heat.size())),
+      passed_(static_cast<std::size_t>(heat.size()), 0),
+      number_(static_cast<std::size_t>(heat.size()), -1) {
+  log_heat_ = VectorXd::Constant(heat.size(), nothing);
+}
+
+bool HeatWindows::next() {
+  if (report_.rounds > 0 && !restart()) return false;
+  ++report_.rounds;
+  scalePassed(problem_.components.normalise(heat_));
+  for (;;) {
+    findWindow();
+    const Eigen::VectorXd largest = solve();
+    double outer = 0;
+    for (std::size_t k = outer_; k < window_.size(); ++k) outer = std::max(outer, u_[window_[k]]);
+    const double valid = std::max(by_factor_ ? valid_by_factor : valid_by_iteration, above_outer * outer);
+    if (front_above_valid * valid <= highest_front) {
+      scalePassed(largest);
+      log_valid_ = std::log(valid);
+      log_front_ = std::log(front_above_valid * valid);
+      break;
+    }
+    layers_ *= 2;
+  }
+  for (const int i : window_) log_heat_[i] = std::log(u_[i]);  // -infinity where nothing is
+  if (!by_factor_) layers_ = std::max(least_layers, layers_ / 2);
+  return true;
+}
+
+/// @param factors by component, what the heat ahead was divided by
+void HeatWindows::scalePassed(const Eigen::VectorXd& factors) {
+  for (const int i : problem_.components.points)
+    if (passed_[i] != 0) log_heat_[i] -= std::log(factors[problem_.components.of[i]]);
+}
+
+/// Points ahead, by breadth-first search from those that heat flows into.
+void HeatWindows::findWindow() {
+  constexpr int seen = -2;
+  window_.clear();
+  for (const int i : problem_.components.points) {
+    if (!(heat_[i] > 0)) continue;
+    window_.push_back(i);
+    number_[i] = seen;
+  }
+  std::size_t layer = 0;
+  for (int done = 1; done < layers_ && layer < window_.size(); ++done) {
+    const std::size_t end = window_.size();
+    for (; layer < end; ++layer) {
+      for (SparseMatrix::InnerIterator entry(problem_.L, window_[layer]); entry; ++entry) {
+        const auto j = entry.row();
+        const bool joined = problem_.components.of[j] == problem_.components.of[window_[layer]] && entry.value() != 0;
+        if (!joined || number_[j] == seen || passed_[j] != 0) continue;
+        number_[j] = seen;
+        window_.push_back(static_cast<int>(j));
+      }
+    }
+  }
+  outer_ = layer;  // all of the window, where nothing lies beyond
+  for (const int i : window_) number_[i] = -1;
+}
+
+/// Adds half of the solution over the window, or the whole of it where the surface does not end.
+/// @param open without the points where the surface ends
+void HeatWindows::solveSystem(bool open) {
+  std::vector<int> points;
+  for (const int i : window_) {
+    if (open && problem_.interior[i] == 0) continue;
+    number_[i] = static_cast<int>(points.size());
+    points.push_back(i);
+  }
+  const auto n = static_cast<int>(points.size());
+  SparseMatrix A(n, n);
+  std::vector<Eigen::Triplet<double>> entries;
+  VectorXd heat(n);
+  for (int k = 0; k < n; ++k) {
+    heat[k] = heat_[points[k]];
+    for (SparseMatrix::InnerIterator entry(problem_.matrix, points[k]); entry; ++entry)
+      if (number_[entry.row()] >= 0) entries.emplace_back(number_[entry.row()], k, entry.value());
+  }
+  for (const int i : window_) number_[i] = -1;
+  A.setFromTriplets(entries.begin(), entries.end());
+  SolverOptions options = problem_.window;
+  options.progress = progress_;
+  const LinearSystem system = LinearSystem::positiveDefinite(
+      {.function = function_, .matrix = "M + t L", .if_slow = "raise max_iterations or memory_limit"}, A, options);
+  SolveReport solved;
+  const VectorXd u = system.solve(function_, heat, &solved, progress_);
+  by_factor_ = by_factor_ && !system.report().iterative;
+  report_.iterations = std::max(report_.iterations, solved.iterations);
+  report_.residual = greater(report_.residual, solved.residual);
+  report_.backward_error = greater(report_.backward_error, solved.backward_error);
+  for (int k = 0; k < n; ++k) u_[points[k]] += (problem_.ends ? 0.5 : 1) * u[k];
+}
+
+/// Finds the window's heat, with a largest value of 1 per component.
+/// @return by component, what it was divided by
+VectorXd HeatWindows::solve() {
+  u_.setZero();
+  by_factor_ = true;
+  solveSystem(false);
+  if (problem_.ends) solveSystem(true);
+  u_ = u_.cwiseMax(0);
+  return problem_.components.normalise(u_);
+}
+
+/// What flows from points that heat has passed into those ahead is the heat of the next round. Returns whether anything
+/// flows.
+bool HeatWindows::restart() {
+  for (const int i : window_) {
+    if (log_heat_[i] >= log_front_) {
+      passed_[i] = 1;
+      rim_.push_back(i);
+    } else {
+      log_heat_[i] = nothing;
+    }
+  }
+  heat_.setZero();
+  bool flows = false;
+  std::size_t kept = 0;
+  for (const int i : rim_) {
+    bool on_rim = false;
+    const double heat = std::exp(std::min(hottest, log_heat_[i] - log_front_));
+    for (SparseMatrix::InnerIterator entry(problem_.L, i); entry; ++entry) {
+      const auto j = entry.row();
+      if (passed_[j] != 0 || problem_.components.of[j] != problem_.components.of[i]) continue;
+      on_rim = true;
+      heat_[j] -= entry.value() * heat;
+      flows |= heat_[j] > 0;
+    }
+    if (on_rim) rim_[kept++] = i;
+  }
+  rim_.resize(kept);
+  for (const int i : problem_.components.points)
+    if (passed_[i] != 0) log_heat_[i] -= log_front_;
+  return flows;
+}
+
+}  // namespace tufted
