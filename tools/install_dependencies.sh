@@ -9,7 +9,7 @@ set -euo pipefail
 
 packages=(
   g++ cmake ninja-build ccache pkg-config
-  libeigen3-dev libflann-dev liblz4-dev libcgal-dev                 # the core
+  libeigen3-dev libflann-dev liblz4-dev libcgal-dev libtbb-dev      # the core
   libsuitesparse-dev libopenblas-dev  # CHOLMOD, and the BLAS that it finds through Debian's alternatives: the reference
                                       # BLAS, which it takes otherwise, makes a factorisation 2 to 4 times slower
   libpcl-dev libzip-dev libmatio-dev nlohmann-json3-dev libcli11-dev  # files and the command
@@ -21,7 +21,7 @@ case "${1-}" in
   '') ;;
   --fuzz)
     fuzz=true
-    packages+=(clang libomp-dev)
+    packages+=(clang)
     ;;
   *)
     echo "usage: tools/install_dependencies.sh [--fuzz]" >&2

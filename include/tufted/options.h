@@ -99,7 +99,7 @@ struct CloudOptions {
   Delaunay delaunay = Delaunay::star;
   double mollify = 1e-5;   ///< delta of Section 4.5 in mean edge lengths, 0 to 1; 0 leaves flat triangles flat,
                            ///< and then rounding may break the guarantees
-  int threads = 0;         ///< at most this many; 0: what OpenMP offers
+  int threads = 0;         ///< at most this many; 0: one per processor
   bool keep_cover = true;  ///< false frees what the cover is built from (about 100 bytes per point, up to 700 on noise)
   const Points* normals = nullptr;               ///< N x 3, any length and sign, used instead of the PCA's; borrowed
   const Neighborhoods* neighborhoods = nullptr;  ///< N x k indices used as they are, never grown; borrowed
@@ -118,7 +118,7 @@ struct MeshOptions {
   std::uint64_t seed = 0;  ///< for FaceOrder::random
   double mollify = 1e-6;   ///< delta of Section 4.5 in mean edge lengths; see CloudOptions. Below 3e-7 rounding may
                            ///< break the guarantees on needles, above it needles gain area, see Report::mollify_area
-  int threads = 0;         ///< at most this many; 0: what OpenMP offers
+  int threads = 0;         ///< at most this many; 0: one per processor
   bool keep_cover = true;  ///< false frees the cover (96 bytes per triangle)
   Progress progress = {};
 };

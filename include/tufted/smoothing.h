@@ -15,7 +15,7 @@ struct SmoothingOptions {
   double time_step = 1;
   int iterations = 1;                                ///< steps >= 1, all with the Laplacian given
   const std::vector<std::uint8_t>* fixed = nullptr;  ///< N; points other than 0 stay where they are; borrowed
-  int threads = 0;                                   ///< at most this many; 0: what OpenMP offers
+  int threads = 0;                                   ///< at most this many; 0: one per processor
   Progress progress = {};
 };
 

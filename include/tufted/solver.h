@@ -28,7 +28,7 @@ struct SolverOptions {
   /// of at most 1e-13, see SolveReport; in (0, 1).
   double tolerance = 1e-12;
   int max_iterations = 500;  ///< multigrid: of conjugate gradients, >= 1; beyond them SolverFailure
-  int threads = 0;           ///< at most this many, over right sides; 0: what OpenMP offers
+  int threads = 0;           ///< at most this many, over right sides; 0: one per processor
   Progress progress = {};    ///< while the solver is made; functions that make and use one show their solves, too
 };
 

@@ -25,7 +25,7 @@ struct SpectrumOptions {
   int max_iterations = 1000;                      ///< of eight solves each, >= 1; beyond them SolverFailure
   SolverMethod method = SolverMethod::automatic;  ///< of the inverse
   std::size_t memory_limit = 0;                   ///< bytes that a factor may take, as in SolverOptions
-  int threads = 0;                                ///< at most this many; 0: what OpenMP offers
+  int threads = 0;                                ///< at most this many; 0: one per processor
   Progress progress = {};
 };
 

@@ -1,6 +1,8 @@
 #include "base/parallel.h"
 
-#include <omp.h>
+#include <tbb/info.h>
+#include <tbb/task_arena.h>
+#include <tbb/task_group.h>
 
 #include <algorithm>
 #include <atomic>
@@ -14,13 +16,26 @@ namespace {
 
 /// More threads than this never help, and a system may refuse to start them.
 int mostThreads() {
-  return std::max(16, 4 * omp_get_num_procs());
+  return std::max(16, 4 * tbb::info::default_concurrency());
+}
+
+/// Calls run(0) to run(team - 1), the first on this thread. TBB's threads sleep where there is nothing to do, and where
+/// other programs leave them no processor this thread does the work of all; OpenMP's would wait for each other, awake.
+template <class Run>
+void runOnThreads(int team, const Run& run) {
+  tbb::task_arena arena(team);
+  arena.execute([&] {
+    tbb::task_group others;
+    for (int worker = 1; worker < team; ++worker) others.run([&run, worker] { run(worker); });
+    run(0);
+    others.wait();
+  });
 }
 
 }  // namespace
 
 Workers::Workers(int threads, const Progress& progress)
-    : count_(std::max(1, std::min(threads > 0 ? threads : omp_get_max_threads(), mostThreads()))),
+    : count_(std::max(1, std::min(threads > 0 ? threads : tbb::info::default_concurrency(), mostThreads()))),
       progress_(progress) {}
 
 void Workers::report(std::string_view stage, double fraction) const {
@@ -54,8 +69,7 @@ void Workers::runBlocks(std::string_view stage, std::int64_t size, std::int64_t 
   if (team <= 1) {
     run(0);
   } else {
-#pragma omp parallel num_threads(team)
-    run(omp_get_thread_num());
+    runOnThreads(team, run);
   }
   if (error) std::rethrow_exception(error);
   report(stage, 1);  // other workers may have done it all before the caller's thread had a turn

@@ -15,7 +15,8 @@ namespace tufted {
 /// workspace.
 class Workers {
  public:
-  /// @param threads at most this many, and at most four per processor (16 if that is more); 0 for what OpenMP offers
+  /// @param threads at most this many, and at most four per processor (16 if that is more); 0 for one per processor
+  ///   that this process may use
   Workers(int threads, const Progress& progress);
 
   int count() const { return count_; }

@@ -14,7 +14,7 @@ extern char** environ;
 
 namespace {
 
-// posix_spawn and not fork: libgomp does not survive a fork.
+// posix_spawn and not fork, which threads that wait for work do not survive.
 pid_t spawn(std::vector<std::string> words, int in, int out, int err) {
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());

@@ -91,7 +91,7 @@ class Child {
     posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
     posix_spawn_file_actions_adddup2(&actions, out_.writeEnd(), STDOUT_FILENO);
     posix_spawn_file_actions_adddup2(&actions, err_.writeEnd(), STDERR_FILENO);
-    // Not fork, which libgomp does not survive.
+    // Not fork, which threads that wait for work do not survive.
     std::vector<char*> environment = withoutBlasThreads();
     const int error = posix_spawn(&pid_, "/proc/self/exe", &actions, nullptr, argv.data(), environment.data());
     posix_spawn_file_actions_destroy(&actions);

@@ -31,7 +31,7 @@ class LaplacianEstimation : public pcl::PCLBase<PointT> {
   void setKSearch(int k) { options_.neighbors = k; }
   int getKSearch() const { return options_.neighbors; }
 
-  /// At most this many threads; 0, as at first: what OpenMP offers.
+  /// At most this many threads; 0, as at first: one per processor.
   void setNumberOfThreads(unsigned int threads = 0) { options_.threads = static_cast<int>(threads); }
   unsigned int getNumberOfThreads() const { return static_cast<unsigned int>(options_.threads); }
 
