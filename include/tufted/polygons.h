@@ -1,5 +1,6 @@
 #pragma once
 
+#include "tufted/memory_layout.h"
 #include "tufted/types.h"
 
 namespace tufted {

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <vector>
 
+#include "tufted/memory_layout.h"
 #include "tufted/types.h"
 
 namespace tufted {

@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "tufted/memory_layout.h"
 #include "tufted/types.h"
 
 namespace tufted {

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <Eigen/Core>
+
+// How Eigen allocates depends on the compiler's flags: with -mavx2 or -march=native on both sides of a call its matrices
+// lie at multiples of 32 or 64 bytes, without at multiples of 16, and under the address sanitizer they are freed in
+// another way. A program whose files and whose tufted differ in that would crash. It does not link instead: every file
+// that includes a header with functions asks for the symbol of its own flags, and the library has one alone.
+#if EIGEN_DEFAULT_ALIGN_BYTES > 32
+#define TUFTED_MEMORY_LAYOUT \
+  tufted_is_not_built_with_the_mavx512f_or_march_native_of_this_file__give_both_the_same_CMAKE_CXX_FLAGS
+#elif EIGEN_DEFAULT_ALIGN_BYTES > 16
+#define TUFTED_MEMORY_LAYOUT \
+  tufted_is_not_built_with_the_mavx_mavx2_or_march_native_of_this_file__give_both_the_same_CMAKE_CXX_FLAGS
+#elif !EIGEN_MALLOC_ALREADY_ALIGNED && EIGEN_DEFAULT_ALIGN_BYTES > 0
+#define TUFTED_MEMORY_LAYOUT \
+  tufted_is_not_built_with_the_fsanitize_address_of_this_file__define_EIGEN_MALLOC_ALREADY_ALIGNED_as_1
+#else
+#define TUFTED_MEMORY_LAYOUT \
+  tufted_is_built_with_an_mavx_march_native_or_fsanitize_that_this_file_lacks__give_both_the_same_CMAKE_CXX_FLAGS
+#endif
+
+extern "C" const char TUFTED_MEMORY_LAYOUT;
+
+#if defined(__GNUC__)
+namespace tufted {
+[[gnu::used]] static const char* const memory_layout = &TUFTED_MEMORY_LAYOUT;
+}  // namespace tufted
+#endif

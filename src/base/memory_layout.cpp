@@ -1,0 +1,3 @@
+#include "tufted/memory_layout.h"
+
+const char TUFTED_MEMORY_LAYOUT = 0;
