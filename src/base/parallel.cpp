@@ -1,6 +1,6 @@
 #include "base/parallel.h"
 
-#include <tbb/info.h>
+#include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>
 
@@ -14,16 +14,21 @@
 namespace tufted {
 namespace {
 
-/// More threads than this never help, and a system may refuse to start them.
+/// One per processor that this process may use, or fewer where the program has limited TBB.
+int offeredThreads() {
+  return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+}
+
+/// More than this never help, and each has working memory of its own.
 int mostThreads() {
-  return std::max(16, 4 * tbb::info::default_concurrency());
+  return std::max(16, 4 * offeredThreads());
 }
 
 /// Calls run(0) to run(team - 1), the first on this thread. TBB's threads sleep where there is nothing to do, and where
 /// other programs leave them no processor this thread does the work of all; OpenMP's would wait for each other, awake.
 template <class Run>
 void runOnThreads(int team, const Run& run) {
-  tbb::task_arena arena(team);
+  tbb::task_arena arena(std::min(team, offeredThreads()));  // TBB warns on stderr of more
   arena.execute([&] {
     tbb::task_group others;
     for (int worker = 1; worker < team; ++worker) others.run([&run, worker] { run(worker); });
@@ -35,7 +40,7 @@ void runOnThreads(int team, const Run& run) {
 }  // namespace
 
 Workers::Workers(int threads, const Progress& progress)
-    : count_(std::max(1, std::min(threads > 0 ? threads : tbb::info::default_concurrency(), mostThreads()))),
+    : count_(std::max(1, std::min(threads > 0 ? threads : offeredThreads(), mostThreads()))),
       progress_(progress) {}
 
 void Workers::report(std::string_view stage, double fraction) const {
