@@ -38,6 +38,8 @@ struct Settings {
   tufted::DistanceOptions options;
   std::vector<Place> places;
   std::vector<tufted::SurfacePoint> inside;  ///< of faces
+
+  std::vector<std::string> files() const { return {"distance.npy"}; }
 };
 
 void check(Settings& settings, const Operator& source) {

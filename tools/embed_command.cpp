@@ -33,6 +33,8 @@ struct Settings {
   OperatorSettings source;
   int dimension = 3;
   tufted::Embedding embedding = tufted::Embedding::commute;
+
+  std::vector<std::string> files() const { return {"embedding.npy", "evals.npy"}; }
 };
 
 void check(Settings& settings, const Operator& source) {

@@ -38,6 +38,8 @@ struct Settings {
   int count = 100;
   std::optional<double> wavelength;
   Eigen::MatrixXd values;
+
+  std::vector<std::string> files() const { return {"filtered.npy"}; }
 };
 
 void check(Settings& settings, const Operator& source) {

@@ -21,6 +21,8 @@ struct Settings {
   OperatorSettings source;
   NamedPoints points;
   std::vector<Place> places;
+
+  std::vector<std::string> files() const { return {"green.npy"}; }
 };
 
 void check(Settings& settings, const Operator& source) {

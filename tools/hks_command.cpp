@@ -36,6 +36,10 @@ struct Settings {
   int samples = 0;  ///< 0: 16 times, 100 energies
   bool wave = false;
   std::vector<double> times;
+
+  std::vector<std::string> files() const {
+    return {wave ? "wks.npy" : "hks.npy", wave ? "energies.npy" : "times.npy", "evals.npy"};
+  }
 };
 
 /// A check; CLI11's own lets nan pass.

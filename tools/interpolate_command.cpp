@@ -33,6 +33,8 @@ struct Settings {
   PinOptions pins;
   PlacedPins placed;
   Method method = Method::harmonic;
+
+  std::vector<std::string> files() const { return {"values.npy"}; }
 };
 
 void check(Settings& settings, const Operator& source) {

@@ -144,7 +144,8 @@ void checkCount(const char* option, int count, const Operator& source) {
                                std::to_string(source.points()) + ", the number of points");
 }
 
-int runWithOperator(OperatorSettings& settings, const Check& check, const Compute& compute) {
+int runWithOperator(OperatorSettings& settings, std::vector<std::string> files, const Check& check,
+                    const Compute& compute) {
   ProgressBar bar;
   Operator source;
   source.name = settings.name();
@@ -155,7 +156,8 @@ int runWithOperator(OperatorSettings& settings, const Check& check, const Comput
     if (interrupted()) throw tufted::Cancelled("cancelled");
   };
   source.progress("read", 0);
-  checkOutput(settings.input, settings.out, {"points.ply", "points.pcd", "report.json"});  // no input is a .npy
+  for (const std::string& name : tufted::resultFiles({}, {.copies = settings.copies})) files.push_back(name);
+  checkOutput(settings.input, settings.out, files);
   if (settings.folder.empty())
     source.geometry = readInput(settings.input);
   else

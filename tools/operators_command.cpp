@@ -28,6 +28,8 @@ has written, with the points (of meshes points.ply, which has the triangles).)";
 struct Settings {
   OperatorSettings source;
   int count = 128;
+
+  std::vector<std::string> files() const { return {"operators.npz"}; }
 };
 
 /// What a folder may lack.

@@ -31,6 +31,10 @@ struct Settings {
   PinOptions pins;
   Eigen::MatrixXd f;
   PlacedPins placed;
+
+  std::vector<std::string> files() const {
+    return pins.empty() ? std::vector<std::string>{"u.npy", "mean.npy"} : std::vector<std::string>{"u.npy"};
+  }
 };
 
 void check(Settings& settings, const Operator& source) {

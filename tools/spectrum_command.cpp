@@ -28,6 +28,8 @@ struct Settings {
   OperatorSettings source;
   int count = 32;
   double tolerance = tufted::SpectrumOptions().tolerance;
+
+  std::vector<std::string> files() const { return {"evals.npy", "evecs.npy"}; }
 };
 
 void check(Settings& settings, const Operator& source) {
