@@ -51,9 +51,10 @@ void check(Settings& settings, const Operator& source) {
     const std::vector<double> numbers = parseNumbers(text, "--face");
     const bool valid = numbers.size() == 4 && numbers[0] == std::floor(numbers[0]) && std::abs(numbers[0]) < 2e9;
     if (!valid) throw tufted::InvalidInput("--face " + text + " is not FACE,A,B,C");
-    settings.inside.push_back(tufted::SurfacePoint::inFace(source.geometry.points, source.geometry.triangles,
-                                                           static_cast<int>(numbers[0]),
-                                                           {numbers[1], numbers[2], numbers[3]}));
+    settings.inside.push_back(forOption("--face " + text, [&] {
+      return tufted::SurfacePoint::inFace(source.geometry.points, source.geometry.triangles,
+                                          static_cast<int>(numbers[0]), {numbers[1], numbers[2], numbers[3]});
+    }));
   }
   if (settings.places.empty() && settings.inside.empty())
     throw tufted::InvalidInput("no source is given, must be at least one by --source, --near, --sources or --face");

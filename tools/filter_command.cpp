@@ -43,11 +43,14 @@ struct Settings {
 };
 
 void check(Settings& settings, const Operator& source) {
+  const bool has_signals = !settings.signals.fields.empty() || !settings.signals.values.empty();
   if (!settings.positions) {
+    if (!has_signals)
+      throw tufted::InvalidInput(
+          "nothing to filter is given, must be exactly one of --field, --values and --positions");
     settings.values = readSignals(settings.signals, source, settings.source.out);
   } else {
-    if (!settings.signals.fields.empty() || !settings.signals.values.empty())
-      throw tufted::InvalidInput("--positions excludes --field and --values");
+    if (has_signals) throw tufted::InvalidInput("--positions excludes --field and --values");
     if (source.geometry.points.rows() == 0 && source.points() > 0)
       throw tufted::IoError(source.name + ": has no points, which --positions filters");
     settings.values = source.geometry.points;
@@ -80,7 +83,7 @@ Results compute(Settings& settings, Operator& source) {
   tufted::SpectrumOptions options = source.spectrumOptions();
   options.null_space = false;
   const tufted::Spectrum spectrum = settings.wavelength ? longWaves(source, *settings.wavelength, options)
-                                                        : tufted::spectrum(source.laplacian, settings.count, options);
+                                                        : spectrumFor("--count", settings.count, source, options);
   const Eigen::MatrixXd means = tufted::componentMeans(source.laplacian, settings.values);
   Eigen::MatrixXd filtered = means + tufted::filterSignals(source.laplacian, spectrum, settings.values - means);
   const auto count = spectrum.values.size();

@@ -69,7 +69,7 @@ std::vector<tufted::ResultArray> signatures(const Settings& settings, const tuft
 }
 
 Results compute(Settings& settings, Operator& source) {
-  const tufted::Spectrum spectrum = tufted::spectrum(source.laplacian, settings.count, source.spectrumOptions());
+  const tufted::Spectrum spectrum = spectrumFor("--count", settings.count, source, source.spectrumOptions());
   Results results;
   results.arrays = signatures(settings, spectrum);
   results.summary.add(settings.wave ? "energies" : "times", "%ld per point, of %d eigenvalues up to %.6g",

@@ -84,6 +84,9 @@ void readFolder(const OperatorSettings& settings, Operator& source) {
 void write(const OperatorSettings& settings, const Operator& source, const Results& results) {
   nlohmann::ordered_json json = {{"tufted", TUFTED_VERSION}, {"command", settings.command}, {"source", source.name}};
   json.update(results.report);
+  const tufted::Report& built = source.laplacian.report;
+  if (built.neighbors > 0)  // a cloud, built here
+    json["build"] = {{"neighbors", built.neighbors}, {"neighbors_clamped", built.neighbors_clamped}};
   tufted::ResultOptions options = {.copies = settings.copies, .progress = source.progress};
   // A path need not be UTF-8.
   options.report = json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
@@ -144,6 +147,12 @@ void checkCount(const char* option, int count, const Operator& source) {
                                std::to_string(source.points()) + ", the number of points");
 }
 
+tufted::Spectrum spectrumFor(const char* option, int count, const Operator& source,
+                             const tufted::SpectrumOptions& options) {
+  return forOption(std::string(option) + " " + std::to_string(count),
+                   [&] { return tufted::spectrum(source.laplacian, count, options); });
+}
+
 int runWithOperator(OperatorSettings& settings, std::vector<std::string> files, const Check& check,
                     const Compute& compute) {
   ProgressBar bar;
@@ -172,6 +181,7 @@ int runWithOperator(OperatorSettings& settings, std::vector<std::string> files, 
   write(settings, source, results);
   bar.clear();
   if (const std::string why = whyNothing(source); !why.empty()) warn(bar, source.name + ": " + why);
+  addNeighbors(source.laplacian.report, settings.build, results.summary);
   results.summary.add("written to", "%s", settings.out.c_str());
   results.summary.print();
   return exit_done;

@@ -67,6 +67,10 @@ struct Operator {
 /// Refuses more eigenvalues than there can be. @throws InvalidInput naming the option
 void checkCount(const char* option, int count, const Operator& source);
 
+/// The spectrum of the source. @throws InvalidInput naming the option where `count` are more eigenvalues than there are
+tufted::Spectrum spectrumFor(const char* option, int count, const Operator& source,
+                             const tufted::SpectrumOptions& options);
+
 /// What a command found.
 struct Results {
   std::vector<tufted::ResultArray> arrays;

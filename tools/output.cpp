@@ -8,7 +8,7 @@
 #include "tufted/io/write.h"
 
 void addOut(CLI::App& command, std::filesystem::path& out) {
-  command.add_option("--out", out, "Directory for the results, made if missing")
+  command.add_option("-o,--out", out, "Directory for the results, made if missing")
       ->required()
       ->check(notEmpty)
       ->type_name("DIR");

@@ -7,7 +7,7 @@
 
 #include "input.h"
 
-/// Adds --out, which is required.
+/// Adds --out, also -o, which is required.
 void addOut(CLI::App& command, std::filesystem::path& out);
 
 /// Refuses what no results can be written to, before anything is computed.

@@ -39,7 +39,7 @@ void check(Settings& settings, const Operator& source) {
 Results compute(Settings& settings, Operator& source) {
   tufted::SpectrumOptions options = source.spectrumOptions();
   options.tolerance = settings.tolerance;
-  tufted::Spectrum spectrum = tufted::spectrum(source.laplacian, settings.count, options);
+  tufted::Spectrum spectrum = spectrumFor("--count", settings.count, source, options);
   Results results;
   results.summary.add("eigenvalues", "%d, from %.6g to %.6g", settings.count, spectrum.values[0],
                       spectrum.values[settings.count - 1]);
