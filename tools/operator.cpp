@@ -181,6 +181,7 @@ int runWithOperator(OperatorSettings& settings, std::vector<std::string> files, 
   write(settings, source, results);
   bar.clear();
   if (const std::string why = whyNothing(source); !why.empty()) warn(bar, source.name + ": " + why);
+  for (const std::string& warning : results.warnings) warn(bar, warning);
   addNeighbors(source.laplacian.report, settings.build, results.summary);
   results.summary.add("written to", "%s", settings.out.c_str());
   results.summary.print();

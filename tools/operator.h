@@ -76,6 +76,7 @@ struct Results {
   std::vector<tufted::ResultArray> arrays;
   nlohmann::ordered_json report;  ///< members of report.json beside "tufted", "command" and "source"
   Summary summary;
+  std::vector<std::string> warnings = {};  ///< a line each
   /// Writes them in place of writeResults.
   std::function<void(const std::filesystem::path& dir, const tufted::ResultOptions& options)> write = {};
 };

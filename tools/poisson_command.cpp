@@ -60,7 +60,7 @@ Results compute(Settings& settings, Operator& source) {
         {.name = "u", .values = tufted::poisson(source.laplacian, settings.f, source.solverOptions(), &made)},
         {.name = "mean", .values = std::move(mean)}};
   } else {
-    const tufted::Pins pins = settings.placed.locate(source);
+    const tufted::Pins pins = settings.placed.locate(source, results);
     results.report["pins"] = pins.points.size();
     results.summary.add("pins", "%zu", pins.points.size());
     results.arrays = {
