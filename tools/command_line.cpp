@@ -19,7 +19,7 @@ const CLI::App* commandNamed(const CLI::App& app, const std::string& name) {
   return nullptr;
 }
 
-/// As CLI11 tells them from values such as -1,0,0.
+/// Whether a word is an option and no value such as -1,0,0, by CLI11's rule.
 bool isOption(const std::string& word) {
   return word.size() > 1 && word[0] == '-' &&
          (word[1] == '-' || std::isalpha(static_cast<unsigned char>(word[1])) != 0);
@@ -36,6 +36,11 @@ const CLI::Option* optionNamed(const CLI::App& command, const std::string& name)
   return nullptr;
 }
 
+/// Whether a word is a long option with a single dash in front.
+bool lacksDash(const CLI::App& command, const std::string& word) {
+  return isOption(word) && word[1] != '-' && word.size() > 2 && optionNamed(command, nameIn('-' + word)) != nullptr;
+}
+
 std::string explainOption(const CLI::App& command, const std::string& name) {
   std::vector<std::string> known;
   for (const CLI::Option* option : command.get_options())
@@ -43,15 +48,14 @@ std::string explainOption(const CLI::App& command, const std::string& name) {
   return "unknown option `" + name + "`" + didYouMean(name, known);
 }
 
-/// The first option that a command does not have, from the argument `i` on. @returns an empty string where it has all
-std::string findUnknownOption(const CLI::App& command, const std::vector<std::string>& arguments, std::size_t i) {
-  for (; i < arguments.size() && arguments[i] != "--"; ++i) {
+/// What is wrong with the first option that a command does not have; an empty string where it has all.
+std::string findUnknownOption(const CLI::App& command, const std::vector<std::string>& arguments) {
+  for (std::size_t i = 0; i < arguments.size() && arguments[i] != "--"; ++i) {
     const std::string& word = arguments[i];
     if (!isOption(word)) continue;
     const std::string typed = word.substr(0, word.find('='));
     const CLI::Option* const option = optionNamed(command, nameIn(word));
-    const bool lacks_dash = word[1] != '-' && word.size() > 2 && optionNamed(command, '-' + typed) != nullptr;
-    if (option == nullptr || lacks_dash) return explainOption(command, typed);  // CLI11 takes -out for -o ut
+    if (option == nullptr || lacksDash(command, word)) return explainOption(command, typed);
     const bool has_value = word.size() > nameIn(word).size();
     const bool takes_next = option->get_items_expected_min() > 0 && !has_value && i + 1 < arguments.size();
     if (takes_next && !isOption(arguments[i + 1])) ++i;
@@ -75,17 +79,21 @@ std::string explainCommand(const CLI::App& app, const std::string& name) {
 
 }  // namespace
 
-bool beginsWithUnknownCommand(const CLI::App& app, const std::vector<std::string>& arguments) {
-  return !arguments.empty() && !arguments[0].starts_with('-') && commandNamed(app, arguments[0]) == nullptr;
+bool isMisleading(const CLI::App& app, const std::vector<std::string>& arguments) {
+  if (arguments.empty() || arguments[0].starts_with('-')) return false;
+  const CLI::App* const command = commandNamed(app, arguments[0]);
+  const auto end = std::find(arguments.begin(), arguments.end(), "--");
+  return command == nullptr ||
+         std::any_of(arguments.begin(), end, [&](const std::string& word) { return lacksDash(*command, word); });
 }
 
 std::string explainArguments(const CLI::App& app, const std::vector<std::string>& arguments, const std::string& error) {
   const auto first =
       std::find_if(arguments.begin(), arguments.end(), [](const std::string& word) { return !word.starts_with('-'); });
   const CLI::App* const command = first == arguments.end() ? nullptr : commandNamed(app, *first);
-  std::string fault = findUnknownOption(app, {arguments.begin(), first}, 0);
+  std::string fault = findUnknownOption(app, {arguments.begin(), first});
   if (fault.empty() && first != arguments.end() && command == nullptr) fault = explainCommand(app, *first);
-  if (fault.empty() && command != nullptr) fault = findUnknownOption(*command, {first + 1, arguments.end()}, 0);
+  if (fault.empty() && command != nullptr) fault = findUnknownOption(*command, {first + 1, arguments.end()});
   return (fault.empty() ? error : fault) + " (see tufted " + (command == nullptr ? "" : command->get_name() + " ") +
          "--help)";
 }

@@ -10,5 +10,6 @@
 /// @returns one line that ends with where to find help, of the subcommand where there is one
 std::string explainArguments(const CLI::App& app, const std::vector<std::string>& arguments, const std::string& error);
 
-/// Whether the first word is none of the subcommands, nor an option. CLI11 would go on and might find --help.
-bool beginsWithUnknownCommand(const CLI::App& app, const std::vector<std::string>& arguments);
+/// Whether CLI11 would take the arguments, but not as they are meant: it passes over a first word that is no subcommand
+/// when --help follows, and takes -out=DIR for -o ut=DIR.
+bool isMisleading(const CLI::App& app, const std::vector<std::string>& arguments);

@@ -85,7 +85,7 @@ void write(const OperatorSettings& settings, const Operator& source, const Resul
   nlohmann::ordered_json json = {{"tufted", TUFTED_VERSION}, {"command", settings.command}, {"source", source.name}};
   json.update(results.report);
   const tufted::Report& built = source.laplacian.report;
-  if (built.neighbors > 0)  // a cloud, built here
+  if (settings.folder.empty() && built.neighbors > 0)  // a cloud
     json["build"] = {{"neighbors", built.neighbors}, {"neighbors_clamped", built.neighbors_clamped}};
   tufted::ResultOptions options = {.copies = settings.copies, .progress = source.progress};
   // A path need not be UTF-8.

@@ -60,7 +60,7 @@ int main(int argc, char** argv) {
   addValidate(app, run);
   const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
   const auto refuse = [&](const std::string& error) { return fail(explainArguments(app, words, error), exit_usage); };
-  if (beginsWithUnknownCommand(app, words)) return refuse("");
+  if (isMisleading(app, words)) return refuse("");
   try {
     std::vector<std::string> arguments = words;
     protectBrackets(arguments);

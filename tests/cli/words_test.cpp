@@ -45,6 +45,7 @@ TEST_F(Words, AnUnknownOptionIsNamedWithTheNearest) {
   expectOption({"laplacian", cloud_, "--ouput", "o"}, "--ouput", "--out");
   expectOption({"laplacian", cloud_, "--output=o"}, "--output", "--out");
   expectOption({"laplacian", cloud_, "-out", "o"}, "-out", "--out");
+  expectOption({"laplacian", cloud_, "-out=o"}, "-out", "--out");
   expectOption({"laplacian", cloud_, "--out", "o", "--neighbor", "7"}, "--neighbor", "--neighbors");
   expectOption({"laplacian", cloud_, "--hlep"}, "--hlep", "--help");
   expectOption({"laplacian", cloud_, "--out", "o", "-k", "7"}, "-k", "");
@@ -55,7 +56,7 @@ TEST_F(Words, AnUnknownOptionIsNamedWithTheNearest) {
   expectOption({"hks", cloud_, "--out", "o", "--wawe"}, "--wawe", "--wave");
   expectOption({"info", cloud_, "--jason"}, "--jason", "--json");
   expectOption({"validate", cloud_, "--job", "2"}, "--job", "--jobs");
-  EXPECT_FALSE(std::filesystem::exists("o"));
+  for (const char* folder : {"o", "ut", "ut=o"}) EXPECT_FALSE(std::filesystem::exists(folder)) << folder;
 }
 
 TEST_F(Words, WhatIsMissingIsNamedWithTheHelpOfTheCommand) {
