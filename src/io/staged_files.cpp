@@ -18,9 +18,8 @@ namespace tufted::io {
 namespace fs = std::filesystem;
 
 StagedFiles::StagedFiles(const fs::path& dir) : dir_(dir) {
-  constexpr int attempts = 100;  // another process may make the directory and remove it again
-  for (int attempt = 1; !makeHiddenFolder(); ++attempt)
-    if (attempt == attempts) refuseErrno(dir_, "write", ENOENT);
+  int attempts = 100;  // another process may make the directory and remove it again
+  while (!makeHiddenFolder(attempts > 1)) --attempts;
   try {
     OpenPath(dir_, O_DIRECTORY, dir_);  // as commit() will have to
   } catch (...) {
@@ -35,7 +34,7 @@ StagedFiles::~StagedFiles() {
   removeMade();
 }
 
-void StagedFiles::makeDirectory() {
+bool StagedFiles::makeDirectory(bool may_vanish) {
   std::error_code error;
   made_.clear();
   // Not what a link points to: a link that leads nowhere is not ours to remove.
@@ -46,18 +45,22 @@ void StagedFiles::makeDirectory() {
   fs::create_directories(dir_, error);
   if (error) {
     removeMade();  // some parents may be there by now
+    if (may_vanish && error == std::errc::no_such_file_or_directory) return false;
     refuse(dir_, "cannot make the directory: " + error.message());
   }
-  if (!fs::is_directory(dir_, error)) refuse(dir_, "is not a directory");
+  const fs::file_status status = fs::status(dir_, error);
+  if (may_vanish && status.type() == fs::file_type::not_found) return false;
+  if (!fs::is_directory(status)) refuse(dir_, "is not a directory");
+  return true;
 }
 
-bool StagedFiles::makeHiddenFolder() {
-  makeDirectory();
+bool StagedFiles::makeHiddenFolder(bool may_vanish) {
+  if (!makeDirectory(may_vanish)) return false;
   std::string name = (dir_ / ".tufted-XXXXXX").string();
   if (::mkdtemp(name.data()) == nullptr) {
     const int error = errno;
     removeMade();
-    if (error == ENOENT) return false;
+    if (may_vanish && error == ENOENT) return false;
     refuseErrno(dir_, "write", error);
   }
   hidden_ = name;
@@ -66,7 +69,7 @@ bool StagedFiles::makeHiddenFolder() {
 }
 
 OutputPath StagedFiles::stage(const std::string& name) {
-  const OutputPath path = {hidden_ / name, dir_ / name};
+  OutputPath path = {hidden_ / name, dir_ / name};
   std::error_code error;
   if (fs::is_directory(path.shown, error)) refuse(path.shown, "cannot write: is a directory");
   files_.push_back({path});

@@ -39,9 +39,10 @@ class StagedFiles {
   };
 
   /// Makes `dir_` with its parents.
-  void makeDirectory();
-  /// @returns whether the hidden folder could be made; not where another process has just removed `dir_`
-  bool makeHiddenFolder();
+  /// @param may_vanish gives false where another process has just removed one of them, otherwise that is an error
+  bool makeDirectory(bool may_vanish);
+  /// Makes the hidden folder as well.
+  bool makeHiddenFolder(bool may_vanish);
   void keepOld(File& file);
   void place(File& file);
   std::filesystem::path oldOf(const File& file) const { return old_ / file.path.shown.filename(); }

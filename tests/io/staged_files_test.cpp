@@ -129,19 +129,19 @@ TEST(StagedFiles, AreNeverWrittenOverAFileOrThroughALink) {
 
 TEST(StagedFiles, OfSeveralThatWriteAtOnceAllAreOfOne) {
   const TemporaryDir dir;
-  constexpr int writers = 4, rounds = 25;
+  constexpr int writers = 4, rounds = 100;
   std::vector<std::thread> threads;
   for (int writer = 0; writer < writers; ++writer) {
     threads.emplace_back([&, writer] {
       for (int round = 0; round < rounds; ++round) {
-        StagedFiles files(dir / "out");
+        StagedFiles files(dir / "deep/out");
         for (const char* name : {"a", "b", "c"}) write(files, name, std::to_string(writer));
-        if (round % 5 < 4) files.commit();  // and some are given up
+        if (round >= rounds / 2) files.commit();  // all before are given up, and the directories vanish
       }
     });
   }
   for (std::thread& thread : threads) thread.join();
-  const Content content = contentOf(dir / "out");
+  const Content content = contentOf(dir / "deep/out");
   ASSERT_EQ(content.size(), 3u);
   EXPECT_EQ(content.at("a"), content.at("b"));
   EXPECT_EQ(content.at("a"), content.at("c"));
