@@ -79,3 +79,8 @@ tufted::Laplacian buildLaplacian(const tufted::Geometry& geometry, const Input& 
   return geometry.is_mesh ? tufted::meshLaplacian(geometry.points, geometry.triangles, build.mesh)
                           : tufted::pointCloudLaplacian(geometry.points, build.cloud);
 }
+
+void addNeighbors(const tufted::Report& report, const Build& build, Summary& summary) {
+  if (report.neighbors_clamped)
+    summary.add("neighbors", "%d and not %d: all other points", report.neighbors, build.cloud.neighbors);
+}

@@ -8,6 +8,7 @@
 
 #include "input.h"
 #include "structure.h"
+#include "summary.h"
 #include "tufted/io/read.h"
 #include "tufted/laplacian.h"
 
@@ -38,3 +39,6 @@ void addRareBuildOptions(CLI::App& command, Build& build);
 /// @throws InvalidInput for options of clouds where the input is a mesh, IoError for what the input does not have
 tufted::Laplacian buildLaplacian(const tufted::Geometry& geometry, const Input& input, Build& build, bool keep_cover,
                                  const tufted::Progress& progress);
+
+/// Says how many neighbours were used where the cloud has fewer than were asked for.
+void addNeighbors(const tufted::Report& report, const Build& build, Summary& summary);

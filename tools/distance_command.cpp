@@ -6,6 +6,7 @@
 #include <string>
 
 #include "command.h"
+#include "extent.h"
 #include "operator.h"
 #include "options.h"
 #include "point_options.h"
@@ -19,7 +20,8 @@ constexpr const char* description = "Geodesic distance from the nearest of some 
 
 constexpr const char* footer =
     R"(Distances are in the file's unit: 0 at sources, infinite where no path leads (other components,
-isolated points). On meshes --face names a point inside a triangle by its barycentric coordinates.
+isolated points). --near takes the point nearest to a position, says which, and warns where that is farther from it
+than from its neighbours. On meshes --face names a point inside a triangle by its barycentric coordinates.
 
 Writes into DIR, renamed one after the other when all are complete:
   distance.npy  N distances, float64
@@ -38,6 +40,8 @@ struct Settings {
   tufted::DistanceOptions options;
   std::vector<Place> places;
   std::vector<tufted::SurfacePoint> inside;  ///< of faces
+
+  std::vector<std::string> files() const { return {"distance.npy"}; }
 };
 
 void check(Settings& settings, const Operator& source) {
@@ -49,23 +53,39 @@ void check(Settings& settings, const Operator& source) {
     const std::vector<double> numbers = parseNumbers(text, "--face");
     const bool valid = numbers.size() == 4 && numbers[0] == std::floor(numbers[0]) && std::abs(numbers[0]) < 2e9;
     if (!valid) throw tufted::InvalidInput("--face " + text + " is not FACE,A,B,C");
-    settings.inside.push_back(tufted::SurfacePoint::inFace(source.geometry.points, source.geometry.triangles,
-                                                           static_cast<int>(numbers[0]),
-                                                           {numbers[1], numbers[2], numbers[3]}));
+    settings.inside.push_back(forOption("--face " + text, [&] {
+      return tufted::SurfacePoint::inFace(source.geometry.points, source.geometry.triangles,
+                                          static_cast<int>(numbers[0]), {numbers[1], numbers[2], numbers[3]});
+    }));
   }
   if (settings.places.empty() && settings.inside.empty())
     throw tufted::InvalidInput("no source is given, must be at least one by --source, --near, --sources or --face");
 }
 
+/// Refuses a time step in which heat spreads over everything, or next to nowhere. In a time t it goes as far as the
+/// root of t. Distances are 5 % too short where that is a sixth of an edge (--time-step 0.03), 13 % at a thirtieth, 20
+/// % at a thousandth, and in the end they say nothing.
+void checkTimeStep(double time_step, double time, const Operator& source) {
+  constexpr double shortest = 0.01;  // of the spacing
+  const Extent extent = extentOf(source);
+  const double length = std::sqrt(time);
+  if (length >= shortest * extent.spacing && length <= extent.size) return;
+  throw tufted::InvalidInput("--time-step " + numberText(time_step) + ": heat goes " + numberText(length) + ", " +
+                             (length > extent.size ? "beyond all points" : "less than a hundredth of the spacing") +
+                             ": " + extent.text());
+}
+
 Results compute(Settings& settings, Operator& source) {
+  Results results;
   std::vector<tufted::SurfacePoint> sources;
-  for (const int point : locate(settings.places, source)) sources.push_back(tufted::SurfacePoint::vertex(point));
+  for (const int point : locate(settings.places, source, results))
+    sources.push_back(tufted::SurfacePoint::vertex(point));
   sources.insert(sources.end(), settings.inside.begin(), settings.inside.end());
   settings.options.solver = source.solverOptions();
   const tufted::DistanceSolver solver(source.laplacian, settings.options);
+  checkTimeStep(settings.options.time_step, solver.timeStep(), source);
   tufted::DistanceReport made;
   const tufted::VectorXd distance = solver.queryAt(sources, &made, source.progress);
-  Results results;
   results.arrays = {{.name = "distance", .values = distance}};
   results.report["sources"] = nlohmann::ordered_json::array();
   for (const tufted::SurfacePoint& point : sources)

@@ -33,6 +33,8 @@ struct Settings {
   OperatorSettings source;
   int dimension = 3;
   tufted::Embedding embedding = tufted::Embedding::commute;
+
+  std::vector<std::string> files() const { return {"embedding.npy", "evals.npy"}; }
 };
 
 void check(Settings& settings, const Operator& source) {
@@ -42,7 +44,7 @@ void check(Settings& settings, const Operator& source) {
 Results compute(Settings& settings, Operator& source) {
   tufted::SpectrumOptions options = source.spectrumOptions();
   options.null_space = false;
-  const tufted::Spectrum spectrum = tufted::spectrum(source.laplacian, settings.dimension, options);
+  const tufted::Spectrum spectrum = spectrumFor("--dimension", settings.dimension, source, options);
   Results results;
   results.arrays = {{.name = "embedding", .values = tufted::spectralEmbedding(spectrum, settings.embedding)},
                     {.name = "evals", .values = spectrum.values, .per_point = false}};

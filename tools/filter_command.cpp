@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "command.h"
+#include "extent.h"
 #include "operator.h"
 #include "options.h"
 #include "reports.h"
@@ -21,7 +22,7 @@ constexpr const char* description = "Low-pass filter of fields of the points, of
 constexpr const char* footer =
     R"(Keeps what the means over the connected components and the eigenvectors of the smallest positive eigenvalues
 hold: the first K, or those of waves at least W long (2 pi over the root of the eigenvalue, in the points' unit of
-length).
+length; a W that is longer than all of them, or shorter than the points can tell, is refused).
 
 Writes into DIR, renamed one after the other when all are complete:
   filtered.npy  N values, N x c for c columns, or N x 3 positions, float64; points that are not finite or isolated keep
@@ -38,14 +39,19 @@ struct Settings {
   int count = 100;
   std::optional<double> wavelength;
   Eigen::MatrixXd values;
+
+  std::vector<std::string> files() const { return {"filtered.npy"}; }
 };
 
 void check(Settings& settings, const Operator& source) {
+  const bool has_signals = !settings.signals.fields.empty() || !settings.signals.values.empty();
   if (!settings.positions) {
+    if (!has_signals)
+      throw tufted::InvalidInput(
+          "nothing to filter is given, must be exactly one of --field, --values and --positions");
     settings.values = readSignals(settings.signals, source, settings.source.out);
   } else {
-    if (!settings.signals.fields.empty() || !settings.signals.values.empty())
-      throw tufted::InvalidInput("--positions excludes --field and --values");
+    if (has_signals) throw tufted::InvalidInput("--positions excludes --field and --values");
     if (source.geometry.points.rows() == 0 && source.points() > 0)
       throw tufted::IoError(source.name + ": has no points, which --positions filters");
     settings.values = source.geometry.points;
@@ -53,15 +59,25 @@ void check(Settings& settings, const Operator& source) {
   if (!settings.wavelength) checkCount("--count", settings.count, source);
 }
 
+double waveOf(double eigenvalue) {
+  return 2 * std::numbers::pi / std::sqrt(eigenvalue);
+}
+
 /// The eigenvectors of waves at least so long.
+/// @throws InvalidInput where there is none, for then all points of a component would have one value, and for waves
+///         shorter than those of all eigenvectors
 tufted::Spectrum longWaves(const Operator& source, double wavelength, const tufted::SpectrumOptions& options) {
   const tufted::Laplacian& laplacian = source.laplacian;
+  const std::string name = "--wavelength " + numberText(wavelength);
   const double most = tufted::mostEigenpairs(laplacian, false);
   const double bound = std::pow(2 * std::numbers::pi / wavelength, 2);
   const double weyl = laplacian.M.sum() * bound / (4 * std::numbers::pi);  // about how many there are
   for (double count = 16 + 1.1 * weyl; weyl <= most && most >= 1; count *= 1.5) {
     tufted::Spectrum spectrum = tufted::spectrum(laplacian, static_cast<int>(std::min(count, most)), options);
     const Eigen::Index kept = (spectrum.values.array() <= bound).count();
+    if (kept == 0)
+      throw tufted::InvalidInput(name + " is longer than the longest wave, " + numberText(waveOf(spectrum.values[0])) +
+                                 ": " + extentOf(source).text());
     if (kept < spectrum.values.size()) {
       spectrum.values.conservativeResize(kept);
       spectrum.vectors.conservativeResize(Eigen::NoChange, kept);
@@ -69,8 +85,8 @@ tufted::Spectrum longWaves(const Operator& source, double wavelength, const tuft
     }
     if (count >= most) break;
   }
-  throw tufted::InvalidInput("--wavelength is shorter than what " + std::to_string(source.points()) +
-                             " points can tell, must be longer; or give --count");
+  throw tufted::InvalidInput(name + " is shorter than what " + std::to_string(source.points()) +
+                             " points can tell, must be longer, or give --count: " + extentOf(source).text());
 }
 
 Results compute(Settings& settings, Operator& source) {
@@ -78,11 +94,11 @@ Results compute(Settings& settings, Operator& source) {
   tufted::SpectrumOptions options = source.spectrumOptions();
   options.null_space = false;
   const tufted::Spectrum spectrum = settings.wavelength ? longWaves(source, *settings.wavelength, options)
-                                                        : tufted::spectrum(source.laplacian, settings.count, options);
+                                                        : spectrumFor("--count", settings.count, source, options);
   const Eigen::MatrixXd means = tufted::componentMeans(source.laplacian, settings.values);
   Eigen::MatrixXd filtered = means + tufted::filterSignals(source.laplacian, spectrum, settings.values - means);
   const auto count = spectrum.values.size();
-  const double shortest = count > 0 ? 2 * std::numbers::pi / std::sqrt(spectrum.values[count - 1]) : 0;
+  const double shortest = count > 0 ? waveOf(spectrum.values[count - 1]) : 0;
   Results results;
   results.report = {{"eigenvectors", count}, {"shortest_wave", shortest}};
   results.summary.add("eigenvectors", "%lld, the shortest wave %.6g", static_cast<long long>(count), shortest);

@@ -21,6 +21,8 @@ struct Settings {
   OperatorSettings source;
   NamedPoints points;
   std::vector<Place> places;
+
+  std::vector<std::string> files() const { return {"green.npy"}; }
 };
 
 void check(Settings& settings, const Operator& source) {
@@ -30,9 +32,9 @@ void check(Settings& settings, const Operator& source) {
 }
 
 Results compute(Settings& settings, Operator& source) {
-  const std::vector<int> points = locate(settings.places, source);
-  tufted::SolveReport made;
   Results results;
+  const std::vector<int> points = locate(settings.places, source, results);
+  tufted::SolveReport made;
   results.arrays = {
       {.name = "green", .values = tufted::greensFunction(source.laplacian, points, source.solverOptions(), &made)}};
   results.report["sources"] = points;

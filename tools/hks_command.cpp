@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <limits>
@@ -7,9 +8,11 @@
 #include <vector>
 
 #include "command.h"
+#include "extent.h"
 #include "operator.h"
 #include "options.h"
 #include "reports.h"
+#include "tufted/errors.h"
 #include "tufted/spectral.h"
 
 namespace {
@@ -18,7 +21,8 @@ constexpr const char* description = "Heat kernel signatures, or wave kernel sign
 
 constexpr const char* footer =
     R"(Heat: sum of exp(-lambda_i t) phi_i(x)^2 at S times from 4 ln 10 / lambda_K to 4 ln 10 / lambda_1, or at those of
---times. Wave: means of phi_i(x)^2 around S energies from log lambda_1 to log lambda_K. Both in 1 / length^2.
+--times, neither so short that heat stays at its point nor so long that it is even. Wave: means of phi_i(x)^2 around S
+energies from log lambda_1 to log lambda_K. Both in 1 / length^2.
 
 Writes into DIR, renamed one after the other when all are complete:
   hks.npy      N x S, float64 (wks.npy with --wave); 0 at points that take no part, coincident ones as their
@@ -36,6 +40,10 @@ struct Settings {
   int samples = 0;  ///< 0: 16 times, 100 energies
   bool wave = false;
   std::vector<double> times;
+
+  std::vector<std::string> files() const {
+    return {wave ? "wks.npy" : "hks.npy", wave ? "energies.npy" : "times.npy", "evals.npy"};
+  }
 };
 
 /// A check; CLI11's own lets nan pass.
@@ -44,11 +52,27 @@ std::string isTime(const std::string& text) {
   const char* const text_end = text.data() + text.size();
   const auto [end, error] = std::from_chars(text.data(), text_end, time);
   const bool is_number = error == std::errc() && end == text_end;
-  return is_number && time >= 0 && std::isfinite(time) ? "" : text + " is no time, must be finite and at least 0";
+  return is_number && time > 0 && std::isfinite(time) ? "" : text + " is no time, must be finite and above 0";
 }
 
 void check(Settings& settings, const Operator& source) {
   checkCount("--count", settings.count, source);
+}
+
+/// Refuses times in which heat does not reach the next point, which no few eigenvalues can tell, and those in which it
+/// is even to the last digit. In a time t heat goes as far as the root of t.
+void checkTimes(const std::vector<double>& times, const tufted::Spectrum& spectrum, const Operator& source) {
+  const double* const end = spectrum.values.data() + spectrum.values.size();
+  const double* const smallest = std::upper_bound(spectrum.values.data(), end, 0.0);
+  const double even = smallest == end ? INFINITY : -std::log(std::numeric_limits<double>::epsilon()) / *smallest;
+  const Extent extent = extentOf(source);
+  for (const double time : times) {
+    const bool is_short = std::sqrt(time) < extent.spacing;
+    if (!is_short && time <= even) continue;
+    throw tufted::InvalidInput(
+        "--times " + numberText(time) + ": heat goes " + numberText(std::sqrt(time)) +
+        (is_short ? ", not to the next point: " : ", and after " + numberText(even) + " it is even: ") + extent.text());
+  }
 }
 
 /// The signature, and what it was sampled at.
@@ -65,7 +89,8 @@ std::vector<tufted::ResultArray> signatures(const Settings& settings, const tuft
 }
 
 Results compute(Settings& settings, Operator& source) {
-  const tufted::Spectrum spectrum = tufted::spectrum(source.laplacian, settings.count, source.spectrumOptions());
+  const tufted::Spectrum spectrum = spectrumFor("--count", settings.count, source, source.spectrumOptions());
+  checkTimes(settings.times, spectrum, source);
   Results results;
   results.arrays = signatures(settings, spectrum);
   results.summary.add(settings.wave ? "energies" : "times", "%ld per point, of %d eigenvalues up to %.6g",

@@ -87,8 +87,10 @@ void addExtent(const tufted::CloudDescription& points, Json& info) {
   info["coincident"] = points.coincident;
 }
 
-void addCloud(const tufted::CloudDescription& cloud, Json& info) {
+/// @param asked for neighbours per point
+void addCloud(const tufted::CloudDescription& cloud, int asked, Json& info) {
   info["neighbors"] = cloud.neighbors;
+  info["neighbors_clamped"] = cloud.neighbors < asked;
   info["on_lines"] = cloud.on_lines;
   info["outliers"] = cloud.outliers;
   info["components"] = cloud.components;
@@ -180,6 +182,8 @@ void print(const Json& info) {
     std::printf("%-15s %lld boundary, %lld nonmanifold\n", "edges", integer("boundary_edges"),
                 integer("nonmanifold_edges"));
   }
+  if (info.value("neighbors_clamped", false))
+    std::printf("%-15s %lld, all other points\n", "neighbors", integer("neighbors"));
   std::printf("%-15s %lld\n", "components", integer("components"));
   for (const Json& sentence : info["odd"]) std::printf("%-15s %s\n", "odd", sentence.get<std::string>().c_str());
   std::printf("%-15s %.2g s, %.0f MB\n", "to expect", real("expected_seconds"), real("expected_bytes") / 1e6);
@@ -216,7 +220,7 @@ int runInfo(Settings settings) {
     addMesh(laplacian.report, info);
     nothing = nothingActive(laplacian);
   } else {
-    addCloud(points, info);
+    addCloud(points, settings.cloud.neighbors, info);
     nothing = findNothing(settings, geometry, points);
   }
   info["odd"] = findOddities(info);

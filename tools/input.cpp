@@ -1,14 +1,19 @@
 #include "input.h"
 
 #include <CLI/CLI.hpp>
+#include <filesystem>
+#include <fstream>
 #include <iostream>
+#include <system_error>
 
 #include "options.h"
 #include "tufted/errors.h"
 
 CLI::Option* addInput(CLI::App& command, Input& input) {
   CLI::Option* const file =
-      command.add_option("FILE", input.file, "Points or mesh; - reads standard input, its format told by its content")
+      command
+          .add_option("FILE", input.file,
+                      "Points or mesh; - reads standard input; the format of that and of pipes is told by the content")
           ->required()
           ->check(notEmpty);
   addChoice(command, "--as", input.as, kinds, "Take a file that may be either as one of them");
@@ -16,10 +21,24 @@ CLI::Option* addInput(CLI::App& command, Input& input) {
   return file;
 }
 
+namespace {
+
+tufted::Geometry readAny(const Input& input) {
+  if (input.isStandardInput()) {
+    std::ios::sync_with_stdio(false);  // std::cin then tells an error from the end
+    return tufted::read(std::cin, input.name(), input.as);
+  }
+  std::error_code error;
+  if (!std::filesystem::is_fifo(input.file, error)) return tufted::read(input.file, input.as);
+  std::ifstream pipe(input.file, std::ios::binary);
+  if (!pipe) throw tufted::IoError(input.name() + ": cannot be read");
+  return tufted::read(pipe, input.name(), input.as);
+}
+
+}  // namespace
+
 tufted::Geometry readInput(const Input& input) {
-  std::ios::sync_with_stdio(false);  // std::cin then tells an error from the end
-  tufted::Geometry geometry =
-      input.isStandardInput() ? tufted::read(std::cin, input.name(), input.as) : tufted::read(input.file, input.as);
+  tufted::Geometry geometry = readAny(input);
   if (!input.weld) return geometry;
   if (!geometry.is_mesh)
     throw tufted::InvalidInput("--weld applies to meshes, and " + input.name() +

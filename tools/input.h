@@ -8,7 +8,7 @@
 
 /// What a command reads, as its options say.
 struct Input {
-  std::filesystem::path file;  ///< `-` is standard input
+  std::filesystem::path file;  ///< `-` is standard input; may be a pipe, as the shell makes them for <(command)
   tufted::ReadAs as = tufted::ReadAs::automatic;
   bool weld = false;
 

@@ -33,6 +33,8 @@ struct Settings {
   PinOptions pins;
   PlacedPins placed;
   Method method = Method::harmonic;
+
+  std::vector<std::string> files() const { return {"values.npy"}; }
 };
 
 void check(Settings& settings, const Operator& source) {
@@ -40,15 +42,16 @@ void check(Settings& settings, const Operator& source) {
 }
 
 Results compute(Settings& settings, Operator& source) {
-  const tufted::Pins pins = settings.placed.locate(source);
+  Results results;
+  const tufted::Pins pins = settings.placed.locate(source, results);
   const bool harmonic = settings.method == Method::harmonic;
   tufted::SolveReport made;
   Eigen::MatrixXd values = harmonic ? tufted::harmonic(source.laplacian, pins, source.solverOptions(), &made)
                                     : tufted::biharmonic(source.laplacian, pins, source.solverOptions(), &made);
   const long long unreached = values.col(0).array().isNaN().count();
-  Results results;
   results.arrays = {{.name = "values", .values = std::move(values)}};
-  results.report = {{"method", harmonic ? "harmonic" : "biharmonic"}, {"pins", pins.points.size()}};
+  results.report["method"] = harmonic ? "harmonic" : "biharmonic";
+  results.report["pins"] = pins.points.size();
   results.summary.add("pins", "%zu", pins.points.size());
   results.summary.add("not reached", "%lld points, which are NaN", unreached);
   addReport(made, results);

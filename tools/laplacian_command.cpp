@@ -99,9 +99,7 @@ const std::map<std::string, tufted::Sign> signs = {{"psd", tufted::Sign::psd}, {
 
 /// What is written, and how.
 void addWriteOptions(CLI::App& command, tufted::WriteOptions& options) {
-  const auto check = [](const std::string& key) {
-    return formats.count(key) > 0 ? std::string() : key + " is none of npz, mtx, mat, spmat, ply, pcd, cover";
-  };
+  const auto check = [](const std::string& key) { return refuseName(key, formats); };
   const auto set = [&options](const std::vector<std::string>& keys) {
     options.formats.clear();
     for (const std::string& key : keys) options.formats.push_back(formats.at(key));
@@ -130,6 +128,7 @@ void printSummary(const Settings& settings, const tufted::Geometry& geometry, co
   if (report.rim_points + report.jump_points + report.lost_points > 0)
     summary.add("boundary", "%lld on rims, %lld at jumps, %lld where triangles are missing", count(report.rim_points),
                 count(report.jump_points), count(report.lost_points));
+  addNeighbors(report, settings.build, summary);
   summary.add("triangles", "%lld", count(report.triangles));
   summary.add("nonzeros/row", "%.2f",
               static_cast<double>(report.nonzeros) / static_cast<double>(std::max<std::int64_t>(report.active, 1)));

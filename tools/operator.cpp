@@ -84,6 +84,9 @@ void readFolder(const OperatorSettings& settings, Operator& source) {
 void write(const OperatorSettings& settings, const Operator& source, const Results& results) {
   nlohmann::ordered_json json = {{"tufted", TUFTED_VERSION}, {"command", settings.command}, {"source", source.name}};
   json.update(results.report);
+  const tufted::Report& built = source.laplacian.report;
+  if (settings.folder.empty() && built.neighbors > 0)  // a cloud
+    json["build"] = {{"neighbors", built.neighbors}, {"neighbors_clamped", built.neighbors_clamped}};
   tufted::ResultOptions options = {.copies = settings.copies, .progress = source.progress};
   // A path need not be UTF-8.
   options.report = json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
@@ -144,7 +147,14 @@ void checkCount(const char* option, int count, const Operator& source) {
                                std::to_string(source.points()) + ", the number of points");
 }
 
-int runWithOperator(OperatorSettings& settings, const Check& check, const Compute& compute) {
+tufted::Spectrum spectrumFor(const char* option, int count, const Operator& source,
+                             const tufted::SpectrumOptions& options) {
+  return forOption(std::string(option) + " " + std::to_string(count),
+                   [&] { return tufted::spectrum(source.laplacian, count, options); });
+}
+
+int runWithOperator(OperatorSettings& settings, std::vector<std::string> files, const Check& check,
+                    const Compute& compute) {
   ProgressBar bar;
   Operator source;
   source.name = settings.name();
@@ -155,7 +165,8 @@ int runWithOperator(OperatorSettings& settings, const Check& check, const Comput
     if (interrupted()) throw tufted::Cancelled("cancelled");
   };
   source.progress("read", 0);
-  checkOutput(settings.input, settings.out, {"points.ply", "points.pcd", "report.json"});  // no input is a .npy
+  for (const std::string& name : tufted::resultFiles({}, {.copies = settings.copies})) files.push_back(name);
+  checkOutput(settings.input, settings.out, files);
   if (settings.folder.empty())
     source.geometry = readInput(settings.input);
   else
@@ -170,6 +181,8 @@ int runWithOperator(OperatorSettings& settings, const Check& check, const Comput
   write(settings, source, results);
   bar.clear();
   if (const std::string why = whyNothing(source); !why.empty()) warn(bar, source.name + ": " + why);
+  for (const std::string& warning : results.warnings) warn(bar, warning);
+  addNeighbors(source.laplacian.report, settings.build, results.summary);
   results.summary.add("written to", "%s", settings.out.c_str());
   results.summary.print();
   return exit_done;

@@ -67,11 +67,16 @@ struct Operator {
 /// Refuses more eigenvalues than there can be. @throws InvalidInput naming the option
 void checkCount(const char* option, int count, const Operator& source);
 
+/// The spectrum of the source. @throws InvalidInput naming the option where `count` are more eigenvalues than there are
+tufted::Spectrum spectrumFor(const char* option, int count, const Operator& source,
+                             const tufted::SpectrumOptions& options);
+
 /// What a command found.
 struct Results {
   std::vector<tufted::ResultArray> arrays;
   nlohmann::ordered_json report;  ///< members of report.json beside "tufted", "command" and "source"
   Summary summary;
+  std::vector<std::string> warnings = {};  ///< a line each
   /// Writes them in place of writeResults.
   std::function<void(const std::filesystem::path& dir, const tufted::ResultOptions& options)> write = {};
 };
@@ -82,8 +87,11 @@ using Check = std::function<void(const Operator& source)>;
 /// May change the points, of which copies are written.
 using Compute = std::function<Results(Operator& source)>;
 
-/// Loads the Laplacian, computes, writes the results and then the summary. @returns an exit code
-int runWithOperator(OperatorSettings& settings, const Check& check, const Compute& compute);
+/// Loads the Laplacian, computes, writes the results and then the summary.
+/// @param files names of the results beside the copies of the points and report.json
+/// @returns an exit code
+int runWithOperator(OperatorSettings& settings, std::vector<std::string> files, const Check& check,
+                    const Compute& compute);
 
 template <class Settings>
 struct OperatorCommand {
@@ -92,7 +100,7 @@ struct OperatorCommand {
 };
 
 /// Adds a subcommand with the options of all that use a Laplacian.
-/// @param Settings has a member `source`, OperatorSettings
+/// @param Settings has a member `source`, OperatorSettings, and files(), as runWithOperator takes them
 template <class Settings>
 OperatorCommand<Settings> addOperatorCommand(CLI::App& app, Run& run, const char* name, const char* description,
                                              const char* footer, Results (*compute)(Settings&, Operator&),
@@ -104,7 +112,7 @@ OperatorCommand<Settings> addOperatorCommand(CLI::App& app, Run& run, const char
   command->callback([&run, settings, compute, check] {
     run = [settings, compute, check] {
       return runWithOperator(
-          settings->source,
+          settings->source, settings->files(),
           [&](const Operator& source) {
             if (check != nullptr) check(*settings, source);
           },

@@ -28,6 +28,8 @@ has written, with the points (of meshes points.ply, which has the triangles).)";
 struct Settings {
   OperatorSettings source;
   int count = 128;
+
+  std::vector<std::string> files() const { return {"operators.npz"}; }
 };
 
 /// What a folder may lack.
@@ -49,7 +51,7 @@ Results compute(Settings& settings, Operator& source) {
                                                               tufted::meshFrames(geometry.points, geometry.triangles))
                                           : tufted::gradients(source.laplacian, geometry.points);
   const std::chrono::duration<double> gradients_took = std::chrono::steady_clock::now() - start;
-  const tufted::Spectrum spectrum = tufted::spectrum(source.laplacian, settings.count, source.spectrumOptions());
+  const tufted::Spectrum spectrum = spectrumFor("--count", settings.count, source, source.spectrumOptions());
   Results results;
   results.summary.add("eigenvalues", "%d", settings.count);
   addReport(spectrum.report, results);

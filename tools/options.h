@@ -3,13 +3,17 @@
 #include <CLI/App.hpp>
 #include <CLI/Option.hpp>
 #include <charconv>
+#include <limits>
 #include <map>
 #include <optional>
 #include <sstream>
 #include <string>
 #include <system_error>
 #include <type_traits>
+#include <vector>
 
+#include "suggestion.h"
+#include "tufted/errors.h"
 #include "tufted/io/read.h"
 
 // What the options of several subcommands have in common.
@@ -18,22 +22,69 @@
 inline const std::map<std::string, tufted::ReadAs> kinds = {{"cloud", tufted::ReadAs::cloud},
                                                             {"mesh", tufted::ReadAs::mesh}};
 
+/// A number for messages.
+inline std::string numberText(double number) {
+  std::ostringstream text;
+  text << number;
+  return text.str();
+}
+
+/// The names in `values`, and the same in one word.
+template <class T>
+std::vector<std::string> namesIn(const std::map<std::string, T>& values) {
+  std::vector<std::string> names;
+  for (const auto& [name, value] : values) names.push_back(name);
+  return names;
+}
+template <class T>
+std::string choiceOf(const std::map<std::string, T>& values) {
+  std::string all;
+  for (const auto& [name, value] : values) all += (all.empty() ? "" : "|") + name;
+  return all;
+}
+
+/// Why a word is none of the names in `values`; an empty string where it is one.
+template <class T>
+std::string refuseName(const std::string& word, const std::map<std::string, T>& values) {
+  if (values.count(word) > 0) return "";
+  return word + " is none of " + choiceOf(values) + didYouMean(word, namesIn(values));
+}
+
 /// An option that takes one of the names in `values`.
 template <class T>
 CLI::Option* addChoice(CLI::App& app, const std::string& name, T& target, const std::map<std::string, T>& values,
                        const std::string& help) {
-  std::string names;
-  for (const auto& [key, value] : values) names += (names.empty() ? "" : "|") + key;
   const auto set = [&target, &values](const std::string& key) { target = values.at(key); };
-  const auto check = [&values, names](const std::string& key) {
-    return values.count(key) > 0 ? std::string() : key + " is none of " + names;
-  };
-  return app.add_option_function<std::string>(name, set, help)->check(check)->type_name(names);
+  const auto check = [&values](const std::string& key) { return refuseName(key, values); };
+  return app.add_option_function<std::string>(name, set, help)->check(check)->type_name(choiceOf(values));
 }
 
 /// A check: a path must not be empty.
 inline std::string notEmpty(const std::string& path) {
   return path.empty() ? "must not be empty" : "";
+}
+
+/// Runs `work`; a value that it refuses is said to be that of an option.
+/// @param option and its value, as the user gave them
+template <class Work>
+auto forOption(const std::string& option, const Work& work) {
+  try {
+    return work();
+  } catch (const tufted::InvalidInput& error) {
+    throw tufted::InvalidInput(option + ": " + error.what());
+  }
+}
+
+/// The numbers from `least` to `most` as messages call them; the ends of what a double can be are 0 and infinity.
+template <class T>
+std::string rangeText(T least, T most) {
+  std::ostringstream text;
+  const bool is_above_0 = !std::is_integral_v<T> && least == std::numeric_limits<T>::min();
+  const bool is_unbounded = !std::is_integral_v<T> && most == std::numeric_limits<T>::max();
+  is_above_0 ? text << "(0" : text << '[' << least;
+  text << ", ";
+  is_unbounded ? text << "inf)" : text << most << ']';
+  return text.str();
 }
 
 /// An option that takes a number in [least, most].
@@ -49,10 +100,7 @@ CLI::Option* addNumber(CLI::App& app, const std::string& name, Target& target, T
   };
   const auto check = [parse, least, most](const std::string& text) {
     if (parse(text)) return std::string();
-    std::ostringstream message;
-    message << text << " is not " << (std::is_integral_v<T> ? "an integer" : "a number") << " in [" << least << ", "
-            << most << ']';
-    return message.str();
+    return text + " is not " + (std::is_integral_v<T> ? "an integer" : "a number") + " in " + rangeText(least, most);
   };
   const auto set = [&target, parse](const std::string& text) { target = parse(text).value(); };
   return app.add_option_function<std::string>(name, set, help)->check(check);

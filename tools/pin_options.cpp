@@ -65,6 +65,6 @@ PlacedPins placePins(const PinOptions& options, int points) {
   return pins;
 }
 
-tufted::Pins PlacedPins::locate(const Operator& source) const {
-  return {::locate(places, source), values};
+tufted::Pins PlacedPins::locate(const Operator& source, Results& results) const {
+  return {::locate(places, source, results), values};
 }

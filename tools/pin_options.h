@@ -26,7 +26,8 @@ struct PlacedPins {
   std::vector<Place> places;
   Eigen::MatrixXd values;
 
-  tufted::Pins locate(const Operator& source) const;
+  /// Says in `results` which points were nearest.
+  tufted::Pins locate(const Operator& source, Results& results) const;
 };
 
 /// @throws InvalidInput for no pin, pins that are none, or numbers of values that differ; IoError as readRows()

@@ -19,6 +19,36 @@ bool parseNumber(const std::string& word, double& number) {
   return error == std::errc() && stop == end;
 }
 
+/// The distance from a point to the farthest of its neighbours.
+double spacingAt(int point, const tufted::Laplacian& laplacian, const tufted::Points& points) {
+  double farthest = 0;
+  for (tufted::SparseMatrix::InnerIterator entry(laplacian.L, point); entry; ++entry)
+    farthest = std::max(farthest, (points.row(entry.row()) - points.row(point)).norm());
+  return farthest;
+}
+
+/// Says which point was taken for a position.
+/// @param number of the position, from 0
+void addNearest(const Place& place, int point, std::size_t number, const Operator& source, Results& results) {
+  constexpr std::size_t most = 10;  // lines; the report has all
+  const double distance = (source.geometry.points.row(point).transpose() - place.position).norm();
+  const double spacing = spacingAt(point, source.laplacian, source.geometry.points);
+  results.report["nearest"].push_back({{"position", {place.position.x(), place.position.y(), place.position.z()}},
+                                       {"point", point},
+                                       {"distance", distance},
+                                       {"spacing", spacing}});
+  if (number < most)
+    results.summary.add("nearest", "point %d, %.6g from %s", point, distance, place.name.c_str());
+  else if (number == most)
+    results.summary.add("nearest", "to further positions: see report.json");
+  if (distance <= spacing) return;
+  if (results.warnings.size() < most)
+    results.warnings.push_back(place.name + ": the nearest point, " + std::to_string(point) + ", is " +
+                               numberText(distance) + " away, and its neighbours at most " + numberText(spacing));
+  else if (results.warnings.size() == most)
+    results.warnings.emplace_back("further positions are as far from their nearest point: see report.json");
+}
+
 }  // namespace
 
 std::vector<double> parseNumbers(const std::string& text, const std::string& option) {
@@ -50,6 +80,7 @@ std::vector<Row> readRows(const std::filesystem::path& path) {
 
 Place placeOf(const std::vector<double>& numbers, int points, const std::string& name) {
   Place place;
+  place.name = name;
   if (numbers.size() == 3) {
     place.position = {numbers[0], numbers[1], numbers[2]};
     if (!place.position.allFinite()) throw tufted::InvalidInput(name + " is not finite, must be");
@@ -62,7 +93,7 @@ Place placeOf(const std::vector<double>& numbers, int points, const std::string&
   return place;
 }
 
-std::vector<int> locate(const std::vector<Place>& places, const Operator& source) {
+std::vector<int> locate(const std::vector<Place>& places, const Operator& source, Results& results) {
   std::vector<int> points;
   std::vector<std::size_t> by_position;  // which of them are
   for (const Place& place : places) {
@@ -76,7 +107,10 @@ std::vector<int> locate(const std::vector<Place>& places, const Operator& source
   for (std::size_t k = 0; k < by_position.size(); ++k)
     positions.row(static_cast<Eigen::Index>(k)) = places[by_position[k]].position;
   const std::vector<int> nearest = tufted::nearestPoints(source.laplacian, source.geometry.points, positions);
-  for (std::size_t k = 0; k < by_position.size(); ++k) points[by_position[k]] = nearest[k];
+  for (std::size_t k = 0; k < by_position.size(); ++k) {
+    points[by_position[k]] = nearest[k];
+    addNearest(places[by_position[k]], nearest[k], k, source, results);
+  }
   return points;
 }
 

@@ -25,6 +25,7 @@ std::vector<Row> readRows(const std::filesystem::path& path);
 struct Place {
   int index = -1;                                      ///< -1: by position
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< finite
+  std::string name;                                    ///< of what gives it, for messages
 };
 
 /// @param numbers an index or x, y, z
@@ -32,8 +33,10 @@ struct Place {
 /// @throws InvalidInput unless it is an index of one of so many points, or a finite position
 Place placeOf(const std::vector<double>& numbers, int points, const std::string& name);
 
-/// The points themselves. @throws InvalidInput for a position where the source has no points
-std::vector<int> locate(const std::vector<Place>& places, const Operator& source);
+/// The points themselves. Says in the summary and the report of `results` which are nearest to positions and how far
+/// away they are, and warns of those that are farther from the position than from all their neighbours.
+/// @throws InvalidInput for a position where the source has no points
+std::vector<int> locate(const std::vector<Place>& places, const Operator& source, Results& results);
 
 /// Points that the user names with options.
 struct NamedPoints {

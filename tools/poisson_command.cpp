@@ -31,6 +31,10 @@ struct Settings {
   PinOptions pins;
   Eigen::MatrixXd f;
   PlacedPins placed;
+
+  std::vector<std::string> files() const {
+    return pins.empty() ? std::vector<std::string>{"u.npy", "mean.npy"} : std::vector<std::string>{"u.npy"};
+  }
 };
 
 void check(Settings& settings, const Operator& source) {
@@ -56,7 +60,7 @@ Results compute(Settings& settings, Operator& source) {
         {.name = "u", .values = tufted::poisson(source.laplacian, settings.f, source.solverOptions(), &made)},
         {.name = "mean", .values = std::move(mean)}};
   } else {
-    const tufted::Pins pins = settings.placed.locate(source);
+    const tufted::Pins pins = settings.placed.locate(source, results);
     results.report["pins"] = pins.points.size();
     results.summary.add("pins", "%zu", pins.points.size());
     results.arrays = {

@@ -59,6 +59,16 @@ std::vector<MatrixXd> columnsOf(const std::string& name, const tufted::Geometry&
   return columns;
 }
 
+/// The names that --field takes.
+std::vector<std::string> namesOf(const tufted::Geometry& geometry) {
+  std::vector<std::string> names;
+  for (const auto& [name, axis] : axes) names.push_back(name);
+  for (const auto& [name, axis] : normal_axes)
+    if (geometry.normals.rows() > 0) names.push_back(name);
+  for (const Field& field : geometry.fields) names.push_back(field.name);
+  return names;
+}
+
 }  // namespace
 
 void addSignalOptions(CLI::App& command, SignalOptions& options, const std::string& what) {
@@ -89,7 +99,9 @@ MatrixXd readSignals(const SignalOptions& options, const Operator& source, const
   MatrixXd signals(n, 0);
   for (const std::string& name : options.fields) {
     const std::vector<MatrixXd> columns = columnsOf(name, source.geometry);
-    if (columns.empty()) throw tufted::InvalidInput("--field " + name + ": " + source.name + " has no such field");
+    if (columns.empty())
+      throw tufted::InvalidInput("--field " + name + ": " + source.name + " has no such field" +
+                                 didYouMean(name, namesOf(source.geometry)));
     for (const MatrixXd& column : columns) {
       signals.conservativeResize(Eigen::NoChange, signals.cols() + column.cols());
       signals.rightCols(column.cols()) = column;

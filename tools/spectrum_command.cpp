@@ -28,6 +28,8 @@ struct Settings {
   OperatorSettings source;
   int count = 32;
   double tolerance = tufted::SpectrumOptions().tolerance;
+
+  std::vector<std::string> files() const { return {"evals.npy", "evecs.npy"}; }
 };
 
 void check(Settings& settings, const Operator& source) {
@@ -37,7 +39,7 @@ void check(Settings& settings, const Operator& source) {
 Results compute(Settings& settings, Operator& source) {
   tufted::SpectrumOptions options = source.spectrumOptions();
   options.tolerance = settings.tolerance;
-  tufted::Spectrum spectrum = tufted::spectrum(source.laplacian, settings.count, options);
+  tufted::Spectrum spectrum = spectrumFor("--count", settings.count, source, options);
   Results results;
   results.summary.add("eigenvalues", "%d, from %.6g to %.6g", settings.count, spectrum.values[0],
                       spectrum.values[settings.count - 1]);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "command.h"
+#include "command_line.h"
 #include "interrupt.h"
 #include "tufted/errors.h"
 
@@ -57,15 +58,18 @@ int main(int argc, char** argv) {
   addOperators(app, run);
   addInfo(app, run);
   addValidate(app, run);
+  const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  const auto refuse = [&](const std::string& error) { return fail(explainArguments(app, words, error), exit_usage); };
+  if (isMisleading(app, words)) return refuse("");
   try {
-    std::vector<std::string> arguments(argv + std::min(argc, 1), argv + argc);
+    std::vector<std::string> arguments = words;
     protectBrackets(arguments);
     std::reverse(arguments.begin(), arguments.end());  // as CLI11 wants them
     app.parse(std::move(arguments));
   } catch (const CLI::Success& help) {
     return app.exit(help);
   } catch (const CLI::ParseError& error) {
-    return fail(std::string(error.what()) + " (see tufted --help)", exit_usage);
+    return refuse(error.what());
   }
   return runCommand(run);
 }

@@ -7,7 +7,7 @@ namespace tufted::io {
 
 NpzArchive::NpzArchive(const OutputPath& to) : shown_(to.shown) {
   int error = 0;
-  archive_.reset(zip_open(to.path.c_str(), ZIP_CREATE | ZIP_TRUNCATE, &error));
+  archive_.reset(zip_open(to.path.c_str(), ZIP_CREATE | ZIP_EXCL, &error));
   if (archive_) return;
   zip_error_t details;
   zip_error_init_with_code(&details, error);

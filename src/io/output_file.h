@@ -13,7 +13,8 @@ struct OutputPath {
   std::filesystem::path shown;  ///< the path to name in errors, that of the finished file
 };
 
-/// A file being written. Every error of the system (no space, no permission) throws IoError naming the path.
+/// A new file being written; there must be none of its path, nor a link. Every error of the system (no space, no
+/// permission) throws IoError naming the path.
 class OutputFile {
  public:
   explicit OutputFile(const OutputPath& to);

@@ -1,58 +1,156 @@
 #include "io/staged_files.h"
 
+#include <fcntl.h>
+#include <stdlib.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
-#include <atomic>
+#include <cerrno>
+#include <exception>
 #include <system_error>
 
 #include "io/errors.h"
+#include "io/open_path.h"
+#include "tufted/errors.h"
 
 namespace tufted::io {
 
-StagedFiles::StagedFiles(const std::filesystem::path& dir) : dir_(dir) {
-  std::error_code error;
-  // Not what a link points to: a link that leads nowhere is not ours to remove.
-  for (auto missing = std::filesystem::absolute(dir_, error);
-       std::filesystem::symlink_status(missing, error).type() == std::filesystem::file_type::not_found &&
-       missing.has_relative_path();
-       missing = missing.parent_path())
-    made_.insert(made_.begin(), missing);
-  std::filesystem::create_directories(dir_, error);
-  if (error) {
-    removeMade();  // some parents may be there by now
-    refuse(dir_, "cannot make the directory: " + error.message());
+namespace fs = std::filesystem;
+
+StagedFiles::StagedFiles(const fs::path& dir) : dir_(dir) {
+  int attempts = 100;  // another process may make the directory and remove it again
+  while (!makeHiddenFolder(attempts > 1)) --attempts;
+  try {
+    OpenPath(dir_, O_DIRECTORY, dir_);  // as commit() will have to
+  } catch (...) {
+    removeHiddenFolder();
+    removeMade();
+    throw;
   }
-  if (!std::filesystem::is_directory(dir_, error)) refuse(dir_, "is not a directory");
 }
 
 StagedFiles::~StagedFiles() {
-  std::error_code ignored;
-  for (const OutputPath& file : files_) std::filesystem::remove(file.path, ignored);
+  removeHiddenFolder();
   removeMade();
+}
+
+bool StagedFiles::makeDirectory(bool may_vanish) {
+  std::error_code error;
+  made_.clear();
+  // Not what a link points to: a link that leads nowhere is not ours to remove.
+  for (auto missing = fs::absolute(dir_, error);
+       fs::symlink_status(missing, error).type() == fs::file_type::not_found && missing.has_relative_path();
+       missing = missing.parent_path())
+    made_.insert(made_.begin(), missing);
+  fs::create_directories(dir_, error);
+  if (error) {
+    removeMade();  // some parents may be there by now
+    if (may_vanish && error == std::errc::no_such_file_or_directory) return false;
+    refuse(dir_, "cannot make the directory: " + error.message());
+  }
+  const fs::file_status status = fs::status(dir_, error);
+  if (may_vanish && status.type() == fs::file_type::not_found) return false;
+  if (!fs::is_directory(status)) refuse(dir_, "is not a directory");
+  return true;
+}
+
+bool StagedFiles::makeHiddenFolder(bool may_vanish) {
+  if (!makeDirectory(may_vanish)) return false;
+  std::string name = (dir_ / ".tufted-XXXXXX").string();
+  if (::mkdtemp(name.data()) == nullptr) {
+    const int error = errno;
+    removeMade();
+    if (may_vanish && error == ENOENT) return false;
+    refuseErrno(dir_, "write", error);
+  }
+  hidden_ = name;
+  old_ = hidden_ / "old";
+  return true;
+}
+
+OutputPath StagedFiles::stage(const std::string& name) {
+  OutputPath path = {hidden_ / name, dir_ / name};
+  std::error_code error;
+  if (fs::is_directory(path.shown, error)) refuse(path.shown, "cannot write: is a directory");
+  files_.push_back({path});
+  return path;
+}
+
+void StagedFiles::keepOld(File& file) {
+  const char* const name = file.path.shown.c_str();
+  const fs::path old = oldOf(file);
+  // A second link, so that the name always has a file.
+  file.has_old = ::linkat(AT_FDCWD, name, AT_FDCWD, old.c_str(), 0) == 0;
+  if (file.has_old || errno == ENOENT) return;
+  // Not every file system has links, and not every file of others may be linked to.
+  std::error_code error;
+  if (fs::is_directory(fs::symlink_status(file.path.shown, error)))
+    refuse(file.path.shown, "cannot write: is a directory");
+  file.has_old = ::rename(name, old.c_str()) == 0;
+  if (!file.has_old && errno != ENOENT) refuseErrno(file.path.shown, "write", errno);
+}
+
+void StagedFiles::place(File& file) {
+  file.is_placed = ::rename(file.path.path.c_str(), file.path.shown.c_str()) == 0;
+  if (!file.is_placed) refuseErrno(file.path.shown, "write", errno);
+}
+
+bool StagedFiles::putBack() {
+  bool is_back = true;
+  for (File& file : files_) {
+    if (file.has_old)
+      is_back &= ::rename(oldOf(file).c_str(), file.path.shown.c_str()) == 0;
+    else if (file.is_placed)
+      is_back &= ::unlink(file.path.shown.c_str()) == 0;
+  }
+  return is_back;
+}
+
+void StagedFiles::syncParents() const {
+  for (const fs::path& made : made_) {
+    try {
+      OpenPath(made.parent_path(), O_DIRECTORY, made).sync();
+    } catch (const IoError&) {
+      // A directory may let one make others in it and not be read.
+    }
+  }
+}
+
+void StagedFiles::commit() {
+  for (const File& file : files_) OpenPath(file.path.path, O_NOFOLLOW, file.path.shown).sync();
+  const OpenPath dir(dir_, O_DIRECTORY, dir_);
+  dir.lock();
+  if (::mkdir(old_.c_str(), 0700) != 0) refuseErrno(dir_, "write", errno);
+  try {
+    for (File& file : files_) keepOld(file);
+    for (File& file : files_) place(file);
+    dir.sync();
+    syncParents();
+  } catch (const std::exception& error) {
+    if (putBack()) throw;
+    hidden_.clear();  // stays
+    throw IoError(std::string(error.what()) + "; what was there before could not be put back from " + old_.string());
+  }
+  made_.clear();
+  const fs::path replaced = hidden_ / "replaced";  // in one step, for whoever looks for what is lost
+  if (::rename(old_.c_str(), replaced.c_str()) == 0) old_ = replaced;
+}
+
+void StagedFiles::removeHiddenFolder() {
+  if (hidden_.empty()) return;
+  // By name and not all that is there: no mistake of ours could then remove a directory of others.
+  std::error_code ignored;
+  for (const File& file : files_) {
+    fs::remove(file.path.path, ignored);
+    fs::remove(oldOf(file), ignored);
+  }
+  fs::remove(old_, ignored);
+  fs::remove(hidden_, ignored);
 }
 
 void StagedFiles::removeMade() {
   std::error_code ignored;
-  for (auto made = made_.rbegin(); made != made_.rend(); ++made) std::filesystem::remove(*made, ignored);
-}
-
-OutputPath StagedFiles::stage(const std::string& name) {
-  static std::atomic<unsigned> counter = 0;
-  const std::string suffix = ".tmp-" + std::to_string(::getpid()) + "-" + std::to_string(counter++);
-  files_.push_back({dir_ / ("." + name + suffix), dir_ / name});
-  return files_.back();
-}
-
-void StagedFiles::commit() {
-  std::error_code error;
-  for (const OutputPath& file : files_)
-    if (std::filesystem::is_directory(file.shown, error)) refuse(file.shown, "cannot write: is a directory");
-  for (const OutputPath& file : files_) {
-    std::filesystem::rename(file.path, file.shown, error);
-    if (error) refuse(file.shown, "cannot write: " + error.message());
-  }
-  files_.clear();
-  made_.clear();
+  for (auto made = made_.rbegin(); made != made_.rend(); ++made) fs::remove(*made, ignored);
 }
 
 }  // namespace tufted::io

@@ -8,28 +8,57 @@
 
 namespace tufted::io {
 
-/// The files of one result. Each is written under a temporary name in the directory it will stay in; commit() gives
-/// all of them their names. Without it they are removed, and the directories that were made for them as well.
+/// The files of one result, which appear together. Each is written in a hidden folder, DIR/.tufted-XXXXXX, inside the
+/// directory DIR it will stay in; commit() gives all of them their names, or none. Without it they are removed, with
+/// the hidden folder and the directories that were made for them. Other files in DIR are never touched.
 class StagedFiles {
  public:
-  /// Makes `dir` with its parents where missing. @throws IoError
+  /// Makes `dir` with its parents where missing, and the hidden folder.
+  /// @throws IoError
   explicit StagedFiles(const std::filesystem::path& dir);
   ~StagedFiles();
   StagedFiles(const StagedFiles&) = delete;
   StagedFiles& operator=(const StagedFiles&) = delete;
 
-  /// The temporary path under which to write the file `name`, and the path that it will have.
+  /// The path in the hidden folder under which to write the file `name`, and the path that it will have.
+  /// @throws IoError where a directory has that name
   OutputPath stage(const std::string& name);
-  /// @throws IoError if a file cannot be renamed
+
+  /// Brings the files to the disk, then renames them one after the other, while every other process that commits to
+  /// `dir` waits. What had their names is kept in the hidden folder meanwhile, under old/, and is put back if a step
+  /// fails. A process that is killed between two renames leaves the hidden folder, so nothing is lost; a hidden folder
+  /// without old/ is of no use.
+  /// @throws IoError
   void commit();
 
  private:
+  struct File {
+    OutputPath path;
+    bool has_old = false;    ///< what had its name is kept
+    bool is_placed = false;  ///< it has its name
+  };
+
+  /// Makes `dir_` with its parents.
+  /// @param may_vanish gives false where another process has just removed one of them, otherwise that is an error
+  bool makeDirectory(bool may_vanish);
+  /// Makes the hidden folder as well.
+  bool makeHiddenFolder(bool may_vanish);
+  void keepOld(File& file);
+  void place(File& file);
+  std::filesystem::path oldOf(const File& file) const { return old_ / file.path.shown.filename(); }
+  /// @returns whether `dir_` is again as it was before keepOld() and place()
+  bool putBack();
+  /// Brings the names of the directories made to the disk.
+  void syncParents() const;
+  void removeHiddenFolder();
   /// Removes the directories that were made and are empty.
   void removeMade();
 
   std::filesystem::path dir_;
+  std::filesystem::path hidden_;
+  std::filesystem::path old_;                ///< the folder of what had the names of the files, in the hidden one
   std::vector<std::filesystem::path> made_;  ///< directories, the outermost first
-  std::vector<OutputPath> files_;
+  std::vector<File> files_;
 };
 
 }  // namespace tufted::io

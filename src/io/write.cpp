@@ -138,6 +138,11 @@ std::vector<std::string> resultFiles(const std::vector<Format>& formats) {
   return names;
 }
 
+void checkWritable(const std::filesystem::path& dir, const std::vector<std::string>& files) {
+  io::StagedFiles staged(dir);
+  for (const std::string& name : files) staged.stage(name);
+}
+
 void writeLaplacian(const std::filesystem::path& dir, const Laplacian& laplacian, const Geometry& geometry,
                     const WriteOptions& options) {
   check(laplacian, geometry);

@@ -141,9 +141,10 @@ TEST_F(Command, NumbersOutOfRangeAreNamedWithTheirRange) {
   const auto error = [&](const char* option, const char* value) {
     return runTufted({"laplacian", file, "--out", out(), "--order", "random", option, value}).err;
   };
-  EXPECT_EQ(error("--mollify", "-1"), "tufted: --mollify: -1 is not a number in [0, 1] (see tufted --help)\n");
+  EXPECT_EQ(error("--mollify", "-1"),
+            "tufted: --mollify: -1 is not a number in [0, 1] (see tufted laplacian --help)\n");
   EXPECT_EQ(error("--seed", "-1"),
-            "tufted: --seed: -1 is not an integer in [0, 18446744073709551615] (see tufted --help)\n");
+            "tufted: --seed: -1 is not an integer in [0, 18446744073709551615] (see tufted laplacian --help)\n");
 }
 
 TEST_F(Command, TheGreatestSeedIsTakenAsItIs) {

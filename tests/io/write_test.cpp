@@ -131,7 +131,7 @@ TEST(WriteLaplacian, AFullDiskLeavesNoFileAndNamesThePath) {
       message = error.what();
     }
     EXPECT_TRUE(message.starts_with((dir / "out").string())) << limit << ' ' << message;
-    EXPECT_EQ(message.find(".tmp-"), std::string::npos) << message;
+    EXPECT_EQ(message.find(".tufted-"), std::string::npos) << message;
     EXPECT_FALSE(std::filesystem::exists(dir / "out")) << limit;
   }
 }

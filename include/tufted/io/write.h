@@ -65,15 +65,24 @@ std::vector<std::string> resultFiles(const std::vector<Format>& formats);
 /// PLY: a field of several values becomes `name_0`, `name_1`, ...; packed colours (rgb, rgba) become red, green, blue
 /// (and alpha); 64-bit integers become double, the largest type of PLY; an organized cloud states its size as obj_info
 /// num_cols and num_rows, and the sensor's pose as viewpoint. PCD: normals are normal_x, normal_y, normal_z; red,
-/// green, blue (and alpha) of 8 bits become a packed rgb (rgba). All files are written under temporary names and, when
-/// all are complete, renamed one after the other: no file is ever half there, but for a moment new files stand beside
-/// old ones. Files of these names are replaced; those of formats that were not asked for stay.
+/// green, blue (and alpha) of 8 bits become a packed rgb (rgba).
+///
+/// All files are written into a hidden folder `dir`/.tufted-XXXXXX, brought to the disk and then renamed one after the
+/// other. Files of these names are replaced; all others stay. Whatever throws leaves `dir` as it was. A process that is
+/// killed while it renames leaves new files beside old ones, and in `dir`/.tufted-XXXXXX/old those that it replaced.
+/// Where several processes write into one `dir`, each renames all its files before the next one does.
 /// @throws InvalidInput if the arrays of `laplacian` and `geometry` differ in length, the name of a field is not one
 ///         word, the pose of the sensor is none, or the cover is asked for and was not kept
 /// @throws IoError naming the path
 /// @throws Cancelled when `options.progress` returns false
 void writeLaplacian(const std::filesystem::path& dir, const Laplacian& laplacian, const Geometry& geometry,
                     const WriteOptions& options = {});
+
+/// Refuses what writeLaplacian, writeResults or writeOperators could not write, so that it is known before the results
+/// are computed: makes `dir` if missing and a folder in it, as they do, and removes both again.
+/// @param files names of the results
+/// @throws IoError naming the path, also where a directory has the name of a result
+void checkWritable(const std::filesystem::path& dir, const std::vector<std::string>& files);
 
 /// The report as a JSON object (two-space indent), with a member per member of Report.
 std::string toJson(const Report& report);

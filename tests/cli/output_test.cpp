@@ -1,0 +1,248 @@
+// Where results go: known before the build to be writable, and then wholly old or wholly new whatever happens.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <thread>
+
+#include "../io/folder_content.h"
+#include "../io/small_disk.h"
+#include "subcommands.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+using std::chrono::microseconds;
+using Clock = std::chrono::steady_clock;
+using Content = std::map<std::string, std::string>;
+
+class OutputOfCommands : public Subcommands {
+ protected:
+  const std::string cloud_ = dir_.write("sphere.xyz", sphere(800));
+
+  std::vector<std::string> build(int neighbors) const {
+    return {"laplacian", cloud_, "--out", in("out"), "--neighbors", std::to_string(neighbors)};
+  }
+  /// The results that `build` gives, without report.json, which holds times.
+  Content resultsOf(int neighbors) {
+    run(build(neighbors));
+    Content content = contentOf(dir_ / "out");
+    content.erase("report.json");
+    return content;
+  }
+  /// Expects the folder to hold the results for the one or for the other number of neighbours, and nothing else.
+  /// @returns that number
+  int expectWhole(const std::map<int, Content>& results) {
+    Content content = contentOf(dir_ / "out");
+    const auto json = nlohmann::json::parse(content["report.json"], nullptr, false);
+    EXPECT_FALSE(json.is_discarded());
+    const int neighbors = json.value("/cloud_options/neighbors"_json_pointer, 0);
+    content.erase("report.json");
+    const auto expected = results.find(neighbors);
+    EXPECT_TRUE(expected != results.end() && content == expected->second) << neighbors << ", " << content.size();
+    return neighbors;
+  }
+
+  /// What lies in the folder, where a process that was killed has left a hidden folder with what it had replaced: with
+  /// that in its place again. Without report.json.
+  Content contentAfterKill() {
+    Content content = contentOf(dir_ / "out");
+    for (const auto& entry : fs::directory_iterator(dir_ / "out")) {
+      if (!entry.is_directory()) continue;
+      content.erase(entry.path().filename().string());
+      if (!fs::exists(entry.path() / "old")) continue;
+      for (const auto& [name, bytes] : contentOf(entry.path() / "old")) content[name] = bytes;
+    }
+    content.erase("report.json");
+    return content;
+  }
+};
+
+/// A command of each kind, without FILE and --out.
+const std::vector<std::vector<std::string>> commands = {{"laplacian", "--format", "npz,ply,pcd,mtx,mat,spmat,cover"},
+                                                        {"spectrum", "--count", "3"},
+                                                        {"hks", "--count", "3"},
+                                                        {"hks", "--count", "3", "--wave", "--format", "pcd"},
+                                                        {"embed"},
+                                                        {"filter", "--positions", "--count", "3"},
+                                                        {"distance", "--source", "0"},
+                                                        {"interpolate", "--pin", "0=1"},
+                                                        {"poisson", "--field", "x"},
+                                                        {"poisson", "--field", "x", "--pin", "0=1"},
+                                                        {"green", "--source", "0"},
+                                                        {"operators", "--count", "3"}};
+
+TEST_F(OutputOfCommands, ThatCannotBeWrittenIsRefusedBeforeTheBuild) {
+  const std::string cloud = dir_.write("small.xyz", sphere(200)), file = dir_.write("file", "stays");
+  for (std::vector<std::string> command : commands) {
+    command.push_back(cloud);
+    command.emplace_back("--out");
+    std::vector<std::string> made = command;
+    made.push_back(in("made"));
+    run(made);
+    const Content results = contentOf(dir_ / "made");
+    fs::remove_all(dir_ / "made");
+
+    const auto expectRefused = [&](const std::string& out, const std::string& named) {
+      std::vector<std::string> arguments = command;
+      arguments.insert(arguments.end(), {out, "--normals"});  // of which the file has none: a build fails by that
+      const Result result = runTufted(arguments);
+      EXPECT_EQ(result.code, 1) << command[0];
+      EXPECT_TRUE(isOneLine(result.err)) << result.err;
+      EXPECT_TRUE(result.err.starts_with("tufted: " + named + ": cannot ")) << command[0] << ": " << result.err;
+    };
+    expectRefused(file, file);
+    expectRefused(file + "/below", file + "/below");
+    for (const auto& [name, bytes] : results) {
+      fs::create_directories(dir_ / "out" / name);
+      expectRefused(in("out"), in("out/" + name));
+      EXPECT_EQ(contentOf(dir_ / "out"), (Content{{name, "directory"}}));
+      fs::remove_all(dir_ / "out");
+    }
+  }
+  EXPECT_EQ(readAll(file), "stays");
+}
+
+TEST_F(OutputOfCommands, ThatMayNotBeWrittenIsRefusedBeforeTheBuild) {
+  const fs::path closed = dir_ / "closed";
+  fs::create_directory(closed);
+  fs::permissions(closed,
+                  fs::perms::owner_read | fs::perms::owner_exec | fs::perms::others_read | fs::perms::others_exec);
+  std::vector<std::string> other = {TUFTED_COMMAND};
+  if (geteuid() == 0) {  // root may write anywhere
+    other = {"setpriv", "--reuid", "65534", "--clear-groups", TUFTED_COMMAND};
+    if (runProgram({"setpriv", "--reuid", "65534", "--clear-groups", TUFTED_COMMAND, "--version"}).code != 0)
+      GTEST_SKIP() << "cannot run the command as another user";
+  }
+  for (const std::string& out : {closed.string(), (closed / "below").string()}) {
+    std::vector<std::string> words = other;
+    words.insert(words.end(), {"laplacian", cloud_, "--normals", "--out", out});
+    const Result result = runProgram(words);
+    EXPECT_EQ(result.code, 1);
+    EXPECT_TRUE(result.err.starts_with("tufted: " + out + ": cannot ")) << result.err;
+    EXPECT_TRUE(result.err.ends_with(": Permission denied\n")) << result.err;
+  }
+}
+
+TEST_F(OutputOfCommands, IsAsItWasWhereTheDiskIsFull) {
+  const SmallDisk disk("4m");
+  if (!disk.isMounted()) GTEST_SKIP() << "may not mount a small disk";
+  const std::string out = (disk / "out").string();
+  run({"laplacian", cloud_, "--out", out});
+  const Content before = contentOf(out);
+  const auto available = fs::space(disk.path()).available;
+  // Room for the first file, for all but the last, ...
+  for (const int part : {1, 4, 7}) {
+    std::uintmax_t size = 0;
+    for (const auto& [name, bytes] : before) size += bytes.size();
+    std::ofstream(disk / "filler") << std::string(available - size * part / 8, 'x');
+    const Result result = runTufted({"laplacian", cloud_, "--out", out, "--neighbors", "12"});
+    EXPECT_EQ(result.code, 1);
+    EXPECT_TRUE(isOneLine(result.err)) << result.err;
+    EXPECT_TRUE(result.err.ends_with(": No space left on device\n")) << result.err;
+    EXPECT_TRUE(contentOf(out) == before) << part;
+    fs::remove(disk / "filler");
+  }
+}
+
+TEST_F(OutputOfCommands, IsWhollyOldOrWhollyNewAfterASignal) {
+  std::map<int, Content> results = {{12, resultsOf(12)}, {30, resultsOf(30)}};
+  const auto start = Clock::now();
+  run(build(30));
+  const auto whole = Clock::now() - start;
+  int now = 30, cancelled = 0, done = 0;
+  // Sends the signal so long after the start or, with `writing`, after a hidden folder is seen beside the results.
+  const auto interrupt = [&](int signal, Clock::duration delay, bool writing) {
+    const int next = 42 - now;
+    Process process = startTufted(build(next));
+    const auto begun = Clock::now();
+    if (writing) {  // not that of the check, which comes at once
+      std::this_thread::sleep_for(whole / 3);
+      while (contentOf(dir_ / "out").size() == results[now].size() + 1 && Clock::now() < begun + 2 * whole) {
+      }
+    }
+    std::this_thread::sleep_for(delay);
+    kill(process.pid(), signal);
+    const int code = process.finish().code;
+    const int found = expectWhole(results);
+    // Before the command has asked for them, signals end it as they do any process.
+    EXPECT_TRUE(code == 0 ? found == next : (code == 130 || code == 128 + signal) && found == now) << code;
+    ++(code == 0 ? done : cancelled);
+    now = found;
+  };
+  constexpr int steps = 25;
+  for (const int signal : {SIGTERM, SIGINT, SIGHUP})
+    for (int step = 0; step < steps; ++step) interrupt(signal, whole * step / steps, false);
+  for (int step = 0; step < steps; ++step) interrupt(SIGTERM, microseconds(100 * step), true);
+  EXPECT_GT(cancelled, steps);
+  EXPECT_GT(done, 0);
+}
+
+TEST_F(OutputOfCommands, IsWhollyOldOrWhollyNewWhicheverStepFailsOrIsInterrupted) {
+#ifdef TUFTED_SANITIZED
+  GTEST_SKIP() << "the leak sanitizer does not work under strace";
+#endif
+  // Runs the command so that the n-th call of a kind fails, or a signal comes with it.
+  const auto runWith = [&](const std::string& call, const std::string& fault, int n, std::vector<std::string> words) {
+    std::vector<std::string> strace = {"strace", "-f", "-o", "/dev/null", "-e", "trace=" + call, "-e"};
+    strace.push_back("inject=" + call + ":" + fault + ":when=" + std::to_string(n));
+    words.insert(words.begin(), strace.begin(), strace.end());
+    return runProgram(words).code;
+  };
+  if (runProgram({"sh", "-c", "command -v strace"}).code != 0 || runWith("mkdir", "error=EIO", 1, {"true"}) != 0)
+    GTEST_SKIP() << "cannot run the command under strace";
+  const std::map<int, Content> results = {{12, resultsOf(12)}, {30, resultsOf(30)}};
+  fs::rename(dir_ / "out", dir_ / "before");
+  for (const std::string call : {"mkdir", "fsync", "linkat", "rename"}) {
+    for (const std::string fault : {"error=EIO", "signal=SIGTERM", "signal=SIGKILL"}) {
+      int ended = 0;  // by the fault
+      for (int n = 1; n <= 11; ++n) {
+        fs::copy(dir_ / "before", dir_ / "out", fs::copy_options::recursive);
+        std::vector<std::string> words = build(12);
+        words.insert(words.begin(), TUFTED_COMMAND);
+        const int code = runWith(call, fault, n, words);
+        if (fault == "signal=SIGKILL")
+          EXPECT_TRUE(contentAfterKill() == results.at(code == 0 ? 12 : 30)) << call << ' ' << n << ": " << code;
+        else
+          EXPECT_EQ(expectWhole(results), code == 0 ? 12 : 30) << call << ' ' << fault << ' ' << n << ": " << code;
+        ended += code != 0;
+        fs::remove_all(dir_ / "out");
+      }
+      const bool is_survived = call == "linkat" && fault == "error=EIO";  // then the old files are renamed
+      EXPECT_EQ(ended == 0, is_survived || (call != "mkdir" && call != "rename" && fault == "signal=SIGTERM"))
+          << call << ' ' << fault;
+    }
+  }
+}
+
+TEST_F(OutputOfCommands, OfTwoAtOnceIsWhollyThatOfOne) {
+  const std::map<int, Content> results = {{12, resultsOf(12)}, {30, resultsOf(30)}};
+  for (int round = 0; round < 20; ++round) {
+    if (round % 2 == 0) fs::remove_all(dir_ / "out");
+    Process one = startTufted(build(12)), other = startTufted(build(30));
+    const Result first = one.finish(), second = other.finish();
+    EXPECT_EQ(first.code, 0) << first.err;
+    EXPECT_EQ(second.code, 0) << second.err;
+    expectWhole(results);
+  }
+}
+
+TEST_F(OutputOfCommands, IsStillThereAfterTheProcessIsKilled) {
+  const std::map<int, Content> results = {{12, resultsOf(12)}, {30, resultsOf(30)}};
+  const auto start = Clock::now();
+  run(build(30));
+  const auto whole = Clock::now() - start;
+  constexpr int steps = 30;
+  for (int step = 0; step < steps; ++step) {
+    Process process = startTufted(build(12));
+    std::this_thread::sleep_for(whole * step / steps);
+    kill(process.pid(), SIGKILL);
+    process.finish();
+    const Content content = contentAfterKill();
+    EXPECT_TRUE(content == results.at(30) || content == results.at(12)) << step;
+    fs::remove_all(dir_ / "out");
+    run(build(30));
+  }
+}
+
+}  // namespace

@@ -1,0 +1,17 @@
+#pragma once
+
+#include "operator.h"
+
+/// How large the shape of a Laplacian is, and how near each other its points are: what lengths and times that a user
+/// gives are measured against.
+struct Extent {
+  std::string name;    ///< of the source, for messages
+  double size = 0;     ///< the diagonal of the box around the active points, or the root of the area if that is larger,
+                       ///< as of what is rolled up, or the points are not known
+  double spacing = 0;  ///< the mean edge length
+
+  /// "FILE has the size 0.25 and the spacing 0.002", for messages.
+  std::string text() const;
+};
+
+Extent extentOf(const Operator& source);
