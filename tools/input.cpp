@@ -16,10 +16,11 @@ CLI::Option* addInput(CLI::App& command, Input& input) {
   return file;
 }
 
-tufted::Geometry readInput(const Input& input) {
+tufted::Geometry readInput(const Input& input, const tufted::Progress& progress) {
   std::ios::sync_with_stdio(false);  // std::cin then tells an error from the end
   tufted::Geometry geometry =
-      input.isStandardInput() ? tufted::read(std::cin, input.name(), input.as) : tufted::read(input.file, input.as);
+      input.isStandardInput() ? tufted::read(std::cin, input.name(), input.as, tufted::FileFormat::automatic, progress)
+                              : tufted::read(input.file, input.as, tufted::FileFormat::automatic, progress);
   if (!input.weld) return geometry;
   if (!geometry.is_mesh)
     throw tufted::InvalidInput("--weld applies to meshes, and " + input.name() +

@@ -62,6 +62,7 @@ void readFaces(const PlyElement& element, bool strips, PlyBody& body, PolygonSou
   if (corners == element.properties.end())
     body.refuse("the element " + quote(element.name) + " has no list of integers 'vertex_indices'");
   soup.place_name = body.placeName();
+  if (!strips) soup.reserve(element.count);
   for (std::int64_t f = 0; f < element.count; ++f) {
     body.beginItem(element);
     std::vector<int> polygon;
@@ -124,7 +125,7 @@ void skipElement(const PlyElement& element, PlyBody& body) {
 
 }  // namespace
 
-Geometry readPly(const std::filesystem::path& path, std::string_view bytes, bool with_faces) {
+Geometry readPly(const std::filesystem::path& path, std::string_view bytes, bool with_faces, const Progress& progress) {
   const PlyHeader header = parsePlyHeader(path, bytes);
   const auto body = makePlyBody(path, bytes, header);
   Columns columns;
@@ -156,7 +157,7 @@ Geometry readPly(const std::filesystem::path& path, std::string_view bytes, bool
     geometry.width = static_cast<int>(header.columns);
     geometry.height = static_cast<int>(header.rows);
   }
-  setPolygons(path, soup, geometry);
+  setPolygons(path, soup, progress, geometry);
   return geometry;
 }
 
