@@ -14,6 +14,7 @@ namespace tufted {
 /// largest polygon are used.
 /// @param progress called for every few thousand triangles
 /// @throws InvalidInput for an index outside [0, points.rows())
+/// @throws std::length_error for a polygon of more than 2^30 vertices
 /// @throws Cancelled when `progress` returns false
 Triangles triangulate(const Points& points, const Polygons& polygons, const Progress& progress = {});
 

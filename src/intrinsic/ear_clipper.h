@@ -10,17 +10,18 @@ namespace tufted {
 
 /// Clips the ears of one polygon after another, each in the plane of its Newell normal.
 ///
-/// The quality of a corner is the turn of its triangle over the sum of its squared edges, which is below 1/2; it loses
-/// 1 where the turn is not positive or the triangle holds another corner. The next ear is the corner of the greatest
-/// quality, of equal ones the first. So the best shaped ear comes first and, where none is left because the polygon is
-/// degenerate or crosses itself, the most convex corner: clipping always ends. Polygons of a thousand corners and more
-/// make one exception: a corner of a quality up to 2^-40 is straight and loses 1 as well. Where thousands of corners
-/// lie on one line but for rounding, such triangles reach along all of them, and each would have to be looked at.
+/// The quality of a corner is the turn of its triangle over the sum of its squared edges, which is below 1/2; 1 is
+/// taken off where the turn is not positive or the triangle holds another corner. The next ear is the corner of the
+/// greatest quality, of equal ones the first. So the best shaped ear comes first and, where none is left because the
+/// polygon is degenerate or crosses itself, the most convex corner: clipping always ends. Polygons of a thousand
+/// corners and more make one exception: 1 is also taken off a quality up to 2^-40, as the corner is straight. Where
+/// thousands of corners lie on one line but for rounding, such triangles reach along all of them, and each would have
+/// to be looked at.
 ///
 /// The choice does not depend on how it is found. Nothing comes into a triangle while corners are clipped, so one that
-/// is empty stays so, and a corner whose triangle holds another waits until that is clipped. A corner waits for 1 + ln
-/// n others on average, see CornerTree::firstIn. So there are O(n log n) searches. Most take O(log n) steps; those of
-/// long needles that reach between thousands of scattered corners take O(sqrt(n)).
+/// is empty stays so, and a corner whose triangle holds another waits until that is clipped. On average it waits for
+/// 1 + ln n others, see CornerTree::firstIn. So there are O(n log n) searches. Most take O(log n) steps; those of long
+/// needles that reach between thousands of scattered corners take O(sqrt(n)).
 class EarClipper {
  public:
   /// Begins with a polygon of at least three corners. The memory of the former one is used again.

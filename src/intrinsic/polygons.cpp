@@ -1,6 +1,7 @@
 #include "tufted/polygons.h"
 
 #include <array>
+#include <stdexcept>
 #include <string>
 
 #include "base/parallel.h"
@@ -10,10 +11,13 @@
 namespace tufted {
 namespace {
 
+constexpr std::size_t most_corners = std::size_t{1} << 30;  // two trees count them by int
+
 /// The number of triangles.
 Eigen::Index checkedTriangles(const Points& points, const Polygons& polygons) {
   Eigen::Index triangles = 0;
   for (std::size_t p = 0; p < polygons.size(); ++p) {
+    if (polygons[p].size() > most_corners) throw std::length_error("triangulate: more than 2^30 vertices");
     for (const int vertex : polygons[p]) {
       if (vertex < 0 || vertex >= points.rows()) {
         throw InvalidInput("triangulate: polygon " + std::to_string(p) + " names vertex " + std::to_string(vertex) +
