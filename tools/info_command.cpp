@@ -207,7 +207,7 @@ int runInfo(Settings settings) {
     return !interrupted();
   };
   settings.cloud.progress("read", 0);
-  const tufted::Geometry geometry = readInput(settings.input);
+  const tufted::Geometry geometry = readInput(settings.input, settings.cloud.progress);
   if (interrupted()) throw tufted::Cancelled("cancelled");
   Json info = describeFile(settings, geometry);
   const tufted::CloudDescription points = tufted::describeCloud(geometry.points, settings.cloud);

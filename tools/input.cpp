@@ -23,22 +23,23 @@ CLI::Option* addInput(CLI::App& command, Input& input) {
 
 namespace {
 
-tufted::Geometry readAny(const Input& input) {
+tufted::Geometry readAny(const Input& input, const tufted::Progress& progress) {
+  constexpr auto automatic = tufted::FileFormat::automatic;
   if (input.isStandardInput()) {
     std::ios::sync_with_stdio(false);  // std::cin then tells an error from the end
-    return tufted::read(std::cin, input.name(), input.as);
+    return tufted::read(std::cin, input.name(), input.as, automatic, progress);
   }
   std::error_code error;
-  if (!std::filesystem::is_fifo(input.file, error)) return tufted::read(input.file, input.as);
+  if (!std::filesystem::is_fifo(input.file, error)) return tufted::read(input.file, input.as, automatic, progress);
   std::ifstream pipe(input.file, std::ios::binary);
   if (!pipe) throw tufted::IoError(input.name() + ": cannot be read");
-  return tufted::read(pipe, input.name(), input.as);
+  return tufted::read(pipe, input.name(), input.as, automatic, progress);
 }
 
 }  // namespace
 
-tufted::Geometry readInput(const Input& input) {
-  tufted::Geometry geometry = readAny(input);
+tufted::Geometry readInput(const Input& input, const tufted::Progress& progress) {
+  tufted::Geometry geometry = readAny(input, progress);
   if (!input.weld) return geometry;
   if (!geometry.is_mesh)
     throw tufted::InvalidInput("--weld applies to meshes, and " + input.name() +

@@ -20,5 +20,6 @@ struct Input {
 /// Adds FILE, which is required, --as and --weld; gives FILE.
 CLI::Option* addInput(CLI::App& command, Input& input);
 
-/// @throws IoError as tufted::read does; InvalidInput for --weld on a cloud, whose equal points are merged anyway
-tufted::Geometry readInput(const Input& input);
+/// @throws IoError and Cancelled as tufted::read does; InvalidInput for --weld on a cloud, whose equal points are
+/// merged anyway
+tufted::Geometry readInput(const Input& input, const tufted::Progress& progress);

@@ -150,7 +150,7 @@ int runLaplacian(Settings& settings) {
   ProgressBar bar;
   const tufted::Progress progress = showOn(bar);
   progress("read", 0);
-  const tufted::Geometry geometry = readInput(settings.input);
+  const tufted::Geometry geometry = readInput(settings.input, progress);
   if (interrupted()) throw tufted::Cancelled("cancelled");
   tufted::WriteOptions& write = settings.write;
   const bool keep_cover = std::count(write.formats.begin(), write.formats.end(), tufted::Format::cover) > 0;

@@ -55,12 +55,13 @@ void addSolvingOptions(CLI::App& command, Solving& solving) {
 
 /// The points that a former `tufted laplacian` wrote into its folder; none where it was told not to, whatever an
 /// earlier one left there.
-tufted::Geometry pointsOf(const std::filesystem::path& folder) {
+tufted::Geometry pointsOf(const std::filesystem::path& folder, const tufted::Progress& progress) {
   std::ifstream report(folder / "report.json");
   const nlohmann::json json = nlohmann::json::parse(report, nullptr, false);
   const auto files = json.value("/write_options/files"_json_pointer, nlohmann::json::array());
   for (const char* name : {"points.ply", "points.pcd"})
-    if (std::find(files.begin(), files.end(), name) != files.end()) return tufted::read(folder / name);
+    if (std::find(files.begin(), files.end(), name) != files.end())
+      return tufted::read(folder / name, tufted::ReadAs::automatic, tufted::FileFormat::automatic, progress);
   return {};
 }
 
@@ -74,7 +75,7 @@ void readFolder(const OperatorSettings& settings, Operator& source) {
   if (settings.needs_cover && !source.laplacian.hasCover())
     throw tufted::IoError(folder.string() + ": has no cover.npz, which `tufted laplacian --format npz,ply,cover` " +
                           "writes and " + settings.command + " needs");
-  source.geometry = pointsOf(folder);
+  source.geometry = pointsOf(folder, source.progress);
   const auto n = static_cast<Eigen::Index>(source.laplacian.status.size());
   if (source.geometry.points.rows() != n && source.geometry.points.rows() > 0)
     throw tufted::IoError(folder.string() + ": the points are " + std::to_string(source.geometry.points.rows()) +
@@ -168,7 +169,7 @@ int runWithOperator(OperatorSettings& settings, std::vector<std::string> files, 
   for (const std::string& name : tufted::resultFiles({}, {.copies = settings.copies})) files.push_back(name);
   checkOutput(settings.input, settings.out, files);
   if (settings.folder.empty())
-    source.geometry = readInput(settings.input);
+    source.geometry = readInput(settings.input, source.progress);
   else
     readFolder(settings, source);
   checkpoint();

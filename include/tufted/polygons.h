@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tufted/memory_layout.h"
+#include "tufted/options.h"
 #include "tufted/types.h"
 
 namespace tufted {
@@ -8,7 +8,14 @@ namespace tufted {
 /// Splits every polygon of n vertices into n - 2 triangles by ear clipping in the plane of its Newell normal,
 /// keeping its orientation. Polygons of fewer than three vertices give nothing. A polygon that is degenerate or
 /// crosses itself still gives n - 2 triangles.
+///
+/// The best shaped ear is clipped first, whatever n. 100,000 vertices take less than a second, and n the time of
+/// n log n, on needles between scattered vertices of n sqrt(n); beside the result about 100 bytes per vertex of the
+/// largest polygon are used.
+/// @param progress called for every few thousand triangles
 /// @throws InvalidInput for an index outside [0, points.rows())
-Triangles triangulate(const Points& points, const Polygons& polygons);
+/// @throws std::length_error for a polygon of more than 2^30 vertices
+/// @throws Cancelled when `progress` returns false
+Triangles triangulate(const Points& points, const Polygons& polygons, const Progress& progress = {});
 
 }  // namespace tufted

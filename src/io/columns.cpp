@@ -14,10 +14,11 @@ namespace tufted::io {
 namespace {
 
 using Names = std::array<std::string_view, 3>;
+using Places = std::array<std::size_t, 3>;
 
 /// Index of the three fields, each with one value per point.
-std::optional<std::array<std::size_t, 3>> find(const std::vector<Field>& fields, const Names& names) {
-  std::array<std::size_t, 3> found = {};
+std::optional<Places> find(const std::vector<Field>& fields, const Names& names) {
+  Places found = {};
   for (int c = 0; c < 3; ++c) {
     const auto field = std::find_if(fields.begin(), fields.end(), [&](const Field& candidate) {
       return candidate.name == names[c] && candidate.count == 1;
@@ -28,8 +29,14 @@ std::optional<std::array<std::size_t, 3>> find(const std::vector<Field>& fields,
   return found;
 }
 
+Places findPosition(const std::filesystem::path& path, std::int64_t line, const std::vector<Field>& fields) {
+  const auto position = find(fields, {"x", "y", "z"});
+  if (!position) refuseLine(path, line, "has no fields x, y, z");
+  return *position;
+}
+
 /// Converts the three fields to double and marks them as used.
-Points take(const Columns& columns, const std::array<std::size_t, 3>& found, std::vector<bool>& used) {
+Points take(const Columns& columns, const Places& found, std::vector<bool>& used) {
   Points points(columns.rows, 3);
   for (int c = 0; c < 3; ++c) {
     const Field& field = columns.fields[found[c]];
@@ -75,12 +82,14 @@ void allocate(Columns& columns, std::int64_t rows) {
   for (Field& field : columns.fields) field.bytes.resize(rows * field.count * sizeOf(field.type));
 }
 
+void requirePosition(const std::filesystem::path& path, std::int64_t line, const std::vector<Field>& fields) {
+  findPosition(path, line, fields);
+}
+
 Geometry toGeometry(const std::filesystem::path& path, std::int64_t line, Columns&& columns) {
   std::vector<bool> used(columns.fields.size());
   Geometry geometry;
-  const auto position = find(columns.fields, {"x", "y", "z"});
-  if (!position) refuseLine(path, line, "has no fields x, y, z");
-  geometry.points = take(columns, *position, used);
+  geometry.points = take(columns, findPosition(path, line, columns.fields), used);
   auto normal = find(columns.fields, {"normal_x", "normal_y", "normal_z"});
   if (!normal) normal = find(columns.fields, {"nx", "ny", "nz"});
   if (normal) geometry.normals = take(columns, *normal, used);

@@ -54,6 +54,9 @@ struct Columns {
 /// Makes room for `rows` values in each field.
 void allocate(Columns& columns, std::int64_t rows);
 
+/// Asks for the fields x, y, z before their values are read. @throws IoError without them
+void requirePosition(const std::filesystem::path& path, std::int64_t line, const std::vector<Field>& fields);
+
 /// Moves x, y, z to `points`, a full set of normal_x, normal_y, normal_z or nx, ny, nz to `normals`, and all other
 /// fields to `fields`, except padding (named "_"). Width and height are those of an unorganized cloud.
 /// @param line of the header, where the fields are named

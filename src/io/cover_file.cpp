@@ -4,12 +4,35 @@
 #include <limits>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "io/errors.h"
 #include "io/npz_archive.h"
 #include "io/npz_reader.h"
 
 namespace tufted::io {
+
+namespace {
+
+/// Refuses the first side whose mate is another's, before there is memory for those behind it: nothing that repeats is
+/// a gluing, so no file holds many more sides than it has bytes.
+std::vector<int> readGlue(NpzArray& array, const std::filesystem::path& path) {
+  const double last = static_cast<double>(array.size()) - 1;
+  std::vector<int> glue;
+  std::vector<bool> is_mate;
+  for (std::int64_t side = 0; side < array.size(); ++side) {
+    const int mate = array.nextInteger(0, last);
+    if (is_mate.size() <= static_cast<std::size_t>(mate)) is_mate.resize(mate + std::size_t{1});
+    if (mate == side || is_mate[mate] || (mate < side && glue[mate] != side))
+      refuse(path, "is no cover: sides that are glued to themselves or not back, side " + std::to_string(side) +
+                       " the first");
+    is_mate[mate] = true;
+    glue.push_back(mate);
+  }
+  return glue;
+}
+
+}  // namespace
 
 void writeCover(const OutputPath& to, const IntrinsicTriangulation& cover) {
   NpzArchive archive(to);
@@ -21,19 +44,21 @@ void writeCover(const OutputPath& to, const IntrinsicTriangulation& cover) {
 
 IntrinsicTriangulation readCover(const std::filesystem::path& path, int vertices) {
   const NpzReader archive(path);
-  const std::vector<int> corners = integersOf(archive.numbers("faces"), 0, vertices - 1.0, path);
-  IntrinsicTriangulation cover{vertices, {}, {}, archive.numbers("length")};
-  const auto sides = std::ssize(corners);
+  NpzArray corners = archive.open("faces"), glue = archive.open("glue"), lengths = archive.open("length");
+  const std::int64_t sides = corners.size();
   if (sides % 3 != 0 || sides > std::numeric_limits<int>::max())
     refuse(path, "has " + std::to_string(sides) + " corners, must have three per face and less than 2^31");
-  cover.glue = integersOf(archive.numbers("glue"), 0, static_cast<double>(sides) - 1, path);
-  if (std::ssize(cover.glue) != sides || std::ssize(cover.length) != sides)
+  if (glue.size() != sides || lengths.size() != sides)
     refuse(path, "has arrays of different sizes, must have three values per face in each");
-  cover.faces.reserve(corners.size() / 3);
-  for (std::size_t k = 0; k < corners.size(); k += 3)
-    cover.faces.push_back({corners[k], corners[k + 1], corners[k + 2]});
-  for (const double length : cover.length)
+  IntrinsicTriangulation cover{vertices, {}, readGlue(glue, path), {}};
+  cover.faces.resize(static_cast<std::size_t>(sides / 3));
+  for (auto& face : cover.faces)
+    for (int& corner : face) corner = corners.nextInteger(0, vertices - 1.0);
+  cover.length.resize(static_cast<std::size_t>(sides));
+  for (double& length : cover.length) {
+    length = lengths.next();
     if (!(length >= 0 && std::isfinite(length))) refuse(path, "has lengths that are negative or not finite");
+  }
   const CoverCheck check = validate(cover);
   const std::pair<const char*, std::int64_t> faults[] = {
       {"sides that are glued to themselves or not back", check.not_edge_manifold},

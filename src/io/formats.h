@@ -7,14 +7,14 @@
 
 namespace tufted::io {
 
-/// One reader per format: the whole file is in `bytes`, `path` is for errors. All throw IoError naming the path and,
-/// where known, the line or byte.
+/// One reader per format: the whole file is in `bytes`, `path` is for errors, `progress` for faces that are
+/// triangulated. All throw IoError naming the path and, where known, the line or byte.
 Geometry readPcd(const std::filesystem::path& path, std::string_view bytes);
-Geometry readPly(const std::filesystem::path& path, std::string_view bytes, bool with_faces);
+Geometry readPly(const std::filesystem::path& path, std::string_view bytes, bool with_faces, const Progress& progress);
 Geometry readXyz(const std::filesystem::path& path, std::string_view bytes);
 Geometry readLas(const std::filesystem::path& path, std::string_view bytes);
-Geometry readObj(const std::filesystem::path& path, std::string_view bytes);
-Geometry readOff(const std::filesystem::path& path, std::string_view bytes);
+Geometry readObj(const std::filesystem::path& path, std::string_view bytes, const Progress& progress);
+Geometry readOff(const std::filesystem::path& path, std::string_view bytes, const Progress& progress);
 Geometry readStl(const std::filesystem::path& path, std::string_view bytes);
 
 /// Whether the bytes begin as a file of that format does. Text of numbers is anything else that begins with numbers.

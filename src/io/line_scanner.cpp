@@ -26,7 +26,9 @@ bool LineScanner::next() {
 
 void LineScanner::appendTokens() {
   if (offset_ >= text_.size()) return;
-  std::size_t end = std::min(text_.find('\n', offset_), text_.size());
+  // Looked for once, not in each of the lines before it that a lone \r ends.
+  if (newline_ <= offset_) newline_ = std::min(text_.find('\n', offset_), text_.size());
+  std::size_t end = newline_;
   const std::size_t carriage = text_.substr(offset_, end - offset_).find('\r');
   if (carriage != std::string_view::npos && offset_ + carriage + 1 != end) end = offset_ + carriage;
   std::string_view line = text_.substr(offset_, end - offset_);

@@ -27,7 +27,7 @@ class LineScanner {
 
   /// Goes on from byte `offset`, the beginning of the line after number `line`.
   void seek(std::size_t offset, std::int64_t line) {
-    offset_ = offset;
+    offset_ = newline_ = offset;
     line_ = line;
   }
 
@@ -57,6 +57,7 @@ class LineScanner {
   std::string_view text_;
   Syntax syntax_;
   std::size_t offset_ = 0;
+  std::size_t newline_ = 0;  ///< where it lies behind `offset_`, the first there
   std::int64_t line_ = 0;
   char delimiter_ = '\0';
   std::vector<std::string_view> tokens_;

@@ -71,45 +71,60 @@ std::string npyHeader(std::string_view descr, const std::vector<std::int64_t>& s
   return header + dictionary;
 }
 
-std::int64_t NpyArray::size() const {
+std::int64_t NpyHeader::size() const {
   std::int64_t product = 1;
   for (const std::int64_t length : shape) product *= length;
   return product;
 }
 
-NpyArray parseNpy(std::string_view bytes, const std::filesystem::path& shown) {
-  if (!bytes.starts_with(magic) || bytes.size() < 12) refuse(shown, "is no array of numpy");
-  const int version = static_cast<unsigned char>(bytes[6]);
+std::size_t npyHeaderBytes(std::string_view beginning, const std::filesystem::path& shown) {
+  if (!beginning.starts_with(magic) || beginning.size() < npy_beginning) refuse(shown, "is no array of numpy");
+  const int version = static_cast<unsigned char>(beginning[6]);
   if (version < 1 || version > 3)
     refuse(shown, "is an array of numpy in the unknown version " + std::to_string(version));
   const std::size_t length_bytes = version == 1 ? 2 : 4;
   std::size_t length = 0;
   for (std::size_t i = 0; i < length_bytes; ++i)
-    length |= std::size_t(static_cast<unsigned char>(bytes[8 + i])) << 8 * i;
-  const std::size_t start = 8 + length_bytes;
-  if (length > bytes.size() - start) refuse(shown, "ends within the header of the array");
-  const std::string_view dictionary = bytes.substr(start, length);
+    length |= std::size_t(static_cast<unsigned char>(beginning[8 + i])) << 8 * i;
+  return 8 + length_bytes + length;
+}
+
+NpyHeader parseNpyHeader(std::string_view bytes, std::uint64_t all, const std::filesystem::path& shown) {
+  NpyHeader header;
+  header.bytes = npyHeaderBytes(bytes, shown);
+  if (header.bytes > bytes.size()) refuse(shown, "ends within the header of the array");
+  const std::string_view dictionary = bytes.substr(8, header.bytes - 8);
   if (!entry(dictionary, "fortran_order", shown).starts_with("False"))
     refuse(shown, "is an array in Fortran's order, must be in C's");
-  NpyArray array;
   const std::string_view descr = entry(dictionary, "descr", shown);
   const std::size_t end = descr.find('\'', 1);
   if (!descr.starts_with('\'') || end == std::string_view::npos) refuse(shown, "is an array of structures");
-  array.descr = descr.substr(1, end - 1);
-  array.shape = parseShape(entry(dictionary, "shape", shown), shown);
-  array.values = bytes.substr(start + length);
-  const auto type = types.find(array.descr);
-  if (type != types.end() && array.values.size() != static_cast<std::size_t>(array.size()) * sizeOf(type->second))
-    refuse(shown, "has " + std::to_string(array.values.size()) + " bytes of values, its shape says another number");
-  return array;
+  header.descr = descr.substr(1, end - 1);
+  header.shape = parseShape(entry(dictionary, "shape", shown), shown);
+  const std::uint64_t values = all - header.bytes;
+  if (const auto type = types.find(header.descr); type != types.end()) {
+    header.type = type->second;
+    if (values != static_cast<std::uint64_t>(header.size()) * sizeOf(type->second))
+      refuse(shown, "has " + std::to_string(values) + " bytes of values, its shape says another number");
+  }
+  return header;
+}
+
+NpyArray parseNpy(std::string_view bytes, const std::filesystem::path& shown) {
+  const NpyHeader header = parseNpyHeader(bytes, bytes.size(), shown);
+  return {header, bytes.substr(header.bytes)};
+}
+
+FieldType numberType(const NpyHeader& header, const std::filesystem::path& shown) {
+  if (!header.type) refuse(shown, "is an array of " + quote(header.descr) + ", which are no numbers");
+  return *header.type;
 }
 
 std::vector<double> numbersOf(const NpyArray& array, const std::filesystem::path& shown) {
-  const auto type = types.find(array.descr);
-  if (type == types.end()) refuse(shown, "is an array of " + quote(array.descr) + ", which are no numbers");
+  const FieldType type = numberType(array, shown);
   std::vector<double> numbers(static_cast<std::size_t>(array.size()));
   const auto* const bytes = reinterpret_cast<const std::byte*>(array.values.data());
-  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = valueOf(type->second, bytes + i * sizeOf(type->second));
+  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = valueOf(type, bytes + i * sizeOf(type));
   return numbers;
 }
 

@@ -1,12 +1,67 @@
 #include "io/npz_reader.h"
 
+#include <algorithm>
 #include <cmath>
 
+#include "io/columns.h"
 #include "io/errors.h"
 #include "io/file_text.h"
-#include "io/npy.h"
 
 namespace tufted::io {
+namespace {
+
+constexpr std::int64_t piece_numbers = 8192;
+constexpr std::size_t most_header_bytes = 1 << 16;  // numpy writes one or two hundred
+
+int integerOf(double number, double least, double most, std::int64_t place, const std::filesystem::path& shown) {
+  if (!(number >= least && number <= most) || number != std::floor(number))
+    refuse(shown, "value " + std::to_string(place) + " is none of those expected");
+  return static_cast<int>(number);
+}
+
+}  // namespace
+
+double NpzArray::next() {
+  if (place_ == piece_.size()) readPiece();
+  return piece_[place_++];
+}
+
+int NpzArray::nextInteger(double least, double most) {
+  const double number = next();
+  return integerOf(number, least, most, taken_ - std::ssize(piece_) + static_cast<std::int64_t>(place_) - 1, path_);
+}
+
+std::string NpzArray::take(std::size_t bytes) {
+  std::string content(bytes, '\0');
+  if (zip_fread(file_.get(), content.data(), bytes) != static_cast<zip_int64_t>(bytes)) refuseDamaged();
+  return content;
+}
+
+void NpzArray::takeHeader(std::uint64_t all) {
+  std::string bytes = take(static_cast<std::size_t>(std::min<std::uint64_t>(all, npy_beginning)));
+  const std::size_t header_bytes = npyHeaderBytes(bytes, path_);
+  if (header_bytes > all || header_bytes > most_header_bytes) refuseDamaged();
+  if (header_bytes > bytes.size()) bytes += take(header_bytes - bytes.size());
+  header_ = parseNpyHeader(bytes, all, path_);
+  value_bytes_ = all - header_bytes;
+}
+
+void NpzArray::readPiece() {
+  const FieldType type = numberType(header_, path_);
+  const std::int64_t count = std::min(piece_numbers, size() - taken_);
+  const std::string bytes = take(static_cast<std::size_t>(count) * sizeOf(type));
+  piece_.resize(static_cast<std::size_t>(count));
+  for (std::size_t i = 0; i < piece_.size(); ++i)
+    piece_[i] = valueOf(type, reinterpret_cast<const std::byte*>(bytes.data()) + i * sizeOf(type));
+  place_ = 0;
+  taken_ += count;
+  char beyond;  // at the end the checksum is compared
+  if (taken_ == size() && zip_fread(file_.get(), &beyond, 1) != 0) refuseDamaged();
+}
+
+void NpzArray::refuseDamaged() const {
+  refuse(path_, "the array " + quote(name_) + " is damaged");
+}
 
 NpzReader::NpzReader(const std::filesystem::path& path) : path_(path), bytes_(readBytes(path)) {
   zip_error_t error;
@@ -18,33 +73,41 @@ NpzReader::NpzReader(const std::filesystem::path& path) : path_(path), bytes_(re
   if (!archive_) refuse(path_, "is no archive of numpy");
 }
 
-std::string NpzReader::read(const std::string& name) const {
+NpzArray NpzReader::open(const std::string& name) const {
   zip_stat_t status;
   if (zip_stat(archive_.get(), (name + ".npy").c_str(), 0, &status) != 0 || (status.valid & ZIP_STAT_SIZE) == 0)
     refuse(path_, "has no array " + quote(name));
-  // Deflate shrinks a thousandfold at best: what claims more is damaged, and not worth the memory.
+  // Deflate shrinks 1032 times at best.
   if (status.size / 2048 > bytes_.size()) refuse(path_, "the array " + quote(name) + " claims to be too large");
-  std::string content(status.size, '\0');
-  const std::unique_ptr<zip_file_t, int (*)(zip_file_t*)> file(zip_fopen_index(archive_.get(), status.index, 0),
-                                                               &zip_fclose);
-  if (!file || zip_fread(file.get(), content.data(), content.size()) != static_cast<zip_int64_t>(content.size()))
-    refuse(path_, "the array " + quote(name) + " is damaged");
-  return content;
+  NpzArray array(path_, name);
+  array.file_.reset(zip_fopen_index(archive_.get(), status.index, 0));
+  if (!array.file_) array.refuseDamaged();
+  array.takeHeader(status.size);
+  return array;
 }
 
-std::vector<double> NpzReader::numbers(const std::string& name) const {
-  const std::string bytes = read(name);
-  return numbersOf(parseNpy(bytes, path_), path_);
+std::vector<double> NpzReader::numbers(const std::string& name, std::int64_t count) const {
+  NpzArray array = open(name);
+  if (array.size() != count)
+    refuse(path_, "the array " + quote(name) + " has " + std::to_string(array.size()) + " values, must have " +
+                      std::to_string(count));
+  std::vector<double> numbers;
+  for (std::int64_t i = 0; i < count; ++i) numbers.push_back(array.next());
+  return numbers;
+}
+
+std::string NpzReader::text(const std::string& name) const {
+  constexpr std::uint64_t most = 64;
+  NpzArray array = open(name);
+  if (array.value_bytes_ > most) refuse(path_, "the array " + quote(name) + " is no word");
+  return array.take(static_cast<std::size_t>(array.value_bytes_));
 }
 
 std::vector<int> integersOf(const std::vector<double>& numbers, double least, double most,
                             const std::filesystem::path& shown) {
   std::vector<int> result(numbers.size());
-  for (std::size_t i = 0; i < numbers.size(); ++i) {
-    if (!(numbers[i] >= least && numbers[i] <= most) || numbers[i] != std::floor(numbers[i]))
-      refuse(shown, "value " + std::to_string(i) + " is none of those expected");
-    result[i] = static_cast<int>(numbers[i]);
-  }
+  for (std::size_t i = 0; i < numbers.size(); ++i)
+    result[i] = integerOf(numbers[i], least, most, static_cast<std::int64_t>(i), shown);
   return result;
 }
 

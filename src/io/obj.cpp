@@ -18,7 +18,8 @@ constexpr LineScanner::Syntax syntax = {.comment = '#', .continued = true};
 // cannot read, and refuses files with lines (`l`) or continued lines.
 class ObjReader {
  public:
-  ObjReader(const std::filesystem::path& path, std::string_view text) : path_(path), scanner_(path, text, syntax) {}
+  ObjReader(const std::filesystem::path& path, std::string_view text, const Progress& progress)
+      : path_(path), scanner_(path, text, syntax), progress_(progress) {}
 
   Geometry read() {
     while (scanner_.next()) {
@@ -38,7 +39,7 @@ class ObjReader {
     if (normals_are_of_vertices_ && normals_.size() == coordinates_.size())
       geometry.normals = Eigen::Map<const Points>(normals_.data(), geometry.width, 3);
     colors_.moveTo(geometry.fields, false);
-    setPolygons(path_, soup_, geometry);
+    setPolygons(path_, soup_, progress_, geometry);
     return geometry;
   }
 
@@ -77,6 +78,7 @@ class ObjReader {
 
   const std::filesystem::path& path_;
   LineScanner scanner_;
+  const Progress& progress_;
   std::vector<double> coordinates_, normals_;
   VertexColors colors_;
   bool normals_are_of_vertices_ = true;
@@ -91,8 +93,8 @@ bool looksLikeObj(std::string_view bytes) {
   return !tokens.empty() && std::find(keywords.begin(), keywords.end(), tokens[0]) != keywords.end();
 }
 
-Geometry readObj(const std::filesystem::path& path, std::string_view text) {
-  return ObjReader(path, text).read();
+Geometry readObj(const std::filesystem::path& path, std::string_view text, const Progress& progress) {
+  return ObjReader(path, text, progress).read();
 }
 
 }  // namespace tufted::io

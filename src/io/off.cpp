@@ -34,8 +34,9 @@ std::optional<OffLayout> parseKeyword(std::string_view word) {
 /// colour.
 class AsciiOff {
  public:
-  AsciiOff(const std::filesystem::path& path, std::string_view text, LineScanner& scanner, OffLayout layout)
-      : path_(path), text_(text), scanner_(scanner), layout_(layout) {}
+  AsciiOff(const std::filesystem::path& path, std::string_view text, LineScanner& scanner, OffLayout layout,
+           const Progress& progress)
+      : path_(path), text_(text), scanner_(scanner), layout_(layout), progress_(progress) {}
 
   Geometry read() {
     readCounts();
@@ -46,9 +47,10 @@ class AsciiOff {
     for (std::int64_t v = 0; v < vertices_; ++v) readVertex(v, geometry);
     colors_.moveTo(geometry.fields, true);
     PolygonSoup soup;
+    soup.reserve(faces_);
     for (std::int64_t f = 0; f < faces_; ++f) readFace(soup);
     // What follows is passed over, as other readers do: CGAL's prim.off has a face more than its header counts.
-    setPolygons(path_, soup, geometry);
+    setPolygons(path_, soup, progress_, geometry);
     return geometry;
   }
 
@@ -107,6 +109,7 @@ class AsciiOff {
   std::string_view text_;
   LineScanner& scanner_;
   OffLayout layout_;
+  const Progress& progress_;
   VertexColors colors_;
   std::int64_t vertices_ = 0;
   std::int64_t faces_ = 0;
@@ -119,13 +122,13 @@ bool looksLikeOff(std::string_view bytes) {
   return !tokens.empty() && parseKeyword(tokens[0]).has_value();
 }
 
-Geometry readOff(const std::filesystem::path& path, std::string_view text) {
+Geometry readOff(const std::filesystem::path& path, std::string_view text, const Progress& progress) {
   LineScanner scanner(path, text, syntax);
   const auto layout = scanner.next() ? parseKeyword(scanner.tokens()[0]) : std::nullopt;
   if (!layout) scanner.refuse("the header does not begin with OFF, COFF, NOFF, STOFF or 4OFF");
   const bool binary = scanner.tokens().size() > 1 && scanner.tokens()[1] == "BINARY";
-  Geometry geometry =
-      binary ? readBinaryOff(path, text, scanner.offset(), *layout) : AsciiOff(path, text, scanner, *layout).read();
+  Geometry geometry = binary ? readBinaryOff(path, text, scanner.offset(), *layout, progress)
+                             : AsciiOff(path, text, scanner, *layout, progress).read();
   geometry.format = binary ? "OFF, binary" : "OFF, ascii";
   return geometry;
 }

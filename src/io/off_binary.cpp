@@ -15,8 +15,9 @@ namespace {
 
 class BinaryOff {
  public:
-  BinaryOff(const std::filesystem::path& path, std::string_view bytes, std::size_t body, const OffLayout& layout)
-      : path_(path), bytes_(bytes), offset_(body), layout_(layout) {}
+  BinaryOff(const std::filesystem::path& path, std::string_view bytes, std::size_t body, const OffLayout& layout,
+            const Progress& progress)
+      : path_(path), bytes_(bytes), offset_(body), layout_(layout), progress_(progress) {}
 
   Geometry read() {
     const std::int64_t vertices = integer(), faces = integer();
@@ -37,8 +38,9 @@ class BinaryOff {
     readVertices(geometry);
     PolygonSoup soup;
     soup.place_name = "byte";
+    soup.reserve(faces);
     for (std::int64_t f = 0; f < faces; ++f) readFace(soup);
-    setPolygons(path_, soup, geometry);
+    setPolygons(path_, soup, progress_, geometry);
     return geometry;
   }
 
@@ -94,13 +96,14 @@ class BinaryOff {
   std::string_view bytes_;
   std::size_t offset_;
   OffLayout layout_;
+  const Progress& progress_;
 };
 
 }  // namespace
 
 Geometry readBinaryOff(const std::filesystem::path& path, std::string_view bytes, std::size_t body,
-                       const OffLayout& layout) {
-  return BinaryOff(path, bytes, std::min(body, bytes.size()), layout).read();
+                       const OffLayout& layout, const Progress& progress) {
+  return BinaryOff(path, bytes, std::min(body, bytes.size()), layout, progress).read();
 }
 
 }  // namespace tufted::io

@@ -14,6 +14,6 @@ namespace tufted::io {
 /// @param body where the binary counts begin
 /// @throws IoError naming the path and byte
 Geometry readBinaryOff(const std::filesystem::path& path, std::string_view bytes, std::size_t body,
-                       const OffLayout& layout);
+                       const OffLayout& layout, const Progress& progress);
 
 }  // namespace tufted::io

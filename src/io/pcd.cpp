@@ -48,6 +48,7 @@ bool looksLikePcd(std::string_view bytes) {
 
 Geometry readPcd(const std::filesystem::path& path, std::string_view bytes) {
   PcdHeader header = parsePcdHeader(path, bytes);
+  requirePosition(path, header.line, header.columns.fields);
   const char* format = "PCD, ascii";
   switch (header.data) {
     case PcdHeader::Data::ascii:

@@ -17,10 +17,12 @@ namespace tufted::io {
 namespace {
 
 /// One value per point and property; lists have no place in a Field and are passed over.
-Columns readVertices(const PlyElement& element, PlyBody& body) {
+Columns readVertices(const std::filesystem::path& path, std::int64_t header_lines, const PlyElement& element,
+                     PlyBody& body) {
   Columns columns;
   for (const PlyProperty& property : element.properties)
     if (!property.is_list) columns.fields.push_back({property.name, property.type, 1, {}});
+  requirePosition(path, header_lines, columns.fields);  // points without values would fit into any file
   allocate(columns, element.count);
   for (std::int64_t i = 0; i < element.count; ++i) {
     body.beginItem(element);
@@ -62,6 +64,7 @@ void readFaces(const PlyElement& element, bool strips, PlyBody& body, PolygonSou
   if (corners == element.properties.end())
     body.refuse("the element " + quote(element.name) + " has no list of integers 'vertex_indices'");
   soup.place_name = body.placeName();
+  if (!strips) soup.reserve(element.count);
   for (std::int64_t f = 0; f < element.count; ++f) {
     body.beginItem(element);
     std::vector<int> polygon;
@@ -124,7 +127,7 @@ void skipElement(const PlyElement& element, PlyBody& body) {
 
 }  // namespace
 
-Geometry readPly(const std::filesystem::path& path, std::string_view bytes, bool with_faces) {
+Geometry readPly(const std::filesystem::path& path, std::string_view bytes, bool with_faces, const Progress& progress) {
   const PlyHeader header = parsePlyHeader(path, bytes);
   const auto body = makePlyBody(path, bytes, header);
   Columns columns;
@@ -134,7 +137,7 @@ Geometry readPly(const std::filesystem::path& path, std::string_view bytes, bool
   for (const PlyElement& element : header.elements) {
     const bool strips = element.name == "tristrips";
     if (element.name == "vertex" && !has_vertices) {
-      columns = readVertices(element, *body);
+      columns = readVertices(path, header.line, element, *body);
       has_vertices = true;
     } else if (with_faces && element.count > 0 && (element.name == "face" || strips)) {
       readFaces(element, strips, *body, soup);
@@ -156,7 +159,7 @@ Geometry readPly(const std::filesystem::path& path, std::string_view bytes, bool
     geometry.width = static_cast<int>(header.columns);
     geometry.height = static_cast<int>(header.rows);
   }
-  setPolygons(path, soup, geometry);
+  setPolygons(path, soup, progress, geometry);
   return geometry;
 }
 

@@ -7,7 +7,8 @@
 
 namespace tufted::io {
 
-void setPolygons(const std::filesystem::path& path, const PolygonSoup& soup, Geometry& geometry) {
+void setPolygons(const std::filesystem::path& path, const PolygonSoup& soup, const Progress& progress,
+                 Geometry& geometry) {
   for (std::size_t p = 0; p < soup.polygons.size(); ++p) {
     for (const int corner : soup.polygons[p]) {
       if (corner >= 0 && corner < geometry.points.rows()) continue;
@@ -16,7 +17,7 @@ void setPolygons(const std::filesystem::path& path, const PolygonSoup& soup, Geo
     }
   }
   geometry.is_mesh = !soup.polygons.empty();
-  geometry.triangles = triangulate(geometry.points, soup.polygons);
+  geometry.triangles = triangulate(geometry.points, soup.polygons, progress);
   geometry.polygons =
       std::count_if(soup.polygons.begin(), soup.polygons.end(), [](const auto& polygon) { return polygon.size() > 3; });
 }

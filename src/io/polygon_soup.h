@@ -13,10 +13,18 @@ struct PolygonSoup {
   Polygons polygons;
   std::vector<std::int64_t> places;  ///< line or byte per polygon
   const char* place_name = "line";
+
+  /// Room for so many more, which the file was found to be long enough for.
+  void reserve(std::int64_t count) {
+    polygons.reserve(polygons.size() + static_cast<std::size_t>(count));
+    places.reserve(places.size() + static_cast<std::size_t>(count));
+  }
 };
 
 /// Makes `geometry` a mesh of the triangulated polygons; with no polygon it stays a cloud.
 /// @throws IoError for an index outside [0, points.rows())
-void setPolygons(const std::filesystem::path& path, const PolygonSoup& soup, Geometry& geometry);
+/// @throws Cancelled when `progress` returns false
+void setPolygons(const std::filesystem::path& path, const PolygonSoup& soup, const Progress& progress,
+                 Geometry& geometry);
 
 }  // namespace tufted::io

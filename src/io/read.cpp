@@ -63,18 +63,19 @@ FileFormat findFormat(const std::filesystem::path& path, std::string_view bytes)
                      ", and the content begins like none; known are" + names);
 }
 
-Geometry readFormat(const std::filesystem::path& path, std::string_view bytes, bool with_faces, FileFormat format) {
+Geometry readFormat(const std::filesystem::path& path, std::string_view bytes, bool with_faces, FileFormat format,
+                    const Progress& progress) {
   switch (format) {
     case FileFormat::pcd:
       return io::readPcd(path, bytes);
     case FileFormat::ply:
-      return io::readPly(path, bytes, with_faces);
+      return io::readPly(path, bytes, with_faces, progress);
     case FileFormat::las:
       return io::readLas(path, bytes);
     case FileFormat::obj:
-      return io::readObj(path, bytes);
+      return io::readObj(path, bytes, progress);
     case FileFormat::off:
-      return io::readOff(path, bytes);
+      return io::readOff(path, bytes, progress);
     case FileFormat::stl:
       return io::readStl(path, bytes);
     case FileFormat::xyz:
@@ -98,11 +99,12 @@ Geometry withinMemory(const std::filesystem::path& path, const Work& work) {
 
 }  // namespace
 
-Geometry parse(std::string_view bytes, const std::filesystem::path& name, ReadAs as, FileFormat format) {
+Geometry parse(std::string_view bytes, const std::filesystem::path& name, ReadAs as, FileFormat format,
+               const Progress& progress) {
   return withinMemory(name, [&] {
     if (bytes.empty()) io::refuse(name, "is empty");
     if (format == FileFormat::automatic) format = findFormat(name, bytes);
-    Geometry geometry = readFormat(name, bytes, as != ReadAs::cloud, format);
+    Geometry geometry = readFormat(name, bytes, as != ReadAs::cloud, format, progress);
     if (as == ReadAs::mesh && !geometry.is_mesh) io::refuse(name, "has no faces");
     if (as == ReadAs::cloud && geometry.is_mesh) {
       geometry.is_mesh = false;
@@ -113,17 +115,17 @@ Geometry parse(std::string_view bytes, const std::filesystem::path& name, ReadAs
   });
 }
 
-Geometry read(const std::filesystem::path& path, ReadAs as, FileFormat format) {
-  return withinMemory(path, [&] { return parse(io::readBytes(path), path, as, format); });
+Geometry read(const std::filesystem::path& path, ReadAs as, FileFormat format, const Progress& progress) {
+  return withinMemory(path, [&] { return parse(io::readBytes(path), path, as, format, progress); });
 }
 
-Geometry read(std::istream& stream, const std::string& name, ReadAs as, FileFormat format) {
+Geometry read(std::istream& stream, const std::string& name, ReadAs as, FileFormat format, const Progress& progress) {
   return withinMemory(name, [&] {
     std::string bytes;
     for (char block[1 << 16]; stream.read(block, sizeof(block)) || stream.gcount() > 0;)
       bytes.append(block, static_cast<std::size_t>(stream.gcount()));
     if (stream.bad()) io::refuse(name, "cannot be read");
-    return parse(bytes, name, as, format);
+    return parse(bytes, name, as, format, progress);
   });
 }
 

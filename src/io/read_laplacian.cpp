@@ -9,6 +9,7 @@
 #include "io/errors.h"
 #include "io/file_text.h"
 #include "io/frames_file.h"
+#include "io/matrix_file.h"
 #include "io/npy.h"
 #include "io/npz_reader.h"
 #include "io/promises.h"
@@ -20,34 +21,6 @@ namespace {
 using Json = nlohmann::json;
 using Path = std::filesystem::path;
 
-SparseMatrix readMatrix(const Path& path) {
-  const io::NpzReader archive(path);
-  const std::string format_bytes = archive.read("format");
-  const std::string_view format = io::parseNpy(format_bytes, path).values;
-  const bool by_rows = format.starts_with("csr");
-  if (!by_rows && !format.starts_with("csc"))
-    io::refuse(path, "is a matrix of the format " + io::quote(format) + ", must be csc or csr");
-  const std::vector<double> shape = archive.numbers("shape"), data = archive.numbers("data");
-  const double most = std::numeric_limits<int>::max();
-  if (shape.size() != 2 || shape[0] != shape[1] || !(shape[0] >= 0 && shape[0] < most))
-    io::refuse(path, "holds no square matrix");
-  const int n = static_cast<int>(shape[0]);
-  const std::vector<int> start = io::integersOf(archive.numbers("indptr"), 0, most, path);
-  const std::vector<int> indices = io::integersOf(archive.numbers("indices"), 0, n - 1.0, path);
-  if (start.size() != static_cast<std::size_t>(n) + 1 || start.front() != 0 ||
-      !std::is_sorted(start.begin(), start.end()) || static_cast<std::size_t>(start.back()) != indices.size() ||
-      indices.size() != data.size())
-    io::refuse(path, "has columns that do not fit its entries");
-  SparseMatrix matrix(n, n);
-  std::vector<Eigen::Triplet<double>> entries;  // in any order within a column, as scipy allows
-  entries.reserve(data.size());
-  for (int j = 0; j < n; ++j)
-    for (int k = start[j]; k < start[j + 1]; ++k)
-      entries.emplace_back(by_rows ? j : indices[k], by_rows ? indices[k] : j, data[k]);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  return matrix;
-}
-
 std::vector<double> readArray(const Path& path, std::size_t length) {
   const std::string bytes = io::readBytes(path);
   const io::NpyArray array = io::parseNpy(bytes, path);
@@ -56,12 +29,23 @@ std::vector<double> readArray(const Path& path, std::size_t length) {
   return io::numbersOf(array, path);
 }
 
-/// Members of the report that algorithms and validate() look at.
-void readReport(const Json& json, Report& report) {
+/// Members of the report that algorithms and validate() look at. Integers must fit; where a real number is missing, it
+/// was not finite.
+void readReport(const Json& json, const Path& path, Report& report) {
   const auto take = [&](const char* name, auto& value) {
     using Value = std::decay_t<decltype(value)>;
-    const Json member = json.value(name, Json());
-    if (std::is_integral_v<Value> ? member.is_number_integer() : member.is_number()) value = member.get<Value>();
+    const auto member = json.find(name);
+    if (member == json.end() || member->is_null()) return;
+    if constexpr (std::is_integral_v<Value>) {
+      // What is read as no unsigned number is negative or no integer.
+      if (!member->is_number_unsigned() ||
+          member->template get<std::uint64_t>() > static_cast<std::uint64_t>(std::numeric_limits<Value>::max()))
+        io::refuse(path, std::string("has ") + name + " = " + io::quote(member->dump()) +
+                             ", must be an integer in [0, " + std::to_string(std::numeric_limits<Value>::max()) + "]");
+      value = member->template get<Value>();
+    } else if (member->is_number()) {
+      value = member->template get<Value>();
+    }
   };
   take("points", report.points);
   take("active", report.active);
@@ -87,6 +71,16 @@ void readReport(const Json& json, Report& report) {
   take("clamped_weights", report.clamped_weights);
   take("clamped_large", report.clamped_large);
   take("largest_clamped", report.largest_clamped);
+}
+
+/// Discarded where it is no JSON. Nesting is bounded, because copies and texts of values recurse.
+Json readJson(const Path& path) {
+  constexpr int most = 32;  // ours have four
+  const auto check = [&path](int depth, Json::parse_event_t, const Json&) {
+    if (depth > most) io::refuse(path, "is nested deeper than " + std::to_string(most) + " levels");
+    return true;
+  };
+  return Json::parse(io::readBytes(path), check, false);
 }
 
 /// Directories of before there was `kind` have the options of the build, if the command wrote them.
@@ -121,7 +115,7 @@ bool hasWritten(const Json& written, const std::string& name) {
 
 Laplacian readUncheckedLaplacian(const std::filesystem::path& dir, bool with_cover) {
   const Path report_path = dir / "report.json";
-  const Json json = Json::parse(io::readBytes(report_path), nullptr, false);
+  const Json json = readJson(report_path);
   if (!json.is_object() || !json.contains("report") || !json["report"].is_object())
     io::refuse(report_path, "is no report of a Laplacian");
   const Json written = json.value("write_options", Json::object());
@@ -130,10 +124,12 @@ Laplacian readUncheckedLaplacian(const std::filesystem::path& dir, bool with_cov
   Laplacian laplacian;
   const bool takes_cover = with_cover && hasWritten(written, "cover.npz");
   laplacian.kind = readKind(json, takes_cover, report_path);
-  laplacian.L = readMatrix(dir / "L.npz");
-  const auto n = static_cast<std::size_t>(laplacian.L.rows());
+  readReport(json["report"], report_path, laplacian.report);
+  // Of the files of the points none is compressed, so their sizes tell how many points L may have.
+  io::MatrixFile matrix(dir / "L.npz");
+  const auto n = static_cast<std::size_t>(matrix.rows());
   const std::vector<double> mass = readArray(dir / "M.npy", n);
-  laplacian.M = Eigen::Map<const VectorXd>(mass.data(), laplacian.L.rows());
+  laplacian.M = Eigen::Map<const VectorXd>(mass.data(), matrix.rows());
   const double last = static_cast<double>(n) - 1;
   for (const int code : io::integersOf(readArray(dir / "status.npy", n), 0, 3, dir / "status.npy"))
     laplacian.status.push_back(static_cast<PointStatus>(code));
@@ -142,10 +138,10 @@ Laplacian readUncheckedLaplacian(const std::filesystem::path& dir, bool with_cov
   for (const int code : io::integersOf(readArray(dir / "boundary.npy", n), 0, 3, dir / "boundary.npy"))
     laplacian.boundary.push_back(static_cast<Boundary>(code));
   laplacian.frames = io::readFrames(dir / "frames.npy", n);
+  laplacian.L = matrix.read();
   if (takes_cover)
     laplacian.stored_cover =
         std::make_shared<const IntrinsicTriangulation>(io::readCover(dir / "cover.npz", static_cast<int>(n)));
-  readReport(json["report"], laplacian.report);
   if (written.is_object() && written.value("sign", Json()) == "igl") laplacian.L = -laplacian.L;
   if (written.is_object() && written.value("dummy", Json()) == true) removeDummies(laplacian);
   if (laplacian.report.star_masses == 0) laplacian.cover_areas = laplacian.M;

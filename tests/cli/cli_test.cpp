@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "../io/file_size_limit.h"
 #include "../io/temporary_dir.h"
@@ -308,6 +309,26 @@ TEST_F(Command, ShowsProgressOnATerminalAndLeavesNothingBehindWhenInterrupted) {
     const Result result = interruptTufted({"laplacian", file, "--out", out()}, signal);
     EXPECT_EQ(result.code, 130) << signal << ": " << result.err;
     EXPECT_NE(result.err.find('\r'), std::string::npos);
+    EXPECT_NE(result.err.find("tufted: cancelled"), std::string::npos) << result.err;
+    EXPECT_TRUE(noOutputs());
+  }
+}
+
+TEST_F(Command, IsInterruptedWhileAFaceOfManyCornersIsTriangulated) {
+  constexpr int corners = 300'000;
+  std::string text;
+  for (int i = 0; i < corners; ++i) {
+    const double angle = 2 * M_PI * i / corners, r = 1 + 0.5 * std::sin(1e4 * angle * angle);
+    text += "v " + std::to_string(r * std::cos(angle)) + " " + std::to_string(r * std::sin(angle)) + " 0\n";
+  }
+  text += "f";
+  for (int i = 1; i <= corners; ++i) text += " " + std::to_string(i);
+  const auto file = dir_.write("face.obj", text + "\n");
+  for (const std::string command : {"laplacian", "info"}) {
+    std::vector<std::string> arguments = {command, file};
+    if (command == "laplacian") arguments.insert(arguments.end(), {"--out", out()});
+    const Result result = interruptTufted(arguments, SIGTERM, "triangulate");
+    EXPECT_EQ(result.code, 130) << command << ": " << result.err;
     EXPECT_NE(result.err.find("tufted: cancelled"), std::string::npos) << result.err;
     EXPECT_TRUE(noOutputs());
   }

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "tufted/memory_layout.h"
+#include "tufted/options.h"
 #include "tufted/types.h"
 
 namespace tufted {
@@ -56,22 +56,27 @@ enum class ReadAs {
 enum class FileFormat { automatic, pcd, ply, xyz, las, obj, off, stl };
 
 /// Reads clouds (PCD, PLY, XYZ, LAS, OFF and OBJ without faces) and meshes (PLY, OBJ, OFF, STL).
+///
+/// What a file announces is compared with its size before anything is counted or made so large. Reading takes less than
+/// 128 bytes for each byte of the file and twice what is returned.
 /// @param format `automatic` goes by the extension, and where that is unknown by the content.
+/// @param progress called while polygons of many corners are triangulated
 /// @throws FileTooLarge when the memory does not suffice
 /// @throws IoError naming the path, and the line or byte where known
+/// @throws Cancelled when `progress` returns false
 Geometry read(const std::filesystem::path& path, ReadAs as = ReadAs::automatic,
-              FileFormat format = FileFormat::automatic);
+              FileFormat format = FileFormat::automatic, const Progress& progress = {});
 
 /// Reads a stream to its end, such as std::cin.
 /// @param name stands for the path in errors
 /// @param format `automatic` goes by the content.
 Geometry read(std::istream& stream, const std::string& name, ReadAs as = ReadAs::automatic,
-              FileFormat format = FileFormat::automatic);
+              FileFormat format = FileFormat::automatic, const Progress& progress = {});
 
 /// Reads a file that is in memory already.
 /// @param name stands for the path; its extension counts as that of a path does.
 Geometry parse(std::string_view bytes, const std::filesystem::path& name, ReadAs as = ReadAs::automatic,
-               FileFormat format = FileFormat::automatic);
+               FileFormat format = FileFormat::automatic, const Progress& progress = {});
 
 /// Gives vertices of equal position one number, that of the first; their other values are dropped, the triangles
 /// renumbered and `merged_vertices` counted. Vertices that are not finite stay apart. Organized clouds become one row.

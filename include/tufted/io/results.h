@@ -41,15 +41,22 @@ void writeResults(const std::filesystem::path& dir, const Laplacian& laplacian, 
 
 /// Reads what writeLaplacian wrote with Format::npz: L.npz, M.npy, status.npy, representative.npy, boundary.npy,
 /// frames.npy, and of report.json the kind, counts, lengths and areas. Sign::igl and dummy values are undone.
-/// `cover_areas` is M where that holds the cover's areas, else empty. Where report.json has no kind, as those of before there was one, it goes by the options of the
-/// build that are there; without these a cover is refused, and nothing else depends on it.
+/// `cover_areas` is M where that holds the cover's areas, else empty. Where report.json has no kind, as those of before
+/// there was one, it goes by the options of the build that are there; without these a cover is refused, and nothing
+/// else depends on it.
 ///
 /// What is read must be a Laplacian, by the rules of validate(): L is symmetric bit for bit, its off-diagonals are <= 0
 /// and its rows sum to 0 within the rounding of their own sum; active points have a positive diagonal, all others no
 /// entry and no mass; nothing is negative or not finite in M; a coincident point names an earlier one that stands for
 /// itself. This is O(N), a fifth of the time of reading; the factorisation and the cover are left to validate().
+///
+/// L.npz and cover.npz may be deflated, to a thousandth. Their arrays must fit each other and the files of the points,
+/// which are not, before they are read, and are read in pieces: beside 128 bytes for each byte of the files this takes
+/// four times what is returned.
 /// @param with_cover takes cover.npz as well, where Format::cover was among those written; otherwise there is no cover
-/// @throws IoError naming the file that is missing, damaged or does not fit the others, or the entry that breaks a rule
+/// @throws IoError naming the file that is missing, damaged or does not fit the others, the entry that breaks a rule,
+/// or
+///         the number of the report that does not fit its type
 Laplacian readLaplacian(const std::filesystem::path& dir, bool with_cover = true);
 
 /// The same without these rules, for validate(), which says how often each promise is broken.

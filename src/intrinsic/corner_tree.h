@@ -1,0 +1,85 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+#include <vector>
+
+namespace tufted {
+
+/// Twice the area of a triangle in the plane, positive when it turns left.
+inline double turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c) {
+  return (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
+}
+
+/// All that is as near as `radius` to the straight line between two points.
+struct Capsule {
+  Eigen::Vector2d begin, end;
+  double radius;
+};
+
+/// A triangle that turns left, and what lies in it: all points on no edge's right, but those equal to a corner.
+class PlanarTriangle {
+ public:
+  /// @param area turn(a, b, c) > 0
+  /// @param squared_edges the sum of the squares of the edges, finite
+  PlanarTriangle(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eigen::Vector2d& c, double area,
+                 double squared_edges);
+
+  bool holds(const Eigen::Vector2d& point) const;
+  /// True only if it holds no point of the box from `low` to `high`.
+  bool holdsNoneOf(const Eigen::Vector2d& low, const Eigen::Vector2d& high) const;
+  bool holdsNoneOf(const Capsule& capsule) const;
+
+ private:
+  bool isCorner(const Eigen::Vector2d& point) const {
+    return point == corner_[0] || point == corner_[1] || point == corner_[2];
+  }
+
+  std::array<Eigen::Vector2d, 3> corner_;
+  Eigen::Vector2d low_, high_;  ///< around all that it holds
+};
+
+/// The corners of a polygon in a k-d tree that forgets those that are clipped.
+class CornerTree {
+ public:
+  /// Takes the points that are finite; all are borrowed.
+  void build(const std::vector<Eigen::Vector2d>& points);
+  void remove(int corner);
+
+  /// A remaining corner that the triangle holds, -1 if there is none: of several the first in a fixed random order.
+  /// That one changes H_n < 1 + ln n times on average until all n are removed, whatever order they are removed in.
+  int firstIn(const PlanarTriangle& triangle) const;
+
+ private:
+  struct Node {
+    Eigen::Vector2d low, high;  ///< around the remaining corners
+    std::uint64_t first;        ///< the least place of a remaining corner in the random order
+  };
+  /// A node and the slots below it.
+  struct Range {
+    std::size_t node;
+    int begin, end;
+
+    int middle() const { return begin + (end - begin) / 2; }
+    Range left() const { return {2 * node + 1, begin, middle()}; }
+    Range right() const { return {2 * node + 2, middle(), end}; }
+  };
+
+  Range all() const { return {0, 0, static_cast<int>(corner_.size())}; }
+  bool isLeaf(const Range& range) const { return 2 * range.node + 1 >= nodes_.size(); }
+  void sort(const Range& range);
+  void update(const Range& range);
+  void remove(const Range& range, int slot);
+  void search(const Range& range, const PlanarTriangle& triangle, std::uint64_t& first) const;
+
+  const std::vector<Eigen::Vector2d>* points_ = nullptr;
+  std::vector<int> corner_;  ///< slot by slot, those of a leaf side by side; -1 once it is removed
+  std::vector<int> slot_;    ///< of each corner; -1 of those that are not finite
+  std::vector<Node> nodes_;  ///< the children of node i are 2 i + 1 and 2 i + 2
+  /// Around the corners of each node that is no leaf. A row of corners may run aslant, where boxes overlap thin
+  /// triangles along it that hold none of them.
+  std::vector<Capsule> capsules_;
+};
+
+}  // namespace tufted
