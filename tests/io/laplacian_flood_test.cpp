@@ -6,11 +6,9 @@
 #include <cstring>
 #include <map>
 
+#include "laplacian_folder.h"
 #include "memory_peak.h"
 #include "odd_sphere.h"
-#include "temporary_dir.h"
-#include "tufted/errors.h"
-#include "tufted/io/results.h"
 
 namespace {
 
@@ -32,7 +30,7 @@ std::string zeros(const std::string& shape, std::size_t count) {
 
 using Arrays = std::map<std::string, std::string>;
 
-class LaplacianFlood : public testing::Test {
+class LaplacianFlood : public LaplacianFolder {
  protected:
   LaplacianFlood() {
     const tufted::Geometry sphere = tufted::oddSphere(101);
@@ -53,17 +51,6 @@ class LaplacianFlood : public testing::Test {
     return std::filesystem::file_size(path);
   }
 
-  std::string refusal() const {
-    try {
-      tufted::readLaplacian(dir_.path());
-    } catch (const tufted::IoError& error) {
-      const std::string message = error.what(), folder = dir_.path().string() + "/";
-      EXPECT_TRUE(message.starts_with(folder)) << message;
-      return message.substr(std::min(folder.size(), message.size()));
-    }
-    return "";
-  }
-
   void expectRefusal(const std::string& name, const Arrays& arrays, const std::string& reason) const {
     SCOPED_TRACE(reason);
     const std::size_t bytes = pack(name, arrays);
@@ -73,8 +60,6 @@ class LaplacianFlood : public testing::Test {
     if (!peak.bytes()) GTEST_SKIP() << "the system does not tell the peak of the memory";
     EXPECT_LT(*peak.bytes(), (is_sanitized ? 8 : 1) * (128.0 * static_cast<double>(bytes) + 4e6));
   }
-
-  TemporaryDir dir_;
 };
 
 /// A matrix of 200 rows and no entry.

@@ -7,13 +7,11 @@
 #include <nlohmann/json.hpp>
 
 #include "field_values.h"
+#include "laplacian_folder.h"
 #include "odd_sphere.h"
-#include "temporary_dir.h"
 #include "tufted/check.h"
 #include "tufted/distance.h"
-#include "tufted/errors.h"
 #include "tufted/gradient.h"
-#include "tufted/io/results.h"
 
 namespace {
 
@@ -43,23 +41,11 @@ tufted::Geometry mesh() {
   return geometry;
 }
 
-class Promises : public testing::Test {
+class Promises : public LaplacianFolder {
  protected:
   void write(const Laplacian& laplacian, const tufted::Geometry& geometry, tufted::WriteOptions options = {}) const {
     options.formats = {Format::npz, Format::cover};
     tufted::writeLaplacian(dir_.path(), laplacian, geometry, options);
-  }
-
-  /// What readLaplacian says, without the folder, or an empty string where it reads.
-  std::string refusal() const {
-    try {
-      tufted::readLaplacian(dir_.path());
-    } catch (const tufted::IoError& error) {
-      const std::string message = error.what(), folder = dir_.path().string() + "/";
-      EXPECT_TRUE(message.starts_with(folder)) << message;
-      return message.substr(std::min(folder.size(), message.size()));
-    }
-    return "";
   }
 
   void changeReport(const std::function<void(nlohmann::ordered_json&)>& change) const {
@@ -67,8 +53,6 @@ class Promises : public testing::Test {
     change(report);
     dir_.write("report.json", report.dump());
   }
-
-  TemporaryDir dir_;
 };
 
 tufted::VectorXd distances(const Laplacian& laplacian) {
