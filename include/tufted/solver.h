@@ -93,8 +93,8 @@ class Solver {
   /// @param b N x c right sides, which must be finite where they are looked at; several at once cost less
   /// @return N x c
   /// @throws InvalidInput for a wrong number of rows or right sides that are not finite
-  /// @throws SolverFailure when the backward error stays above 1e-13 and the residual above 1e-12, when multigrid does
-  ///         not reach its tolerance, when x overflows, or when memory does not suffice
+  /// @throws SolverFailure when the backward error of a solve by a factor stays above 1e-13, when multigrid does not
+  ///         reach its tolerance, when x overflows, or when memory does not suffice
   /// @throws Cancelled when `progress` returns false
   Eigen::MatrixXd solve(const Eigen::Ref<const Eigen::MatrixXd>& b, SolveReport* report = nullptr,
                         const Progress& progress = {}) const;

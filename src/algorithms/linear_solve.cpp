@@ -20,8 +20,7 @@ constexpr Eigen::Index columns_per_block = 8;
 
 /// Corrections are rarely more than three.
 constexpr int most_corrections = 10;
-constexpr double negligible = 1e-15;       // of the largest value
-constexpr double enough_residual = 1e-12;  // |b - A x| / |b| of a solution whose backward error is rounding at few rows
+constexpr double negligible = 1e-15;  // of the largest value
 constexpr double last_digits = 1e-15;
 
 }  // namespace
@@ -69,15 +68,14 @@ LinearSystem::RightSides LinearSystem::rightSides(const Eigen::Ref<const Eigen::
   return right;
 }
 
-void LinearSystem::balance(Eigen::MatrixXd& rest) const {
-  for (Eigen::Index c = 0; c < rest.cols(); ++c) {
-    const VectorXd sums = exactSums(rest.col(c));
-    std::vector<int> largest = pinned_;
-    for (const int i : components_->points) {
-      int& row = largest[components_->of[i]];
-      if (std::abs(rest(i, c)) > std::abs(rest(row, c))) row = i;
-    }
-    for (int component = 0; component < components_->count; ++component) rest(largest[component], c) -= sums[component];
+void LinearSystem::balance(const Eigen::Ref<const VectorXd>& size, const Eigen::Ref<const VectorXd>& x,
+                           Eigen::Ref<VectorXd> rest) const {
+  VectorXd share = VectorXd::Zero(size.size());
+  for (const int i : components_->points) share[i] = size[i] + L_.coeff(i, i) * std::abs(x[i]);
+  const VectorXd sums = exactSums(rest), shares = exactSums(share);
+  for (const int i : components_->points) {
+    const int component = components_->of[i];
+    if (sums[component] != 0) rest[i] -= sums[component] * (share[i] / shares[component]);
   }
 }
 
@@ -142,7 +140,8 @@ void LinearSystem::improve(const std::string& function, const RightSides& right,
   for (; !open.empty() && rounds < most_corrections; ++rounds) {
     if (!x.allFinite()) throw SolverFailure(function + ": the solution overflows; scale the right sides down");
     Eigen::MatrixXd rest = left.rest(Eigen::all, open);
-    if (components_) balance(rest);
+    for (std::size_t k = 0; k < open.size() && components_; ++k)
+      balance(right.size.col(open[k]), x.col(open[k]), rest.col(static_cast<Eigen::Index>(k)));
     const Eigen::MatrixXd step = approximate(rest, tick, made.iterations);
     std::vector<int> still_open;
     for (std::size_t k = 0; k < open.size(); ++k) {
@@ -166,8 +165,7 @@ void LinearSystem::improve(const std::string& function, const RightSides& right,
   for (Eigen::Index c = 0; c < x.cols(); ++c) {
     made.residual = greater(made.residual, left.residual[c]);
     made.backward_error = greater(made.backward_error, left.backward_error[c]);
-    // Where b and x all but vanish at a point and not elsewhere, what rounding leaves there is no small part of them.
-    if (isGood(left, c) || left.residual[c] <= enough_residual) continue;
+    if (isGood(left, c)) continue;
     if (!x.col(c).allFinite()) throw SolverFailure(function + ": the solution overflows; scale the right sides down");
     throw SolverFailure(function + ": the backward error |b - A x| / (|A| |x| + |b|) is " +
                         numberText(left.backward_error[c]) + " after " + std::to_string(rounds) +

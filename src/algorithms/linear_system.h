@@ -66,9 +66,11 @@ class LinearSystem {
   Eigen::MatrixXd withinParts(const Eigen::MatrixXd& right, const Tick& tick, int& iterations) const;
   /// A first solution, or a correction, by row of the system; of a Laplacian with sum(M x) = 0 on each component.
   Eigen::MatrixXd approximate(const Eigen::MatrixXd& right, const Tick& tick, int& iterations) const;
-  /// Of what a solution leaves: takes the sum over each component, which is rounding, out of its largest entry. Small
-  /// rows would not bear it.
-  void balance(Eigen::MatrixXd& rest) const;
+  /// Takes the sum over each component, which is rounding, out of what the solution x leaves: from each row in
+  /// proportion to the numbers that are added up there, so that no row has more than its share.
+  /// @param size |b|
+  void balance(const Eigen::Ref<const VectorXd>& size, const Eigen::Ref<const VectorXd>& x,
+               Eigen::Ref<VectorXd> rest) const;
   /// What the pinned point of a component leaves is the rounding of all others together: spreads it over them.
   void spreadPinned(const Eigen::Ref<const VectorXd>& right, Eigen::Ref<VectorXd> x) const;
   bool isGood(const Remainder& left, Eigen::Index column) const;
