@@ -43,9 +43,10 @@ struct DistanceOptions {
   /// Where the surface ends, the mean of heat that cannot leave and heat that is lost, as if the surface went on
   /// (Section 3.2 of the paper on the heat method); otherwise heat that cannot leave, for one factorisation less.
   bool open_boundary = true;
-  /// Of all factorisations, three where the surface ends and two elsewhere. By multigrid, or where not all factors fit,
-  /// `tolerance` is that of L d = div X, so d is right to about as much. Heat is then solved in windows, each of some
-  /// 130 edges by a factor of its own as far as `memory_limit` allows, and of some 30 edges to 1e-12 beyond.
+  /// How systems are solved. A solver makes three factors where the surface ends and two elsewhere, and `memory_limit`
+  /// bounds all of them together. By multigrid, or where not all factors fit, `tolerance` is that of L d = div X, so d
+  /// is right to about as much. Heat is then solved in windows, each of some 130 edges by a factor of its own as far as
+  /// `memory_limit` allows, and of some 30 edges to 1e-12 beyond.
   SolverOptions solver = {};
 };
 

@@ -100,13 +100,9 @@ struct DistanceSolver::State {
   SurfaceFaces surface;
   Components components;
   std::vector<int> representative;
-  VectorXd interior;  ///< N; 0 where the surface ends, 1 elsewhere
-  double time = 1;    ///< in units of 2^(2 exponent)
+  double time = 1;  ///< in units of 2^(2 exponent)
   int threads = 0;
-  std::optional<const LinearSystem> closed, open;  ///< of M / t + L; none where a factor does not fit
-  SparseMatrix heat_matrix;                        ///< where there are none
-  SolverOptions window;                            ///< what heat is solved with there
-  bool ends = false;                               ///< whether `interior` has zeros
+  HeatSystem heat;
   std::optional<const LinearSystem> poisson;
   SolverReport report;
 
@@ -148,42 +144,18 @@ DistanceSolver::DistanceSolver(const Laplacian& laplacian, const DistanceOptions
   if (unit > 0) state->time = options.time_step * unit;
 
   const Eigen::Index n = laplacian.L.rows();
-  state->interior = VectorXd::Ones(n);
+  VectorXd interior = VectorXd::Ones(n);
   for (Eigen::Index i = 0; i < n && options.open_boundary; ++i) {
-    if (laplacian.boundary[i] != Boundary::none) state->interior[i] = 0;
+    if (laplacian.boundary[i] != Boundary::none) interior[i] = 0;
   }
-  state->ends = n > 0 && state->interior.minCoeff() == 0;
   // All factors are held at once, and are about as large.
+  const int factors = n > 0 && interior.minCoeff() == 0 ? 3 : 2;
   SolverOptions one = options.solver;
-  one.memory_limit = std::max<std::size_t>(memoryLimit(options.solver.memory_limit) / (state->ends ? 3 : 2), 1);
-  SolverOptions heat = one;
-  heat.tolerance = std::min(heat.tolerance, heat_tolerance);
-  const SystemNames names = {.function = constructor,
-                             .matrix = "M + t L",
-                             .if_slow = "raise max_iterations, or set method to SolverMethod::cholesky"};
-  state->heat_matrix = heatMatrix(laplacian, surface, state->time);
-  if (options.solver.method != SolverMethod::multigrid) {
-    state->closed.emplace(LinearSystem::positiveDefinite(names, state->heat_matrix, heat));
-    if (state->ends) {
-      SparseMatrix interior = state->heat_matrix;
-      interior.prune([&](Eigen::Index i, Eigen::Index j, double) {
-        return state->interior[i] != 0 && state->interior[j] != 0;
-      });
-      state->open.emplace(LinearSystem::positiveDefinite(names, interior, heat));
-    }
-  }
+  one.memory_limit = std::max<std::size_t>(memoryLimit(options.solver.memory_limit) / factors, 1);
+  state->heat = makeHeatSystem(constructor, heatMatrix(laplacian, surface, state->time), std::move(interior), one);
   state->poisson.emplace(LinearSystem::laplacian({.function = constructor, .matrix = "L"}, laplacian, one));
-  for (const auto* part : {&state->closed, &state->open, &state->poisson})
-    if (*part) state->addReport((*part)->report());
-  const auto isFactor = [](const auto& system) { return system && !system->report().iterative; };
-  if (!isFactor(state->closed) || (state->ends && !isFactor(state->open))) {
-    state->closed.reset();
-    state->open.reset();
-    state->window = heat;
-    state->window.method = SolverMethod::automatic;
-  } else {
-    state->heat_matrix = {};
-  }
+  for (const LinearSystem* held : {state->heat.closed.get(), state->heat.open.get(), &*state->poisson})
+    if (held != nullptr) state->addReport(held->report());
   state->report.seconds = watch.seconds();
   state_ = std::move(state);
 }
@@ -261,15 +233,7 @@ VectorXd DistanceSolver::queryAt(const std::vector<SurfacePoint>& sources, Dista
   const Stopwatch watch;
   const State& state = *state_;
   const Sources known = state.locate(sources);
-  const HeatProblem problem{.surface = state.surface,
-                            .L = state.L,
-                            .components = state.components,
-                            .closed = state.closed ? &*state.closed : nullptr,
-                            .open = state.open ? &*state.open : nullptr,
-                            .matrix = state.heat_matrix,
-                            .interior = state.interior,
-                            .ends = state.ends,
-                            .window = state.window};
+  const HeatProblem problem{state.surface, state.L, state.components, state.heat};
   DistanceReport made;
   VectorXd distance =
       divergenceOfHeat(query_name, problem, known.heat, state.facesInside(known), state.threads, progress, made);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
 #include "algorithms/greater.h"
@@ -16,6 +17,18 @@ namespace {
 constexpr double valid = 1e-285;
 /// Where heat falls below this it starts again: far enough above `valid` to even out.
 constexpr double front = 1e-245;
+
+/// The tolerance of conjugate gradients for heat, which is looked at far below its largest value.
+constexpr double heat_tolerance = 1e-12;
+
+/// A factor, or null where it takes more memory than the options allow.
+std::unique_ptr<const LinearSystem> factorise(const std::string& function, const SparseMatrix& matrix,
+                                              const SolverOptions& options) {
+  auto system = std::make_unique<const LinearSystem>(
+      LinearSystem::positiveDefinite({.function = function, .matrix = "M + t L"}, matrix, options));
+  if (system->report().iterative) return nullptr;
+  return system;
+}
 
 /// Every round solves with the factors of the whole.
 class RoundsByFactor : public HeatRounds {
@@ -35,8 +48,9 @@ class RoundsByFactor : public HeatRounds {
     if (report_.rounds > 0 && !restart()) return false;
     ++report_.rounds;
     problem_.components.normalise(heat_);
-    u_ = solve(*problem_.closed, heat_);
-    if (problem_.open != nullptr) u_ = (u_ + solve(*problem_.open, heat_.cwiseProduct(problem_.interior))) / 2;
+    const HeatSystem& system = problem_.system;
+    u_ = solve(*system.closed, heat_);
+    if (system.ends) u_ = (u_ + solve(*system.open, heat_.cwiseProduct(system.interior))) / 2;
     problem_.components.normalise(u_);
     log_heat_ = u_.array().max(0).log();  // -infinity where nothing is
     return true;
@@ -83,9 +97,30 @@ class RoundsByFactor : public HeatRounds {
 
 }  // namespace
 
+HeatSystem makeHeatSystem(const std::string& function, SparseMatrix matrix, VectorXd interior,
+                          const SolverOptions& options) {
+  HeatSystem system = {.ends = interior.size() > 0 && interior.minCoeff() == 0, .window = options};
+  system.interior = std::move(interior);
+  if (options.method != SolverMethod::multigrid) system.closed = factorise(function, matrix, options);
+  if (system.closed && system.ends) {
+    SparseMatrix inner = matrix;
+    inner.prune([&](Eigen::Index i, Eigen::Index j, double) {
+      return system.interior[i] != 0 && system.interior[j] != 0;
+    });
+    system.open = factorise(function, inner, options);
+    if (!system.open) system.closed.reset();
+  }
+  if (!system.closed) {
+    system.matrix = std::move(matrix);
+    system.window.method = SolverMethod::automatic;
+    system.window.tolerance = std::min(options.tolerance, heat_tolerance);
+  }
+  return system;
+}
+
 std::unique_ptr<HeatRounds> makeHeatRounds(const std::string& function, const HeatProblem& problem,
                                            const VectorXd& heat, const Progress& progress, DistanceReport& report) {
-  if (problem.closed != nullptr) return std::make_unique<RoundsByFactor>(function, problem, heat, progress, report);
+  if (problem.system.closed) return std::make_unique<RoundsByFactor>(function, problem, heat, progress, report);
   return std::make_unique<HeatWindows>(function, problem, heat, progress, report);
 }
 

@@ -11,20 +11,28 @@
 
 namespace tufted {
 
-/// To which conjugate gradients must solve for heat, as it is looked at far below its largest value.
-constexpr double heat_tolerance = 1e-12;
+/// The system M / t + L: as a factor of the whole where that fits, otherwise as a matrix to take windows of.
+struct HeatSystem {
+  std::unique_ptr<const LinearSystem> closed;  ///< the factor; null: rounds are solved in windows
+  std::unique_ptr<const LinearSystem> open;    ///< the factor without the points where the surface ends, if it does
+  SparseMatrix matrix;                         ///< M / t + L where there is no factor, otherwise empty
+  VectorXd interior;                           ///< N; 0 where the surface ends, 1 elsewhere
+  bool ends = false;                           ///< whether `interior` has zeros; heat is then the mean of two solutions
+  SolverOptions window;                        ///< how windows are solved
+};
 
-/// What heat needs, all in the unit of `surface`.
+/// @param function the public function to name in errors
+/// @param matrix M / t + L
+/// @param options with the memory that one factor may take; multigrid asks for windows
+HeatSystem makeHeatSystem(const std::string& function, SparseMatrix matrix, VectorXd interior,
+                          const SolverOptions& options);
+
+/// What a query for heat looks at, all in the unit of `surface`. Everything is borrowed.
 struct HeatProblem {
   const SurfaceFaces& surface;
   const SparseMatrix& L;
   const Components& components;
-  const LinearSystem* closed;   ///< a factor of M / t + L; null: rounds are solved in windows of `matrix`
-  const LinearSystem* open;     ///< the same without rows and columns where the surface ends; null: not asked for
-  const SparseMatrix& matrix;   ///< M / t + L, where `closed` is null
-  const VectorXd& interior;     ///< N; 0 where the surface ends, 1 elsewhere
-  bool ends;                    ///< whether the mean of closed and open is asked for
-  const SolverOptions& window;  ///< how windows are solved
+  const HeatSystem& system;
 };
 
 /// Heat that starts again and again where it could no longer be seen.

@@ -12,7 +12,8 @@ namespace {
 /// Edges that a window is wide at first; heat falls to 1e-61 over so many of mean length. Where a factor does not fit,
 /// windows become as narrow as what conjugate gradients see.
 constexpr int first_layers = 128, least_layers = 32;
-/// Of a window's largest heat: a factor is right down to underflow, conjugate gradients to their tolerance.
+/// Heat is right above this part of the window's largest value. A factor keeps it down to underflow, conjugate gradients
+/// know no more than their tolerance.
 constexpr double valid_by_factor = 1e-285, valid_by_iteration = 1e-9;
 /// Heat is right at so many times the greatest of the last layer, beyond which it is taken for 0: what is missing is
 /// the square of their ratio.
@@ -101,7 +102,7 @@ void HeatWindows::findWindow() {
 void HeatWindows::solveSystem(bool open) {
   std::vector<int> points;
   for (const int i : window_) {
-    if (open && problem_.interior[i] == 0) continue;
+    if (open && problem_.system.interior[i] == 0) continue;
     number_[i] = static_cast<int>(points.size());
     points.push_back(i);
   }
@@ -111,12 +112,12 @@ void HeatWindows::solveSystem(bool open) {
   VectorXd heat(n);
   for (int k = 0; k < n; ++k) {
     heat[k] = heat_[points[k]];
-    for (SparseMatrix::InnerIterator entry(problem_.matrix, points[k]); entry; ++entry)
+    for (SparseMatrix::InnerIterator entry(problem_.system.matrix, points[k]); entry; ++entry)
       if (number_[entry.row()] >= 0) entries.emplace_back(number_[entry.row()], k, entry.value());
   }
   for (const int i : window_) number_[i] = -1;
   A.setFromTriplets(entries.begin(), entries.end());
-  SolverOptions options = problem_.window;
+  SolverOptions options = problem_.system.window;
   options.progress = progress_;
   const LinearSystem system = LinearSystem::positiveDefinite(
       {.function = function_, .matrix = "M + t L", .if_slow = "raise max_iterations or memory_limit"}, A, options);
@@ -126,7 +127,7 @@ void HeatWindows::solveSystem(bool open) {
   report_.iterations = std::max(report_.iterations, solved.iterations);
   report_.residual = greater(report_.residual, solved.residual);
   report_.backward_error = greater(report_.backward_error, solved.backward_error);
-  for (int k = 0; k < n; ++k) u_[points[k]] += (problem_.ends ? 0.5 : 1) * u[k];
+  for (int k = 0; k < n; ++k) u_[points[k]] += (problem_.system.ends ? 0.5 : 1) * u[k];
 }
 
 /// Finds the window's heat, with a largest value of 1 per component.
@@ -135,7 +136,7 @@ VectorXd HeatWindows::solve() {
   u_.setZero();
   by_factor_ = true;
   solveSystem(false);
-  if (problem_.ends) solveSystem(true);
+  if (problem_.system.ends) solveSystem(true);
   u_ = u_.cwiseMax(0);
   return problem_.components.normalise(u_);
 }

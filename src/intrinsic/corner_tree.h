@@ -12,7 +12,7 @@ inline double turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eig
   return (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
 }
 
-/// All that is as near as `radius` to the straight line between two points.
+/// The part of the plane within `radius` of the segment between two points.
 struct Capsule {
   Eigen::Vector2d begin, end;
   double radius;

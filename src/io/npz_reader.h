@@ -20,7 +20,8 @@ class NpzArray {
 
   /// The next number, in C order; to be called size() times. @throws IoError for what is damaged or no array of numbers
   double next();
-  /// The same for integers in [least, most]. @throws IoError also naming a value that is none
+  /// The next number, which must be an integer in [least, most].
+  /// @throws IoError naming the value that is not; and as next()
   int nextInteger(double least, double most);
 
  private:

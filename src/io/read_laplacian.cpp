@@ -125,7 +125,7 @@ Laplacian readUncheckedLaplacian(const std::filesystem::path& dir, bool with_cov
   const bool takes_cover = with_cover && hasWritten(written, "cover.npz");
   laplacian.kind = readKind(json, takes_cover, report_path);
   readReport(json["report"], report_path, laplacian.report);
-  // Of the files of the points none is compressed, so their sizes tell how many points L may have.
+  // The arrays with a value per point are not compressed, so the sizes of their files bound how many points L may have.
   io::MatrixFile matrix(dir / "L.npz");
   const auto n = static_cast<std::size_t>(matrix.rows());
   const std::vector<double> mass = readArray(dir / "M.npy", n);
