@@ -15,7 +15,7 @@
 #include "base/number_text.h"
 #include "base/parallel.h"
 #include "base/stage_clock.h"
-#include "operators/face_scale.h"
+#include "cover/face_scale.h"
 #include "operators/surface_faces.h"
 #include "tufted/check.h"
 #include "tufted/errors.h"

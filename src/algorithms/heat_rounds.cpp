@@ -104,9 +104,8 @@ HeatSystem makeHeatSystem(const std::string& function, SparseMatrix matrix, Vect
   if (options.method != SolverMethod::multigrid) system.closed = factorise(function, matrix, options);
   if (system.closed && system.ends) {
     SparseMatrix inner = matrix;
-    inner.prune([&](Eigen::Index i, Eigen::Index j, double) {
-      return system.interior[i] != 0 && system.interior[j] != 0;
-    });
+    inner.prune(
+        [&](Eigen::Index i, Eigen::Index j, double) { return system.interior[i] != 0 && system.interior[j] != 0; });
     system.open = factorise(function, inner, options);
     if (!system.open) system.closed.reset();
   }

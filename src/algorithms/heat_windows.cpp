@@ -12,8 +12,8 @@ namespace {
 /// Edges that a window is wide at first; heat falls to 1e-61 over so many of mean length. Where a factor does not fit,
 /// windows become as narrow as what conjugate gradients see.
 constexpr int first_layers = 128, least_layers = 32;
-/// Heat is right above this part of the window's largest value. A factor keeps it down to underflow, conjugate gradients
-/// know no more than their tolerance.
+/// Heat is right above this part of the window's largest value. A factor keeps it down to underflow, conjugate
+/// gradients know no more than their tolerance.
 constexpr double valid_by_factor = 1e-285, valid_by_iteration = 1e-9;
 /// Heat is right at so many times the greatest of the last layer, beyond which it is taken for 0: what is missing is
 /// the square of their ratio.

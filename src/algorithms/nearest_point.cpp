@@ -4,7 +4,7 @@
 #include <string>
 
 #include "base/buffer.h"
-#include "cloud/neighbors.h"
+#include "neighbors/neighbors.h"
 #include "tufted/check.h"
 #include "tufted/errors.h"
 

@@ -40,8 +40,7 @@ void runOnThreads(int team, const Run& run) {
 }  // namespace
 
 Workers::Workers(int threads, const Progress& progress)
-    : count_(std::max(1, std::min(threads > 0 ? threads : offeredThreads(), mostThreads()))),
-      progress_(progress) {}
+    : count_(std::max(1, std::min(threads > 0 ? threads : offeredThreads(), mostThreads()))), progress_(progress) {}
 
 void Workers::report(std::string_view stage, double fraction) const {
   if (progress_ && !progress_(stage, fraction)) {

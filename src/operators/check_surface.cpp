@@ -6,9 +6,9 @@
 #include <limits>
 #include <tuple>
 
-#include "intrinsic/geometry.h"
-#include "operators/assemble.h"
-#include "operators/face_scale.h"
+#include "cover/assemble.h"
+#include "cover/face_scale.h"
+#include "cover/geometry.h"
 #include "operators/promise.h"
 
 namespace tufted {

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "cloud/tangent_frame.h"
+#include "stars/tangent_frame.h"
 #include "tufted/check.h"
 #include "tufted/errors.h"
 

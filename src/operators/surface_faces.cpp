@@ -5,7 +5,7 @@
 #include <numeric>
 #include <tuple>
 
-#include "intrinsic/geometry.h"
+#include "cover/geometry.h"
 
 namespace tufted {
 namespace {

@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Reads the includes of the project and names every one that runs backwards.
 
-    base <- cloud <- intrinsic <- operators <- algorithms <- pcl        (src/ and include/tufted/pcl)
+    rooms of src/ know those that ROOMS says, which lie before them; cover/, which is the paper, knows base/ only
     io knows public headers only; tools know public headers and the fixtures of the tests,
-    the benchmark (tools/bench) also the stages that it measures
+    the benchmark (tools/bench) also the rooms that it measures
     public headers know Eigen and the standard library only (those in tufted/pcl also PCL)
     nothing in the library writes to a stream
 """
@@ -11,7 +11,20 @@ import pathlib
 import re
 import sys
 
-LAYERS = ["base", "cloud", "intrinsic", "operators", "algorithms", "pcl"]
+# The folders of src/, each with those that it may include.
+ROOMS = {
+    "base": [],
+    "simd": [],
+    "polygons": ["base"],
+    "cover": ["base"],
+    "neighbors": ["base", "simd"],
+    "stars": ["base", "simd", "neighbors"],
+    "direct": ["base", "simd", "cover", "neighbors", "stars"],
+    "pipeline": ["base", "cover", "neighbors", "stars", "direct"],
+    "operators": ["base", "cover", "stars"],
+    "algorithms": ["base", "cover", "neighbors", "operators"],
+    "pcl": [],
+}
 FIXTURES = ["shapes", "oracles", "guarantees"]  # folders of tests/ that tools for developers may use
 SUFFIXES = {".h", ".hpp", ".cpp"}
 
@@ -46,28 +59,26 @@ def public_fault(header, name):
     return f"public headers do not include {name}"
 
 
-def source_fault(layer, name, quoted):
+def source_fault(room, name, quoted):
     if name.startswith("tufted/"):
         other = part_of(name)
-        return None if other in ("core", layer) else f"{layer} may not include {name}"
+        return None if other in ("core", room) else f"{room} may not include {name}"
     if name == "iostream":
         return "the library does not include <iostream>"
     if not quoted:
         return None
     other = name.split("/")[0]
-    if layer == "io":
+    if room == "io":
         return None if other == "io" else f"io may include public headers and its own only, not {name}"
-    if other not in LAYERS:
-        return f"{name} is in no layer"
-    if LAYERS.index(other) > LAYERS.index(layer):
-        return f"{layer} lies before {other} and may not include {name}"
-    return None
+    if other not in ROOMS:
+        return f"{name} is in no room"
+    return None if other in (room, *ROOMS[room]) else f"{room} may not include {name}"
 
 
 def tool_fault(path, name, quoted):
     if not quoted or name.startswith("tufted/") or name.split("/")[0] in FIXTURES or (path.parent / name).is_file():
         return None
-    if path.parent.name == "bench" and name.split("/")[0] in ["bench", *LAYERS]:
+    if path.parent.name == "bench" and name.split("/")[0] in ["bench", *ROOMS]:
         return None
     return f"tools may include public headers only, not {name}"
 
@@ -102,12 +113,12 @@ def check(root):
 
     sources = files(root / "src")
     for path in sources:
-        layer = path.relative_to(root / "src").parts[0]
-        if layer not in [*LAYERS, "io"]:
-            report(path, f"{layer} is in no layer")
+        room = path.relative_to(root / "src").parts[0]
+        if room not in [*ROOMS, "io"]:
+            report(path, f"{room} is no room")
             continue
         for name, quoted in includes(path):
-            report(path, source_fault(layer, name, quoted))
+            report(path, source_fault(room, name, quoted))
         check_streams(path)
 
     for path in files(root / "tools"):

@@ -5,11 +5,11 @@
 #include <cmath>
 #include <set>
 
-#include "cloud/delaunay_star.h"
-#include "cloud/morton.h"
-#include "cloud/neighbors.h"
-#include "cloud/tangent_frame.h"
+#include "neighbors/morton.h"
+#include "neighbors/neighbors.h"
 #include "oracles/oracles.h"
+#include "stars/delaunay_star.h"
+#include "stars/tangent_frame.h"
 
 namespace tufted::support {
 namespace {

@@ -6,9 +6,9 @@
 #include "base/stage_clock.h"
 #include "bench/costs.h"
 #include "bench/search_stage.h"
-#include "cloud/kernels.h"
-#include "cloud/morton.h"
+#include "neighbors/morton.h"
 #include "shapes/shapes.h"
+#include "simd/kernels.h"
 #include "tufted/laplacian_builder.h"
 #ifdef TUFTED_BENCH_IO
 #include "tufted/io/read.h"

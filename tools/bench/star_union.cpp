@@ -4,9 +4,9 @@
 #include <stdexcept>
 #include <string>
 
-#include "cloud/morton.h"
-#include "cloud/neighbor_source.h"
-#include "cloud/surface_stars.h"
+#include "neighbors/morton.h"
+#include "neighbors/neighbor_source.h"
+#include "stars/surface_stars.h"
 
 namespace tufted::bench {
 

@@ -1,0 +1,59 @@
+#include "cover/cover.h"
+
+#include "base/buffer.h"
+#include "base/point_buffer.h"
+#include "base/power_of_two.h"
+
+namespace tufted {
+namespace {
+
+constexpr std::int64_t block_size = 8192;
+
+}  // namespace
+
+void resizeCover(IntrinsicTriangulation& cover, int vertices, std::int64_t triangles) {
+  cover.vertices = vertices;
+  cover.faces.resize(static_cast<std::size_t>(2 * triangles));
+  cover.glue.assign(static_cast<std::size_t>(6 * triangles), unglued);
+  cover.length.resize(static_cast<std::size_t>(6 * triangles));
+}
+
+MeanLengths measureLengths(IntrinsicTriangulation& cover, const PointsView& points, const PointsView& move,
+                           const Workers& workers) {
+  const std::int64_t triangles = cover.size() / 2;
+  // Per block, so that the means have the same bits always.
+  Buffer<MeanLengths> sums((triangles + block_size - 1) / block_size);
+  workers.forBlocks("lengths", triangles, block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    MeanLengths& sum = sums[begin / block_size];
+    for (int t = static_cast<int>(begin); t < end; ++t) {
+      const auto& corner = cover.faces[2 * t];
+      for (int s = 0; s < 3; ++s) {
+        const int a = corner[s], b = corner[(s + 1) % 3];
+        Eigen::RowVector3d edge = points.row(a) - points.row(b);
+        if (move.rows() > 0) edge += move.row(a) - move.row(b);
+        const double length = edge.norm();
+        cover.length[frontSide(t, s)] = cover.length[backSide(t, s)] = length;
+        sum.length += length;
+        sum.square += length * length;
+      }
+    }
+  });
+  MeanLengths mean;
+  const auto sides = static_cast<double>(3 * triangles);
+  for (const MeanLengths& sum : sums) {
+    mean.length += sum.length;
+    mean.square += sum.square;
+  }
+  return triangles > 0 ? MeanLengths{mean.length / sides, mean.square / sides} : mean;
+}
+
+void toCaller(IntrinsicTriangulation& cover, const Buffer<int>& caller, int size, int exponent) {
+  cover.vertices = size;
+  for (auto& face : cover.faces) {
+    for (int& corner : face) corner = caller[corner];
+  }
+  const PowerOfTwo unit(exponent);
+  for (double& length : cover.length) length = unit.times(length);
+}
+
+}  // namespace tufted

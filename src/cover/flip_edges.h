@@ -1,0 +1,216 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <utility>
+
+#include "base/buffer.h"
+#include "cover/cover.h"
+#include "cover/geometry.h"
+
+namespace tufted {
+
+constexpr double flip_below = -1e-10;  // on cot + cot; ties of cocircular quadrilaterals stay
+
+/// Equation 2. An edge with both sides in one triangle is Delaunay: its two opposite angles sum to less than pi. So is
+/// one without an obtuse angle, which takes no roots to see.
+template <class Triangulation>
+bool isDelaunay(const Triangulation& t, int side, int mate) {
+  return side / 3 == mate / 3 || !(isOppositeObtuse(t, side) || isOppositeObtuse(t, mate)) ||
+         !(oppositeCotan(t, side) + oppositeCotan(t, mate) < flip_below);
+}
+
+/// Length of the other diagonal, from a layout of both triangles in the plane with the common edge on the x axis
+/// (Fisher et al. 2007): it stays accurate where the law of cosines cancels.
+template <class Triangulation>
+double flippedLength(const Triangulation& t, int side, int mate) {
+  const double base = t.length[side];
+  // Apex of a triangle over the base from (0, 0), given the distances to its start and end.
+  const auto apex = [&](double from_start, double from_end) {
+    const double x = ((from_start - from_end) * (from_start + from_end) / base + base) / 2;
+    const double y = 2 * triangleArea(base, from_start, from_end) / base;
+    return std::array<double, 2>{x, y};
+  };
+  const auto above = apex(t.length[previousSide(side)], t.length[nextSide(side)]);
+  const auto below = apex(t.length[nextSide(mate)], t.length[previousSide(mate)]);
+  return std::hypot(above[0] - below[0], above[1] + below[1]);
+}
+
+/// `length` or up to 2^-42 of it less, so that an edge with this length is Delaunay in two triangles whose other sides
+/// are `outer`, the first two and the last two.
+///
+/// In exact arithmetic an edge that was flipped is Delaunay. But an angle near pi turns fast with the length opposite:
+/// rounding that in the last bit changes its cotangent by about epsilon cot^3. The shorter the edge, the more Delaunay.
+inline double delaunayLength(double length, const std::array<double, 4>& outer) {
+  constexpr double most_ulps = 1024;
+  const auto isFine = [&outer](double l) {
+    return !(cotanNumerator(l, outer[0], outer[1]) < 0 || cotanNumerator(l, outer[2], outer[3]) < 0) ||
+           !(oppositeCotan(l, outer[0], outer[1]) + oppositeCotan(l, outer[2], outer[3]) < flip_below);
+  };
+  double rounded = length;
+  for (double ulps = 1; !isFine(rounded); ulps *= 2) {
+    if (ulps > most_ulps) return length;
+    rounded = length * (1 - ulps * std::numeric_limits<double>::epsilon());
+  }
+  return rounded;
+}
+
+/// Flips the edge i j between the faces (i, j, k) and (j, i, m) to k m (Figure 12). The flipped edge keeps its two side
+/// numbers; the faces become (m, k, i) and (k, m, j), counted from these sides.
+template <class Triangulation>
+void flip(Triangulation& t, int side, int mate) {
+  const int jk = nextSide(side), ki = previousSide(side);
+  const int im = nextSide(mate), mj = previousSide(mate);
+  const int i = tail(t, side), j = head(t, side), k = head(t, jk), m = head(t, im);
+  const double flipped =
+      delaunayLength(flippedLength(t, side, mate), {t.length[ki], t.length[im], t.length[mj], t.length[jk]});
+
+  // New places of the four outer sides: k i after `side`, then i m; m j after `mate`, then j k.
+  const std::array<int, 4> from = {ki, im, mj, jk};
+  const std::array<int, 4> to = {jk, ki, im, mj};
+  std::array<int, 4> outer_mate;
+  std::array<double, 4> outer_length;
+  for (int e = 0; e < 4; ++e) {
+    outer_mate[e] = t.glue[from[e]];
+    outer_length[e] = t.length[from[e]];
+    for (int o = 0; o < 4; ++o) {  // outer sides may be glued to each other
+      if (t.glue[from[e]] == from[o]) outer_mate[e] = to[o];
+    }
+  }
+  for (int e = 0; e < 4; ++e) {
+    t.length[to[e]] = outer_length[e];
+    glueSides(t, to[e], outer_mate[e]);
+  }
+  const auto setCorners = [&](int first, int a, int b, int c) {
+    auto& face = t.faces[first / 3];
+    face[first % 3] = a;
+    face[nextSide(first) % 3] = b;
+    face[previousSide(first) % 3] = c;
+  };
+  setCorners(side, m, k, i);
+  setCorners(mate, k, m, j);
+  t.length[side] = t.length[mate] = flipped;
+}
+
+/// Numbers of sides, [begin, end).
+struct SideRange {
+  int begin = 0, end = std::numeric_limits<int>::max();
+
+  bool isWhole() const { return end == std::numeric_limits<int>::max(); }
+  bool contains(int side) const { return begin <= side && side < end; }
+};
+
+/// Algorithm 2 within a range of sides: no face that is glued to one outside of it is flipped. `Cover` as for
+/// flipEdges().
+template <class Cover>
+class RangeFlipper {
+ public:
+  /// @param queue scratch
+  /// @param left what has to be looked at in a wider range is added here
+  RangeFlipper(Cover& cover, SideRange range, Buffer<int>& queue, Buffer<int>& left)
+      : cover_(cover), range_(range), queue_(queue), left_(left) {
+    queue_.clear();
+  }
+
+  void push(int side) {
+    if (!isInside(side)) return left_.push_back(side);
+    const int edge = std::min(side, cover_.triangulation().glue[side]);
+    std::uint8_t& state = cover_.state(edge);
+    if ((state & queued_flag) != 0) return;
+    state |= queued_flag;
+    queue_.push_back(edge);
+  }
+
+  /// @param report called with the share that is done, now and then
+  template <class Report>
+  FlipCounts run(const Report& report) {
+    auto& t = cover_.triangulation();
+    FlipCounts counts;
+    while (!queue_.empty()) {  // depth first
+      const int side = queue_.back(), mate = t.glue[side];
+      queue_.pop_back();
+      cover_.state(side) &= static_cast<std::uint8_t>(~queued_flag);
+      if (isDelaunay(t, side, mate)) continue;
+      if (cover_.state(side) >= most_flips) {
+        ++counts.failures;
+        continue;
+      }
+      const std::array<int, 4> outer = {nextSide(side), previousSide(side), nextSide(mate), previousSide(mate)};
+      if (!std::all_of(outer.begin(), outer.end(), [this](int o) { return isInside(o); })) {
+        left_.push_back(side);
+        continue;
+      }
+      flip(t, side, mate);
+      cover_.flipped(side, mate);
+      ++cover_.state(side);  // not where it was before, if faces were added
+      if (++counts.flips % report_every == 0)
+        report(1 - static_cast<double>(queue_.size()) / static_cast<double>(t.glue.size()));
+      for (const int o : outer) push(o);
+    }
+    return counts;
+  }
+
+ private:
+  // A flip moves its outer edges to other places and queues them anew, so no edge is missed, and the bound per place
+  // ends the loop whatever the lengths are.
+  static constexpr std::uint8_t most_flips = 100;    // per place of an edge
+  static constexpr std::uint8_t queued_flag = 0x80;  // beside their count
+  static constexpr std::int64_t report_every = 1 << 16;
+
+  /// Whether the side, which is, is glued to one that is; only such may move.
+  bool isInside(int side) const {
+    return cover_.resolve(side, range_) && range_.contains(cover_.triangulation().glue[side]);
+  }
+
+  Cover& cover_;
+  const SideRange range_;
+  Buffer<int>& queue_;
+  Buffer<int>& left_;
+};
+
+/// Algorithm 2. Blocks of the cover are flipped each by itself, in parallel; then, in ever larger blocks, what had to
+/// wait since it goes across. The blocks do not depend on the number of threads. `Cover` has
+///   triangulation()                         a reference to an IntrinsicTriangulation or CoverBuffer
+///   blocks()                                their number
+///   sidesOf(first, last)                    the SideRange of blocks [first, last)
+///   start(block, push)                      calls push(side) for the sides to begin with
+///   resolve(int side, const SideRange&)     sees to it that the side is glued; may add faces, but within the range
+///                                           alone, else false
+///   state(int side)                         a reference to a byte, 0 at first
+///   flipped(int side, int mate)             hears of each flip
+template <class Cover>
+FlipCounts flipEdges(Cover& cover, const Workers& workers) {
+  constexpr std::int64_t growth = 8;
+  Buffer<Buffer<int>> queues(workers.count()), left;
+  FlipCounts sum;
+  for (std::int64_t merged = 1;; merged *= growth) {  // blocks in one
+    const std::int64_t count = (cover.blocks() + merged - 1) / merged;
+    const Buffer<Buffer<int>> waiting = std::exchange(left, Buffer<Buffer<int>>(count));
+    Buffer<FlipCounts> counts(count);
+    const auto flipBlock = [&](std::int64_t b, SideRange range, int worker, const auto& report) {
+      RangeFlipper<Cover> flipper(cover, range, queues[worker], left[b]);
+      const auto push = [&flipper](int side) { flipper.push(side); };
+      if (merged == 1) cover.start(b, push);
+      for (std::int64_t i = growth * b; i < std::min(growth * (b + 1), std::ssize(waiting)); ++i)
+        std::for_each(waiting[i].begin(), waiting[i].end(), push);
+      counts[b] = flipper.run(report);
+    };
+    if (count == 1) {
+      flipBlock(0, {}, 0, [&workers](double share) { workers.report("flips", share); });
+    } else {
+      workers.forBlocks("flips", count, 1, [&](std::int64_t b, std::int64_t, int worker) {
+        flipBlock(b, cover.sidesOf(b * merged, std::min((b + 1) * merged, cover.blocks())), worker, [](double) {});
+      });
+    }
+    for (const FlipCounts& part : counts) {
+      sum.flips += part.flips;
+      sum.failures += part.failures;
+    }
+    if (std::all_of(left.begin(), left.end(), [](const auto& part) { return part.empty(); })) return sum;
+  }
+}
+
+}  // namespace tufted

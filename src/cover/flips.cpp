@@ -1,0 +1,56 @@
+#include "base/buffer.h"
+#include "cover/flip_edges.h"
+
+namespace tufted {
+namespace {
+
+constexpr std::int64_t block_size = 16384;  // triangles
+
+/// A cover that is all there.
+class WholeCover {
+ public:
+  WholeCover(IntrinsicTriangulation& cover, const Workers& workers)
+      : cover_(cover), triangles_(cover.size() / 2), state_(cover.glue.size()), seeds_(blocks()) {
+    workers.forBlocks("flips", triangles_, block_size,
+                      [&](std::int64_t begin, std::int64_t, int) { findSeeds(begin / block_size); });
+  }
+
+  IntrinsicTriangulation& triangulation() { return cover_; }
+  std::int64_t blocks() const { return (triangles_ + block_size - 1) / block_size; }
+  SideRange sidesOf(std::int64_t first, std::int64_t last) const {
+    return {static_cast<int>(6 * first * block_size), static_cast<int>(6 * std::min(last * block_size, triangles_))};
+  }
+  template <class Push>
+  void start(std::int64_t block, const Push& push) const {
+    std::for_each(seeds_[block].begin(), seeds_[block].end(), push);
+  }
+  bool resolve(int, const SideRange&) const { return true; }
+  std::uint8_t& state(int side) { return state_[side]; }
+  void flipped(int, int) {}
+
+ private:
+  /// The sides of a block that are not Delaunay at the start, in order.
+  void findSeeds(std::int64_t block) {
+    const SideRange sides = sidesOf(block, block + 1);
+    for (int side = sides.begin; side < sides.end; ++side) {
+      const int mate = cover_.glue[side];
+      // An edge that is not Delaunay has an obtuse angle on at least one side.
+      if (isOppositeObtuse(cover_, side) && oppositeCotan(cover_, side) + oppositeCotan(cover_, mate) < flip_below)
+        seeds_[block].push_back(side);
+    }
+  }
+
+  IntrinsicTriangulation& cover_;
+  const std::int64_t triangles_;
+  Buffer<std::uint8_t> state_;  ///< of each side
+  Buffer<Buffer<int>> seeds_;   ///< of each block
+};
+
+}  // namespace
+
+FlipCounts flipToDelaunay(IntrinsicTriangulation& cover, const Workers& workers) {
+  WholeCover whole(cover, workers);
+  return flipEdges(whole, workers);
+}
+
+}  // namespace tufted

@@ -1,0 +1,157 @@
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+#include <numeric>
+#include <vector>
+
+#include "base/buffer.h"
+#include "base/point_buffer.h"
+#include "cover/cover.h"
+#include "cover/edge_order.h"
+#include "cover/geometry.h"
+
+namespace tufted {
+namespace {
+
+constexpr std::int64_t block_size = 4096;
+
+/// A side of a triangle, filed under the smaller of its two vertices.
+struct PooledSide {
+  int other;  ///< the larger vertex
+  int side;   ///< 3 t + s
+};
+
+/// A well-mixed function of (seed, value): the finaliser of SplitMix64.
+std::uint64_t mix(std::uint64_t seed, std::uint64_t value) {
+  std::uint64_t z = seed + (value + 1) * 0x9e3779b97f4a7c15ULL;
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
+  return z ^ (z >> 31);
+}
+
+/// The faces at one edge, in the order in which they are glued.
+class EdgePool {
+ public:
+  EdgePool(const IntrinsicTriangulation& cover, const PointsView& points, const EdgeOrder& order)
+      : cover_(cover), points_(points), order_(order) {}
+
+  /// Sorts the `count` sides of the edge (low, high) circularly; ties by face. Any order of two is the same one.
+  void sort(int low, int high, PooledSide* sides, std::size_t count) {
+    keys_.clear();
+    for (std::size_t i = 0; i < count; ++i) keys_.push_back({0, sides[i].side});
+    if (count > 2) {
+      switch (order_.order) {
+        case FaceOrder::angle:
+          setAngles(low, high);
+          break;
+        case FaceOrder::area:
+          setAreas();
+          break;
+        case FaceOrder::random:
+          setRandom();
+          break;
+      }
+      std::sort(keys_.begin(), keys_.end());
+    }
+    for (std::size_t i = 0; i < count; ++i) sides[i].side = keys_[i].second;
+  }
+
+ private:
+  void setAngles(int low, int high) {
+    const DihedralOrder dihedral(points_, low, high);
+    for (auto& [key, side] : keys_) key = dihedral.key(cover_.faces[2 * (side / 3)][(side + 2) % 3]);
+  }
+
+  void setAreas() {
+    for (auto& [key, side] : keys_) {
+      const auto& corner = cover_.faces[2 * (side / 3)];
+      const Eigen::Vector3d u = points_.row(corner[1]) - points_.row(corner[0]);
+      const Eigen::Vector3d v = points_.row(corner[2]) - points_.row(corner[0]);
+      key = u.cross(v).norm();
+    }
+  }
+
+  void setRandom() {
+    for (auto& [key, side] : keys_) key = static_cast<double>(mix(order_.seed, side) >> 11);
+  }
+
+  const IntrinsicTriangulation& cover_;
+  PointsView points_;
+  const EdgeOrder& order_;
+  Buffer<std::pair<double, int>> keys_;
+};
+
+/// Front to back around the edge: the side that runs from the smaller to the larger vertex ("plus") faces the next
+/// triangle of the circular order, so it is glued to the minus side of that one. A single face is glued to itself.
+void glueAround(IntrinsicTriangulation& cover, const PooledSide* sides, std::size_t count) {
+  const auto plusAndMinus = [&](int side) {
+    const int t = side / 3, s = side % 3;
+    const int front = frontSide(t, s), back = backSide(t, s);
+    return tail(cover, front) < head(cover, front) ? std::pair(front, back) : std::pair(back, front);
+  };
+  for (std::size_t i = 0; i < count; ++i) {
+    const std::size_t next = i + 1 == count ? 0 : i + 1;
+    glueSides(cover, plusAndMinus(sides[i].side).first, plusAndMinus(sides[next].side).second);
+  }
+}
+
+}  // namespace
+
+EdgeCounts glueEdges(IntrinsicTriangulation& cover, const PointsView& points, const EdgeOrder& order,
+                     const Workers& workers, std::vector<Boundary>* boundary) {
+  // All sides that are still open, grouped by their smaller vertex: count, prefix sum, fill.
+  const int sides = static_cast<int>(3 * (cover.size() / 2));
+  const auto isOpen = [&](int side) { return cover.glue[frontSide(side / 3, side % 3)] == unglued; };
+  const auto ends = [&](int side) {
+    const auto& corner = cover.faces[2 * (side / 3)];
+    return std::minmax(corner[side % 3], corner[(side + 1) % 3]);
+  };
+  Buffer<int> offset(static_cast<std::size_t>(cover.vertices) + 1);
+  for (int side = 0; side < sides; ++side) {
+    if (isOpen(side)) ++offset[ends(side).first + 1];
+  }
+  std::partial_sum(offset.begin(), offset.end(), offset.begin());
+  Buffer<PooledSide> pooled(offset.back());
+  Buffer<int> fill(offset.begin(), offset.end() - 1);
+  for (int side = 0; side < sides; ++side) {
+    if (!isOpen(side)) continue;
+    const auto [low, high] = ends(side);
+    pooled[fill[low]++] = {high, side};
+  }
+  release(fill);
+
+  std::array<std::atomic<std::int64_t>, 3> edges = {};
+  workers.forBlocks("glue", cover.vertices, block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    EdgePool pool(cover, points, order);
+    std::array<std::int64_t, 3> count = {};
+    for (int low = static_cast<int>(begin); low < end; ++low) {
+      PooledSide* at = pooled.data() + offset[low];
+      PooledSide* const last = pooled.data() + offset[low + 1];
+      std::sort(at, last, [](const PooledSide& a, const PooledSide& b) {
+        return a.other < b.other || (a.other == b.other && a.side < b.side);
+      });
+      while (at != last) {
+        PooledSide* const stop = std::find_if(at, last, [&](const PooledSide& s) { return s.other != at->other; });
+        const auto faces = static_cast<std::size_t>(stop - at);
+        pool.sort(low, at->other, at, faces);
+        glueAround(cover, at, faces);
+        ++count[std::min<std::size_t>(faces, 3) - 1];
+        at = stop;
+      }
+    }
+    for (int i = 0; i < 3; ++i) edges[i] += count[i];
+  });
+
+  if (boundary != nullptr) {
+    for (int side = 0; side < sides; ++side) {
+      if (cover.glue[frontSide(side / 3, side % 3)] != backSide(side / 3, side % 3)) continue;
+      const auto [low, high] = ends(side);
+      (*boundary)[low] = (*boundary)[high] = Boundary::rim;
+    }
+  }
+  return {edges[0], edges[2]};
+}
+
+}  // namespace tufted

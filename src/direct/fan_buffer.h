@@ -1,0 +1,89 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <iterator>
+
+#include "base/buffer.h"
+#include "direct/edge_lengths.h"
+#include "simd/kernels.h"
+#include "stars/stars.h"
+
+namespace tufted {
+
+/// The arrays of Fans.
+class FanBuffer {
+ public:
+  void clear() { fans_.count = 0; }
+  int count() const { return fans_.count; }
+  const Fans& fans() const { return fans_; }
+
+  /// The triangles of star p, then the first spoke once more, which begins a triangle that nobody reads.
+  void add(const Stars& stars, const EdgeLengths& length, int p) {
+    const int begin = stars.offset[p], end = stars.offset[p + 1];
+    if (begin == end) return;
+    reserve(fans_.count + end - begin + 1);
+    int at = fans_.count;
+    const auto put = [this, &at](const std::array<double, 3>& spoke, const std::array<double, 3>& rim) {
+      for (int c = 0; c < 3; ++c) {
+        given_[c][at] = spoke[c];
+        given_[3 + c][at] = rim[c];
+      }
+      ++at;
+    };
+    const std::array<double, 3> first = length.offset(stars.link[begin], p);
+    for (int i = begin; i < end; ++i) {
+      const int q = stars.link[i], next = stars.link[stars.after(p, i)];
+      put(length.offset(q, p), length.offset(next, q));
+    }
+    put(first, {});
+    fans_.count = at;
+  }
+
+ private:
+  void reserve(int count) {
+    const auto room = static_cast<std::size_t>(toLanes(count) + kernel_lane);
+    if (given_[0].size() >= room) return;
+    for (auto& values : given_) values.resize(2 * room);
+    for (auto& values : found_) values.resize(2 * room);
+    fans_ = {fans_.count,      given_[0].data(), given_[1].data(), given_[2].data(), given_[3].data(),
+             given_[4].data(), given_[5].data(), found_[0].data(), found_[1].data(), found_[2].data(),
+             found_[3].data(), found_[4].data(), found_[5].data()};
+  }
+
+  std::array<Buffer<double>, 6> given_, found_;
+  Fans fans_{};
+};
+
+/// The numbers [first, last); clang 14 cannot read std::views::iota.
+struct Numbers {
+  std::int64_t first, last;
+
+  std::int64_t size() const { return last - first; }
+  int operator[](std::int64_t i) const { return static_cast<int>(first + i); }
+};
+
+/// Calls visit(p, fans, at) for each star in `numbers`, a sequence of numbers: its triangles are measured, the first is
+/// number `at`.
+template <class Sequence, class Visit>
+void forEachFan(const Stars& stars, const EdgeLengths& length, const Sequence& numbers, FanBuffer& buffer,
+                const Visit& visit) {
+  constexpr int batch = 128;  // triangles that are measured together, from the first-level cache
+  const Kernels& kernel = kernels();
+  const auto size = std::ssize(numbers);
+  for (std::int64_t i = 0; i < size;) {
+    const auto first = i;
+    buffer.clear();
+    for (; i < size && buffer.count() < batch; ++i) buffer.add(stars, length, numbers[i]);
+    if (buffer.count() > 0) kernel.measureFans(buffer.fans(), length.added);
+    int at = 0;
+    for (auto j = first; j < i; ++j) {
+      const int p = numbers[j];
+      visit(p, buffer.fans(), at);
+      const int spokes = stars.offset[p + 1] - stars.offset[p];
+      at += spokes > 0 ? spokes + 1 : 0;
+    }
+  }
+}
+
+}  // namespace tufted

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+
+#include "base/buffer.h"
+#include "base/parallel.h"
+#include "direct/edge_lengths.h"
+#include "direct/star_metric.h"
+#include "direct/star_pools.h"
+
+namespace tufted {
+
+/// A side that is glued to another along an edge that is not Delaunay, or within rounding of that: its plus copy, its
+/// minus copy or both. The plus copy runs from the smaller to the larger vertex.
+struct FlipSeed {
+  StarSide side;
+  bool is_plus, is_minus;
+};
+
+/// Where Algorithm 2 begins on a union of stars: all such edges, by blocks of so many stars that the sides belong to.
+Buffer<Buffer<FlipSeed>> findFlipSeeds(const Stars& stars, const EdgeLengths& length, const StarPools& pools,
+                                       const StarMetric& metric, std::int64_t block_size, const Workers& workers);
+
+}  // namespace tufted

@@ -1,0 +1,98 @@
+#include "direct/star_metric.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+#include <utility>
+
+#include "base/buffer.h"
+#include "direct/fan_buffer.h"
+
+namespace tufted {
+namespace {
+
+constexpr std::int64_t block_size = 8192;
+
+/// Sums over one block of stars, so that they have the same bits for any number of threads.
+struct BlockSums {
+  double length = 0, square = 0, least_slack = std::numeric_limits<double>::infinity();
+  std::int64_t triangles = 0;
+};
+
+class StarMeasurer {
+ public:
+  StarMeasurer(const Stars& stars, const EdgeLengths& length, StarMetric& metric, StarAreas* own_areas)
+      : stars_(stars), length_(length), metric_(metric), own_areas_(own_areas) {}
+
+  void measure(int begin, int end, FanBuffer& buffer, BlockSums& sums) const {
+    forEachFan(stars_, length_, Numbers{begin, end}, buffer,
+               [&](int p, const Fans& fans, int at) { take(p, fans, at, sums); });
+  }
+
+ private:
+  /// @param at the first triangle of star p in the fans
+  void take(int p, const Fans& fans, int at, BlockSums& sums) const {
+    const int begin = stars_.offset[p], end = stars_.offset[p + 1];
+    const double nan = std::numeric_limits<double>::quiet_NaN();
+    double area = 0, first = nan, before = nan;  // cotangents opposite spokes, in the first and the last triangle
+    bool is_flat = false;
+    if (own_areas_ != nullptr) own_areas_->measure(stars_, p, fans, at);
+    for (int i = begin; i < end; ++i, ++at) {
+      if (!stars_.hasTriangle(i)) {
+        metric_.cotan_sum[i] = before = nan;
+        continue;
+      }
+      if (i == begin) first = fans.cotan_at_next[at];
+      metric_.cotan_sum[i] = before + fans.cotan_at_next[at];
+      before = fans.cotan_at_own[at];
+      area += fans.area[at];
+      is_flat |= !(fans.area[at] > 0);
+      const double own = fans.spoke[at], next = fans.spoke[at + 1], rim = fans.rim[at];
+      sums.length += own + next + rim;
+      sums.square += own * own + next * next + rim * rim;
+      sums.least_slack = std::min(sums.least_slack, fans.slack[at]);
+      ++sums.triangles;
+    }
+    if (begin < end) metric_.cotan_sum[begin] = before + first;  // the triangle before the first spoke is the last
+    metric_.area[p] = area;
+    metric_.is_flat[p] = is_flat ? 1 : 0;
+  }
+
+  const Stars& stars_;
+  const EdgeLengths& length_;
+  StarMetric& metric_;
+  StarAreas* const own_areas_;
+};
+
+}  // namespace
+
+StarMetric measureStars(const Stars& stars, const EdgeLengths& length, RawBuffer<double> memory, const Workers& workers,
+                        StarAreas* own_areas) {
+  StarMetric metric;
+  metric.cotan_sum = std::move(memory);
+  metric.cotan_sum.resize(stars.link.size());
+  metric.area.resize(stars.size());
+  metric.is_flat.resize(stars.size());
+  if (own_areas != nullptr) own_areas->resize(stars.size());
+  Buffer<BlockSums> sums((stars.size() + block_size - 1) / block_size);
+  const StarMeasurer measurer(stars, length, metric, own_areas);
+  workers.forBlocks("lengths", stars.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    FanBuffer buffer;
+    measurer.measure(static_cast<int>(begin), static_cast<int>(end), buffer, sums[begin / block_size]);
+  });
+  BlockSums all;
+  for (const BlockSums& sum : sums) {
+    all.length += sum.length;
+    all.square += sum.square;
+    all.triangles += sum.triangles;
+    all.least_slack = std::min(all.least_slack, sum.least_slack);
+  }
+  metric.least_slack = all.least_slack;
+  if (all.triangles > 0) {
+    const auto sides = static_cast<double>(3 * all.triangles);
+    metric.mean = {all.length / sides, all.square / sides};
+  }
+  return metric;
+}
+
+}  // namespace tufted

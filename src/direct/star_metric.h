@@ -1,0 +1,28 @@
+#pragma once
+
+#include <cstdint>
+
+#include "base/buffer.h"
+#include "base/parallel.h"
+#include "cover/cover.h"
+#include "direct/edge_lengths.h"
+#include "direct/star_areas.h"
+#include "stars/stars.h"
+
+namespace tufted {
+
+/// What the lengths of the edges say about every star.
+struct StarMetric {
+  RawBuffer<double> cotan_sum;      ///< per link entry: of the two angles opposite the spoke, NaN without two triangles
+  RawBuffer<double> area;           ///< n, of the star's triangles
+  RawBuffer<std::uint8_t> is_flat;  ///< n, 1 where a triangle of the star has no area
+  double least_slack = 0;           ///< of the triangle inequality, over all triangles
+  MeanLengths mean;                 ///< over all sides of all triangles
+};
+
+/// @param memory for cotan_sum, whatever is in it: new pages cost more than what is written to them
+/// @param[out] own_areas if given, what chooseAreas() takes, on the same way
+StarMetric measureStars(const Stars& stars, const EdgeLengths& length, RawBuffer<double> memory, const Workers& workers,
+                        StarAreas* own_areas = nullptr);
+
+}  // namespace tufted

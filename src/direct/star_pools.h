@@ -1,0 +1,97 @@
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "base/buffer.h"
+#include "base/parallel.h"
+#include "base/point_buffer.h"
+#include "stars/stars.h"
+
+namespace tufted {
+
+/// A side of a triangle (p, a, b) of the star of p: 0 runs from p to a, 1 from a to b, 2 from b to p.
+struct StarSide {
+  int star;
+  int entry;  ///< link entry of a
+  int side;
+
+  friend bool operator==(const StarSide&, const StarSide&) = default;
+};
+
+inline int tail(const Stars& stars, const StarSide& s) {
+  return s.side == 0 ? s.star : stars.link[s.side == 1 ? s.entry : stars.after(s.star, s.entry)];
+}
+inline int head(const Stars& stars, const StarSide& s) {
+  return s.side == 2 ? s.star : stars.link[s.side == 0 ? s.entry : stars.after(s.star, s.entry)];
+}
+/// The corner that is not on the side.
+inline int apex(const Stars& stars, const StarSide& s) {
+  return s.side == 1 ? s.star : stars.link[s.side == 2 ? s.entry : stars.after(s.star, s.entry)];
+}
+
+/// The circular order of the faces around each edge of the union of stars with Gluing::star and FaceOrder::angle: link
+/// sides, and spokes where a star ends. (All other spokes are glued within their star.)
+///
+/// Only edges between points that both disagree need a pool; any other has two faces, which the link of its agreeing
+/// end names.
+class StarPools {
+ public:
+  /// @param stars borrowed
+  StarPools(const Stars& stars, const PointsView& points, const Workers& workers);
+
+  /// The sides after and before this one around its edge; itself where there is no other.
+  StarSide next(const StarSide& side) const { return neighbor(side, 1); }
+  StarSide previous(const StarSide& side) const { return neighbor(side, -1); }
+
+  /// Gives the memory back. Nothing may be asked afterwards.
+  void drop() {
+    release(offset_);
+    release(pooled_);
+  }
+
+  /// Whether the side lies in a pool.
+  bool isPooled(const StarSide& side) const {
+    return stars_.disagrees[tail(stars_, side)] != 0 && stars_.disagrees[head(stars_, side)] != 0;
+  }
+
+  /// Calls visit(sides) for each pool whose smaller vertex lies in [begin, end), its sides in order.
+  template <class Visit>
+  void forEachPool(int begin, int end, const Visit& visit) const {
+    for (int i = offset_[begin]; i < offset_[end];) {
+      const int stop = endOfPool(i);
+      visit(std::span<const Pooled>(pooled_).subspan(i, stop - i));
+      i = stop;
+    }
+  }
+
+  class Pooled {
+   public:
+    Pooled() = default;
+    Pooled(int high, const StarSide& side)
+        : high_(high), star_(side.star), entry_and_side_(4 * static_cast<unsigned>(side.entry) + side.side) {}
+
+    /// The larger vertex.
+    int high() const { return high_; }
+    StarSide side() const {
+      return {star_, static_cast<int>(entry_and_side_ / 4), static_cast<int>(entry_and_side_ % 4)};
+    }
+
+   private:
+    int high_, star_;
+    unsigned entry_and_side_;  // there are fewer than 2^30 entries
+  };
+
+ private:
+  StarSide neighbor(const StarSide& side, int step) const;
+  StarSide acrossAgreeing(const StarSide& side, int agreeing, int other) const;
+  void collect(const Workers& workers);
+  void sort(const PointsView& points, const Workers& workers);
+  int endOfPool(int i) const;
+
+  const Stars& stars_;
+  Buffer<int> offset_;  ///< n + 1, by smaller vertex
+  RawBuffer<Pooled> pooled_;
+};
+
+}  // namespace tufted

@@ -1,0 +1,76 @@
+#include "direct/star_union.h"
+
+#include <numeric>
+#include <utility>
+
+#include "base/power_of_two.h"
+#include "cover/face_scale.h"
+#include "direct/star_rows.h"
+
+namespace tufted {
+namespace {
+
+/// Of the cover: each triangle has two faces, of which one counts a sixth.
+double sumAreas(const StarMetric& metric) {
+  return std::accumulate(metric.area.begin(), metric.area.end(), 0.0) / 3;
+}
+
+}  // namespace
+
+StarUnion::StarUnion(Stars stars, RankedCloud cloud, int size, bool has_own_areas, const Workers& workers)
+    : stars_(std::move(stars)),
+      cloud_(std::move(cloud)),
+      size_(size),
+      threads_(workers.count()),
+      has_own_areas_(has_own_areas),
+      pools_(stars_, cloud_.points, workers),
+      cover_(stars_, length_, pools_) {}
+
+StarMetric StarUnion::measure(double delta, RawBuffer<double> memory, const Workers& workers, OwnAreas* own) {
+  StarAreas areas;
+  StarMetric metric = measureStars(stars_, length_, std::move(memory), workers, own != nullptr ? &areas : nullptr);
+  if (own != nullptr) *own = chooseAreas(stars_, std::move(areas), workers);
+  const double missing = delta * metric.mean.length - metric.least_slack;
+  if (!(missing > 0)) return metric;
+  length_.added = missing;
+  const MeanLengths mean = metric.mean;
+  const double area = sumAreas(metric);
+  metric = measureStars(stars_, length_, std::move(metric.cotan_sum), workers);
+  metric.mean = mean;
+  mollify_area_ = sumAreas(metric) - area;
+  return metric;
+}
+
+FlipCounts StarUnion::flip(const StarMetric& metric, const Workers& workers) {
+  return cover_.flipToDelaunay(metric, workers);
+}
+
+void StarUnion::assemble(const StarMetric& metric, bool keep_cover, const Workers& workers, Laplacian& result) {
+  if (!keep_cover) {
+    pools_.drop();
+    cover_.keepMovedFaces();
+  }
+  assembleStars({stars_, metric, length_, cover_}, keep_cover, cloud_.caller, size_, faceScale(result.kind), workers,
+                result);
+}
+
+const IntrinsicTriangulation& StarUnion::cover() const {
+  std::call_once(once_, [this] {
+    const Progress silent;
+    whole_ = cover_.complete(Workers(threads_, silent));
+    toCaller(whole_, cloud_.caller, size_, cloud_.exponent);
+  });
+  return whole_;
+}
+
+VectorXd StarUnion::starAreas() const {
+  if (!has_own_areas_) return {};
+  const Progress silent;
+  const RawBuffer<double> areas = ownAreas(stars_, cloud_.points, Workers(threads_, silent)).area;
+  const PowerOfTwo area_unit(2 * cloud_.exponent);
+  VectorXd result = VectorXd::Zero(size_);
+  for (int p = 0; p < cloud_.size(); ++p) result[cloud_.caller[p]] = area_unit.times(areas[p]);
+  return result;
+}
+
+}  // namespace tufted

@@ -1,0 +1,70 @@
+#pragma once
+
+#include <cstddef>
+#include <mutex>
+
+#include "base/buffer.h"
+#include "base/parallel.h"
+#include "cover/cover.h"
+#include "direct/edge_lengths.h"
+#include "direct/partial_cover.h"
+#include "direct/star_areas.h"
+#include "direct/star_metric.h"
+#include "direct/star_pools.h"
+#include "neighbors/morton.h"
+#include "stars/stars.h"
+#include "tufted/laplacian.h"
+
+// The entrance of this room. src/cover is the reference: Algorithms 1 to 3 of the paper on a whole cover. Here the same
+// L and M are made straight from the stars, which halves time and memory, because nearly all stars agree: around them
+// the cover is as the stars say, no edge flips, and weights can be read off. Only where stars disagree or edges flip do
+// parts of the cover exist. Whoever changes one of the two rooms must change the other: CloudBuild.* in
+// tests/pipeline/cloud_build_test.cpp builds clouds both ways and compares L, M and the cover.
+namespace tufted {
+
+/// The union of the stars of a cloud, glued with Gluing::star and FaceOrder::angle, and all that was found out about
+/// it. The functions are called in this order, each once.
+class StarUnion final : public CoverSource {
+ public:
+  /// Glues (Algorithm 1).
+  /// @param size how many points the caller has
+  /// @param has_own_areas whether starAreas() will be asked for
+  StarUnion(Stars stars, RankedCloud cloud, int size, bool has_own_areas, const Workers& workers);
+
+  /// Lengths, mollified (Section 4.5), and the cotangents and areas that follow.
+  /// @param delta least slack in mean edge lengths
+  /// @param memory is used again
+  /// @param[out] own if given, ownAreas()
+  StarMetric measure(double delta, RawBuffer<double> memory, const Workers& workers, OwnAreas* own);
+
+  /// Algorithm 2.
+  FlipCounts flip(const StarMetric& metric, const Workers& workers);
+
+  /// L and M (Algorithm 3).
+  /// @param keep_cover whether cover() will be asked for
+  void assemble(const StarMetric& metric, bool keep_cover, const Workers& workers, Laplacian& result);
+
+  /// The whole cover, which is made when it is first asked for.
+  const IntrinsicTriangulation& cover() const override;
+  VectorXd starAreas() const override;
+
+  /// What mollification has added to each edge.
+  double mollifyLength() const { return length_.added; }
+  /// What it has added to the area of the cover.
+  double mollifyArea() const { return mollify_area_; }
+  std::size_t bytes() const { return cover_.bytes(); }
+
+ private:
+  const Stars stars_;
+  const RankedCloud cloud_;
+  const int size_, threads_;
+  const bool has_own_areas_;
+  EdgeLengths length_{cloud_.points, stars_.move};
+  double mollify_area_ = 0;
+  StarPools pools_;
+  PartialCover cover_;
+  mutable std::once_flag once_;
+  mutable IntrinsicTriangulation whole_;
+};
+
+}  // namespace tufted

@@ -1,0 +1,257 @@
+#include "neighbors/group_search.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <span>
+
+#include "base/buffer.h"
+#include "base/point_buffer.h"
+
+namespace tufted {
+namespace {
+
+constexpr int least_group = 4, most_group = 32;
+constexpr double widest_group = 2.5;  // diagonal of its box, in radii of a neighbourhood
+constexpr double likely = 1.08;       // times the squared radius of the point before: holds the k nearest most often
+constexpr double first_around = 1.2;  // radii of a neighbourhood nearby: what is searched around a group to begin with
+constexpr double next_around = 1.6, last_around = 4;  // times as far, where that is not enough, and how far at most
+constexpr double spare_around = 1.05;                 // times what may hold more neighbours of one point
+constexpr double nowhere = std::numeric_limits<double>::infinity();
+
+/// Puts what was searched last to the candidates that are known, for this group.
+void keepSearched(SearchedGroup& group, GroupScratch& scratch) {
+  group.begin = scratch.known.size();
+  scratch.known.insert(scratch.known.end(), scratch.searched.begin(), scratch.searched.end());
+  group.end = scratch.known.size();
+}
+
+/// How far from `point` everything is in the ball.
+double roomAround(const Eigen::RowVector3d& point, const SearchedBall& ball) {
+  return ball.radius - (point - ball.center).norm();
+}
+
+/// The candidates of a group, from which its points take their neighbours.
+class GroupCandidates {
+ public:
+  GroupCandidates(const PointsView& points, const Kernels& kernels, GroupScratch& scratch)
+      : points_(points), kernels_(kernels), scratch_(scratch) {}
+
+  void gather(const SearchedGroup& group) {
+    const auto ranks = std::span<const int>(scratch_.known).subspan(group.begin, group.end - group.begin);
+    scratch_.gathered = group.first;
+    const int size = static_cast<int>(ranks.size()), room = toLanes(size);
+    scratch_.candidate.resize(room);
+    for (auto* axis : {&scratch_.x, &scratch_.y, &scratch_.z}) axis->resize(room);
+    for (int i = 0; i < size; ++i) {
+      const double* point = points_.row(ranks[i]).data();
+      scratch_.candidate[i] = ranks[i];
+      scratch_.x[i] = point[0];
+      scratch_.y[i] = point[1];
+      scratch_.z[i] = point[2];
+    }
+    for (int i = size; i < room; ++i) scratch_.x[i] = scratch_.y[i] = scratch_.z[i] = nowhere;
+    scratch_.squared.resize(room + kernel_lane);
+    scratch_.index.resize(room + kernel_lane);
+  }
+
+  /// Within `guess` where that is less than `bound` and holds k, else within `bound`. Returns how many.
+  int takeWithin(int p, int k, double guess, double bound) {
+    const int count = guess < bound ? takeWithin(p, guess) : 0;
+    return count < k ? takeWithin(p, bound) : count;
+  }
+
+  /// Within `guess`, or as far as the ball that was searched reaches. Returns how many, or 0 where they are too few to
+  /// be sure of the k nearest.
+  int takeKnown(int p, int k, double guess, const SearchedBall& ball) {
+    const double room = roomAround(points_.row(p), ball), bound = room * room * (1 - 1e-12);
+    if (!(room > 0 && bound > least_square)) return 0;
+    const int count = takeWithin(p, k, guess, bound);
+    return count < k ? 0 : count;
+  }
+
+  /// The k least by (distance, index) of what was taken, in order, and anything behind them, where the next row will be
+  /// or the end's spare room is. Where no two distances are one float, each goes to the place that says how many are
+  /// less.
+  void takeNearest(int count, int k, Neighbor* row) {
+    const int room = toLanes(count);
+    std::fill(scratch_.squared.begin() + count, scratch_.squared.begin() + room, nowhere);
+    scratch_.rounded.resize(room + 2 * kernel_lane);
+    scratch_.place.resize(room + 2 * kernel_lane);
+    kernels_.rankValues(scratch_.squared.data(), room, scratch_.rounded.data(), scratch_.place.data());
+    std::int64_t sum = 0;
+    for (int i = 0; i < count; ++i) {  // those behind the k-th as well: which they are cannot be foreseen
+      sum += scratch_.place[i];
+      row[scratch_.place[i]] = {scratch_.squared[i], scratch_.index[i]};
+    }
+    if (sum == static_cast<std::int64_t>(count) * (count - 1) / 2) return;
+    // Those of one float stand behind each other first, and then change places among themselves.
+    scratch_.sorted.resize(static_cast<std::size_t>(count));
+    scratch_.taken.assign(static_cast<std::size_t>(count), 0);
+    for (int i = 0; i < count; ++i) {
+      const int place = scratch_.place[i];
+      scratch_.sorted[place + scratch_.taken[place]++] = {scratch_.squared[i], scratch_.index[i]};
+    }
+    for (int i = 1; i < count; ++i)
+      for (int j = i; j > 0 && scratch_.sorted[j] < scratch_.sorted[j - 1]; --j)
+        std::swap(scratch_.sorted[j], scratch_.sorted[j - 1]);
+    std::copy_n(scratch_.sorted.begin(), k, row);
+  }
+
+ private:
+  int takeWithin(int p, double bound) {
+    const Candidates candidates{static_cast<int>(scratch_.x.size()), scratch_.candidate.data(), scratch_.x.data(),
+                                scratch_.y.data(), scratch_.z.data()};
+    return kernels_.takeWithin(candidates, points_.row(p).data(), p, bound, scratch_.squared.data(),
+                               scratch_.index.data());
+  }
+
+  PointsView points_;
+  const Kernels& kernels_;
+  GroupScratch& scratch_;
+};
+
+class GroupSearch {
+ public:
+  GroupSearch(const NeighborSearch& search, const PointsView& points, int k, const Kernels& kernels,
+              GroupScratch& scratch)
+      : search_(search), points_(points), k_(k), candidates_(points, kernels, scratch), scratch_(scratch) {
+    scratch_.groups.clear();
+    scratch_.known.clear();
+  }
+
+  /// How many points from `first` on, of `count`, lie close enough together.
+  int groupAt(int first, int count, double radius) const {
+    Eigen::RowVector3d lowest = points_.row(first), highest = lowest;
+    int size = 1;
+    for (; size < std::min(count, most_group); ++size) {
+      lowest = lowest.cwiseMin(points_.row(first + size));
+      highest = highest.cwiseMax(points_.row(first + size));
+      if (size >= least_group && (highest - lowest).norm() > widest_group * radius) break;
+    }
+    return size;
+  }
+
+  /// Looks a little farther around the group than the radius of a neighbourhood nearby, where nearly always all are.
+  void find(int first, int count, double radius, Neighbor* found) {
+    int done = 0;
+    if (count > 1 && radius < nowhere) {
+      for (double around = first_around; around < last_around; around *= next_around) {
+        SearchedGroup group{first, count, {}, 0, 0};
+        if (!search_.candidatesWithin(first, count, around * radius, scratch_.searched, group.ball)) break;
+        keep(group);
+        while (done < count && selectKnown(first, done, group.ball, radius, found)) ++done;
+        if (done == count) return;
+        scratch_.known.resize(group.begin);
+        scratch_.groups.pop_back();
+      }
+    }
+    findSurely(first, done, count, found);
+  }
+
+  Neighbor* rowOf(Neighbor* found, int i) const { return found + static_cast<std::ptrdiff_t>(i) * k_; }
+  double radiusOf(const Neighbor* row) const { return std::sqrt(row[k_ - 1].squared_distance); }
+
+ private:
+  /// Those of the group from `done` on, as far away as they are.
+  void findSurely(int first, int done, int count, Neighbor* found) {
+    SearchedGroup group{first, count, {}, 0, 0};
+    if (count == 1) {
+      search_.nearest(first, k_, scratch_.sorted);
+      std::copy(scratch_.sorted.begin(), scratch_.sorted.end(), found);
+    } else if (!search_.candidates(first, count, k_, scratch_.searched, scratch_.bounds, group.ball)) {
+      findSurely(first, 0, count / 2, found);
+      findSurely(first + count / 2, 0, count - count / 2, rowOf(found, count / 2));
+    } else {
+      keep(group);
+      for (int i = done; i < count; ++i) select(first, i, group.ball, found);
+    }
+  }
+
+  /// Makes what was searched last the candidates of the group.
+  void keep(SearchedGroup& group) {
+    keepSearched(group, scratch_);
+    scratch_.groups.push_back(group);
+    candidates_.gather(group);
+  }
+
+  /// The same as select(), but false where the candidates are too few to be sure.
+  bool selectKnown(int first, int i, const SearchedBall& ball, double radius, Neighbor* found) {
+    const double before = i > 0 ? radiusOf(rowOf(found, i - 1)) : radius;
+    const int count = candidates_.takeKnown(first + i, k_, likely * before * before, ball);
+    if (count > 0) candidates_.takeNearest(count, k_, rowOf(found, i));
+    return count > 0;
+  }
+
+  /// The k nearest of point i of the group, whose earlier points are done.
+  void select(int first, int i, const SearchedBall& ball, Neighbor* found) {
+    const int p = first + i;
+    // By the neighbours of the centre or, most often nearer, by those of the point before.
+    double bound = ball.reach + (points_.row(p) - ball.center).norm(), guess = nowhere;
+    if (i > 0) {
+      const double before = radiusOf(rowOf(found, i - 1));
+      bound = std::min(bound, before + (points_.row(p) - points_.row(p - 1)).norm());
+      guess = likely * before * before;
+    }
+    bound = widened(bound * bound);
+    const int count = candidates_.takeWithin(p, k_, guess, bound);
+    if (count >= k_)
+      candidates_.takeNearest(count, k_, rowOf(found, i));
+    else
+      findSurely(p, 0, 1, rowOf(found, i));  // the squares of its distances underflow, and no bound on them holds
+  }
+
+  const NeighborSearch& search_;
+  PointsView points_;
+  const int k_;
+  GroupCandidates candidates_;
+  GroupScratch& scratch_;
+};
+
+}  // namespace
+
+void nearestOfEach(const NeighborSearch& search, const PointsView& points, int first, int count, int k,
+                   const Kernels& kernels, GroupScratch& scratch, Buffer<Neighbor>& found) {
+  k = std::max(0, std::min(k, static_cast<int>(points.rows()) - 1));
+  if (k == 0) return found.clear();
+  found.resize(static_cast<std::size_t>(count) * static_cast<std::size_t>(k) + NeighborSearch::most_candidates);
+  GroupSearch search_group(search, points, k, kernels, scratch);
+  double radius = nowhere;
+  for (int i = 0; i < count;) {
+    Neighbor* rows = search_group.rowOf(found.data(), i);
+    const int size = search_group.groupAt(first + i, count - i, radius);
+    search_group.find(first + i, size, radius, rows);
+    radius = search_group.radiusOf(search_group.rowOf(rows, size - 1));
+    i += size;
+  }
+  found.resize(found.size() - NeighborSearch::most_candidates);
+}
+
+bool nearestOfKnown(const NeighborSearch& search, const PointsView& points, int p, int k, double likely,
+                    const Kernels& kernels, GroupScratch& scratch, Buffer<Neighbor>& found) {
+  const auto after = std::partition_point(scratch.groups.begin(), scratch.groups.end(),
+                                          [p](const SearchedGroup& group) { return group.first <= p; });
+  if (after == scratch.groups.begin()) return false;
+  SearchedGroup& group = *(after - 1);
+  if (p >= group.first + group.count) return false;
+  GroupCandidates candidates(points, kernels, scratch);
+  if (scratch.gathered != group.first) candidates.gather(group);
+  int count = candidates.takeKnown(p, k, likely, group.ball);
+  if (count == 0) {
+    const double radius = std::sqrt(likely);
+    SearchedBall ball;
+    if (roomAround(points.row(p), group.ball) > radius) return false;
+    if (!search.candidatesWithin(group.first, group.count, spare_around * radius, scratch.searched, ball)) return false;
+    group.ball = ball;
+    keepSearched(group, scratch);
+    candidates.gather(group);
+    count = candidates.takeKnown(p, k, likely, ball);
+  }
+  if (count == 0) return false;
+  found.resize(static_cast<std::size_t>(count));
+  candidates.takeNearest(count, k, found.data());
+  found.resize(static_cast<std::size_t>(k));
+  return true;
+}
+
+}  // namespace tufted

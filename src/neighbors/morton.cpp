@@ -1,0 +1,181 @@
+#include "neighbors/morton.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <numeric>
+#include <utility>
+
+#include "base/buffer.h"
+#include "base/scaling.h"
+
+namespace tufted {
+namespace {
+
+constexpr std::int64_t block_size = 4096;
+constexpr int axis_bits = 21;
+constexpr double axis_cells = 1 << axis_bits;
+constexpr double cells = 1 << 16;  // per median spread; so 2^21 cells reach over 32 spreads
+
+/// Spreads the low 21 bits of v to every third bit.
+std::uint64_t spreadBits(std::uint64_t v) {
+  v = (v | v << 32) & 0x001f00000000ffffULL;
+  v = (v | v << 16) & 0x001f0000ff0000ffULL;
+  v = (v | v << 8) & 0x100f00f00f00f00fULL;
+  v = (v | v << 4) & 0x10c30c30c30c30c3ULL;
+  return (v | v << 2) & 0x1249249249249249ULL;
+}
+
+std::uint64_t mortonCode(const Eigen::Array3d& from_corner) {
+  std::uint64_t code = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double cell = from_corner[axis] * cells;
+    const double clamped = std::clamp(cell, 0.0, axis_cells - 1);  // outliers go to the border
+    code |= spreadBits(static_cast<std::uint64_t>(clamped)) << axis;
+  }
+  return code;
+}
+
+struct Key {
+  std::uint64_t code;
+  int index;
+};
+
+constexpr int digit_bits = 11;
+constexpr std::size_t buckets = std::size_t{1} << digit_bits;
+/// Where the code is counted from. Few points are told apart by lower bits alone, fewer than passes over all are worth.
+constexpr int lowest_bit = 22;
+constexpr std::int64_t least_part = 1 << 16;  // keys
+
+/// Sorts by the code from lowest_bit on, those where it is the same as they come, digit by digit from the last.
+void sortByHighBits(RawBuffer<Key>& keys, const Workers& workers) {
+  const std::int64_t size = std::ssize(keys);
+  const std::int64_t part = std::max(least_part, (size + workers.count() - 1) / workers.count());
+  const std::int64_t parts = (size + part - 1) / part;
+  RawBuffer<Key> sorted(keys.size());
+  Buffer<std::array<std::uint32_t, buckets>> place(static_cast<std::size_t>(parts));
+  for (int bit = lowest_bit; bit < 3 * axis_bits; bit += digit_bits) {
+    const auto digitOf = [bit](const Key& key) { return key.code >> bit & (buckets - 1); };
+    workers.forBlocks("order", size, part, [&](std::int64_t begin, std::int64_t end, int) {
+      std::array<std::uint32_t, buckets>& count = place[begin / part];
+      count.fill(0);
+      for (std::int64_t i = begin; i < end; ++i) ++count[digitOf(keys[i])];
+    });
+    std::uint32_t next = 0;
+    for (std::size_t digit = 0; digit < buckets; ++digit)
+      for (auto& count : place) next += std::exchange(count[digit], next);
+    workers.forBlocks("order", size, part, [&](std::int64_t begin, std::int64_t end, int) {
+      std::array<std::uint32_t, buckets>& to = place[begin / part];
+      for (std::int64_t i = begin; i < end; ++i) sorted[to[digitOf(keys[i])]++] = keys[i];
+    });
+    keys.swap(sorted);
+  }
+}
+
+/// Sorts what sortByHighBits() could not tell apart.
+template <class Less>
+void sortByRest(RawBuffer<Key>& keys, const Workers& workers, const Less& less) {
+  const auto high = [&](std::int64_t i) { return keys[i].code >> lowest_bit; };
+  const std::int64_t size = std::ssize(keys);
+  Buffer<std::int64_t> start;  // of parts, each of whole runs
+  for (std::int64_t i = 0; i < size; i += least_part) {
+    while (i > 0 && i < size && high(i) == high(i - 1)) ++i;
+    start.push_back(i);
+  }
+  start.push_back(size);
+  workers.forBlocks("order", std::ssize(start) - 1, 1, [&](std::int64_t part, std::int64_t, int) {
+    for (std::int64_t first = start[part]; first < start[part + 1];) {
+      std::int64_t last = first + 1;
+      while (last < start[part + 1] && high(last) == high(first)) ++last;
+      if (last - first > 1) std::sort(keys.begin() + first, keys.begin() + last, less);
+      first = last;
+    }
+  });
+}
+
+/// Takes out points that equal the one before, which is their representative.
+void mergeCoincident(RankedCloud& cloud, std::vector<PointStatus>& status, std::vector<int>& representative,
+                     const Workers& workers) {
+  const Buffer<int> repeated = numbersWhere("order", cloud.size(), workers, [&](int rank) {
+    return rank > 0 && cloud.points.row(rank) == cloud.points.row(rank - 1);
+  });
+  if (repeated.empty()) return;
+  auto next = repeated.begin();
+  int kept = *next;
+  for (int rank = kept; rank < cloud.size(); ++rank) {
+    if (next != repeated.end() && rank == *next) {
+      ++next;
+      status[cloud.caller[rank]] = PointStatus::coincident;
+      representative[cloud.caller[rank]] = cloud.caller[kept - 1];
+    } else {
+      cloud.points.row(kept) = cloud.points.row(rank);
+      cloud.caller[kept++] = cloud.caller[rank];
+    }
+  }
+  cloud.points.resize(kept);
+  cloud.caller.resize(static_cast<std::size_t>(kept));
+}
+
+}  // namespace
+
+RankedCloud rankPoints(const Points& points, std::vector<PointStatus>& status, std::vector<int>& representative) {
+  const Progress silent;
+  return rankPoints(points, status, representative, Workers(1, silent));
+}
+
+RankedCloud rankPoints(const Points& points, std::vector<PointStatus>& status, std::vector<int>& representative,
+                       const Workers& workers) {
+  RankedCloud cloud;
+  const Scaling scaling = measureScaling(points, status, workers);
+  cloud.exponent = scaling.exponent;
+  representative.resize(static_cast<std::size_t>(points.rows()));
+  std::iota(representative.begin(), representative.end(), 0);
+  cloud.caller = numbersWhere("order", static_cast<int>(points.rows()), workers,
+                              [&](int i) { return status[i] != PointStatus::not_finite; });
+  const std::int64_t size = std::ssize(cloud.caller);
+  const auto forAll = [&](const auto& visit) {
+    workers.forBlocks("order", size, block_size, [&](std::int64_t begin, std::int64_t end, int worker) {
+      for (std::int64_t i = begin; i < end; ++i) visit(i, worker);
+    });
+  };
+
+  const PowerOfTwo to_scaled = scaling.toScaled();
+  const auto scaled = [&](int i) -> Eigen::Array3d {
+    const auto times = [&](double x) { return to_scaled.times(x) + 0.0; };  // no -0: equal have equal bits
+    return {times(points(i, 0)), times(points(i, 1)), times(points(i, 2))};
+  };
+  Buffer<Eigen::Array3d> lowest(workers.count(), Eigen::Array3d::Constant(INFINITY));
+  forAll([&](std::int64_t i, int worker) { lowest[worker] = lowest[worker].min(scaled(cloud.caller[i])); });
+  // The grid starts at a corner of the data, but not further than 16 spreads from its middle.
+  Eigen::Array3d corner;
+  for (int axis = 0; axis < 3; ++axis) corner[axis] = to_scaled.times(scaling.center[axis]) - 16;
+  const Eigen::Array3d all_lowest = std::accumulate(lowest.begin(), lowest.end(), lowest.front(),
+                                                    [](const auto& a, const auto& b) { return a.min(b).eval(); });
+  corner = corner.max(all_lowest);
+
+  RawBuffer<Key> keys(cloud.caller.size());
+  forAll([&](std::int64_t i, int) {
+    const int index = cloud.caller[i];
+    keys[i] = {mortonCode(scaled(index) - corner), index};
+  });
+  // Keys differ, so any way of sorting gives the same order.
+  sortByHighBits(keys, workers);
+  sortByRest(keys, workers, [&](const Key& a, const Key& b) {
+    if (a.code != b.code) return a.code < b.code;
+    const Eigen::Array3d a_point = scaled(a.index), b_point = scaled(b.index);
+    for (int axis = 0; axis < 3; ++axis) {
+      if (a_point[axis] != b_point[axis]) return a_point[axis] < b_point[axis];
+    }
+    return a.index < b.index;
+  });
+  cloud.points.resize(size);
+  forAll([&](std::int64_t rank, int) {
+    cloud.caller[rank] = keys[rank].index;
+    cloud.points.row(rank) = scaled(keys[rank].index).matrix().transpose();
+  });
+  mergeCoincident(cloud, status, representative, workers);
+  return cloud;
+}
+
+}  // namespace tufted

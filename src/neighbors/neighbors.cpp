@@ -1,0 +1,271 @@
+#include "neighbors/neighbors.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "base/buffer.h"
+#include "base/point_buffer.h"
+#include "neighbors/kd_forest.h"
+
+namespace tufted {
+namespace {
+
+/// The k smallest candidates by (distance, index), without the query point itself.
+///
+/// FLANN's own sets keep whichever of two equally distant points comes first in the tree, and its pruning sums
+/// rounded terms. So the bound shown to FLANN is a little wider than the k-th distance, which is all the slack its
+/// rounding needs, and ties are decided here. L2_Simple adds the squared differences in the order x, y, z, so its
+/// distances are the same bits for any tree.
+class NearestSet : public RankSet {
+ public:
+  /// @param radius of a ball that holds k points beside the query point, or infinity
+  NearestSet(int self, int k, double radius, Buffer<Neighbor>& found)
+      : found_(found), k_(static_cast<std::size_t>(k)), self_(self) {
+    found_.clear();
+    setWorst(radius * radius);
+  }
+
+  bool full() const override { return found_.size() >= k_; }
+  double worstDist() const override { return worst_; }
+
+ protected:
+  void setWorst(double squared_distance) { worst_ = widened(squared_distance); }
+
+  Buffer<Neighbor>& found_;
+  const std::size_t k_;
+  const int self_;
+
+ private:
+  double worst_ = 0;
+};
+
+/// Keeps them in order, which takes least for a few.
+class AscendingSet final : public NearestSet {
+ public:
+  using NearestSet::NearestSet;
+
+  void addPoint(double squared_distance, size_t index) override {
+    const Neighbor candidate{squared_distance, rankOf(index)};
+    if (candidate.index == self_ || (full() && !(candidate < found_.back()))) return;
+    if (full()) found_.pop_back();
+    std::size_t place = found_.size();
+    found_.push_back(candidate);
+    for (; place > 0 && candidate < found_[place - 1]; --place) found_[place] = found_[place - 1];
+    found_[place] = candidate;
+    if (full()) setWorst(found_.back().squared_distance);
+  }
+};
+
+/// Chooses them among twice as many now and then, which takes least for hundreds.
+class UnorderedSet final : public NearestSet {
+ public:
+  using NearestSet::NearestSet;
+
+  void addPoint(double squared_distance, size_t index) override {
+    const int rank = rankOf(index);
+    if (rank == self_) return;
+    found_.push_back({squared_distance, rank});
+    if (found_.size() < 2 * k_) return;
+    choose();
+    setWorst(found_.back().squared_distance);
+  }
+
+  /// The largest comes last. Squared distances of points on a surface are spread evenly: counted in bins, all but a few
+  /// are known to be nearer or farther than the k-th.
+  void choose() {
+    if (found_.size() < k_) return;
+    double largest = 0;
+    for (const Neighbor& q : found_) largest = std::max(largest, q.squared_distance);
+    const bool has_bins = largest > least_square && largest < std::numeric_limits<double>::infinity();
+    const double scale = has_bins ? bins * (1 - 1e-9) / largest : 0;
+    const auto binOf = [=](const Neighbor& q) { return has_bins ? static_cast<int>(scale * q.squared_distance) : 0; };
+    std::array<int, bins> count{};
+    for (const Neighbor& q : found_) ++count[binOf(q)];
+    int nearer = 0, last = 0;  // those of the bins before that of the k-th, and that bin
+    while (nearer + count[last] < static_cast<int>(k_)) nearer += count[last++];
+
+    const auto from = std::partition(found_.begin(), found_.end(), [&](const Neighbor& q) { return binOf(q) < last; });
+    const auto to = std::partition(from, found_.end(), [&](const Neighbor& q) { return binOf(q) == last; });
+    const auto kth = found_.begin() + static_cast<std::ptrdiff_t>(k_ - 1);
+    std::nth_element(from, kth, to);
+    found_.resize(k_);
+  }
+
+ private:
+  static constexpr int bins = 256;
+};
+
+/// All points in a ball that shrinks to reach as far as the nearest and a little beyond: the roundings of squares,
+/// which lose digits where they underflow.
+class NearestTies final : public RankSet {
+ public:
+  explicit NearestTies(Buffer<Neighbor>& found) : found_(found) { found_.clear(); }
+
+  bool full() const override { return true; }
+  double worstDist() const override { return worst_; }
+
+  void addPoint(double squared_distance, size_t index) override {
+    if (!(squared_distance < worst_)) return;
+    found_.push_back({squared_distance, rankOf(index)});
+    worst_ = std::min(worst_, squared_distance * (1 + 1e-12) + 16 * std::numeric_limits<double>::denorm_min());
+  }
+
+  void finish() {
+    std::size_t kept = 0;
+    for (const Neighbor& candidate : found_)
+      if (candidate.squared_distance < worst_) found_[kept++] = candidate;
+    found_.resize(kept);
+  }
+
+ private:
+  Buffer<Neighbor>& found_;
+  double worst_ = std::numeric_limits<double>::infinity();
+};
+
+/// All points in a ball, at most most_candidates.
+class WholeBall : public RankSet {
+ public:
+  WholeBall(double radius, Buffer<int>& found) : found_(found) {
+    found_.clear();
+    setRadius(radius);
+  }
+
+  bool full() const override { return true; }
+  double worstDist() const override { return worst_; }
+  bool isTooFull() const { return found_.size() > NeighborSearch::most_candidates; }
+
+  void addPoint(double, size_t index) override {
+    found_.push_back(rankOf(index));
+    if (isTooFull()) worst_ = -1;  // nothing is nearer: the search ends
+  }
+
+ protected:
+  void setRadius(double radius) { worst_ = widened(radius * radius); }
+
+ private:
+  Buffer<int>& found_;
+  double worst_ = 0;
+};
+
+/// The same, but the radius shrinks to that of the k nearest of the centre plus a margin.
+class ShrinkingBall final : public WholeBall {
+ public:
+  /// @param nearest k squared distances of points from the centre, a heap with the largest in front
+  ShrinkingBall(double margin, Buffer<double>& nearest, Buffer<int>& found)
+      : WholeBall(std::sqrt(nearest.front()) + margin, found), margin_(margin), nearest_(nearest) {
+    std::fill(nearest_.begin(), nearest_.end(), nearest_.front());  // a bound; the points come again
+  }
+
+  void addPoint(double squared_distance, size_t index) override {
+    WholeBall::addPoint(squared_distance, index);
+    if (isTooFull() || !(squared_distance < nearest_.front())) return;
+    replaceLargest(squared_distance);
+    setRadius(std::sqrt(nearest_.front()) + margin_);
+  }
+
+ private:
+  /// Half of what taking one from the heap and adding one costs.
+  void replaceLargest(double squared_distance) {
+    std::size_t hole = 0, child = 1;
+    for (; child < nearest_.size(); child = 2 * hole + 1) {
+      if (child + 1 < nearest_.size() && nearest_[child] < nearest_[child + 1]) ++child;
+      if (nearest_[child] <= squared_distance) break;
+      nearest_[hole] = nearest_[child];
+      hole = child;
+    }
+    nearest_[hole] = squared_distance;
+  }
+
+  double margin_;
+  Buffer<double>& nearest_;
+};
+
+/// The middle of the box of some points. Returns how far from there the farthest of them is.
+double findCenter(const PointsView& points, int first, int count, SearchedBall& ball) {
+  const auto group = points.middleRows(first, count);
+  const Eigen::RowVector3d lowest = group.colwise().minCoeff(), highest = group.colwise().maxCoeff();
+  ball.center = lowest + (highest - lowest) / 2;
+  return std::sqrt((group.rowwise() - ball.center).rowwise().squaredNorm().maxCoeff());
+}
+
+}  // namespace
+
+NeighborSearch::NeighborSearch(const PointsView& points) : NeighborSearch(points, Workers(1, Progress())) {}
+
+NeighborSearch::NeighborSearch(const PointsView& points, const Workers& workers) : points_(points) {
+  if (points.rows() >= 2) forest_ = std::make_unique<KdForest>(points, workers);
+}
+
+NeighborSearch::~NeighborSearch() = default;
+
+void NeighborSearch::nearest(int p, int k, Buffer<Neighbor>& found, NeighborOrder order, SearchBefore* before) const {
+  const int available = static_cast<int>(points_.rows()) - 1;
+  k = std::min(k, available);
+  found.clear();
+  if (k <= 0) return;
+  const double* const point = points_.row(p).data();
+  const auto search = [&](double radius) {
+    if (order == NeighborOrder::ascending) {
+      AscendingSet set(p, k, radius, found);
+      forest_->search(point, p, set);
+    } else {
+      UnorderedSet set(p, k, radius, found);
+      forest_->search(point, p, set);
+      set.choose();
+    }
+  };
+  double radius = std::numeric_limits<double>::infinity();
+  if (before != nullptr && before->k >= k) radius = before->radius + (points_.row(p) - points_.row(before->p)).norm();
+  search(radius);
+  if (std::ssize(found) < k) search(std::numeric_limits<double>::infinity());  // the bound was lost in rounding
+  if (before != nullptr) *before = {p, k, std::sqrt(found.back().squared_distance)};
+}
+
+void NeighborSearch::nearestTo(const Eigen::RowVector3d& position, Buffer<Neighbor>& found) const {
+  NearestTies ties(found);
+  if (!forest_) {
+    if (points_.rows() == 1) ties.addPoint((points_.row(0) - position).squaredNorm(), 0);
+    return;
+  }
+  forest_->search(position.data(), 0, ties);
+  ties.finish();
+}
+
+bool NeighborSearch::candidates(int first, int count, int k, Buffer<int>& found, Buffer<double>& bounds,
+                                SearchedBall& ball) const {
+  const int n = static_cast<int>(points_.rows());
+  const double spread = findCenter(points_, first, count, ball);
+
+  // A point of the group is not its own neighbour, so k + 1 nearest of the centre hold k neighbours of it. Points near
+  // on the curve bound their distance to begin with.
+  const int wanted = std::min(k, n - 1) + 1;
+  const int begin = std::max(0, std::min(first + count / 2 - wanted, n - 2 * wanted));
+  const int end = std::min(n, begin + 2 * wanted);
+  bounds.clear();
+  for (int q = begin; q < end; ++q) bounds.push_back((points_.row(q) - ball.center).squaredNorm());
+  std::nth_element(bounds.begin(), bounds.begin() + (wanted - 1), bounds.end());
+  std::swap(bounds.front(), bounds[wanted - 1]);
+  bounds.resize(static_cast<std::size_t>(wanted));
+
+  ShrinkingBall set(2 * spread, bounds, found);
+  forest_->search(ball.center.data(), first, set);
+  ball.reach = std::sqrt(bounds.front());
+  ball.radius = ball.reach + 2 * spread;
+  return !set.isTooFull() && bounds.front() > least_square;
+}
+
+bool NeighborSearch::candidatesWithin(int first, int count, double around, Buffer<int>& found,
+                                      SearchedBall& ball) const {
+  ball.radius = findCenter(points_, first, count, ball) + around;
+  WholeBall set(ball.radius, found);
+  forest_->search(ball.center.data(), first, set);
+  return !set.isTooFull() && around * around > least_square;
+}
+
+std::size_t NeighborSearch::bytes() const {
+  return forest_ ? forest_->bytes() : 0;
+}
+
+}  // namespace tufted

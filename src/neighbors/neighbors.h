@@ -1,0 +1,90 @@
+#pragma once
+
+#include <cstddef>
+#include <limits>
+#include <memory>
+
+#include "base/buffer.h"
+#include "base/parallel.h"
+#include "base/point_buffer.h"
+#include "neighbors/kd_forest.h"
+#include "tufted/types.h"
+
+namespace tufted {
+
+struct Neighbor {
+  double squared_distance;
+  int index;  ///< rank
+
+  friend bool operator<(const Neighbor& a, const Neighbor& b) {
+    return a.squared_distance < b.squared_distance || (a.squared_distance == b.squared_distance && a.index < b.index);
+  }
+};
+
+/// A bound on squared distances that holds however they were rounded.
+inline double widened(double squared_distance) {
+  return squared_distance * (1 + 1e-12) + std::numeric_limits<double>::denorm_min();
+}
+
+/// Of a distance; below, squares have no digits left to bound others by.
+constexpr double least_square = 1e-290;
+
+enum class NeighborOrder { ascending, any };
+
+/// What the search before has found, which bounds that for a point near by.
+struct SearchBefore {
+  int p = 0, k = 0;   ///< k = 0: there was none
+  double radius = 0;  ///< of the k nearest of p
+};
+
+/// Where NeighborSearch::candidates has looked.
+struct SearchedBall {
+  Eigen::RowVector3d center;
+  double radius = 0;  ///< every point within is a candidate
+  double reach = 0;   ///< a point q of the group has at least k neighbours within reach + distance(q, center)
+};
+
+/// Exact nearest neighbours among all points.
+class NeighborSearch : public InWorkspace {
+ public:
+  static constexpr int most_candidates = 1024;
+
+  /// @param points n x 3, distinct, finite, in Morton order; borrowed for the life of the search
+  NeighborSearch(const PointsView& points, const Workers& workers);
+  /// Built by the calling thread alone.
+  explicit NeighborSearch(const PointsView& points);
+  ~NeighborSearch();
+  NeighborSearch(const NeighborSearch&) = delete;
+  NeighborSearch& operator=(const NeighborSearch&) = delete;
+
+  /// The min(k, n - 1) points nearest to point p, itself left out by index: the least by (distance, index),
+  /// the largest of them last. `found` is overwritten and keeps its memory. Safe to call from several threads.
+  /// @param before overwritten; null: the search takes somewhat longer
+  void nearest(int p, int k, Buffer<Neighbor>& found, NeighborOrder order = NeighborOrder::ascending,
+               SearchBefore* before = nullptr) const;
+
+  /// All points that may be the nearest to a position: those whose squared distance is the least, and others within
+  /// its rounding. None where the squares overflow. Points need neither be distinct nor in Morton order for this.
+  /// @param[out] found in no order
+  void nearestTo(const Eigen::RowVector3d& position, Buffer<Neighbor>& found) const;
+
+  /// All points that any of the points [first, first + count) has among its min(k, n - 1) nearest, and others near
+  /// them. False, and nothing of use, where these are more than most_candidates, or so close that squares of
+  /// their distances underflow.
+  /// @param[out] found ranks
+  /// @param bounds scratch
+  /// @param[out] ball around the middle of the points' box
+  bool candidates(int first, int count, int k, Buffer<int>& found, Buffer<double>& bounds, SearchedBall& ball) const;
+
+  /// All points within `around` of any of the points [first, first + count), and others near them. False as above.
+  /// @param[out] ball its reach is not known
+  bool candidatesWithin(int first, int count, double around, Buffer<int>& found, SearchedBall& ball) const;
+
+  std::size_t bytes() const;
+
+ private:
+  std::unique_ptr<KdForest> forest_;  ///< null with fewer than two points
+  PointsView points_;
+};
+
+}  // namespace tufted

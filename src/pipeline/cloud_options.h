@@ -1,0 +1,11 @@
+#pragma once
+
+#include "tufted/options.h"
+#include "tufted/types.h"
+
+namespace tufted {
+
+/// @throws InvalidInput in the name of `function` for options out of range, or arrays that do not fit the points
+void checkCloudOptions(const char* function, const Points& points, const CloudOptions& options);
+
+}  // namespace tufted

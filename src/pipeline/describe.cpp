@@ -1,0 +1,136 @@
+#include "tufted/describe.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <string>
+#include <vector>
+
+#include "base/buffer.h"
+#include "base/disjoint_sets.h"
+#include "base/parallel.h"
+#include "base/stage_clock.h"
+#include "neighbors/morton.h"
+#include "neighbors/neighbors.h"
+#include "stars/tangent_frame.h"
+#include "tufted/errors.h"
+
+namespace tufted {
+namespace {
+
+constexpr double outlier_ratio = 5;  // on random points of a surface the nearest is that far once in 3e7
+constexpr std::int64_t block_size = 4096;
+
+/// The k nearest of every point, and what is seen on the way.
+struct NeighborGraph {
+  int k = 0;
+  Buffer<int> nearest;      ///< n * k ranks
+  Buffer<double> distance;  ///< n, to the nearest
+  Buffer<std::uint8_t> on_line;
+};
+
+NeighborGraph findNeighbors(const RankedCloud& cloud, int k, const Workers& workers) {
+  NeighborGraph graph;
+  graph.k = std::min(k, std::max(0, cloud.size() - 1));
+  graph.nearest.resize(static_cast<std::size_t>(cloud.size()) * graph.k);
+  graph.distance.resize(cloud.size());
+  graph.on_line.resize(cloud.size());
+  if (graph.k == 0) return graph;
+  const NeighborSearch search(cloud.points, workers);
+  Buffer<Buffer<Neighbor>> found(workers.count());
+  workers.forBlocks("neighbours", cloud.size(), block_size, [&](std::int64_t begin, std::int64_t end, int worker) {
+    Buffer<Neighbor>& neighbors = found[worker];
+    for (std::int64_t p = begin; p < end; ++p) {
+      search.nearest(static_cast<int>(p), graph.k, neighbors);
+      for (int j = 0; j < graph.k; ++j) graph.nearest[p * graph.k + j] = neighbors[j].index;
+      graph.distance[p] = std::sqrt(neighbors[0].squared_distance);
+      // Two points always lie on a line.
+      graph.on_line[p] = graph.k > 2 && liesOnOneLine(principalAxes(cloud.points, static_cast<int>(p), neighbors));
+    }
+  });
+  return graph;
+}
+
+double quantile(Buffer<double> values, double q) {
+  if (values.empty()) return 0;
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(q * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+/// Points far from all others, measured by how far their neighbours are from theirs.
+std::int64_t countOutliers(const NeighborGraph& graph, const Workers& workers) {
+  Buffer<std::int64_t> counts(workers.count());
+  workers.forBlocks("outliers", static_cast<std::int64_t>(graph.distance.size()), block_size,
+                    [&](std::int64_t begin, std::int64_t end, int worker) {
+                      Buffer<double> around(graph.k);
+                      for (std::int64_t p = begin; p < end; ++p) {
+                        for (int j = 0; j < graph.k; ++j) around[j] = graph.distance[graph.nearest[p * graph.k + j]];
+                        const auto middle = around.begin() + graph.k / 2;
+                        std::nth_element(around.begin(), middle, around.end());
+                        counts[worker] += graph.distance[p] > outlier_ratio * *middle ? 1 : 0;
+                      }
+                    });
+  return std::accumulate(counts.begin(), counts.end(), std::int64_t{0});
+}
+
+std::int64_t countComponents(const NeighborGraph& graph) {
+  auto components = std::ssize(graph.distance);
+  DisjointSets sets(components);
+  for (std::size_t i = 0; i < graph.nearest.size(); ++i)
+    if (sets.unite(static_cast<int>(i / graph.k), graph.nearest[i])) --components;
+  return components;
+}
+
+/// Distance of the float nearest to |x| from the next larger one; infinite where floats end before.
+double floatStep(double x) {
+  if (std::abs(x) >= std::numeric_limits<float>::max()) return std::numeric_limits<double>::infinity();
+  const float value = std::abs(static_cast<float>(x));
+  return static_cast<double>(std::nextafter(value, std::numeric_limits<float>::infinity())) -
+         static_cast<double>(value);
+}
+
+}  // namespace
+
+CloudDescription describeCloud(const Points& points, const CloudOptions& options) {
+  const auto require = [](const char* what, int value, int least) {
+    if (value < least)
+      throw InvalidInput(std::string("describeCloud: ") + what + " = " + std::to_string(value) + ", must be at least " +
+                         std::to_string(least));
+  };
+  require("neighbors", options.neighbors, 3);
+  require("threads", options.threads, 0);
+  const Workers workers(options.threads, options.progress);
+  const Stopwatch watch;
+  std::vector<PointStatus> status;
+  std::vector<int> representative;
+  const RankedCloud cloud = rankPoints(points, status, representative, workers);
+  workers.report("tree", 0);
+  const NeighborGraph graph = findNeighbors(cloud, options.neighbors, workers);
+
+  CloudDescription description;
+  description.points = points.rows();
+  description.not_finite = std::count(status.begin(), status.end(), PointStatus::not_finite);
+  description.coincident = std::count(status.begin(), status.end(), PointStatus::coincident);
+  description.neighbors = graph.k;
+  description.seconds = watch.seconds();
+  if (cloud.size() == 0) return description;
+  description.lowest = description.highest = points.row(cloud.caller[0]);
+  for (const int i : cloud.caller) {
+    description.lowest = description.lowest.cwiseMin(points.row(i));
+    description.highest = description.highest.cwiseMax(points.row(i));
+  }
+  description.float_step =
+      floatStep(std::max(description.lowest.cwiseAbs().maxCoeff(), description.highest.cwiseAbs().maxCoeff()));
+  const auto length = [&](double q) { return std::ldexp(quantile(graph.distance, q), cloud.exponent); };
+  description.spacing = length(0.5);
+  description.spacing_low = length(0.05);
+  description.spacing_high = length(0.95);
+  description.on_lines = std::count(graph.on_line.begin(), graph.on_line.end(), 1);
+  if (graph.k > 0) description.outliers = countOutliers(graph, workers);
+  description.components = countComponents(graph);
+  return description;
+}
+
+}  // namespace tufted

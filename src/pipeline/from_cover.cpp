@@ -1,0 +1,35 @@
+#include "pipeline/from_cover.h"
+
+#include <utility>
+
+#include "cover/assemble.h"
+#include "cover/cover.h"
+#include "cover/face_scale.h"
+#include "pipeline/result.h"
+
+namespace tufted {
+
+void finishFromCover(std::shared_ptr<IntrinsicTriangulation> cover, const CoverVertices& vertices, double mollify,
+                     bool keep_cover, const Workers& workers, StageClock& clock, Laplacian& result) {
+  const double scale = faceScale(result.kind);
+  BuildFigures figures{.mean = measureLengths(*cover, vertices.points, vertices.move, workers)};
+  const Mollification mollified = tufted::mollify(*cover, mollify * figures.mean.length, workers);
+  figures.mollify_length = mollified.length;
+  figures.mollify_area = scale * mollified.area;
+  figures.triangles = cover->size() / 2;
+  clock.finish("lengths", 0);
+
+  figures.flips = flipToDelaunay(*cover, workers);
+  clock.finish("flips", 0);
+
+  const int size = static_cast<int>(result.status.size());
+  assembleLaplacian(*cover, vertices.caller, size, scale, workers, result);
+  finishResult(figures, vertices.exponent, result);
+  if (keep_cover) {
+    toCaller(*cover, vertices.caller, size, vertices.exponent);
+    result.stored_cover = std::move(cover);
+  }
+  clock.finish("matrices", bytesOfMatrices(result));
+}
+
+}  // namespace tufted

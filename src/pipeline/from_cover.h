@@ -1,0 +1,29 @@
+#pragma once
+
+#include <memory>
+
+#include "base/buffer.h"
+#include "base/parallel.h"
+#include "base/point_buffer.h"
+#include "base/stage_clock.h"
+#include "tufted/intrinsic_triangulation.h"
+#include "tufted/laplacian.h"
+
+namespace tufted {
+
+/// Where the vertices of a cover lie, and what they are called outside.
+struct CoverVertices {
+  const PointsView& points;   ///< by vertex, in units of 2^exponent of the caller's
+  const PointsView& move;     ///< by vertex, from the points to where lengths are measured; 0 x 3: nothing moves
+  const Buffer<int>& caller;  ///< the caller's index of each vertex
+  int exponent;
+};
+
+/// Algorithm 3 of the paper from the glued cover on: lengths, mollification (Section 4.5), flips (Algorithm 2), L and
+/// M.
+/// @param mollify delta of Section 4.5 in mean edge lengths
+/// @param keep_cover whether the result keeps the cover, in the caller's numbering and unit
+void finishFromCover(std::shared_ptr<IntrinsicTriangulation> cover, const CoverVertices& vertices, double mollify,
+                     bool keep_cover, const Workers& workers, StageClock& clock, Laplacian& result);
+
+}  // namespace tufted

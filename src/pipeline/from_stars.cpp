@@ -1,0 +1,42 @@
+#include "pipeline/from_stars.h"
+
+#include <memory>
+#include <utility>
+
+#include "base/buffer.h"
+#include "base/workspace.h"
+#include "direct/star_union.h"
+#include "pipeline/result.h"
+
+namespace tufted {
+
+OwnAreas finishFromStars(Stars stars, RankedCloud cloud, const CloudOptions& options, const Workers& workers,
+                         StageClock& clock, Laplacian& result) {
+  const int exponent = cloud.exponent;
+  RawBuffer<double> memory = std::move(stars.radius);
+  BuildFigures figures{.triangles = stars.triangles()};
+  const bool has_own_areas = options.steps.mass == Mass::star;
+  const auto stars_and_cover =
+      std::allocate_shared<StarUnion>(WorkspaceAllocator<StarUnion>(), std::move(stars), std::move(cloud),
+                                      static_cast<int>(result.status.size()), has_own_areas, workers);
+  clock.finish("cover", 0);
+
+  OwnAreas own;
+  const StarMetric metric =
+      stars_and_cover->measure(options.mollify, std::move(memory), workers, has_own_areas ? &own : nullptr);
+  figures.mean = metric.mean;
+  figures.mollify_length = stars_and_cover->mollifyLength();
+  figures.mollify_area = stars_and_cover->mollifyArea();
+  clock.finish("lengths", bytesOf(metric.cotan_sum) + bytesOf(metric.area));
+
+  figures.flips = stars_and_cover->flip(metric, workers);
+  clock.finish("flips", stars_and_cover->bytes());
+
+  stars_and_cover->assemble(metric, options.keep_cover, workers, result);
+  finishResult(figures, exponent, result);
+  if (options.keep_cover) result.cover_source = stars_and_cover;
+  clock.finish("matrices", bytesOfMatrices(result));
+  return own;
+}
+
+}  // namespace tufted

@@ -1,0 +1,99 @@
+#include <algorithm>
+#include <memory>
+#include <numeric>
+#include <string>
+
+#include "base/buffer.h"
+#include "base/point_buffer.h"
+#include "base/power_of_two.h"
+#include "base/require.h"
+#include "base/scaling.h"
+#include "base/stage_clock.h"
+#include "cover/cover.h"
+#include "pipeline/build.h"
+#include "pipeline/from_cover.h"
+#include "pipeline/result.h"
+#include "tufted/errors.h"
+
+namespace tufted {
+namespace {
+
+constexpr const char* function_name = "meshLaplacian";
+
+/// Indices of the triangles that can be used; the others are counted.
+Buffer<int> usableTriangles(const Points& points, const Triangles& triangles, const std::vector<PointStatus>& status,
+                            Report& report) {
+  Buffer<int> usable;
+  usable.reserve(static_cast<std::size_t>(triangles.rows()));
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+    const int i = triangles(t, 0), j = triangles(t, 1), k = triangles(t, 2);
+    for (const int v : {i, j, k}) {
+      if (v < 0 || v >= points.rows()) {
+        throw InvalidInput(std::string(function_name) + ": triangle " + std::to_string(t) + " names vertex " +
+                           std::to_string(v) + ", must lie in [0, " + std::to_string(points.rows()) + ")");
+      }
+    }
+    const auto isOdd = [&](int v) { return status[v] == PointStatus::not_finite; };
+    if (i == j || j == k || k == i) {
+      ++report.repeated_vertex_triangles;
+    } else if (isOdd(i) || isOdd(j) || isOdd(k)) {
+      ++report.not_finite_triangles;
+    } else {
+      usable.push_back(static_cast<int>(t));
+    }
+  }
+  return usable;
+}
+
+}  // namespace
+
+Laplacian meshLaplacian(const Points& points, const Triangles& triangles, const MeshOptions& options) {
+  Laplacian result;
+  buildMeshLaplacian(points, triangles, options, result);
+  return result;
+}
+
+void buildMeshLaplacian(const Points& points, const Triangles& triangles, const MeshOptions& options,
+                        Laplacian& result) {
+  checkBuild(function_name, options.mollify, options.threads);
+  requireAtMost(INT32_MAX, points.rows(), function_name, "points");
+  requireAtMost(most_triangles, triangles.rows(), function_name, "triangles");
+  const Workers workers(options.threads, options.progress);
+  restart(result, Kind::mesh, points.rows(), workers);
+  Report& report = result.report;
+  StageClock clock(report);
+  const int n = static_cast<int>(points.rows());
+
+  const Scaling scaling = measureScaling(points, result.status, workers);
+  const PowerOfTwo to_scaled = scaling.toScaled();
+  PointBuffer scaled(n);
+  for (int i = 0; i < n; ++i) {
+    for (int axis = 0; axis < 3; ++axis)
+      scaled.row(i)[axis] = to_scaled.times(points(i, axis)) + 0.0;  // no -0: equal have equal bits
+  }
+  result.representative.resize(n);
+  std::iota(result.representative.begin(), result.representative.end(), 0);
+  result.boundary.assign(n, Boundary::none);
+  result.frames = {};
+  const Buffer<int> usable = usableTriangles(points, triangles, result.status, report);
+  clock.finish("scale", static_cast<std::size_t>(n) * 3 * sizeof(double) + bytesOf(usable));
+
+  std::shared_ptr<IntrinsicTriangulation> cover = takeCover(result);
+  resizeCover(*cover, n, static_cast<std::int64_t>(usable.size()));
+  for (std::size_t t = 0; t < usable.size(); ++t) {
+    const auto corner = triangles.row(usable[t]);
+    addTriangle(*cover, static_cast<int>(t), corner[0], corner[1], corner[2]);
+  }
+  const EdgeCounts edges = glueEdges(*cover, scaled, {options.order, options.seed}, workers, &result.boundary);
+  report.boundary_edges = edges.boundary;
+  report.nonmanifold_edges = edges.nonmanifold;
+  clock.finish("cover", bytesOfCover(*cover));
+
+  Buffer<int> caller(n);
+  std::iota(caller.begin(), caller.end(), 0);
+  finishFromCover(std::move(cover), {scaled, PointBuffer(), caller, scaling.exponent}, options.mollify,
+                  options.keep_cover, workers, clock, result);
+  workers.report("done", 1);
+}
+
+}  // namespace tufted

@@ -1,0 +1,115 @@
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "base/buffer.h"
+#include "base/point_buffer.h"
+#include "base/stage_clock.h"
+#include "cover/cover.h"
+#include "neighbors/morton.h"
+#include "neighbors/neighbor_source.h"
+#include "pipeline/build.h"
+#include "pipeline/cloud_options.h"
+#include "pipeline/from_cover.h"
+#include "pipeline/from_stars.h"
+#include "pipeline/point_results.h"
+#include "pipeline/result.h"
+#include "pipeline/union_cover.h"
+#include "stars/boundary.h"
+#include "stars/surface_stars.h"
+#include "tufted/errors.h"
+
+namespace tufted {
+namespace {
+
+constexpr const char* function_name = "pointCloudLaplacian";
+
+/// Of the links of all stars; somewhat fewer than triangles that have numbers, since flips keep some in reserve.
+constexpr std::int64_t most_entries = most_triangles - most_triangles / 64;
+
+[[noreturn]] void tooMany(std::int64_t points, std::int64_t entries) {
+  throw InvalidInput(std::string(function_name) + ": " + std::to_string(points) + " points with " +
+                     std::to_string(entries) + " neighbours in their stars, must be at most " +
+                     std::to_string(most_entries) + " neighbours (about 58 million points)");
+}
+
+/// Algorithms 1 to 3 on the whole cover.
+/// @returns ownAreas() with Mass::star, else nothing
+OwnAreas finishFromWholeCover(Stars stars, const RankedCloud& cloud, const CloudOptions& options,
+                              const Workers& workers, StageClock& clock, Laplacian& result) {
+  OwnAreas own;
+  if (options.steps.mass == Mass::star) own = ownAreas(stars, cloud.points, workers);
+  clock.finish("mass", 0);
+  const PointBuffer move = std::move(stars.move);
+  release(stars.radius);
+  std::shared_ptr<IntrinsicTriangulation> cover = takeCover(result);
+  addStars(stars, options.gluing, *cover, workers);
+  stars = {};
+  glueEdges(*cover, cloud.points, {options.order, options.seed}, workers);
+  clock.finish("cover", bytesOfCover(*cover));
+  finishFromCover(std::move(cover), {cloud.points, move, cloud.caller, cloud.exponent}, options.mollify,
+                  options.keep_cover, workers, clock, result);
+  return own;
+}
+
+}  // namespace
+
+Laplacian pointCloudLaplacian(const Points& points, const CloudOptions& options) {
+  Laplacian result;
+  buildCloudLaplacian(points, options, CloudBuild::automatic, result);
+  return result;
+}
+
+void buildCloudLaplacian(const Points& points, const CloudOptions& options, CloudBuild build, Laplacian& result) {
+  checkCloudOptions(function_name, points, options);
+  if (points.rows() > INT32_MAX) tooMany(points.rows(), 6 * points.rows());
+  const Workers workers(options.threads, options.progress);
+  restart(result, Kind::cloud, points.rows(), workers);
+  StageClock clock(result.report);
+
+  // Equal points become one, the rest is scaled to a box around 0 and ordered along a curve, so that near is near.
+  RankedCloud cloud = rankPoints(points, result.status, result.representative, workers);
+  if (cloud.size() > most_entries / 6) tooMany(cloud.size(), 6 * static_cast<std::int64_t>(cloud.size()));
+  clock.finish("order", static_cast<std::size_t>(cloud.size()) * (3 * sizeof(double) + sizeof(int)));
+
+  // Who is asked for neighbours: FLANN's tree, the rows of the scan, or the caller.
+  NeighborSource source = neighborSource(options, cloud, result.status, result.representative, workers, result.report);
+  clock.finish("tree", source.bytes());
+
+  // Each point's neighbours, tangent plane and local Delaunay triangulation (Section 5.7), without outliers and
+  // triangles that the neighbours refuse. Books its own stages.
+  Stars stars = surfaceStars(cloud, source, options, workers, result.report);
+  if (std::ssize(stars.link) > most_entries) tooMany(stars.size(), std::ssize(stars.link));
+  clock.restart();
+
+  // Where the surface ends, and which way it faces.
+  const Eigen::Vector3d* viewpoint = options.viewpoint;
+  if (viewpoint == nullptr && options.structure != nullptr) viewpoint = &options.structure->origin;
+  setBoundaryAndNormals(stars, findBoundary(stars, cloud, source, viewpoint, workers), cloud, workers, result);
+  source = {};
+  stars.normals = {};
+  release(stars.reach);
+  clock.finish("boundary", 0);
+
+  // The union of all stars, glued to its tufted cover (Algorithm 1), measured and mollified (Section 4.5), flipped to
+  // intrinsic Delaunay (Algorithm 2), and L and M (Algorithm 3): straight from the stars where these agree.
+  const bool has_own_areas = options.steps.mass == Mass::star;
+  const Buffer<int> caller = has_own_areas ? cloud.caller : Buffer<int>();
+  const int exponent = cloud.exponent;
+  const bool stars_agree = options.gluing == Gluing::star && options.order == FaceOrder::angle;
+  OwnAreas own;
+  if (stars_agree && build == CloudBuild::automatic) {
+    result.stored_cover.reset();
+    own = finishFromStars(std::move(stars), std::move(cloud), options, workers, clock, result);
+  } else {
+    own = finishFromWholeCover(std::move(stars), cloud, options, workers, clock, result);
+  }
+
+  // With Mass::star a point's area is what belongs to it in its own star.
+  if (has_own_areas) setOwnAreas(own, caller, exponent, result);
+  setTangents(workers, result);
+  clock.finish("tangents", static_cast<std::size_t>(result.frames.tangents.size()) * sizeof(double));
+  workers.report("done", 1);
+}
+
+}  // namespace tufted

@@ -1,0 +1,59 @@
+#include "pipeline/point_results.h"
+
+#include <Eigen/Geometry>
+
+#include "base/power_of_two.h"
+#include "stars/tangent_frame.h"
+
+namespace tufted {
+namespace {
+
+constexpr std::int64_t block_size = 4096;
+
+}  // namespace
+
+void setBoundaryAndNormals(const Stars& stars, const Buffer<Boundary>& boundary, const RankedCloud& cloud,
+                           const Workers& workers, Laplacian& result) {
+  const auto n = static_cast<Eigen::Index>(result.status.size());
+  result.boundary.assign(result.status.size(), Boundary::none);
+  result.frames.normals.resize(n, 3);
+  workers.forBlocks("boundary", stars.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    for (std::int64_t p = begin; p < end; ++p) {
+      const int i = cloud.caller[p];
+      result.boundary[i] = boundary[p];
+      result.frames.normals.row(i) = stars.normals.row(p);
+    }
+  });
+  for (Eigen::Index i = 0; i < n; ++i) {
+    if (result.status[i] == PointStatus::coincident) {
+      result.frames.normals.row(i) = result.frames.normals.row(result.representative[i]);
+    } else if (result.status[i] == PointStatus::not_finite) {
+      result.frames.normals.row(i).setZero();
+    }
+  }
+}
+
+void setTangents(const Workers& workers, Laplacian& result) {
+  Frames& frames = result.frames;
+  frames.tangents.resize(frames.normals.rows(), 3);
+  workers.forBlocks("assemble", frames.normals.rows(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    for (std::int64_t i = begin; i < end; ++i) {
+      const Eigen::Vector3d normal = frames.normals.row(i);
+      frames.tangents.row(i) = normal.isZero(0) ? normal : tangentOf(normal);
+    }
+  });
+}
+
+void setOwnAreas(const OwnAreas& own, const Buffer<int>& caller, int exponent, Laplacian& result) {
+  const PowerOfTwo area_unit(2 * exponent);
+  for (std::size_t p = 0; p < caller.size(); ++p) {
+    const int i = caller[p];
+    if (result.status[i] != PointStatus::active) continue;
+    if (own.area[p] > 0) result.M[i] = area_unit.times(own.area[p]);
+    ++(own.area[p] > 0 ? result.report.star_masses : result.report.cover_masses);
+  }
+  result.report.bounded_masses = own.bounded;
+  result.report.area = result.M.sum();
+}
+
+}  // namespace tufted

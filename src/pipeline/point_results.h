@@ -1,0 +1,27 @@
+#pragma once
+
+#include "base/buffer.h"
+#include "base/parallel.h"
+#include "direct/star_areas.h"
+#include "neighbors/morton.h"
+#include "stars/stars.h"
+#include "tufted/laplacian.h"
+
+namespace tufted {
+
+// What a cloud's result says of each point beside L and M, in the caller's order.
+
+/// Sets the boundary tags and the normals; coincident points take the normal of their representative.
+/// @param boundary by rank
+void setBoundaryAndNormals(const Stars& stars, const Buffer<Boundary>& boundary, const RankedCloud& cloud,
+                           const Workers& workers, Laplacian& result);
+
+/// Sets the tangents, which are zero where the normal is.
+void setTangents(const Workers& workers, Laplacian& result);
+
+/// Makes the stars' own areas M where they are positive and the point has a row.
+/// @param own by rank, in units of 2^(2 exponent) of the caller's
+/// @param caller the caller's index of each rank
+void setOwnAreas(const OwnAreas& own, const Buffer<int>& caller, int exponent, Laplacian& result);
+
+}  // namespace tufted

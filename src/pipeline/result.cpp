@@ -1,0 +1,92 @@
+#include "pipeline/result.h"
+
+#include <atomic>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/number_text.h"
+#include "base/power_of_two.h"
+#include "tufted/errors.h"
+
+namespace tufted {
+namespace {
+
+void countBoundary(Boundary boundary, Report& report) {
+  report.rim_points += boundary == Boundary::rim ? 1 : 0;
+  report.jump_points += boundary == Boundary::jump ? 1 : 0;
+  report.lost_points += boundary == Boundary::lost ? 1 : 0;
+}
+
+}  // namespace
+
+void checkBuild(const char* function, double mollify, int threads) {
+  if (!(mollify >= 0 && mollify <= 1))
+    throw InvalidInput(std::string(function) + ": mollify = " + numberText(mollify) + ", must lie in [0, 1]");
+  if (threads < 0)
+    throw InvalidInput(std::string(function) + ": threads = " + std::to_string(threads) + ", must be >= 0");
+}
+
+void restart(Laplacian& result, Kind kind, std::int64_t points, const Workers& workers) {
+  result.kind = kind;
+  result.cover_source.reset();
+  std::vector<StageCost> stages = std::move(result.report.stages);
+  stages.clear();
+  result.report = {};
+  result.report.stages = std::move(stages);
+  result.report.points = points;
+  result.report.threads = workers.count();
+}
+
+std::shared_ptr<IntrinsicTriangulation> takeCover(Laplacian& result) {
+  const auto stored = std::exchange(result.stored_cover, nullptr);
+  if (stored.use_count() != 1) return std::make_shared<IntrinsicTriangulation>();
+  std::atomic_thread_fence(std::memory_order_acquire);  // after all that the last other owner did with it
+  return std::const_pointer_cast<IntrinsicTriangulation>(stored);
+}
+
+void finishResult(const BuildFigures& figures, int exponent, Laplacian& result) {
+  Report& report = result.report;
+
+  // Back from units of 2^exponent, which is exact.
+  const PowerOfTwo area_unit(2 * exponent);
+  for (double& mass : result.M) mass = area_unit.times(mass);
+  result.cover_areas = result.M;
+  report.area = report.cover_area = result.M.sum();
+  for (std::size_t i = 0; i < result.status.size(); ++i) {
+    const bool has_row = result.L.outerIndexPtr()[i] != result.L.outerIndexPtr()[i + 1];
+    if (result.status[i] == PointStatus::active && !has_row) result.status[i] = PointStatus::isolated;
+    // Surfaces end at points of surfaces; a representative comes before the points it stands for.
+    if (result.status[i] == PointStatus::coincident)
+      result.boundary[i] = result.boundary[result.representative[i]];
+    else if (result.status[i] != PointStatus::active)
+      result.boundary[i] = Boundary::none;
+    else
+      countBoundary(result.boundary[i], report);
+    report.active += result.status[i] == PointStatus::active ? 1 : 0;
+    report.not_finite += result.status[i] == PointStatus::not_finite ? 1 : 0;
+    report.coincident += result.status[i] == PointStatus::coincident ? 1 : 0;
+    report.isolated += result.status[i] == PointStatus::isolated ? 1 : 0;
+  }
+  report.triangles = figures.triangles;
+  report.mean_edge = std::ldexp(figures.mean.length, exponent);
+  report.mean_squared_edge = std::ldexp(figures.mean.square, 2 * exponent);
+  report.mollify_length = std::ldexp(figures.mollify_length, exponent);
+  report.mollify_area = std::ldexp(figures.mollify_area, 2 * exponent);
+  report.flips = figures.flips.flips;
+  report.flip_failures = figures.flips.failures;
+}
+
+std::size_t bytesOfMatrices(const Laplacian& result) {
+  return static_cast<std::size_t>(result.L.nonZeros()) * (sizeof(double) + sizeof(int)) +
+         result.status.size() * (sizeof(int) + sizeof(double));
+}
+
+const IntrinsicTriangulation& Laplacian::cover() const {
+  if (stored_cover) return *stored_cover;
+  if (cover_source) return cover_source->cover();
+  throw InvalidInput("Laplacian::cover: keep_cover = false, must be true to ask for the cover");
+}
+
+}  // namespace tufted

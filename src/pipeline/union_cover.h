@@ -1,0 +1,14 @@
+#pragma once
+
+#include "base/parallel.h"
+#include "stars/stars.h"
+#include "tufted/intrinsic_triangulation.h"
+#include "tufted/options.h"
+
+namespace tufted {
+
+/// The union of all stars, front and back of every copy of a triangle. With `Gluing::star` the two faces of a star that
+/// share a spoke are glued to each other here, front to front and back to back.
+void addStars(const Stars& stars, Gluing gluing, IntrinsicTriangulation& cover, const Workers& workers);
+
+}  // namespace tufted

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "polygons/corner_tree.h"
+#include "tufted/types.h"
+
+namespace tufted {
+
+/// Clips the ears of one polygon after another, each in the plane of its Newell normal.
+///
+/// The quality of a corner is the turn of its triangle over the sum of its squared edges, which is below 1/2; 1 is
+/// taken off where the turn is not positive or the triangle holds another corner. The next ear is the corner of the
+/// greatest quality, of equal ones the first. So the best shaped ear comes first and, where none is left because the
+/// polygon is degenerate or crosses itself, the most convex corner: clipping always ends. Polygons of a thousand
+/// corners and more make one exception: 1 is also taken off a quality up to 2^-40, as the corner is straight. Where
+/// thousands of corners lie on one line but for rounding, such triangles reach along all of them, and each would have
+/// to be looked at.
+///
+/// The choice does not depend on how it is found. Nothing comes into a triangle while corners are clipped, so one that
+/// is empty stays so, and a corner whose triangle holds another waits until that is clipped. On average it waits for
+/// 1 + ln n others, see CornerTree::firstIn. So there are O(n log n) searches. Most take O(log n) steps; those of long
+/// needles that reach between thousands of scattered corners take O(sqrt(n)).
+class EarClipper {
+ public:
+  /// Begins with a polygon of at least three corners. The memory of the former one is used again.
+  void begin(const Points& points, const std::vector<int>& polygon);
+
+  /// The corners of the next triangle, counted along the polygon. To be called n - 2 times.
+  std::array<int, 3> next();
+
+ private:
+  /// A corner of the polygon. Those that wait for the same one are a list.
+  struct Corner {
+    int before, after;
+    int holds = unknown;           ///< a corner in its triangle, for which this one waits, or `unknown` or `nothing`
+    int first_waiting = none;      ///< for this one
+    int last = none, next = none;  ///< in the list that this one is in
+  };
+  static constexpr int none = -1, unknown = -1, nothing = -2;
+
+  int bestEar();
+  void clip(int ear);
+  /// The quality of a corner if no other lies in its triangle.
+  double keyOfEmpty(int corner) const;
+  /// Lets a corner wait no longer; what its triangle holds is unknown.
+  void judge(int corner);
+  void wait(int corner, int held);
+  void stopWaiting(int corner);
+
+  int winnerBelow(int node) const;
+  void findWinner(int node);
+  void setKey(int corner, double key);
+
+  std::vector<Eigen::Vector2d> planar_;
+  std::vector<Corner> corners_;
+  CornerTree tree_;
+  std::vector<double> key_;   ///< the quality, as far as it is known; never too small
+  std::vector<int> winner_;   ///< the best corner below node i of a binary tree, whose children are 2 i and 2 i + 1
+  int first_ = 0, left_ = 0;  ///< the first corner that is left, and how many are
+};
+
+}  // namespace tufted

@@ -1,0 +1,257 @@
+#pragma once
+
+#include "simd/kernels.h"
+#include "simd/lanes.h"
+
+namespace tufted {
+namespace {
+
+constexpr int most_given = PlanarOffsets::most;
+constexpr int near_part = 16, most_rounds = 4, missing = -1;
+/// The sine of the angle between circles from which on they differ: far wider than the tie band of sideOfCircle().
+constexpr double distinct = 1e-7;
+constexpr double inside = 1e-5;
+/// Up to here there is a tie however many add up. Between this and `distinct` the order in which vertices are looked at
+/// may decide.
+constexpr double surely_tied = 1e-11;
+constexpr double rounding = 1e-14;                          // of coordinates and products of them, a dozen roundings
+constexpr double least_square = 1e-60, most_square = 1e60;  // of distances, which keeps all products in range
+
+/// The inverted candidates, q / |q|^2.
+struct Inverted {
+  int count;
+  alignas(64) double x[most_given], y[most_given];
+};
+
+/// Some of the inverted candidates, and room for whole lanes behind them.
+struct Subset {
+  int size;
+  alignas(64) double x[most_given + lane_size], y[most_given + lane_size];
+  int of[most_given + lane_size];
+};
+
+/// Points by direction from the origin, as a ring: the first stands at 1, the last also at 0, and the first once more
+/// behind it.
+struct Ring {
+  int size;
+  double x[most_given + 3 * lane_size], y[most_given + 3 * lane_size];
+  int of[most_given + 3 * lane_size];
+
+  void close(int copies) {
+    x[0] = x[size];
+    y[0] = y[size];
+    for (int i = 1; i <= copies; ++i) {
+      x[size + i] = x[i];
+      y[size + i] = y[i];
+    }
+  }
+};
+
+/// False where a point lies too near or too far for the bounds to hold.
+TUFTED_INLINE bool invert(const PlanarOffsets& planar, Inverted& points) {
+  points.count = planar.count;
+  Lane nearest = all(most_square), furthest = all(least_square);
+  for (int i = 0; i < planar.count; i += lane_size) {
+    const Mask is_point = firstOf(planar.count - i);
+    const Lane u = load(planar.u + i), v = load(planar.v + i);
+    const Lane square = select(is_point, u * u + v * v, all(1));
+    nearest = least(nearest, square);
+    furthest = most(furthest, square);
+    const Lane inverse = all(1) / square;
+    store(select(is_point, u * inverse, all(0)), points.x + i);
+    store(select(is_point, v * inverse, all(0)), points.y + i);
+  }
+  return least(nearest) > least_square && most(furthest) < most_square;
+}
+
+/// Sorts by direction, counterclockwise from the u axis. Of points in one direction the first
+/// alone is left.
+TUFTED_INLINE void sortByDirection(const Subset& given, Ring& ring) {
+  alignas(64) float key[most_given + float_lane_size];  // a pseudo-angle, 0 to 4
+  for (int i = 0; i < given.size; i += lane_size) {
+    const Lane x = load(given.x + i), y = load(given.y + i);
+    const Lane turn = x / (absolute(x) + absolute(y));
+    storeFloats(select(isLess(y, all(0)), all(3) + turn, all(1) - turn), key + i);
+  }
+  alignas(64) int rank[most_given + float_lane_size];
+  for (int i = 0; i < given.size; i += float_lane_size) rankFloats<1>(key + i, key, given.size, rank + i);
+  for (int i = 1; i <= given.size; ++i) ring.of[i] = missing;
+  int sum = 0;
+  for (int i = given.size - 1; i >= 0; --i) {
+    const int at = 1 + rank[i];
+    sum += rank[i];
+    ring.x[at] = given.x[i];
+    ring.y[at] = given.y[i];
+    ring.of[at] = given.of[i];
+  }
+  ring.size = given.size;
+  if (sum == given.size * (given.size - 1) / 2) return;
+  ring.size = 0;  // places are missing, where points had one direction
+  for (int i = 1; i <= given.size; ++i) {
+    if (ring.of[i] == missing) continue;
+    const int at = ++ring.size;
+    ring.x[at] = ring.x[i];
+    ring.y[at] = ring.y[i];
+    ring.of[at] = ring.of[i];
+  }
+}
+
+/// Removes all at once the vertices where a ring does not turn left, until it turns left everywhere. Such a vertex lies
+/// within the triangle of the origin and its neighbours, removed or not, so it is none of the hull's.
+TUFTED_INLINE void removeReflex(Ring& first, Ring& second, Ring*& hull) {
+  Ring *ring = &first, *next = &second;
+  for (;;) {
+    ring->close(1);
+    int kept = 1;
+    for (int i = 0; i < ring->size; i += lane_size) {
+      const Lane ax = load(ring->x + i), ay = load(ring->y + i);
+      const Lane bx = load(ring->x + i + 1), by = load(ring->y + i + 1);
+      const Lane cx = load(ring->x + i + 2), cy = load(ring->y + i + 2);
+      const Mask turns_left = isLess((by - ay) * (cx - bx), (bx - ax) * (cy - by));
+      const Mask stays = both(turns_left, firstOf(ring->size - i));
+      squeeze(stays, bx, next->x + kept);
+      squeeze(stays, by, next->y + kept);
+      squeeze(stays, ring->of + i + 1, next->of + kept);
+      kept += countOf(stays);
+    }
+    next->size = kept - 1;
+    Ring* const before = ring;
+    ring = next;
+    next = before;
+    if (ring->size < 3 || ring->size == before->size) break;
+  }
+  hull = ring;
+}
+
+enum class Verdict { certain, tied, incomplete, open, doubtful };
+
+/// Whether the hull is beyond doubt that of all points, with the origin inside and no tie among the circles. Where
+/// points that were not `given` are outside of it or too near, it is incomplete and `given` becomes what the hull must
+/// be made of. Where only points that were given are too near, the star is tied and has as `link` all that may be in
+/// it. Where the origin is not inside, or too near to the hull, it is open.
+///
+/// Between two vertices of the hull, in direction, whatever link the careful routine is left with turns inwards at the
+/// one and comes back at the other. Where no point is seen from either of them at less than the angle `distinct` to
+/// their edge, one of the vertices between them turns the wrong way by far more than the tie band, so all are removed;
+/// and the vertices of the hull, which turn by more than that, are not. Points are asked to keep `inside` instead,
+/// which also holds for the edge that is left when tied vertices of the hull are removed.
+TUFTED_INLINE Verdict judge(const Inverted& points, Ring& hull, Subset& given, InvertedStar& star) {
+  if (hull.size < 3) return Verdict::open;
+  if (hull.size > InvertedStar::most) return Verdict::doubtful;
+  hull.close(toLanes(hull.size) - hull.size + 2);
+  // A point is left of the edge from a to b where across . point < 1.
+  alignas(64) double across_x[InvertedStar::most], across_y[InvertedStar::most];
+  Mask is_open = none(), is_tied = none(), is_ambiguous = none();
+  Lane inner_square = all(most_square), least_cross = all(most_square), most_size = all(0);
+  for (int i = 0; i < hull.size; i += lane_size) {
+    const Lane ax = load(hull.x + i + 1), ay = load(hull.y + i + 1);
+    const Lane bx = load(hull.x + i + 2), by = load(hull.y + i + 2);
+    const Lane cx = load(hull.x + i + 3), cy = load(hull.y + i + 3);
+    const Lane ux = bx - ax, uy = by - ay, vx = cx - bx, vy = cy - by;
+    const Lane u = absolute(ux) + absolute(uy), v = absolute(vx) + absolute(vy);
+    const Lane a = absolute(ax) + absolute(ay), b = absolute(bx) + absolute(by), c = absolute(cx) + absolute(cy);
+    // A difference is off by the rounding of its ends, and counts times the length of the other.
+    const Lane doubt = all(distinct) * u * v + all(rounding) * ((a + b) * v + (b + c) * u);
+    const Lane cross = ax * by - ay * bx, edge_square = ux * ux + uy * uy;
+    is_open = either(is_open, isAtMost(cross, all(0)));
+    const Lane turn = ux * vy - uy * vx;
+    is_tied = either(is_tied, isAtMost(turn, doubt));
+    is_ambiguous = either(is_ambiguous, both(isAtMost(turn, doubt), isLess(all(surely_tied) * u * v, turn)));
+    store(uy / cross, across_x + i);
+    store(-ux / cross, across_y + i);
+    const Lane square = cross * cross / edge_square;  // of the distance from the origin to the edge
+    inner_square = least(inner_square, square);
+    least_cross = least(least_cross, cross);
+    most_size = most(most_size, a);
+    store(all(0.5) / squareRoot(square), star.radius + i);
+  }
+  if (any(is_open)) return Verdict::open;
+  const double size = most(most_size), ratio = size / __builtin_sqrt(least(inner_square));
+  const double limit = 1 - 2 * inside * ratio - rounding * size * size / least(least_cross);
+  if (!(limit > 0)) return Verdict::open;
+
+  alignas(64) double gauge[most_given];  // the largest across . point
+  for (int i = 0; i < points.count; i += lane_size) {
+    const Lane x = load(points.x + i), y = load(points.y + i);
+    Lane largest = all(0);
+    for (int e = 0; e < hull.size; ++e) largest = most(largest, x * all(across_x[e]) + y * all(across_y[e]));
+    store(largest, gauge + i);
+  }
+  for (int i = 1; i <= hull.size; ++i) gauge[hull.of[i]] = 0;
+  Lane outermost = all(0);
+  for (int i = 0; i < points.count; i += lane_size) outermost = most(outermost, load(gauge + i));
+  if (most(outermost) < limit && !any(is_tied)) {
+    star.size = hull.size;
+    for (int i = 0; i < hull.size; ++i) star.link[i] = hull.of[i + 1];
+    return Verdict::certain;
+  }
+  const Lane from = all(1 - distinct * ratio), to = all(1 - surely_tied * ratio);
+  for (int i = 0; i < points.count; i += lane_size) {
+    const Lane value = load(gauge + i);
+    is_ambiguous = either(is_ambiguous, both(isLess(from, value), isLess(value, to)));
+  }
+  if (any(is_ambiguous)) return Verdict::doubtful;
+  // All that lie on the hull or too near to it, by ascending distance.
+  for (int i = 1; i <= hull.size; ++i) gauge[hull.of[i]] = 1;
+  bool is_given[most_given] = {};
+  for (int i = 0; i < given.size; ++i) is_given[given.of[i]] = true;
+  bool is_complete = true;
+  given.size = 0;
+  for (int i = 0; i < points.count; ++i) {
+    if (gauge[i] < limit) continue;
+    is_complete &= is_given[i];
+    given.x[given.size] = points.x[i];
+    given.y[given.size] = points.y[i];
+    given.of[given.size++] = i;
+  }
+  if (!is_complete) return Verdict::incomplete;
+  if (given.size > InvertedStar::most) return Verdict::doubtful;
+  star.size = hull.size;
+  for (int i = 0; i < hull.size; ++i) star.link[i] = hull.of[i + 1];
+  for (int i = 1; i <= hull.size; ++i) gauge[hull.of[i]] = 0;
+  for (int i = 0; i < given.size; ++i)
+    if (gauge[given.of[i]] > 0) star.link[star.size++] = given.of[i];
+  return Verdict::tied;
+}
+
+TUFTED_INLINE void giveFirst(const Inverted& points, int count, Subset& given) {
+  given.size = count;
+  for (int i = 0; i < count; i += lane_size) {
+    store(load(points.x + i), given.x + i);
+    store(load(points.y + i), given.y + i);
+    for (int j = i; j < i + lane_size; ++j) given.of[j] = j;
+  }
+}
+
+StarKind wrapInvertedLanes(const PlanarOffsets& planar, InvertedStar& star) {
+  if (planar.count < 3) return StarKind::unknown;
+  Inverted points;
+  if (!invert(planar, points)) return StarKind::unknown;
+  Subset given;
+  giveFirst(points, points.count < near_part ? points.count : near_part, given);
+  Verdict verdict = Verdict::incomplete;
+  for (int round = 0; round < most_rounds && verdict == Verdict::incomplete; ++round) {
+    Ring first, second, *hull = nullptr;
+    const bool are_all = given.size == points.count;
+    sortByDirection(given, first);
+    removeReflex(first, second, hull);
+    verdict = judge(points, *hull, given, star);
+    if (verdict == Verdict::open && !are_all) {
+      giveFirst(points, points.count, given);
+      verdict = Verdict::incomplete;
+    }
+  }
+  switch (verdict) {
+    case Verdict::certain:
+      return StarKind::closed;
+    case Verdict::tied:
+      return StarKind::tied;
+    case Verdict::open:
+      return StarKind::gaping;
+    default:
+      return StarKind::unknown;
+  }
+}
+
+}  // namespace
+}  // namespace tufted

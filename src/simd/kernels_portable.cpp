@@ -1,0 +1,2 @@
+#define TUFTED_KERNELS portable_kernels
+#include "simd/kernels_source.h"

@@ -1,0 +1,178 @@
+#include "stars/boundary.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+
+#include "base/buffer.h"
+#include "base/point_buffer.h"
+#include "stars/tangent_frame.h"
+
+namespace tufted {
+namespace {
+
+constexpr std::int64_t block_size = 4096;
+constexpr int search_factor = 8;    // times k: what is looked through for points beyond a gap
+constexpr double off_plane = 0.25;  // of the reach, as between the heights of two sheets
+constexpr double farthest = 2;      // times the longest edge
+constexpr double infinity = 1e70;   // median spreads; squares of what lies farther away may overflow
+constexpr double margin = 0.25;     // of a gap, on either side: neighbours along its border may reach into that
+
+/// A gap between the triangles of a star, counterclockwise.
+struct Gap {
+  double begin = 0;  ///< direction, rad
+  double angle = 0;  ///< (0, 2 pi]
+};
+
+/// The positive angle from direction `a` to direction `b`, at most a full turn.
+double turn(double a, double b) {
+  const double angle = b - a;
+  return angle > 0 ? angle : angle + 2 * std::numbers::pi;
+}
+
+enum class View { along_normal, from_viewpoint };
+
+/// The points around p, projected to a plane.
+class Chart {
+ public:
+  Chart(const PointsView& positions, int p, const Eigen::Vector3d& normal)
+      : positions_(positions), p_(p), x_(tangentOf(normal)), y_(normal.cross(x_)) {}
+
+  /// From p to q.
+  Eigen::Vector2d offset(int q) const {
+    const Eigen::Vector3d d = positions_.row(q) - positions_.row(p_);
+    return {d.dot(x_), d.dot(y_)};
+  }
+  double direction(int q) const {
+    const Eigen::Vector2d d = offset(q);
+    return std::atan2(d.y(), d.x());
+  }
+
+ private:
+  PointsView positions_;
+  int p_;
+  Eigen::Vector3d x_, y_;
+};
+
+struct WorkerState {
+  SearchBefore before, seen_before;
+  Buffer<Gap> gaps;
+  Buffer<Neighbor> near;
+};
+
+/// Looks through the gaps between a point's triangles.
+class BoundaryFinder {
+ public:
+  BoundaryFinder(const Stars& stars, const PointsView& points, const NeighborSource& source)
+      : stars_(stars), points_(points), source_(source) {}
+
+  /// Has find() look from there as well.
+  void lookFrom(const Eigen::Vector3d& viewpoint, const Workers& workers) {
+    directions_.resize(points_.rows());
+    workers.forBlocks("boundary", points_.rows(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+      for (std::int64_t p = begin; p < end; ++p)
+        directions_.row(p) = (points_.row(p) - viewpoint.transpose()).normalized();
+    });
+    seen_.emplace(directions_, workers);
+  }
+
+  Boundary find(int p, WorkerState& state) const {
+    if (stars_.ends[p] == 0) return Boundary::none;
+    if (!hasTriangles(p)) return Boundary::lost;
+    source_.nearest(points_, p, search_factor * source_.k, state.near, NeighborOrder::any, &state.before);
+    const Eigen::Vector3d normal = stars_.normals.row(p);
+    const Boundary along_normal = lookBeyond(p, View::along_normal, Chart(points_, p, normal), state);
+    if (!seen_ || along_normal == Boundary::jump) return along_normal;
+
+    const Eigen::Vector3d sight = directions_.row(p);
+    seen_->nearest(p, search_factor * source_.k, state.near, NeighborOrder::any, &state.seen_before);
+    const Chart image(directions_, p, sight.dot(normal) < 0 ? -sight : sight);  // gaps run the same way round
+    const Boundary in_image = lookBeyond(p, View::from_viewpoint, image, state);
+    return in_image == Boundary::jump ? Boundary::jump : along_normal;
+  }
+
+ private:
+  bool hasTriangles(int p) const {
+    for (int i = stars_.offset[p]; i < stars_.offset[p + 1]; ++i)
+      if (stars_.hasTriangle(i)) return true;
+    return false;
+  }
+
+  /// Finds the gaps between the triangles of p, which has some. Returns the square of the longest edge in the chart.
+  double findGaps(int p, const Chart& chart, Buffer<Gap>& gaps) const {
+    gaps.clear();
+    int first = stars_.offset[p];
+    while (!stars_.hasTriangle(first)) ++first;
+    double longest = 0;
+    int i = first;
+    do {
+      const int next = stars_.after(p, i);
+      if (stars_.hasTriangle(i)) {
+        longest = std::max(
+            {longest, chart.offset(stars_.link[i]).squaredNorm(), chart.offset(stars_.link[next]).squaredNorm()});
+        i = next;
+        continue;
+      }
+      int last = next;
+      while (!stars_.hasTriangle(last)) last = stars_.after(p, last);
+      const double begin = chart.direction(stars_.link[i]);
+      gaps.push_back({begin, turn(begin, chart.direction(stars_.link[last]))});
+      i = last;
+    } while (i != first);
+    return longest;
+  }
+
+  /// Whether q is too far off the tangent plane of p to lie on one surface with it. Along the normal, a surface that
+  /// bends away in the distance may be the same; what is seen beside p from the viewpoint is near or elsewhere.
+  bool isElsewhere(int p, int q, View view) const {
+    const Eigen::RowVector3d d = points_.row(q) - points_.row(p);
+    const double height = std::abs(d.dot(stars_.normals.row(p)));
+    const double along = std::sqrt(std::max(0.0, d.squaredNorm() - height * height));
+    return height > off_plane * (view == View::along_normal ? std::max(stars_.reach[p], along) : stars_.reach[p]);
+  }
+
+  Boundary lookBeyond(int p, View view, const Chart& chart, WorkerState& state) const {
+    const double limit = farthest * farthest * findGaps(p, chart, state.gaps);
+    bool is_rim = false;
+    for (const Gap& gap : state.gaps) {
+      bool goes_on = false;
+      for (const Neighbor& q : state.near) {
+        const Eigen::Vector2d offset = chart.offset(q.index);
+        const double distance = offset.squaredNorm();
+        if (!(distance > 0 && distance <= limit)) continue;
+        const double angle = turn(gap.begin, std::atan2(offset.y(), offset.x()));
+        if (angle < margin * gap.angle || angle > (1 - margin) * gap.angle || !hasTriangles(q.index)) continue;
+        if (isElsewhere(p, q.index, view)) return Boundary::jump;
+        goes_on = true;
+      }
+      if (!goes_on) is_rim = true;
+    }
+    return is_rim ? Boundary::rim : Boundary::lost;
+  }
+
+  const Stars& stars_;
+  PointsView points_;
+  const NeighborSource& source_;
+  PointBuffer directions_;  ///< n x 3, unit vectors from the viewpoint; 0 x 3 without one
+  std::optional<NeighborSearch> seen_;
+};
+
+}  // namespace
+
+Buffer<Boundary> findBoundary(const Stars& stars, const RankedCloud& cloud, const NeighborSource& source,
+                              const Eigen::Vector3d* viewpoint, const Workers& workers) {
+  Buffer<Boundary> boundary(stars.size(), Boundary::none);
+  BoundaryFinder finder(stars, cloud.points, source);
+  const auto scaled = [&](double x) { return std::clamp(std::ldexp(x, -cloud.exponent), -infinity, infinity); };
+  const bool any = std::any_of(stars.ends.begin(), stars.ends.end(), [](std::uint8_t ends) { return ends != 0; });
+  if (any && viewpoint != nullptr) finder.lookFrom(viewpoint->unaryExpr(scaled), workers);
+  Buffer<WorkerState> states(workers.count());
+  workers.forBlocks("boundary", stars.size(), block_size, [&](std::int64_t begin, std::int64_t end, int worker) {
+    for (int p = static_cast<int>(begin); p < end; ++p) boundary[p] = finder.find(p, states[worker]);
+  });
+  return boundary;
+}
+
+}  // namespace tufted

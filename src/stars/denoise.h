@@ -1,0 +1,35 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+
+#include "simd/kernels.h"
+
+namespace tufted {
+
+/// A quadratic through the heights of p and its neighbours over the tangent plane of p.
+struct HeightFit {
+  double height = 0;      ///< of the surface over p, along the normal
+  double variance = 0;    ///< of the points around the surface: sum of squared residuals / (m - 6)
+  bool is_valid = false;  ///< false with fewer than 9 points, p included, or where they lie on a conic
+};
+
+/// What a fit is made from.
+struct HeightMoments {
+  HeightSums sums{};  ///< in units of the reach
+  int count = 0;      ///< points, p included
+  double reach = 0;   ///< radius of the neighbourhood
+};
+
+/// @param normal unit length
+HeightMoments heightMoments(const Offsets& neighbors, const Eigen::Vector3d& normal, double reach);
+
+/// Least squares over {1, u, v, u^2, u v, v^2}, each as if it were alone.
+void fitHeights(std::span<const HeightMoments> moments, std::span<HeightFit> fits);
+
+/// Whether a neighbourhood is noise around a surface rather than curved: the residuals of the fit are more than a fifth
+/// of the smallest variance. An exact plane is not.
+/// @param variance the smallest eigenvalue of the neighbourhood's covariance
+bool isNoisy(const HeightFit& fit, double variance, double reach);
+
+}  // namespace tufted

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <span>
+
+#include "base/buffer.h"
+#include "base/point_buffer.h"
+#include "neighbors/neighbor_source.h"
+#include "stars/offsets.h"
+#include "stars/tangent_frame.h"
+#include "tufted/options.h"
+
+namespace tufted {
+
+/// Between two sheets the plane of all neighbours stands across them; that of the nearest few does not.
+constexpr std::array<int, 2> few_neighbors = {8, 13};
+
+/// The neighbours of one point and the plane through them.
+struct Neighborhood {
+  Buffer<Neighbor> neighbors;  ///< ascending; those of other sheets left out
+  PrincipalAxes axes;
+  std::array<PrincipalAxes, few_neighbors.size()> axes_of_few;  ///< of the first few, where there are more of them
+  std::int64_t cut = 0;                                         ///< left out because the surface jumps in between
+  int k = 0;                                                    ///< neighbours asked for
+  double radius = 0;                                            ///< distance to the last of them
+  double reach = 0;                                             ///< the radius that the plane was fitted in, S(p)
+  bool grown = false;                                           ///< the plane was fitted to more than the caller's k
+  bool split = false;                                           ///< neighbours of another sheet were left out
+  bool restored = false;                                        ///< there were some, but without them there is no plane
+  bool isolated = false;                                        ///< next to all neighbours belong to other sheets
+};
+
+/// Memory that one worker reuses from point to point.
+struct HoodScratch {
+  GroupScratch group;
+  Buffer<Neighbor> found;
+  OffsetBuffer offsets_of_all;
+  Buffer<double> heights;
+  Buffer<double> heights_along;                ///< see Kernels::reachAlong
+  Reached sheet;                               ///< see isOneSheet()
+  Buffer<Neighbor> all;                        ///< of splitSheets(): before any were left out; empty while none were
+  static constexpr int most_tried = 6;         ///< planes through p and two of four others
+  std::array<OffsetBuffer, most_tried> tried;  ///< see findSheet()
+  SearchBefore before;
+};
+
+/// Finds the neighbourhoods of points and fits planes to them.
+class NeighborhoodFinder {
+ public:
+  /// All arguments are borrowed.
+  NeighborhoodFinder(const PointsView& points, const NeighborSource& source, const CloudOptions& options)
+      : points_(points), source_(source), options_(options) {}
+
+  /// For each of `count` points from `first` on the caller's k neighbours, or the caller's own list. What is asked of
+  /// these points later with the same scratch takes least time.
+  void find(int first, int count, HoodScratch& scratch, Neighborhood* hoods) const;
+
+  static constexpr int most_planes = 16;
+  /// Fits planes to at most most_planes neighbourhoods of points from `first` on, and to the first few of each where
+  /// sheets are split.
+  /// @param[out] offsets of the neighbours of each
+  void fitPlanes(int first, std::span<Neighborhood> hoods, std::span<OffsetBuffer> offsets) const;
+
+  /// Doubles the neighbourhood while it says too little about the surface, with a plane fitted anew, and leaves other
+  /// sheets out.
+  /// @param offsets of the neighbours, before and after
+  void refine(int p, Neighborhood& hood, OffsetBuffer& offsets, HoodScratch& scratch) const;
+
+  /// Asks for twice as many neighbours, at most `most`; other sheets are left out as before, the plane stays as it is.
+  /// False when there are no more to be had.
+  /// @param offsets of the neighbours, before and after
+  bool grow(int p, int most, Neighborhood& hood, OffsetBuffer& offsets, HoodScratch& scratch) const;
+
+  /// The most neighbours that refine() asks for.
+  int mostNeighbors() const;
+
+ private:
+  void take(int k, const ScanSearch::Searched& searched, Neighborhood& hood) const;
+  bool query(int p, int k, Neighborhood& hood, OffsetBuffer& offsets, HoodScratch& scratch) const;
+  /// Rings, and the far side of a small cloud, would be taken for sheets.
+  bool splitsSheets() const;
+  bool isUneven(const Neighborhood& hood) const;
+  /// Keeps the neighbours whose heights along `normal` are reached from p over gaps of at most a quarter of the reach.
+  /// True if some were left out.
+  /// @param saves_all keep all as they are aside before the first are left out
+  bool keepSheet(const Eigen::Vector3d& normal, Neighborhood& hood, OffsetBuffer& offsets, HoodScratch& scratch,
+                 bool saves_all = false) const;
+  void splitSheets(Neighborhood& hood, OffsetBuffer& offsets, HoodScratch& scratch) const;
+  /// For where the planes of several neighbours stand across two sheets: the largest sheet along a plane through p and
+  /// two of the nearest four. False, and the neighbourhood as it was before any were left out, if there is none.
+  bool findSheet(const PrincipalAxes& before, Neighborhood& hood, OffsetBuffer& offsets, HoodScratch& scratch) const;
+
+  PointsView points_;
+  const NeighborSource& source_;
+  const CloudOptions& options_;
+};
+
+}  // namespace tufted

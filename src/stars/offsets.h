@@ -1,0 +1,70 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+
+#include "base/buffer.h"
+#include "base/point_buffer.h"
+#include "neighbors/neighbors.h"
+#include "simd/kernels.h"
+
+namespace tufted {
+
+/// Memory for the offsets of one neighbourhood, as large as any before.
+class OffsetBuffer {
+ public:
+  /// Those of the neighbours from p.
+  void take(const PointsView& points, int p, std::span<const Neighbor> neighbors) {
+    const double* const all = points.data();
+    const double* const origin = all + 3 * std::ptrdiff_t{p};
+    fill(static_cast<int>(neighbors.size()), [&](int i) {
+      const double* const q = all + 3 * std::ptrdiff_t{neighbors[i].index};
+      return Eigen::RowVector3d(q[0] - origin[0], q[1] - origin[1], q[2] - origin[2]);
+    });
+  }
+
+  /// Those that offset(0), offset(1), ... return.
+  template <class Offset>
+  void fill(int count, const Offset& offset) {
+    resize(count);
+    double *const x = axis(0), *const y = axis(1), *const z = axis(2);
+    for (int i = 0; i < count; ++i) {
+      const Eigen::RowVector3d d = offset(i);
+      x[i] = d[0];
+      y[i] = d[1];
+      z[i] = d[2];
+    }
+    for (int i = count; i < toLanes(count); ++i) x[i] = y[i] = z[i] = 0;
+  }
+
+  /// Of others, or of these themselves, those whose heights are reached.
+  void takeReached(const OffsetBuffer& others, const double* heights, const Reached& reached) {
+    const Offsets given = others.view();
+    if (this != &others) resize(given.count);
+    count_ = kernels().keepReached(given, heights, reached, axis(0), axis(1), axis(2));
+  }
+
+  int count() const { return count_; }
+
+  /// Valid until the next change.
+  Offsets view() const { return {count_, axis(0), axis(1), axis(2)}; }
+
+ private:
+  struct alignas(64) Values {
+    double value[kernel_lane];
+  };
+
+  void resize(int count) {
+    count_ = count;
+    room_ = static_cast<std::size_t>(toLanes(count)) / kernel_lane;
+    if (memory_.size() < 3 * room_ + 1) memory_.resize(3 * room_ + 1);  // never empty
+  }
+  double* axis(int c) { return (memory_.data() + c * room_)->value; }
+  const double* axis(int c) const { return (memory_.data() + c * room_)->value; }
+
+  RawBuffer<Values> memory_;  ///< x, y, z, one after the other
+  std::size_t room_ = 0;      ///< of each, in lanes
+  int count_ = 0;
+};
+
+}  // namespace tufted

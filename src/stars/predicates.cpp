@@ -1,0 +1,77 @@
+#include "stars/predicates.h"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+
+#include <cmath>
+
+#include "base/foreign_memory.h"
+
+namespace tufted {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+
+constexpr double tie_angle = 1e-9;  // rad
+constexpr double flat_sine = 1e-6;
+
+Kernel::Point_2 toCgal(const PlanarPoint& p) {
+  return {p.u, p.v};
+}
+
+double cross(double au, double av, double bu, double bv) {
+  return au * bv - av * bu;
+}
+double dot(double au, double av, double bu, double bv) {
+  return au * bu + av * bv;
+}
+
+}  // namespace
+
+int orientation(const PlanarPoint& a, const PlanarPoint& b) {
+  const double left = a.u * b.v;
+  const double right = a.v * b.u;
+  const double determinant = left - right;
+  // Three roundings of at most half an ulp each; the second bound keeps clear of underflow.
+  const double bound = 4e-16 * (std::abs(left) + std::abs(right));
+  if (std::abs(determinant) > bound && bound > 1e-290) return determinant > 0 ? 1 : -1;
+  if (bound > 1e-270) {
+    // So nearly equal, the products have an exact difference, and what is left are their own roundings.
+    const double rest = std::fma(a.v, b.u, -right) - std::fma(a.u, b.v, -left);
+    if (determinant != rest) return determinant > rest ? 1 : -1;
+    if (rest == 0) return 0;
+  }
+  const ForeignMemory exact;
+  return static_cast<int>(CGAL::orientation(Kernel::Point_2(0, 0), toCgal(a), toCgal(b)));
+}
+
+CircleSide sideOfCircle(const PlanarPoint& a, const PlanarPoint& b, const PlanarPoint& c) {
+  const double abu = a.u - b.u, abv = a.v - b.v;
+  const double cbu = c.u - b.u, cbv = c.v - b.v;
+  const double cross_p = cross(a.u, a.v, c.u, c.v), dot_p = dot(a.u, a.v, c.u, c.v);
+  const double cross_b = cross(cbu, cbv, abu, abv), dot_b = dot(cbu, cbv, abu, abv);
+  // Sine and cosine of the sum of the angles at p and b, times the product of the four sides.
+  const double sine = cross_p * dot_b + dot_p * cross_b;
+  const double cosine = dot_p * dot_b - cross_p * cross_b;
+  const double sides =
+      dot(a.u, a.v, a.u, a.v) * dot(c.u, c.v, c.u, c.v) * dot(abu, abv, abu, abv) * dot(cbu, cbv, cbu, cbv);
+  const bool in_range = sides > 1e-280 && sides < 1e280;
+  if (in_range && sine * sine > tie_angle * tie_angle * sides) {
+    return sine > 0 ? CircleSide::inside : CircleSide::outside;
+  }
+  // Within the band the sum is near 0, pi or 2 pi. Near pi it is a tie, unless all four points are nearly collinear:
+  // such a quadrilateral has no two diagonals to choose from.
+  const double cross_a = cross(-a.u, -a.v, -abu, -abv);
+  const double sides_a = dot(a.u, a.v, a.u, a.v) * dot(abu, abv, abu, abv);
+  if (in_range && cosine < 0 && cross_a * cross_a > flat_sine * flat_sine * sides_a) return CircleSide::tie;
+  const ForeignMemory exact;
+  switch (CGAL::side_of_oriented_circle(Kernel::Point_2(0, 0), toCgal(a), toCgal(b), toCgal(c))) {
+    case CGAL::ON_POSITIVE_SIDE:
+      return CircleSide::inside;
+    case CGAL::ON_NEGATIVE_SIDE:
+      return CircleSide::outside;
+    default:
+      return CircleSide::tie;
+  }
+}
+
+}  // namespace tufted

@@ -1,0 +1,147 @@
+#include "stars/star_filter.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <cmath>
+
+#include "base/buffer.h"
+#include "base/point_buffer.h"
+#include "base/power_of_two.h"
+#include "stars/agreement.h"
+
+namespace tufted {
+namespace {
+
+constexpr std::int64_t block_size = 8192;
+/// Less takes triangles from steps of density, more leaves bridges from the last ring of a scan.
+constexpr double further = 2.75;
+
+/// Whether the star of `a` contains the triangle (a, b, c), either way round.
+bool contains(const Stars& stars, int a, int b, int c) {
+  for (int i = stars.offset[a]; i < stars.offset[a + 1]; ++i) {
+    const int x = stars.link[i], y = stars.link[stars.after(a, i)];
+    if (stars.hasTriangle(i) && ((x == b && y == c) || (x == c && y == b))) return true;
+  }
+  return false;
+}
+
+/// How many of the other two corners' stars contain the triangle at entry i of star p.
+int otherVotes(const Stars& stars, int p, int i) {
+  const int a = stars.link[i], b = stars.link[stars.after(p, i)];
+  return (contains(stars, a, b, p) ? 1 : 0) + (contains(stars, b, p, a) ? 1 : 0);
+}
+
+/// The same for every triangle of star p, with one look at the star of each link vertex.
+/// @param[out] votes one per link entry
+void countOtherVotes(const Stars& stars, int p, Buffer<int>& votes) {
+  const int first = stars.offset[p], last = stars.offset[p + 1];
+  votes.assign(static_cast<std::size_t>(last - first), 0);
+  for (int i = first; i < last; ++i) {
+    const int q = stars.link[i], j = entryOf(stars, q, p), previous = before(stars, p, i);
+    if (j < 0) continue;
+    const Sides there(stars, q, j);
+    if (there.has(stars.link[stars.after(p, i)])) ++votes[i - first];
+    if (there.has(stars.link[previous])) ++votes[previous - first];
+  }
+}
+
+/// The circumradius in space over `length`, squared: as a fraction, which no comparison need divide. It is infinite for
+/// a triangle without area.
+struct SquaredRadius {
+  double numerator, denominator;
+
+  SquaredRadius(const PointsView& points, int p, int a, int b, double length) {
+    // In a unit near `length`: sixth powers of what the points are scaled to may leave the range of a double.
+    const double unit = magnitudeOf(length), in_units = 1 / unit, measure = length * in_units;
+    const Eigen::Vector3d u = in_units * (points.row(a) - points.row(p));
+    const Eigen::Vector3d v = in_units * (points.row(b) - points.row(p));
+    numerator = u.squaredNorm() * v.squaredNorm() * (u - v).squaredNorm();
+    denominator = 4 * u.cross(v).squaredNorm() * (measure * measure);
+  }
+  bool isAtMost(double square) const { return denominator > 0 && numerator <= square * denominator; }
+};
+
+/// Filter::radius: circumradius R > r_k(p), which are slivers along a rim, or R > 4 times the smallest r_k of the three
+/// corners, which are bridges to outliers.
+bool isTooLarge(const Stars& stars, int p, int i) {
+  const int a = stars.link[i], b = stars.link[stars.after(p, i)];
+  const double smallest = std::min({stars.reach[p], stars.reach[a], stars.reach[b]});
+  return stars.radius[i] > stars.reach[p] || stars.radius[i] > 4 * smallest;
+}
+
+/// Filter::votes: far larger than the neighbourhood; or of one star alone and, in space, large for its corners: for
+/// any of them, or for those around a point that sees further than they do.
+bool isImplausible(const Stars& stars, const PointsView& points, int p, int i) {
+  const int a = stars.link[i], b = stars.link[stars.after(p, i)];
+  if (stars.radius[i] > 3 * stars.reach[p]) return true;
+  const double smallest = std::min({stars.reach[p], stars.reach[a], stars.reach[b]});
+  const SquaredRadius radius(points, p, a, b, smallest);
+  if (radius.isAtMost(1)) return false;
+  const bool sees_further = stars.reach[p] > further * std::max(stars.reach[a], stars.reach[b]);
+  if (radius.isAtMost(4) && !sees_further) return false;
+  return otherVotes(stars, p, i) == 0;
+}
+
+/// Drops the triangles that `test(p, i)` condemns, after all were tested. Returns their number.
+template <class Test>
+std::int64_t dropTriangles(Stars& stars, const Workers& workers, const Test& test) {
+  Buffer<std::uint8_t> condemned(stars.link.size());
+  std::atomic<std::int64_t> dropped{0};
+  const auto forEachEntry = [&](const auto& visit) {
+    workers.forBlocks("filter", stars.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+      for (int p = static_cast<int>(begin); p < end; ++p)
+        for (int i = stars.offset[p]; i < stars.offset[p + 1]; ++i) visit(p, i);
+    });
+  };
+  forEachEntry([&](int p, int i) {
+    if (!stars.hasTriangle(i) || !test(p, i)) return;
+    condemned[i] = 1;
+    dropped.fetch_add(1, std::memory_order_relaxed);
+  });
+  if (dropped == 0) return 0;
+  forEachEntry([&](int p, int i) {
+    if (condemned[i] == 0) return;
+    stars.triangle[i] = 0;
+    stars.ends[p] = 1;
+  });
+  return dropped;
+}
+
+}  // namespace
+
+void filterStars(Stars& stars, const PointsView& points, Filter filter, const Workers& workers, Report& report) {
+  if (stars.size() == 0) return;
+  const bool any_isolated = std::any_of(stars.isolated.begin(), stars.isolated.end(), [](auto is) { return is != 0; });
+  // No triangle smaller than this is condemned, so that their corners need not be looked at.
+  const double harmless = *std::min_element(stars.reach.begin(), stars.reach.end());
+  report.dropped_triangles += dropTriangles(stars, workers, [&](int p, int i) {
+    if (any_isolated && (stars.isolated[stars.link[i]] != 0 || stars.isolated[stars.link[stars.after(p, i)]] != 0))
+      return true;
+    if (filter == Filter::votes) return isImplausible(stars, points, p, i);
+    return stars.radius[i] > harmless && isTooLarge(stars, p, i);
+  });
+}
+
+void countVotes(const Stars& stars, const Buffer<std::uint8_t>& disagrees, const Workers& workers, Report& report) {
+  std::array<std::atomic<std::int64_t>, 3> copies = {};
+  workers.forBlocks("votes", stars.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    std::array<std::int64_t, 3> found = {};
+    Buffer<int> others;
+    for (int p = static_cast<int>(begin); p < end; ++p) {
+      const int first = stars.offset[p], last = stars.offset[p + 1];
+      if (disagrees[p] == 0) {
+        found[2] += last - first;
+        continue;
+      }
+      countOtherVotes(stars, p, others);
+      for (int i = first; i < last; ++i)
+        if (stars.hasTriangle(i)) ++found[others[i - first]];
+    }
+    for (int v = 0; v < 3; ++v) copies[v] += found[v];
+  });
+  for (int v = 0; v < 3; ++v) report.votes[v] = copies[v] / (v + 1);  // v + 1 stars each count it once
+}
+
+}  // namespace tufted

@@ -1,0 +1,345 @@
+#include "stars/stars.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <mutex>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+#include "base/buffer.h"
+#include "base/point_buffer.h"
+#include "base/power_of_two.h"
+#include "base/require.h"
+#include "stars/delaunay_star.h"
+#include "stars/inverted_star.h"
+#include "stars/neighborhood.h"
+#include "stars/offsets.h"
+#include "stars/star_gap.h"
+#include "stars/surface_moves.h"
+#include "stars/tangent_frame.h"
+
+namespace tufted {
+namespace {
+
+constexpr std::int64_t block_size = 1024;  // points per block: its neighbour lists stay in the second-level cache
+constexpr int group_size = NeighborhoodFinder::most_planes;     // frames come first, then stars from the same offsets
+constexpr std::size_t usual_degree = 7, most_usual_degree = 8;  // on average over a block, over a cloud
+constexpr double flat_share = 0.02;  // of the second variance, below which a neighbourhood is a plane
+
+/// What one block of points leaves behind.
+struct BlockOfStars {
+  Buffer<int> link;
+  Buffer<std::uint8_t> triangle;
+  Buffer<double> radius;
+
+  void appendTo(Stars& stars) const {
+    stars.link.insert(stars.link.end(), link.begin(), link.end());
+    stars.triangle.insert(stars.triangle.end(), triangle.begin(), triangle.end());
+    stars.radius.insert(stars.radius.end(), radius.begin(), radius.end());
+  }
+  void clear() {
+    link.clear();
+    triangle.clear();
+    radius.clear();
+  }
+};
+
+/// Puts stars one after the other in the order of their blocks, whichever is done first.
+class BlocksInOrder {
+ public:
+  BlocksInOrder(std::int64_t blocks, Stars& stars) : waiting_(static_cast<std::size_t>(blocks)), stars_(stars) {
+    const std::size_t likely = most_usual_degree * static_cast<std::size_t>(stars.size());
+    stars.link.reserve(likely);
+    stars.triangle.reserve(likely);
+    stars.radius.reserve(likely);
+  }
+
+  /// @param block left empty, mostly with its memory
+  void take(std::size_t number, BlockOfStars& block) {
+    const std::lock_guard lock(mutex_);
+    if (number != next_) {
+      waiting_[number].emplace(std::exchange(block, {}));
+      return;
+    }
+    block.appendTo(stars_);
+    block.clear();
+    for (++next_; next_ < waiting_.size() && waiting_[next_].has_value(); ++next_) {
+      waiting_[next_]->appendTo(stars_);
+      waiting_[next_].reset();
+    }
+  }
+
+ private:
+  std::mutex mutex_;
+  std::size_t next_ = 0;
+  Buffer<std::optional<BlockOfStars>> waiting_;
+  Stars& stars_;
+};
+
+/// Memory, counts and times of one worker.
+struct WorkerState {
+  Buffer<Neighborhood> hoods;
+  std::array<OffsetBuffer, group_size> offsets;
+  FitScratch fits;
+  HoodScratch hood;
+  Neighborhood saved_hood;
+  DelaunayStar saved_star;
+  Buffer<PlanarPoint> planar;
+  StarScratch scratch;
+  DelaunayStar star;
+  BlockOfStars block;
+  std::int64_t cut_neighbors = 0, grown_neighborhoods = 0, split_neighborhoods = 0, isolated = 0, grown_stars = 0,
+               reopened_stars = 0, open_stars = 0, unusable_triangles = 0;
+  std::array<double, 3> seconds = {};  // neighbours, frames, stars
+};
+
+class StarBuilder {
+ public:
+  StarBuilder(const RankedCloud& cloud, const NeighborSource& source, const CloudOptions& options, Stars& stars)
+      : source_(source),
+        options_(options),
+        finder_(cloud.points, source, options),
+        wrap_(options.delaunay == Delaunay::star ? delaunayStar : cgalBackend()),
+        has_short_cut_(options.delaunay == Delaunay::star),
+        denoises_(stars.move.rows() > 0),
+        stars_(stars) {}
+
+  /// Leaves the stars in state.block.
+  void build(std::int64_t begin, std::int64_t end, WorkerState& state, NoisyPoints& noisy) const {
+    const int count = static_cast<int>(end - begin);
+    const int first = static_cast<int>(begin);
+    state.hoods.resize(std::max<std::size_t>(state.hoods.size(), count));
+    state.block.link.reserve(usual_degree * count);
+    state.block.triangle.reserve(usual_degree * count);
+    state.block.radius.reserve(usual_degree * count);
+    Stopwatch watch;
+    finder_.find(first, count, state.hood, state.hoods.data());
+    state.seconds[0] += watch.restart();
+    for (int group = 0; group < count; group += group_size) {
+      const int group_end = std::min(count, group + group_size);
+      const std::span hoods(state.hoods.data() + group, state.hoods.data() + group_end);
+      finder_.fitPlanes(first + group, hoods, state.offsets);
+      for (int i = group; i < group_end; ++i) takeFrame(first + i, state.hoods[i], state.offsets[i - group], state);
+      if (denoises_) moveNoisyPoints(first + group, hoods, state.offsets, state.fits, stars_.move, noisy);
+      state.seconds[1] += watch.restart();
+      for (int i = group; i < group_end; ++i) wrapStar(first + i, state.hoods[i], state.offsets[i - group], state);
+      state.seconds[2] += watch.restart();
+    }
+  }
+
+ private:
+  using Wrap = void (*)(const Buffer<PlanarPoint>&, int, StarScratch&, DelaunayStar&);
+
+  static Wrap cgalBackend() {
+#ifdef TUFTED_WITH_GPL
+    return delaunayStarCgal;
+#else
+    return delaunayStar;  // not reached: options are checked first
+#endif
+  }
+
+  void takeFrame(int p, Neighborhood& hood, OffsetBuffer& offsets, WorkerState& state) const {
+    finder_.refine(p, hood, offsets, state.hood);
+    state.grown_neighborhoods += hood.grown ? 1 : 0;
+    state.split_neighborhoods += hood.split ? 1 : 0;
+    state.isolated += hood.isolated ? 1 : 0;
+    if (source_.normals.rows() > 0 && !source_.normals.row(p).isZero(0)) hood.axes.normal = source_.normals.row(p);
+    stars_.normals.row(p) = hood.axes.normal;
+    stars_.reach[p] = hood.reach;
+    stars_.isolated[p] = hood.isolated ? 1 : 0;
+    stars_.flat[p] = hood.axes.variance[0] < flat_share * hood.axes.variance[1] ? 1 : 0;
+  }
+
+  /// Calls visit(planar, neighbors) for the neighbours projected to the tangent plane of p, times `unit`, as many at a
+  /// time as `planar` holds, until it returns false.
+  template <class Visit>
+  void projectParts(const Neighborhood& hood, double unit, const Offsets& offsets, const Visit& visit) const {
+    const Eigen::Vector3d x = tangentOf(hood.axes.normal), y = hood.axes.normal.cross(x);
+    PlanarOffsets planar;
+    for (int first = 0; first < offsets.count; first += PlanarOffsets::most) {
+      const int count = std::min(offsets.count - first, PlanarOffsets::most);
+      kernels_.project({count, offsets.x + first, offsets.y + first, offsets.z + first}, unit, x.data(), y.data(),
+                       planar);
+      if (!visit(planar, std::span<const Neighbor>(hood.neighbors).subspan(first, count))) break;
+    }
+  }
+
+  static void append(const PlanarOffsets& planar, std::span<const Neighbor> neighbors, Buffer<PlanarPoint>& points) {
+    for (int i = 0; i < planar.count; ++i) points.push_back({planar.u[i], planar.v[i], neighbors[i].index});
+  }
+
+  /// The star among the neighbours.
+  void wrap(int p, const Neighborhood& hood, double unit, const Offsets& offsets, WorkerState& state) const {
+    state.planar.clear();
+    StarKind kind = StarKind::unknown;
+    projectParts(hood, unit, offsets, [&](const PlanarOffsets& planar, std::span<const Neighbor> neighbors) {
+      if (planar.count == offsets.count && has_short_cut_)
+        kind = wrapInverted(kernels_, planar, neighbors, state.star, state.planar);
+      if (kind == StarKind::closed || kind == StarKind::tied) return false;
+      append(planar, neighbors, state.planar);
+      return true;
+    });
+    if (kind == StarKind::unknown) {
+      wrap_(state.planar, p, state.scratch, state.star);
+    } else if (kind != StarKind::closed) {  // no few of them decide it, and the short cut takes none that lie on p
+      state.scratch.chosen.swap(state.planar);
+      wrapChosen(p, state.scratch, state.star);
+    }
+  }
+
+  /// Whether the star is open among more neighbours as well, without building it.
+  bool staysOpen(const Eigen::Vector2d& gap, const Neighborhood& hood, double unit, const Offsets& offsets,
+                 WorkerState& state) const {
+    state.planar.clear();
+    projectParts(hood, unit, offsets, [&](const PlanarOffsets& planar, std::span<const Neighbor> neighbors) {
+      append(planar, neighbors, state.planar);
+      return true;
+    });
+    return leaveGap(state.planar, gap);
+  }
+
+  /// Wraps the star and looks further where what was found is no proof that the star is right: a circle of a closed
+  /// star leaves the ball that was searched, or the star is open and might not be among more neighbours.
+  void wrapUntilCertain(int p, Neighborhood& hood, double unit, OffsetBuffer& offsets, WorkerState& state) const {
+    const bool thorough = options_.steps.star_search == StarSearch::thorough;
+    DelaunayStar& star = state.star;
+    int most = 2 * hood.k;
+    if (thorough) most = hood.k >= finder_.mostNeighbors() ? hood.k : std::max(2 * source_.k, most);
+    int open_tries = thorough && !source_.isGraded() ? 2 : 0;  // graded neighbours reach past the star as it is
+    wrap(p, hood, unit, offsets.view(), state);
+    for (;;) {
+      if (star.closed) {
+        if (2 * star.largestCircumradius() <= hood.radius * unit || !finder_.grow(p, most, hood, offsets, state.hood))
+          return;
+        ++state.grown_stars;
+        wrap(p, hood, unit, offsets.view(), state);
+        if (!thorough) return;
+        continue;
+      }
+      if (open_tries == 0) return;
+      state.saved_star = star;
+      state.saved_hood = hood;
+      const Eigen::Vector2d gap = middleOfGap(star);
+      while (!star.closed && open_tries-- > 0 && finder_.grow(p, 2 * hood.k, hood, offsets, state.hood))
+        if (!staysOpen(gap, hood, unit, offsets.view(), state)) wrap(p, hood, unit, offsets.view(), state);
+      open_tries = 0;
+      if (!star.closed) {
+        star = state.saved_star;
+        hood = state.saved_hood;
+        return;
+      }
+      ++state.reopened_stars;
+      most = std::max(most, 2 * hood.k);
+    }
+  }
+
+  void wrapStar(int p, Neighborhood& hood, OffsetBuffer& offsets, WorkerState& state) const {
+    // A power of two near the reach, so that the predicates meet numbers near 1 and scaling rounds nothing.
+    const double unit = magnitudeOf(hood.reach);
+    DelaunayStar& star = state.star;
+    if (hood.isolated) {
+      star.link.clear();
+      star.closed = false;
+    } else {
+      wrapUntilCertain(p, hood, 1 / unit, offsets, state);
+    }
+
+    state.cut_neighbors += hood.cut;
+    state.open_stars += star.closed ? 0 : 1;
+    stars_.ends[p] = star.closed ? 0 : 1;
+    stars_.offset[p + 1] = static_cast<int>(star.link.size());
+    for (int i = 0; i < static_cast<int>(star.link.size()); ++i) {
+      state.block.link.push_back(star.link[i].index);
+      const bool is_triangle = i < star.triangles();
+      const bool is_usable =
+          is_triangle && std::isfinite(star.radius[i]) &&
+          !(source_.scan != nullptr && source_.scan->spansJump(p, star.link[i].index, star.after(i).index));
+      state.block.radius.push_back(is_usable ? star.radius[i] * unit : 0);
+      state.block.triangle.push_back(is_usable ? 1 : 0);
+      if (is_triangle && !is_usable) {
+        ++state.unusable_triangles;
+        stars_.ends[p] = 1;
+      }
+    }
+  }
+
+  const NeighborSource& source_;
+  const CloudOptions& options_;
+  NeighborhoodFinder finder_;
+  const Kernels& kernels_ = kernels();
+  Wrap wrap_;
+  bool has_short_cut_, denoises_;
+  Stars& stars_;
+};
+
+}  // namespace
+
+std::int64_t Stars::triangles() const {
+  return std::count(triangle.begin(), triangle.end(), 1);
+}
+
+std::size_t Stars::bytes() const {
+  return bytesOf(triangle) + bytesOf(offset) + bytesOf(link) + bytesOf(radius) + bytesOf(reach) + bytesOf(ends) +
+         bytesOf(isolated) + bytesOf(flat) + bytesOf(disagrees) + normals.bytes() + move.bytes();
+}
+
+Stars buildStars(const RankedCloud& cloud, const NeighborSource& source, const CloudOptions& options,
+                 const Workers& workers, Report& report) {
+  const int n = cloud.size();
+  Stars stars;
+  stars.offset.assign(static_cast<std::size_t>(n) + 1, 0);
+  stars.reach.resize(n);
+  stars.ends.resize(n);
+  stars.isolated.resize(n);
+  stars.flat.resize(n);
+  stars.normals.resize(n);
+  if (options.steps.lengths == Lengths::denoised && !source.isWholeCloud(n)) stars.move.setZero(n);
+
+  Stopwatch wall;
+  const std::int64_t blocks = (n + block_size - 1) / block_size;
+  Buffer<NoisyPoints> noisy(static_cast<std::size_t>(blocks));
+  Buffer<WorkerState> states(workers.count());
+  const StarBuilder builder(cloud, source, options, stars);
+  BlocksInOrder in_order(blocks, stars);
+  workers.forBlocks("stars", n, block_size, [&](std::int64_t begin, std::int64_t end, int worker) {
+    const std::size_t number = begin / block_size;
+    builder.build(begin, end, states[worker], noisy[number]);
+    in_order.take(number, states[worker].block);
+  });
+  requireAtMost(INT32_MAX, std::ssize(stars.link), "pointCloudLaplacian", "neighbours in the stars of all points");
+  std::partial_sum(stars.offset.begin(), stars.offset.end(), stars.offset.begin());
+
+  for (const NoisyPoints& points : noisy) report.denoised += std::ssize(points.rank);
+  if (report.denoised > 0) {
+    const PointBuffer moved = stars.move;
+    workers.forBlocks("surface", blocks, 1, [&](std::int64_t begin, std::int64_t end, int worker) {
+      WorkerState& state = states[worker];
+      for (std::int64_t b = begin; b < end; ++b)
+        moveOnceMore(cloud.points, moved, noisy[b], stars.reach, state.offsets, state.fits, stars.move);
+    });
+  }
+
+  std::array<double, 3> seconds = {};
+  for (const WorkerState& state : states) {
+    report.cut_neighbors += state.cut_neighbors;
+    report.grown_neighborhoods += state.grown_neighborhoods;
+    report.split_neighborhoods += state.split_neighborhoods;
+    report.isolated_by_sheets += state.isolated;
+    report.grown_stars += state.grown_stars;
+    report.closed_stars += state.reopened_stars;
+    report.open_stars += state.open_stars;
+    report.dropped_triangles += state.unusable_triangles;
+    for (int i = 0; i < 3; ++i) seconds[i] += state.seconds[i];
+  }
+  const double cpu = seconds[0] + seconds[1] + seconds[2];
+  const double share = cpu > 0 ? wall.seconds() / cpu : 0;
+  report.stages.push_back({"neighbors", seconds[0] * share, 0});
+  report.stages.push_back({"frames", seconds[1] * share, 0});
+  report.stages.push_back({"stars", seconds[2] * share, stars.bytes()});
+  return stars;
+}
+
+}  // namespace tufted

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+#include "base/buffer.h"
+#include "base/point_buffer.h"
+#include "stars/denoise.h"
+#include "stars/neighborhood.h"
+#include "stars/offsets.h"
+
+namespace tufted {
+
+/// Points that are noise around a surface, and the neighbours that say so.
+struct NoisyPoints {
+  Buffer<int> rank;
+  Buffer<std::size_t> end;   ///< where the neighbours of each end in `neighbors`
+  RawBuffer<int> neighbors;  ///< ranks
+};
+
+/// Memory that one worker reuses from group to group, whose fits are solved together.
+struct FitScratch {
+  static constexpr int most = NeighborhoodFinder::most_planes;
+  std::array<HeightMoments, most> moments;
+  std::array<HeightFit, most> fits;
+};
+
+/// Moves points onto the surface through their neighbours if these are noise around one, and keeps them for a second
+/// look.
+/// @param first at most FitScratch::most points from here on
+/// @param offsets of their neighbours
+/// @param move n x 3, of which theirs are set
+void moveNoisyPoints(int first, std::span<const Neighborhood> hoods, std::span<const OffsetBuffer> offsets,
+                     FitScratch& scratch, PointBuffer& move, NoisyPoints& noisy);
+
+/// Moves noisy points once more, onto the surface through the places that their neighbours have by now.
+/// @param moved of all points, before any is moved once more
+/// @param offsets scratch for FitScratch::most neighbourhoods
+/// @param move `moved`, to which more is added
+void moveOnceMore(const PointsView& points, const PointBuffer& moved, const NoisyPoints& noisy,
+                  const RawBuffer<double>& reach, std::span<OffsetBuffer> offsets, FitScratch& scratch,
+                  PointBuffer& move);
+
+}  // namespace tufted

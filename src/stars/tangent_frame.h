@@ -1,0 +1,46 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+
+#include "base/point_buffer.h"
+#include "neighbors/neighbors.h"
+#include "simd/kernels.h"
+#include "tufted/types.h"
+
+namespace tufted {
+
+/// Principal axes of a neighbourhood.
+struct PrincipalAxes {
+  Eigen::Vector3d normal;    ///< eigenvector of the smallest eigenvalue
+  Eigen::Vector3d variance;  ///< eigenvalues, ascending, in units of `extent` squared
+  double extent = 1;         ///< a power of two near the neighbourhood's extent
+};
+
+/// Covariance of p and its neighbours about their centroid, from coordinates relative to p, so that the distance from
+/// the origin does not matter.
+struct Covariance {
+  double xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;  ///< in units of `extent` squared
+  double extent = 0;                                      ///< see PrincipalAxes; 0 where all are at one place
+};
+
+/// Of p and its first ends[0], ends[1], ... neighbours, each as if it were alone.
+/// @param ends ascending, at most most_sets
+/// @param size of the neighbourhood, to within some powers of two; 0 where nobody knows
+void findCovariances(const Offsets& neighbors, double size, std::span<const int> ends,
+                     std::span<Covariance> covariances);
+/// Of all.
+Covariance covarianceOf(const Offsets& neighbors, double size = 0);
+
+/// Of each covariance; those of one do not depend on the others.
+void principalAxes(std::span<const Covariance> covariances, std::span<PrincipalAxes> axes);
+PrincipalAxes principalAxes(const Offsets& neighbors);
+PrincipalAxes principalAxes(const PointsView& points, int p, std::span<const Neighbor> neighbors);
+
+/// One scan line only: the second axis has less than a tenth of the first one's variance.
+bool liesOnOneLine(const PrincipalAxes& axes);
+
+/// A unit vector perpendicular to the unit vector `normal`; depends on nothing else.
+Eigen::Vector3d tangentOf(const Eigen::Vector3d& normal);
+
+}  // namespace tufted

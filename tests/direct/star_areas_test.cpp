@@ -1,0 +1,49 @@
+#include "direct/star_areas.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+
+#include "shapes/shapes.h"
+#include "stars/surface_stars.h"
+#include "tufted/laplacian.h"
+
+namespace tufted {
+namespace {
+
+const Progress silent;
+
+TEST(StarAreas, AreNoMoreThanTwentyTimesTheTrianglesOfTheStar) {
+  Points ribbon = shapes::square(3000).points, line = shapes::square(30).points;
+  ribbon.col(1) *= 1e-3;
+  line.col(1) *= 1e-15;
+  const Points noisy = shapes::withNoise(shapes::sphere(3000), 0.02).points;
+  const Points steps = shapes::sphere(3000, shapes::Sampling::densityStep(100)).points;
+  for (const Points& points : {ribbon, line, noisy, steps}) {
+    std::vector<PointStatus> status;
+    std::vector<int> representative;
+    const RankedCloud cloud = rankPoints(points, status, representative);
+    const CloudOptions options;
+    Report report;
+    const Workers workers(2, silent);
+    const NeighborSource source = neighborSource(options, cloud, status, representative, workers, report);
+    Stars stars = surfaceStars(cloud, source, options, workers, report);
+    stars.move = PointBuffer();  // so that areas are those of the points themselves
+    const OwnAreas own = ownAreas(stars, cloud.points, workers);
+    for (int p = 0; p < stars.size(); ++p) {
+      double triangles = 0;
+      for (int i = stars.offset[p]; i < stars.offset[p + 1]; ++i) {
+        if (!stars.hasTriangle(i)) continue;
+        const Eigen::Vector3d a = cloud.points.row(stars.link[i]) - cloud.points.row(p);
+        const Eigen::Vector3d b = cloud.points.row(stars.link[stars.after(p, i)]) - cloud.points.row(p);
+        triangles += a.cross(b).norm() / 2;
+      }
+      EXPECT_GE(own.area[p], 0);
+      // A needle's area is known up to the rounding of its lengths.
+      EXPECT_LE(own.area[p], 20 * triangles + 1e-7) << "point " << p;
+    }
+  }
+}
+
+}  // namespace
+}  // namespace tufted
