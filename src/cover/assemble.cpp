@@ -88,19 +88,19 @@ void clampNegative(UpperRows& upper, const Buffer<double>& diagonal, Report& rep
 }
 
 /// Both halves and the diagonal as compressed columns in the caller's numbering. Zero weights are not stored.
-void toCallerOrder(const UpperRows& upper, const Buffer<double>& diagonal, const Buffer<int>& caller, int size,
-                   SparseMatrix& L) {
+void toInputOrder(const UpperRows& upper, const Buffer<double>& diagonal, const Buffer<int>& input_index, int size,
+                  SparseMatrix& L) {
   const int n = static_cast<int>(diagonal.size());
   L.resize(size, size);
   Buffer<int> fill(static_cast<std::size_t>(size) + 1);
   const auto forEachEntry = [&](auto visit) {  // visit(column, row, value), both halves
     for (int v = 0; v < n; ++v) {
-      if (diagonal[v] > 0) visit(caller[v], caller[v], diagonal[v]);
+      if (diagonal[v] > 0) visit(input_index[v], input_index[v], diagonal[v]);
       for (int i = upper.begin(v); i < upper.end(v); ++i) {
         const auto [column, weight] = upper.rows.entries[i];
         if (weight == 0) continue;
-        visit(caller[v], caller[column], -weight);
-        visit(caller[column], caller[v], -weight);
+        visit(input_index[v], input_index[column], -weight);
+        visit(input_index[column], input_index[v], -weight);
       }
     }
   };
@@ -129,19 +129,19 @@ void sortColumns(SparseMatrix& L, const Workers& workers) {
 }
 
 /// A third of each face's area to each corner (Section 3.3), summed in the order of the faces.
-void lumpAreas(const IntrinsicTriangulation& cover, const Buffer<double>& areas, const Buffer<int>& caller, int size,
-               double scale, VectorXd& M, Report& report) {
+void lumpAreas(const IntrinsicTriangulation& cover, const Buffer<double>& areas, const Buffer<int>& input_index,
+               int size, double scale, VectorXd& M, Report& report) {
   M.setZero(size);
   for (int f = 0; f < cover.size(); ++f) {
     const double area = areas[f];
     report.degenerate_faces += area > 0 ? 0 : 1;
-    for (const int corner : cover.faces[f]) M[caller[corner]] += scale * area / 3;
+    for (const int corner : cover.faces[f]) M[input_index[corner]] += scale * area / 3;
   }
 }
 
 }  // namespace
 
-void assembleLaplacian(const IntrinsicTriangulation& cover, const Buffer<int>& caller, int size, double scale,
+void assembleLaplacian(const IntrinsicTriangulation& cover, const Buffer<int>& input_index, int size, double scale,
                        const Workers& workers, Laplacian& result) {
   Report& report = result.report;
   const Buffer<double> areas = faceAreas(cover, workers);
@@ -149,10 +149,10 @@ void assembleLaplacian(const IntrinsicTriangulation& cover, const Buffer<int>& c
   const auto entries = 2 * std::accumulate(upper.size.begin(), upper.size.end(), std::int64_t{0}) + cover.vertices;
   requireAtMost(INT32_MAX, entries, "pointCloudLaplacian and meshLaplacian", "entries of L");
   clampNegative(upper, sumDiagonal(upper), report);
-  toCallerOrder(upper, sumDiagonal(upper), caller, size, result.L);
+  toInputOrder(upper, sumDiagonal(upper), input_index, size, result.L);
   upper = {};
   sortColumns(result.L, workers);
-  lumpAreas(cover, areas, caller, size, scale, result.M, report);
+  lumpAreas(cover, areas, input_index, size, scale, result.M, report);
   for (int i = 0; i < size; ++i) {  // no row, no mass: the point takes no part
     if (result.L.outerIndexPtr()[i] == result.L.outerIndexPtr()[i + 1]) result.M[i] = 0;
   }

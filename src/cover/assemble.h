@@ -26,9 +26,9 @@ inline void resizeEntries(SparseMatrix& L, std::int64_t entries) {
 /// @param[out] result L and M, in the memory that they have, in units of the cover's length; and what the report says
 /// about them
 /// @param cover vertices in [0, n)
-/// @param caller n, the caller's index of each vertex
+/// @param input_index n, the caller's index of each vertex
 /// @param size N
-void assembleLaplacian(const IntrinsicTriangulation& cover, const Buffer<int>& caller, int size, double scale,
+void assembleLaplacian(const IntrinsicTriangulation& cover, const Buffer<int>& input_index, int size, double scale,
                        const Workers& workers, Laplacian& result);
 
 /// Connected components of the graph of L among rows with a positive diagonal.

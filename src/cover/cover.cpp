@@ -18,7 +18,7 @@ void resizeCover(IntrinsicTriangulation& cover, int vertices, std::int64_t trian
   cover.length.resize(static_cast<std::size_t>(6 * triangles));
 }
 
-MeanLengths measureLengths(IntrinsicTriangulation& cover, const PointsView& points, const PointsView& move,
+MeanLengths measureLengths(IntrinsicTriangulation& cover, const PointsView& points, const PointsView& displacement,
                            const Workers& workers) {
   const std::int64_t triangles = cover.size() / 2;
   // Per block, so that the means have the same bits always.
@@ -30,7 +30,7 @@ MeanLengths measureLengths(IntrinsicTriangulation& cover, const PointsView& poin
       for (int s = 0; s < 3; ++s) {
         const int a = corner[s], b = corner[(s + 1) % 3];
         Eigen::RowVector3d edge = points.row(a) - points.row(b);
-        if (move.rows() > 0) edge += move.row(a) - move.row(b);
+        if (displacement.rows() > 0) edge += displacement.row(a) - displacement.row(b);
         const double length = edge.norm();
         cover.length[frontSide(t, s)] = cover.length[backSide(t, s)] = length;
         sum.length += length;
@@ -47,10 +47,10 @@ MeanLengths measureLengths(IntrinsicTriangulation& cover, const PointsView& poin
   return triangles > 0 ? MeanLengths{mean.length / sides, mean.square / sides} : mean;
 }
 
-void toCaller(IntrinsicTriangulation& cover, const Buffer<int>& caller, int size, int exponent) {
+void toInput(IntrinsicTriangulation& cover, const Buffer<int>& input_index, int size, int exponent) {
   cover.vertices = size;
   for (auto& face : cover.faces) {
-    for (int& corner : face) corner = caller[corner];
+    for (int& corner : face) corner = input_index[corner];
   }
   const PowerOfTwo unit(exponent);
   for (double& length : cover.length) length = unit.times(length);

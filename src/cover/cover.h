@@ -85,8 +85,8 @@ struct MeanLengths {
 };
 
 /// Euclidean lengths of all sides (MEASUREEDGELENGTHS).
-/// @param move by vertex, added to `points`; 0 x 3: nothing
-MeanLengths measureLengths(IntrinsicTriangulation& cover, const PointsView& points, const PointsView& move,
+/// @param displacement by vertex, added to `points`; 0 x 3: nothing
+MeanLengths measureLengths(IntrinsicTriangulation& cover, const PointsView& points, const PointsView& displacement,
                            const Workers& workers);
 
 /// What mollification has added.
@@ -107,9 +107,9 @@ struct FlipCounts {
 FlipCounts flipToDelaunay(IntrinsicTriangulation& cover, const Workers& workers);
 
 /// Brings a cover into the caller's numbering and unit.
-/// @param caller the caller's index of each vertex
+/// @param input_index the caller's index of each vertex
 /// @param size how many points the caller has
 /// @param exponent the cover's unit is 2^exponent of the caller's
-void toCaller(IntrinsicTriangulation& cover, const Buffer<int>& caller, int size, int exponent);
+void toInput(IntrinsicTriangulation& cover, const Buffer<int>& input_index, int size, int exponent);
 
 }  // namespace tufted

@@ -9,7 +9,7 @@
 #include "base/buffer.h"
 #include "base/point_buffer.h"
 #include "cover/cover.h"
-#include "cover/edge_order.h"
+#include "cover/dihedral_order.h"
 #include "cover/geometry.h"
 
 namespace tufted {
@@ -18,7 +18,7 @@ namespace {
 constexpr std::int64_t block_size = 4096;
 
 /// A side of a triangle, filed under the smaller of its two vertices.
-struct PooledSide {
+struct UngluedSide {
   int other;  ///< the larger vertex
   int side;   ///< 3 t + s
 };
@@ -32,13 +32,13 @@ std::uint64_t mix(std::uint64_t seed, std::uint64_t value) {
 }
 
 /// The faces at one edge, in the order in which they are glued.
-class EdgePool {
+class EdgeCycle {
  public:
-  EdgePool(const IntrinsicTriangulation& cover, const PointsView& points, const EdgeOrder& order)
+  EdgeCycle(const IntrinsicTriangulation& cover, const PointsView& points, const EdgeOrder& order)
       : cover_(cover), points_(points), order_(order) {}
 
   /// Sorts the `count` sides of the edge (low, high) circularly; ties by face. Any order of two is the same one.
-  void sort(int low, int high, PooledSide* sides, std::size_t count) {
+  void sort(int low, int high, UngluedSide* sides, std::size_t count) {
     keys_.clear();
     for (std::size_t i = 0; i < count; ++i) keys_.push_back({0, sides[i].side});
     if (count > 2) {
@@ -85,7 +85,7 @@ class EdgePool {
 
 /// Front to back around the edge: the side that runs from the smaller to the larger vertex ("plus") faces the next
 /// triangle of the circular order, so it is glued to the minus side of that one. A single face is glued to itself.
-void glueAround(IntrinsicTriangulation& cover, const PooledSide* sides, std::size_t count) {
+void glueAround(IntrinsicTriangulation& cover, const UngluedSide* sides, std::size_t count) {
   const auto plusAndMinus = [&](int side) {
     const int t = side / 3, s = side % 3;
     const int front = frontSide(t, s), back = backSide(t, s);
@@ -113,7 +113,7 @@ EdgeCounts glueEdges(IntrinsicTriangulation& cover, const PointsView& points, co
     if (isOpen(side)) ++offset[ends(side).first + 1];
   }
   std::partial_sum(offset.begin(), offset.end(), offset.begin());
-  Buffer<PooledSide> pooled(offset.back());
+  Buffer<UngluedSide> pooled(offset.back());
   Buffer<int> fill(offset.begin(), offset.end() - 1);
   for (int side = 0; side < sides; ++side) {
     if (!isOpen(side)) continue;
@@ -124,16 +124,16 @@ EdgeCounts glueEdges(IntrinsicTriangulation& cover, const PointsView& points, co
 
   std::array<std::atomic<std::int64_t>, 3> edges = {};
   workers.forBlocks("glue", cover.vertices, block_size, [&](std::int64_t begin, std::int64_t end, int) {
-    EdgePool pool(cover, points, order);
+    EdgeCycle pool(cover, points, order);
     std::array<std::int64_t, 3> count = {};
     for (int low = static_cast<int>(begin); low < end; ++low) {
-      PooledSide* at = pooled.data() + offset[low];
-      PooledSide* const last = pooled.data() + offset[low + 1];
-      std::sort(at, last, [](const PooledSide& a, const PooledSide& b) {
+      UngluedSide* at = pooled.data() + offset[low];
+      UngluedSide* const last = pooled.data() + offset[low + 1];
+      std::sort(at, last, [](const UngluedSide& a, const UngluedSide& b) {
         return a.other < b.other || (a.other == b.other && a.side < b.side);
       });
       while (at != last) {
-        PooledSide* const stop = std::find_if(at, last, [&](const PooledSide& s) { return s.other != at->other; });
+        UngluedSide* const stop = std::find_if(at, last, [&](const UngluedSide& s) { return s.other != at->other; });
         const auto faces = static_cast<std::size_t>(stop - at);
         pool.sort(low, at->other, at, faces);
         glueAround(cover, at, faces);

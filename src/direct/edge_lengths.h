@@ -10,8 +10,8 @@ namespace tufted {
 
 /// Lengths of edges between moved points, with what mollification adds (Section 4.5).
 struct EdgeLengths {
-  PointsView points;  ///< by vertex
-  PointsView move;    ///< added to `points`; 0 x 3: nothing
+  PointsView points;        ///< by vertex
+  PointsView displacement;  ///< added to `points`; 0 x 3: nothing
   double added = 0;
 
   double operator()(int a, int b) const {
@@ -23,8 +23,8 @@ struct EdgeLengths {
   std::array<double, 3> offset(int a, int b) const {
     const double *p = points.data() + 3 * std::ptrdiff_t{a}, *q = points.data() + 3 * std::ptrdiff_t{b};
     double x = p[0] - q[0], y = p[1] - q[1], z = p[2] - q[2];
-    if (move.rows() > 0) {
-      const double *m = move.data() + 3 * std::ptrdiff_t{a}, *n = move.data() + 3 * std::ptrdiff_t{b};
+    if (displacement.rows() > 0) {
+      const double *m = displacement.data() + 3 * std::ptrdiff_t{a}, *n = displacement.data() + 3 * std::ptrdiff_t{b};
       x += m[0] - n[0];
       y += m[1] - n[1];
       z += m[2] - n[2];

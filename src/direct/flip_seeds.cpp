@@ -12,8 +12,8 @@ namespace {
 
 class SeedFinder {
  public:
-  SeedFinder(const Stars& stars, const EdgeLengths& length, const StarPools& pools, const StarMetric& metric)
-      : stars_(stars), length_(length), pools_(pools), metric_(metric) {}
+  SeedFinder(const Stars& stars, const EdgeLengths& length, const RadialCycles& pools, const StarMetric& metric)
+      : stars_(stars), length_(length), cycles_(pools), metric_(metric) {}
 
   /// Edges within the star of p, and their copies at neighbours that agree.
   template <class Add>
@@ -23,7 +23,7 @@ class SeedFinder {
       const StarSide spoke{p, i, 0};
       add({spoke, true, true});
       // The copy between the links of the two neighbours, which is in no pool.
-      if (pools_.isPooled(spoke)) continue;
+      if (cycles_.isInCycle(spoke)) continue;
       const int x = stars_.link[before(stars_, p, i)], j = entryOf(stars_, x, p);
       const bool follows = stars_.link[stars_.after(x, j)] == stars_.link[i];
       add({{x, follows ? j : before(stars_, x, j), 1}, true, true});
@@ -32,8 +32,8 @@ class SeedFinder {
 
   /// Edges between sides of pools whose smaller vertex lies in [begin, end).
   template <class Add>
-  void findInPools(int begin, int end, const Add& add) const {
-    pools_.forEachPool(begin, end, [&](const auto& pool) {
+  void findInCycles(int begin, int end, const Add& add) const {
+    cycles_.forEachCycle(begin, end, [&](const auto& pool) {
       // The plus copy of each faces the minus copy of the next.
       const double first = roughCotan(pool[0].side());
       double here = first;
@@ -64,13 +64,13 @@ class SeedFinder {
 
   const Stars& stars_;
   const EdgeLengths& length_;
-  const StarPools& pools_;
+  const RadialCycles& cycles_;
   const StarMetric& metric_;
 };
 
 }  // namespace
 
-Buffer<Buffer<FlipSeed>> findFlipSeeds(const Stars& stars, const EdgeLengths& length, const StarPools& pools,
+Buffer<Buffer<FlipSeed>> findFlipSeeds(const Stars& stars, const EdgeLengths& length, const RadialCycles& pools,
                                        const StarMetric& metric, std::int64_t block_size, const Workers& workers) {
   const SeedFinder finder(stars, length, pools, metric);
   const std::int64_t blocks = (stars.size() + block_size - 1) / block_size;
@@ -82,7 +82,7 @@ Buffer<Buffer<FlipSeed>> findFlipSeeds(const Stars& stars, const EdgeLengths& le
       (is_own ? seeds : elsewhere)[block].push_back(seed);
     };
     for (int p = static_cast<int>(begin); p < end; ++p) finder.findAt(p, add);
-    finder.findInPools(static_cast<int>(begin), static_cast<int>(end), add);
+    finder.findInCycles(static_cast<int>(begin), static_cast<int>(end), add);
   });
   for (const auto& part : elsewhere)
     for (const FlipSeed& seed : part) seeds[seed.side.star / block_size].push_back(seed);

@@ -5,8 +5,8 @@
 #include "base/buffer.h"
 #include "base/parallel.h"
 #include "direct/edge_lengths.h"
+#include "direct/radial_cycles.h"
 #include "direct/star_metric.h"
-#include "direct/star_pools.h"
 
 namespace tufted {
 
@@ -18,7 +18,7 @@ struct FlipSeed {
 };
 
 /// Where Algorithm 2 begins on a union of stars: all such edges, by blocks of so many stars that the sides belong to.
-Buffer<Buffer<FlipSeed>> findFlipSeeds(const Stars& stars, const EdgeLengths& length, const StarPools& pools,
+Buffer<Buffer<FlipSeed>> findFlipSeeds(const Stars& stars, const EdgeLengths& length, const RadialCycles& pools,
                                        const StarMetric& metric, std::int64_t block_size, const Workers& workers);
 
 }  // namespace tufted

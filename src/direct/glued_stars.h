@@ -1,7 +1,7 @@
 #pragma once
 
+#include "direct/cover_near_flips.h"
 #include "direct/edge_lengths.h"
-#include "direct/partial_cover.h"
 #include "direct/star_metric.h"
 #include "stars/stars.h"
 
@@ -12,7 +12,7 @@ struct GluedStars {
   const Stars& stars;
   const StarMetric& metric;
   const EdgeLengths& length;
-  PartialCover& cover;
+  CoverNearFlips& cover;
 };
 
 }  // namespace tufted

@@ -8,7 +8,7 @@
 #include "base/point_buffer.h"
 #include "cover/geometry.h"
 #include "direct/edge_lengths.h"
-#include "direct/fan_buffer.h"
+#include "direct/triangle_fans.h"
 
 namespace tufted {
 namespace {
@@ -25,7 +25,7 @@ struct CornerAreas {
 };
 
 /// @param at the triangle; its spokes are p a and p b
-CornerAreas cornerAreas(const Fans& fans, int at) {
+CornerAreas cornerAreas(const TriangleFans& fans, int at) {
   const double area = fans.area[at];
   if (!(area > 0)) return {};
   const double pa = fans.spoke[at], pb = fans.spoke[at + 1];
@@ -60,7 +60,7 @@ void StarAreas::resize(int count) {
   is_bound.resize(count);
 }
 
-void StarAreas::measure(const Stars& stars, int p, const Fans& fans, int at) {
+void StarAreas::measure(const Stars& stars, int p, const TriangleFans& fans, int at) {
   CornerAreas sum;
   for (int i = stars.offset[p]; i < stars.offset[p + 1]; ++i, ++at) {
     if (!stars.hasTriangle(i)) continue;
@@ -91,13 +91,13 @@ OwnAreas chooseAreas(const Stars& stars, StarAreas areas, const Workers& workers
 }
 
 OwnAreas ownAreas(const Stars& stars, const PointsView& points, const Workers& workers) {
-  const EdgeLengths length{points, stars.move};
+  const EdgeLengths length{points, stars.displacement};
   StarAreas areas;
   areas.resize(stars.size());
   workers.forBlocks("mass", stars.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
-    FanBuffer buffer;
-    forEachFan(stars, length, Numbers{begin, end}, buffer,
-               [&](int p, const Fans& fans, int at) { areas.measure(stars, p, fans, at); });
+    TriangleFanBuffer buffer;
+    forEachTriangleFan(stars, length, Numbers{begin, end}, buffer,
+                       [&](int p, const TriangleFans& fans, int at) { areas.measure(stars, p, fans, at); });
   });
   return chooseAreas(stars, std::move(areas), workers);
 }

@@ -19,7 +19,7 @@ struct StarAreas {
   void resize(int count);
   /// Measures star p.
   /// @param fans unmollified; `at` is the first triangle of the star
-  void measure(const Stars& stars, int p, const Fans& fans, int at);
+  void measure(const Stars& stars, int p, const TriangleFans& fans, int at);
 };
 
 /// The area that belongs to each point in its own star.

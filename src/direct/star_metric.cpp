@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "base/buffer.h"
-#include "direct/fan_buffer.h"
+#include "direct/triangle_fans.h"
 
 namespace tufted {
 namespace {
@@ -24,14 +24,14 @@ class StarMeasurer {
   StarMeasurer(const Stars& stars, const EdgeLengths& length, StarMetric& metric, StarAreas* own_areas)
       : stars_(stars), length_(length), metric_(metric), own_areas_(own_areas) {}
 
-  void measure(int begin, int end, FanBuffer& buffer, BlockSums& sums) const {
-    forEachFan(stars_, length_, Numbers{begin, end}, buffer,
-               [&](int p, const Fans& fans, int at) { take(p, fans, at, sums); });
+  void measure(int begin, int end, TriangleFanBuffer& buffer, BlockSums& sums) const {
+    forEachTriangleFan(stars_, length_, Numbers{begin, end}, buffer,
+                       [&](int p, const TriangleFans& fans, int at) { take(p, fans, at, sums); });
   }
 
  private:
   /// @param at the first triangle of star p in the fans
-  void take(int p, const Fans& fans, int at, BlockSums& sums) const {
+  void take(int p, const TriangleFans& fans, int at, BlockSums& sums) const {
     const int begin = stars_.offset[p], end = stars_.offset[p + 1];
     const double nan = std::numeric_limits<double>::quiet_NaN();
     double area = 0, first = nan, before = nan;  // cotangents opposite spokes, in the first and the last triangle
@@ -77,7 +77,7 @@ StarMetric measureStars(const Stars& stars, const EdgeLengths& length, RawBuffer
   Buffer<BlockSums> sums((stars.size() + block_size - 1) / block_size);
   const StarMeasurer measurer(stars, length, metric, own_areas);
   workers.forBlocks("lengths", stars.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
-    FanBuffer buffer;
+    TriangleFanBuffer buffer;
     measurer.measure(static_cast<int>(begin), static_cast<int>(end), buffer, sums[begin / block_size]);
   });
   BlockSums all;

@@ -9,7 +9,7 @@
 #include "base/disjoint_sets.h"
 #include "base/require.h"
 #include "cover/column.h"
-#include "direct/mixed_rows.h"
+#include "direct/summed_rows.h"
 
 namespace tufted {
 namespace {
@@ -31,7 +31,7 @@ class StarAssembler {
         mass_[p] = mixed_[p] == 0 ? 2 * scale_ * metric_.area[p] : 0;  // 2 sheets, 3 stars, a third
       }
     });
-    mixed_rows_ = mixedRows(glued, mixed_, keep_cover, scale_, mass_, workers, report);
+    mixed_rows_ = summedRows(glued, mixed_, keep_cover, scale_, mass_, workers, report);
   }
 
   double mass(int p) const { return mass_[p]; }
@@ -91,7 +91,7 @@ struct RowBlock {
 
 }  // namespace
 
-void assembleStars(const GluedStars& glued, bool keep_cover, const Buffer<int>& caller, int size, double scale,
+void assembleStars(const GluedStars& glued, bool keep_cover, const Buffer<int>& input_index, int size, double scale,
                    const Workers& workers, Laplacian& result) {
   Report& report = result.report;
   const int n = glued.stars.size();
@@ -104,7 +104,7 @@ void assembleStars(const GluedStars& glued, bool keep_cover, const Buffer<int>& 
     for (int p = static_cast<int>(begin); p < end; ++p) {
       int positive = 0;
       assembler.forEachInRow(p, [&](int, double weight) { positive += weight > 0 ? 1 : 0; });
-      count[caller[p]] = positive > 0 ? positive + 1 : 0;
+      count[input_index[p]] = positive > 0 ? positive + 1 : 0;
     }
   });
   const std::int64_t entries = std::accumulate(count.begin(), count.end(), std::int64_t{0});
@@ -121,13 +121,13 @@ void assembleStars(const GluedStars& glued, bool keep_cover, const Buffer<int>& 
     RowBlock& block = blocks[begin / block_size];
     Column column;
     for (int p = static_cast<int>(begin); p < end; ++p) {
-      if (p + 2 * ahead < n) prefetchColumns(L, caller[p + 2 * ahead], caller[p + ahead]);
+      if (p + 2 * ahead < n) prefetchColumns(L, input_index[p + 2 * ahead], input_index[p + ahead]);
       column.start(assembler.mostInRow(p) + 1);
       double sum = 0;
       assembler.forEachInRow(p, [&](int q, double weight) {
         if (weight > 0) {
           sum += weight;
-          column.add(caller[q], -weight);
+          column.add(input_index[q], -weight);
           if (q >= begin && q < p)
             block.components -= sets.unite(p, q) ? 1 : 0;
           else if (q < begin)
@@ -142,9 +142,9 @@ void assembleStars(const GluedStars& glued, bool keep_cover, const Buffer<int>& 
       });
       if (column.isEmpty()) continue;  // no row, no mass: the point takes no part
       ++block.components;
-      result.M[caller[p]] = assembler.mass(p);
-      column.add(caller[p], sum);
-      const int place = L.outerIndexPtr()[caller[p]];
+      result.M[input_index[p]] = assembler.mass(p);
+      column.add(input_index[p], sum);
+      const int place = L.outerIndexPtr()[input_index[p]];
       column.sortInto(L.innerIndexPtr() + place, L.valuePtr() + place);
     }
   });

@@ -15,7 +15,7 @@ namespace tufted {
 /// that its weight is read off one star. Only edges between two other points are summed over the faces of the cover.
 /// @param keep_cover whether the cover is needed afterwards
 /// @param scale of one face, see faceScale()
-void assembleStars(const GluedStars& glued, bool keep_cover, const Buffer<int>& caller, int size, double scale,
+void assembleStars(const GluedStars& glued, bool keep_cover, const Buffer<int>& input_index, int size, double scale,
                    const Workers& workers, Laplacian& result);
 
 }  // namespace tufted

@@ -23,8 +23,8 @@ StarUnion::StarUnion(Stars stars, RankedCloud cloud, int size, bool has_own_area
       size_(size),
       threads_(workers.count()),
       has_own_areas_(has_own_areas),
-      pools_(stars_, cloud_.points, workers),
-      cover_(stars_, length_, pools_) {}
+      cycles_(stars_, cloud_.points, workers),
+      cover_(stars_, length_, cycles_) {}
 
 StarMetric StarUnion::measure(double delta, RawBuffer<double> memory, const Workers& workers, OwnAreas* own) {
   StarAreas areas;
@@ -47,18 +47,18 @@ FlipCounts StarUnion::flip(const StarMetric& metric, const Workers& workers) {
 
 void StarUnion::assemble(const StarMetric& metric, bool keep_cover, const Workers& workers, Laplacian& result) {
   if (!keep_cover) {
-    pools_.drop();
+    cycles_.drop();
     cover_.keepMovedFaces();
   }
-  assembleStars({stars_, metric, length_, cover_}, keep_cover, cloud_.caller, size_, faceScale(result.kind), workers,
-                result);
+  assembleStars({stars_, metric, length_, cover_}, keep_cover, cloud_.input_index, size_, faceScale(result.kind),
+                workers, result);
 }
 
 const IntrinsicTriangulation& StarUnion::cover() const {
   std::call_once(once_, [this] {
     const Progress silent;
     whole_ = cover_.complete(Workers(threads_, silent));
-    toCaller(whole_, cloud_.caller, size_, cloud_.exponent);
+    toInput(whole_, cloud_.input_index, size_, cloud_.exponent);
   });
   return whole_;
 }
@@ -69,7 +69,7 @@ VectorXd StarUnion::starAreas() const {
   const RawBuffer<double> areas = ownAreas(stars_, cloud_.points, Workers(threads_, silent)).area;
   const PowerOfTwo area_unit(2 * cloud_.exponent);
   VectorXd result = VectorXd::Zero(size_);
-  for (int p = 0; p < cloud_.size(); ++p) result[cloud_.caller[p]] = area_unit.times(areas[p]);
+  for (int p = 0; p < cloud_.size(); ++p) result[cloud_.input_index[p]] = area_unit.times(areas[p]);
   return result;
 }
 

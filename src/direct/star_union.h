@@ -6,11 +6,11 @@
 #include "base/buffer.h"
 #include "base/parallel.h"
 #include "cover/cover.h"
+#include "direct/cover_near_flips.h"
 #include "direct/edge_lengths.h"
-#include "direct/partial_cover.h"
+#include "direct/radial_cycles.h"
 #include "direct/star_areas.h"
 #include "direct/star_metric.h"
-#include "direct/star_pools.h"
 #include "neighbors/morton.h"
 #include "stars/stars.h"
 #include "tufted/laplacian.h"
@@ -59,10 +59,10 @@ class StarUnion final : public CoverSource {
   const RankedCloud cloud_;
   const int size_, threads_;
   const bool has_own_areas_;
-  EdgeLengths length_{cloud_.points, stars_.move};
+  EdgeLengths length_{cloud_.points, stars_.displacement};
   double mollify_area_ = 0;
-  StarPools pools_;
-  PartialCover cover_;
+  RadialCycles cycles_;
+  CoverNearFlips cover_;
   mutable std::once_flag once_;
   mutable IntrinsicTriangulation whole_;
 };

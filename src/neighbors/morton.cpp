@@ -106,15 +106,15 @@ void mergeCoincident(RankedCloud& cloud, std::vector<PointStatus>& status, std::
   for (int rank = kept; rank < cloud.size(); ++rank) {
     if (next != repeated.end() && rank == *next) {
       ++next;
-      status[cloud.caller[rank]] = PointStatus::coincident;
-      representative[cloud.caller[rank]] = cloud.caller[kept - 1];
+      status[cloud.input_index[rank]] = PointStatus::coincident;
+      representative[cloud.input_index[rank]] = cloud.input_index[kept - 1];
     } else {
       cloud.points.row(kept) = cloud.points.row(rank);
-      cloud.caller[kept++] = cloud.caller[rank];
+      cloud.input_index[kept++] = cloud.input_index[rank];
     }
   }
   cloud.points.resize(kept);
-  cloud.caller.resize(static_cast<std::size_t>(kept));
+  cloud.input_index.resize(static_cast<std::size_t>(kept));
 }
 
 }  // namespace
@@ -131,9 +131,9 @@ RankedCloud rankPoints(const Points& points, std::vector<PointStatus>& status, s
   cloud.exponent = scaling.exponent;
   representative.resize(static_cast<std::size_t>(points.rows()));
   std::iota(representative.begin(), representative.end(), 0);
-  cloud.caller = numbersWhere("order", static_cast<int>(points.rows()), workers,
-                              [&](int i) { return status[i] != PointStatus::not_finite; });
-  const std::int64_t size = std::ssize(cloud.caller);
+  cloud.input_index = numbersWhere("order", static_cast<int>(points.rows()), workers,
+                                   [&](int i) { return status[i] != PointStatus::not_finite; });
+  const std::int64_t size = std::ssize(cloud.input_index);
   const auto forAll = [&](const auto& visit) {
     workers.forBlocks("order", size, block_size, [&](std::int64_t begin, std::int64_t end, int worker) {
       for (std::int64_t i = begin; i < end; ++i) visit(i, worker);
@@ -146,7 +146,7 @@ RankedCloud rankPoints(const Points& points, std::vector<PointStatus>& status, s
     return {times(points(i, 0)), times(points(i, 1)), times(points(i, 2))};
   };
   Buffer<Eigen::Array3d> lowest(workers.count(), Eigen::Array3d::Constant(INFINITY));
-  forAll([&](std::int64_t i, int worker) { lowest[worker] = lowest[worker].min(scaled(cloud.caller[i])); });
+  forAll([&](std::int64_t i, int worker) { lowest[worker] = lowest[worker].min(scaled(cloud.input_index[i])); });
   // The grid starts at a corner of the data, but not further than 16 spreads from its middle.
   Eigen::Array3d corner;
   for (int axis = 0; axis < 3; ++axis) corner[axis] = to_scaled.times(scaling.center[axis]) - 16;
@@ -154,9 +154,9 @@ RankedCloud rankPoints(const Points& points, std::vector<PointStatus>& status, s
                                                     [](const auto& a, const auto& b) { return a.min(b).eval(); });
   corner = corner.max(all_lowest);
 
-  RawBuffer<Key> keys(cloud.caller.size());
+  RawBuffer<Key> keys(cloud.input_index.size());
   forAll([&](std::int64_t i, int) {
-    const int index = cloud.caller[i];
+    const int index = cloud.input_index[i];
     keys[i] = {mortonCode(scaled(index) - corner), index};
   });
   // Keys differ, so any way of sorting gives the same order.
@@ -171,7 +171,7 @@ RankedCloud rankPoints(const Points& points, std::vector<PointStatus>& status, s
   });
   cloud.points.resize(size);
   forAll([&](std::int64_t rank, int) {
-    cloud.caller[rank] = keys[rank].index;
+    cloud.input_index[rank] = keys[rank].index;
     cloud.points.row(rank) = scaled(keys[rank].index).matrix().transpose();
   });
   mergeCoincident(cloud, status, representative, workers);

@@ -12,11 +12,11 @@ namespace tufted {
 /// The distinct finite points of a cloud along a Morton curve. The position in this order is the point's rank;
 /// every tie rule of the pipeline compares ranks, so a permuted cloud gives the permuted result.
 struct RankedCloud {
-  PointBuffer points;  ///< n x 3, in units of 2^exponent
-  Buffer<int> caller;  ///< n, the caller's index of each rank (of coincident points, the lowest)
+  PointBuffer points;       ///< n x 3, in units of 2^exponent
+  Buffer<int> input_index;  ///< n, the caller's index of each rank (of coincident points, the lowest)
   int exponent = 0;
 
-  int size() const { return static_cast<int>(caller.size()); }
+  int size() const { return static_cast<int>(input_index.size()); }
 };
 
 /// Scales, sorts and merges. Fills `status` (not_finite, coincident, else active) and `representative` (N each).

@@ -16,15 +16,15 @@ void takeNeighborhoods(const Neighborhoods& lists, const RankedCloud& cloud, con
                        const std::vector<int>& representative, NeighborSource& source, Report& report) {
   const int n = static_cast<int>(status.size());
   Buffer<int> rank(status.size(), -1);
-  for (int r = 0; r < cloud.size(); ++r) rank[cloud.caller[r]] = r;
+  for (int r = 0; r < cloud.size(); ++r) rank[cloud.input_index[r]] = r;
   source.list_offset.assign(1, 0);
   for (int p = 0; p < cloud.size(); ++p) {
     const std::size_t start = source.list.size();
     for (Eigen::Index j = 0; j < lists.cols(); ++j) {
-      const int index = lists(cloud.caller[p], j);
+      const int index = lists(cloud.input_index[p], j);
       if (index < 0) continue;  // padding
       if (index >= n) {
-        throw InvalidInput("pointCloudLaplacian: neighborhoods(" + std::to_string(cloud.caller[p]) + ", " +
+        throw InvalidInput("pointCloudLaplacian: neighborhoods(" + std::to_string(cloud.input_index[p]) + ", " +
                            std::to_string(j) + ") = " + std::to_string(index) + ", must be less than " +
                            std::to_string(n) + ", the number of points");
       }
@@ -45,7 +45,7 @@ void takeNeighborhoods(const Neighborhoods& lists, const RankedCloud& cloud, con
 void takeNormals(const Points& normals, const RankedCloud& cloud, NeighborSource& source, Report& report) {
   source.normals.setZero(cloud.size());
   for (int p = 0; p < cloud.size(); ++p) {
-    const Eigen::Vector3d normal = normals.row(cloud.caller[p]);
+    const Eigen::Vector3d normal = normals.row(cloud.input_index[p]);
     const double length = normal.stableNorm();
     if (length > 0 && std::isfinite(length)) {
       source.normals.row(p) = (normal / length).normalized();

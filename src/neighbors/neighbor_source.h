@@ -6,7 +6,7 @@
 #include "base/buffer.h"
 #include "base/parallel.h"
 #include "base/point_buffer.h"
-#include "neighbors/group_search.h"
+#include "neighbors/batched_search.h"
 #include "neighbors/morton.h"
 #include "neighbors/neighbors.h"
 #include "neighbors/scan/scan_search.h"
@@ -41,7 +41,7 @@ struct NeighborSource {
 
   /// The k neighbours of every point of [first, first + count), row after row, by one search for many. Only with
   /// `search`.
-  void nearestOfEach(const PointsView& points, int first, int count, GroupScratch& scratch,
+  void nearestOfEach(const PointsView& points, int first, int count, BatchScratch& scratch,
                      Buffer<Neighbor>& found) const {
     tufted::nearestOfEach(*search, points, first, count, k, kernels(), scratch, found);
   }

@@ -251,8 +251,8 @@ bool NeighborSearch::candidates(int first, int count, int k, Buffer<int>& found,
 
   ShrinkingBall set(2 * spread, bounds, found);
   forest_->search(ball.center.data(), first, set);
-  ball.reach = std::sqrt(bounds.front());
-  ball.radius = ball.reach + 2 * spread;
+  ball.k_radius = std::sqrt(bounds.front());
+  ball.radius = ball.k_radius + 2 * spread;
   return !set.isTooFull() && bounds.front() > least_square;
 }
 

@@ -40,8 +40,8 @@ struct SearchBefore {
 /// Where NeighborSearch::candidates has looked.
 struct SearchedBall {
   Eigen::RowVector3d center;
-  double radius = 0;  ///< every point within is a candidate
-  double reach = 0;   ///< a point q of the group has at least k neighbours within reach + distance(q, center)
+  double radius = 0;    ///< every point within is a candidate
+  double k_radius = 0;  ///< a point q of the group has at least k neighbours within k_radius + distance(q, center)
 };
 
 /// Exact nearest neighbours among all points.
@@ -77,7 +77,7 @@ class NeighborSearch : public InWorkspace {
   bool candidates(int first, int count, int k, Buffer<int>& found, Buffer<double>& bounds, SearchedBall& ball) const;
 
   /// All points within `around` of any of the points [first, first + count), and others near them. False as above.
-  /// @param[out] ball its reach is not known
+  /// @param[out] ball its k_radius is not known
   bool candidatesWithin(int first, int count, double around, Buffer<int>& found, SearchedBall& ball) const;
 
   std::size_t bytes() const;

@@ -44,7 +44,7 @@ std::vector<int> facesByCorner(const IntrinsicTriangulation& cover, std::vector<
 }
 
 /// @returns whether the face has an area
-bool layOut(const Key& key, double sheets, int exponent, SurfaceFace& face) {
+bool layOut(const Key& key, double weight, int exponent, SurfaceFace& face) {
   std::array<double, 3> opposite;
   for (int k = 0; k < 3; ++k) opposite[k] = std::ldexp(key.opposite[k], -exponent);
   const int top = static_cast<int>(std::max_element(opposite.begin(), opposite.end()) - opposite.begin());
@@ -56,7 +56,7 @@ bool layOut(const Key& key, double sheets, int exponent, SurfaceFace& face) {
   face.base = base;
   face.foot = (base + (from_first - from_second) * ((from_first + from_second) / base)) / 2;
   face.height = 2 * area / base;
-  face.sheets = sheets;
+  face.weight = weight;
   return face.height > 0;
 }
 
@@ -102,20 +102,20 @@ SurfaceFaces distinctFaces(const IntrinsicTriangulation& cover, double scale, co
     surface.faces.insert(surface.faces.end(), part.begin(), part.end());
     part = {};
   }
-  double sheets = 0, squares = 0, area = 0, area_squares = 0;
+  double weight = 0, squares = 0, area = 0, area_squares = 0;
   for (const SurfaceFace& face : surface.faces) {
-    const double square = squaredSides(face) / 3, here = face.sheets * face.base * face.height;
-    sheets += face.sheets, squares += face.sheets * square;
+    const double square = squaredSides(face) / 3, here = face.weight * face.base * face.height;
+    weight += face.weight, squares += face.weight * square;
     area += here, area_squares += here * square;
   }
-  if (sheets > 0) surface.mean_square = squares / sheets, surface.area_mean_square = area_squares / area;
+  if (weight > 0) surface.mean_square = squares / weight, surface.area_mean_square = area_squares / area;
   return surface;
 }
 
 VectorXd lumpedAreas(const SurfaceFaces& surface, int size) {
   VectorXd areas = VectorXd::Zero(size);
   for (const SurfaceFace& face : surface.faces) {
-    for (const int corner : face.corners) areas[corner] += face.sheets * face.base * face.height / 6;
+    for (const int corner : face.corners) areas[corner] += face.weight * face.base * face.height / 6;
   }
   return areas;
 }

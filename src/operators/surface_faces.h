@@ -17,7 +17,7 @@ namespace tufted {
 struct SurfaceFace {
   std::array<int, 3> corners;
   double base, foot, height;
-  double sheets;  ///< how much of the surface this face stands for: copies in the cover times the scale of L
+  double weight;  ///< how much of the surface this face stands for: copies in the cover times the scale of L
 };
 
 /// What gradient and divergence need of a cover: faces with the same corners and lengths (front and back, the copies
@@ -49,7 +49,7 @@ inline Eigen::Vector2d gradientDirection(const SurfaceFace& face, double v0, dou
 
 /// Integral over the face of X times the gradient of each corner's hat function, for a constant field X. They sum to 0.
 inline std::array<double, 3> divergence(const SurfaceFace& face, const Eigen::Vector2d& X) {
-  const double half = face.sheets / 2;
+  const double half = face.weight / 2;
   const double second = half * face.base * X.y();
   const double first = half * (face.height * X.x() - face.foot * X.y());
   return {-(first + second), first, second};

@@ -116,8 +116,8 @@ CloudDescription describeCloud(const Points& points, const CloudOptions& options
   description.neighbors = graph.k;
   description.seconds = watch.seconds();
   if (cloud.size() == 0) return description;
-  description.lowest = description.highest = points.row(cloud.caller[0]);
-  for (const int i : cloud.caller) {
+  description.lowest = description.highest = points.row(cloud.input_index[0]);
+  for (const int i : cloud.input_index) {
     description.lowest = description.lowest.cwiseMin(points.row(i));
     description.highest = description.highest.cwiseMax(points.row(i));
   }

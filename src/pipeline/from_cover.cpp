@@ -12,7 +12,7 @@ namespace tufted {
 void finishFromCover(std::shared_ptr<IntrinsicTriangulation> cover, const CoverVertices& vertices, double mollify,
                      bool keep_cover, const Workers& workers, StageClock& clock, Laplacian& result) {
   const double scale = faceScale(result.kind);
-  BuildFigures figures{.mean = measureLengths(*cover, vertices.points, vertices.move, workers)};
+  BuildFigures figures{.mean = measureLengths(*cover, vertices.points, vertices.displacement, workers)};
   const Mollification mollified = tufted::mollify(*cover, mollify * figures.mean.length, workers);
   figures.mollify_length = mollified.length;
   figures.mollify_area = scale * mollified.area;
@@ -23,10 +23,10 @@ void finishFromCover(std::shared_ptr<IntrinsicTriangulation> cover, const CoverV
   clock.finish("flips", 0);
 
   const int size = static_cast<int>(result.status.size());
-  assembleLaplacian(*cover, vertices.caller, size, scale, workers, result);
+  assembleLaplacian(*cover, vertices.input_index, size, scale, workers, result);
   finishResult(figures, vertices.exponent, result);
   if (keep_cover) {
-    toCaller(*cover, vertices.caller, size, vertices.exponent);
+    toInput(*cover, vertices.input_index, size, vertices.exponent);
     result.stored_cover = std::move(cover);
   }
   clock.finish("matrices", bytesOfMatrices(result));

@@ -13,9 +13,9 @@ namespace tufted {
 
 /// Where the vertices of a cover lie, and what they are called outside.
 struct CoverVertices {
-  const PointsView& points;   ///< by vertex, in units of 2^exponent of the caller's
-  const PointsView& move;     ///< by vertex, from the points to where lengths are measured; 0 x 3: nothing moves
-  const Buffer<int>& caller;  ///< the caller's index of each vertex
+  const PointsView& points;        ///< by vertex, in units of 2^exponent of the caller's
+  const PointsView& displacement;  ///< by vertex, from the points to where lengths are measured; 0 x 3: nothing moves
+  const Buffer<int>& input_index;  ///< the caller's index of each vertex
   int exponent;
 };
 

@@ -89,9 +89,9 @@ void buildMeshLaplacian(const Points& points, const Triangles& triangles, const 
   report.nonmanifold_edges = edges.nonmanifold;
   clock.finish("cover", bytesOfCover(*cover));
 
-  Buffer<int> caller(n);
-  std::iota(caller.begin(), caller.end(), 0);
-  finishFromCover(std::move(cover), {scaled, PointBuffer(), caller, scaling.exponent}, options.mollify,
+  Buffer<int> input_index(n);
+  std::iota(input_index.begin(), input_index.end(), 0);
+  finishFromCover(std::move(cover), {scaled, PointBuffer(), input_index, scaling.exponent}, options.mollify,
                   options.keep_cover, workers, clock, result);
   workers.report("done", 1);
 }

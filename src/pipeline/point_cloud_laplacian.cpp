@@ -40,14 +40,14 @@ OwnAreas finishFromWholeCover(Stars stars, const RankedCloud& cloud, const Cloud
   OwnAreas own;
   if (options.steps.mass == Mass::star) own = ownAreas(stars, cloud.points, workers);
   clock.finish("mass", 0);
-  const PointBuffer move = std::move(stars.move);
+  const PointBuffer displacement = std::move(stars.displacement);
   release(stars.radius);
   std::shared_ptr<IntrinsicTriangulation> cover = takeCover(result);
   addStars(stars, options.gluing, *cover, workers);
   stars = {};
   glueEdges(*cover, cloud.points, {options.order, options.seed}, workers);
   clock.finish("cover", bytesOfCover(*cover));
-  finishFromCover(std::move(cover), {cloud.points, move, cloud.caller, cloud.exponent}, options.mollify,
+  finishFromCover(std::move(cover), {cloud.points, displacement, cloud.input_index, cloud.exponent}, options.mollify,
                   options.keep_cover, workers, clock, result);
   return own;
 }
@@ -88,13 +88,13 @@ void buildCloudLaplacian(const Points& points, const CloudOptions& options, Clou
   setBoundaryAndNormals(stars, findBoundary(stars, cloud, source, viewpoint, workers), cloud, workers, result);
   source = {};
   stars.normals = {};
-  release(stars.reach);
+  release(stars.fit_radius);
   clock.finish("boundary", 0);
 
   // The union of all stars, glued to its tufted cover (Algorithm 1), measured and mollified (Section 4.5), flipped to
   // intrinsic Delaunay (Algorithm 2), and L and M (Algorithm 3): straight from the stars where these agree.
   const bool has_own_areas = options.steps.mass == Mass::star;
-  const Buffer<int> caller = has_own_areas ? cloud.caller : Buffer<int>();
+  const Buffer<int> input_index = has_own_areas ? cloud.input_index : Buffer<int>();
   const int exponent = cloud.exponent;
   const bool stars_agree = options.gluing == Gluing::star && options.order == FaceOrder::angle;
   OwnAreas own;
@@ -106,7 +106,7 @@ void buildCloudLaplacian(const Points& points, const CloudOptions& options, Clou
   }
 
   // With Mass::star a point's area is what belongs to it in its own star.
-  if (has_own_areas) setOwnAreas(own, caller, exponent, result);
+  if (has_own_areas) setOwnAreas(own, input_index, exponent, result);
   setTangents(workers, result);
   clock.finish("tangents", static_cast<std::size_t>(result.frames.tangents.size()) * sizeof(double));
   workers.report("done", 1);

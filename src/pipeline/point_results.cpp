@@ -19,7 +19,7 @@ void setBoundaryAndNormals(const Stars& stars, const Buffer<Boundary>& boundary,
   result.frames.normals.resize(n, 3);
   workers.forBlocks("boundary", stars.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
     for (std::int64_t p = begin; p < end; ++p) {
-      const int i = cloud.caller[p];
+      const int i = cloud.input_index[p];
       result.boundary[i] = boundary[p];
       result.frames.normals.row(i) = stars.normals.row(p);
     }
@@ -44,10 +44,10 @@ void setTangents(const Workers& workers, Laplacian& result) {
   });
 }
 
-void setOwnAreas(const OwnAreas& own, const Buffer<int>& caller, int exponent, Laplacian& result) {
+void setOwnAreas(const OwnAreas& own, const Buffer<int>& input_index, int exponent, Laplacian& result) {
   const PowerOfTwo area_unit(2 * exponent);
-  for (std::size_t p = 0; p < caller.size(); ++p) {
-    const int i = caller[p];
+  for (std::size_t p = 0; p < input_index.size(); ++p) {
+    const int i = input_index[p];
     if (result.status[i] != PointStatus::active) continue;
     if (own.area[p] > 0) result.M[i] = area_unit.times(own.area[p]);
     ++(own.area[p] > 0 ? result.report.star_masses : result.report.cover_masses);

@@ -21,7 +21,7 @@ void setTangents(const Workers& workers, Laplacian& result);
 
 /// Makes the stars' own areas M where they are positive and the point has a row.
 /// @param own by rank, in units of 2^(2 exponent) of the caller's
-/// @param caller the caller's index of each rank
-void setOwnAreas(const OwnAreas& own, const Buffer<int>& caller, int exponent, Laplacian& result);
+/// @param input_index the caller's index of each rank
+void setOwnAreas(const OwnAreas& own, const Buffer<int>& input_index, int exponent, Laplacian& result);
 
 }  // namespace tufted

@@ -6,21 +6,21 @@
 namespace tufted {
 
 /// Numbers are worked on in groups of so many.
-constexpr int kernel_lane = 8;
+constexpr int kernel_packet = 8;
 
-/// `count` filled up to whole lanes.
-static constexpr int toLanes(int count) {
-  return (count + kernel_lane - 1) / kernel_lane * kernel_lane;
+/// `count` filled up to whole packets.
+static constexpr int toPackets(int count) {
+  return (count + kernel_packet - 1) / kernel_packet * kernel_packet;
 }
 
-/// Points by coordinate, filled up to whole lanes with points that are nowhere near. Borrowed.
+/// Points by coordinate, filled up to whole packets with points that are nowhere near. Borrowed.
 struct Candidates {
   int count;
   const int* index;  ///< ranks
   const double *x, *y, *z;
 };
 
-/// The neighbours of a point relative to it, or some of them, filled up to whole lanes with zeros. Borrowed.
+/// The neighbours of a point relative to it, or some of them, filled up to whole packets with zeros. Borrowed.
 struct Offsets {
   int count;
   const double *x, *y, *z;
@@ -40,39 +40,40 @@ struct HeightSums {
 /// Normal equations of height fits, one per lane.
 struct HeightSystems {
   static constexpr int numbers = sizeof(HeightSums) / sizeof(double);
-  alignas(64) double sums[numbers][kernel_lane];  ///< in the order of HeightSums
-  alignas(64) double count[kernel_lane];          ///< points, that of height 0 at the origin included
+  alignas(64) double sums[numbers][kernel_packet];  ///< in the order of HeightSums
+  alignas(64) double count[kernel_packet];          ///< points, that of height 0 at the origin included
 };
 
 /// Their solutions.
 struct HeightSolutions {
-  alignas(64) double height[kernel_lane];     ///< of the quadratic over the origin
-  alignas(64) double explained[kernel_lane];  ///< of the sum of squared heights
-  alignas(64) double least_pivot[kernel_lane], most_pivot[kernel_lane];
+  alignas(64) double height[kernel_packet];     ///< of the quadratic over the origin
+  alignas(64) double explained[kernel_packet];  ///< of the sum of squared heights
+  alignas(64) double least_pivot[kernel_packet], most_pivot[kernel_packet];
 };
 
 /// Unit vectors, one per lane, or zeros.
 struct Normals {
-  alignas(64) double x[kernel_lane], y[kernel_lane], z[kernel_lane];
+  alignas(64) double x[kernel_packet], y[kernel_packet], z[kernel_packet];
 };
 
-/// Heights that are reached from 0 over gaps of a bounded size, and the extremes of all.
-struct Reached {
+/// The range of heights that are connected with 0: from one to the next no gap is wider than a bound. And the extremes
+/// of all heights.
+struct HeightRange {
   double lowest, highest;
   double bottom, top;
 };
 
 /// Symmetric 3 x 3 matrices without negative eigenvalues, one per lane.
 struct Covariances {
-  alignas(64) double xx[kernel_lane], xy[kernel_lane], xz[kernel_lane], yy[kernel_lane], yz[kernel_lane],
-      zz[kernel_lane];
+  alignas(64) double xx[kernel_packet], xy[kernel_packet], xz[kernel_packet], yy[kernel_packet], yz[kernel_packet],
+      zz[kernel_packet];
 };
 
 /// Their eigenvalues, and the unit eigenvector of the smallest one.
 struct SmallestAxes {
-  alignas(64) double x[kernel_lane], y[kernel_lane], z[kernel_lane];
-  alignas(64) double smallest[kernel_lane], middle[kernel_lane], largest[kernel_lane];
-  alignas(64) double is_found[kernel_lane];  ///< 1; 0 where two eigenvalues lie too close for a closed form
+  alignas(64) double x[kernel_packet], y[kernel_packet], z[kernel_packet];
+  alignas(64) double smallest[kernel_packet], middle[kernel_packet], largest[kernel_packet];
+  alignas(64) double is_found[kernel_packet];  ///< 1; 0 where two eigenvalues lie too close for a closed form
 };
 
 /// Neighbours in the tangent plane of a point, which lies at the origin; anything behind them.
@@ -97,8 +98,8 @@ struct InvertedStar {
 };
 
 /// Triangles side by side: number i has the spokes i and i + 1, which start at one point, and the rim between their
-/// ends. Borrowed arrays of `count` numbers and room for whole lanes; those of the spokes have one lane more.
-struct Fans {
+/// ends. Borrowed arrays of `count` numbers and room for whole packets; those of the spokes have one packet more.
+struct TriangleFans {
   int count;
   const double *spoke_x, *spoke_y, *spoke_z, *rim_x, *rim_y, *rim_z;  ///< vectors
   double *spoke, *rim;                                                ///< lengths
@@ -110,41 +111,42 @@ struct Fans {
 /// operations are the same, and so are the bits.
 struct Kernels {
   /// The candidates within the squared distance `bound` of a point, but for number p: squared distances, with the bits
-  /// of FLANN's L2_Simple, and ranks. Both arrays have room for all candidates and one lane.
+  /// of FLANN's L2_Simple, and ranks. Both arrays have room for all candidates and one packet.
   /// @returns how many
   int (*takeWithin)(const Candidates& candidates, const double* point, int p, double bound, double* squared_distance,
                     int* index);
   /// How many of the values, rounded to floats, are less than each.
-  /// @param count a multiple of the lane
-  /// @param rounded scratch; this and `rank` have room for two lanes more
+  /// @param count a multiple of the packet
+  /// @param rounded scratch; this and `rank` have room for two packets more
   void (*rankValues)(const double* values, int count, float* rounded, int* rank);
   /// The largest absolute coordinate.
   double (*extent)(const Offsets& offsets);
-  /// Of the first ends[0], ends[1], ... offsets times `unit`.
+  /// Sums over the first ends[0], ends[1], ... offsets times `unit`.
   /// @param ends ascending, at most most_sets
   void (*sumOffsets)(const Offsets& offsets, double unit, const int* ends, int sets, OffsetSums* sums);
-  /// Of the offsets along the axes of u, v and h, which are given one after the other.
+  /// Sums over the offsets in the coordinates u, v and h, whose axes are given one after the other.
   void (*sumHeights)(const Offsets& offsets, const double* axes, HeightSums& sums);
-  /// Each as if it were alone.
+  /// Solves each system with the same bits as if it were alone.
   void (*solveHeights)(const HeightSystems& systems, HeightSolutions& solutions);
-  /// Heights along `normal`, and which of them are reached over gaps of at most `gap`.
-  /// @param[out] heights room for whole lanes
-  Reached (*reachHeights)(const Offsets& offsets, const double* normal, double gap, double* heights);
-  /// The same along each normal.
-  /// @param[out] heights of each offset one lane, in which normals are side by side
-  /// @param[out] reached one lane
-  void (*reachAlong)(const Offsets& offsets, const Normals& normals, double gap, double* heights, Reached* reached);
-  /// Puts those from the lowest to the highest height to the front, filled up to whole lanes with zeros.
-  /// @param[out] x, y, z room for whole lanes; may be what is given
+  /// Heights along `normal`, and the range of those connected with 0 by gaps of at most `gap`.
+  /// @param[out] heights room for whole packets
+  HeightRange (*connectedHeights)(const Offsets& offsets, const double* normal, double gap, double* heights);
+  /// Heights along each of the normals, and their ranges, as connectedHeights() gives them for one normal.
+  /// @param[out] heights one packet per offset, with a height for each normal
+  /// @param[out] range one packet
+  void (*connectedHeightsAlong)(const Offsets& offsets, const Normals& normals, double gap, double* heights,
+                                HeightRange* range);
+  /// Puts the offsets within the range to the front, filled up to whole packets with zeros.
+  /// @param[out] x, y, z room for whole packets; may be what is given
   /// @returns how many
-  int (*keepReached)(const Offsets& offsets, const double* heights, const Reached& reached, double* x, double* y,
-                     double* z);
-  /// Each as if it were alone.
+  int (*keepConnected)(const Offsets& offsets, const double* heights, const HeightRange& range, double* x, double* y,
+                       double* z);
+  /// The smallest eigenvalue and its axis of each matrix, with the same bits as if it were alone.
   void (*findSmallest)(const Covariances& covariances, SmallestAxes& axes);
   /// The offsets, at most PlanarOffsets::most, times `unit` along the axes x and y.
   void (*project)(const Offsets& offsets, double unit, const double* x, const double* y, PlanarOffsets& planar);
   /// The triangles of the fans, with `added` to all lengths; the formulas of cover/geometry.h.
-  void (*measureFans)(const Fans& fans, double added);
+  void (*measureTriangleFans)(const TriangleFans& fans, double added);
   /// See wrapInverted().
   StarKind (*wrapInverted)(const PlanarOffsets& planar, InvertedStar& star);
 };

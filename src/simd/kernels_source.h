@@ -1,33 +1,33 @@
 // The kernels, compiled once for each kind of processor: TUFTED_KERNELS names the table to define.
-#include "simd/inverted_hull.h"
+#include "simd/connected_heights.h"
 #include "simd/kernels.h"
-#include "simd/reached_heights.h"
+#include "simd/star_by_inversion.h"
 
 namespace tufted {
 namespace {
 
-static_assert(lane_size == kernel_lane, "arrays are filled up to the lanes that are worked on");
+static_assert(packet_size == kernel_packet, "arrays are filled up to the lanes that are worked on");
 
 int takeWithin(const Candidates& candidates, const double* point, int p, double bound, double* squared_distance,
                int* index) {
   const Candidates given = candidates;  // a copy, which what is written below cannot change
-  const Part x = allOfPart(point[0]), y = allOfPart(point[1]), z = allOfPart(point[2]);
+  const Part x = broadcastPart(point[0]), y = broadcastPart(point[1]), z = broadcastPart(point[2]);
   const auto squares = [&](int i) {
     const Part dx = x - loadPart(given.x + i), dy = y - loadPart(given.y + i), dz = z - loadPart(given.z + i);
     return dx * dx + dy * dy + dz * dz;
   };
   int found = 0;
-#ifdef TUFTED_WIDE_LANES
-  const Lane limit = all(bound);
-  for (int i = 0; i < given.count; i += lane_size) {
-    const Lane square = squares(i);
-    const Mask taken = both(isAtMost(square, limit), differ(given.index + i, p));
-    squeeze(taken, square, squared_distance + found);
-    squeeze(taken, given.index + i, index + found);
+#ifdef TUFTED_WIDE_PACKETS
+  const Packet limit = broadcast(bound);
+  for (int i = 0; i < given.count; i += packet_size) {
+    const Packet square = squares(i);
+    const Mask taken = logicalAnd(isAtMost(square, limit), differ(given.index + i, p));
+    compress(taken, square, squared_distance + found);
+    compress(taken, given.index + i, index + found);
     found += countOf(taken);
   }
 #else
-  constexpr int some = 8 * lane_size;  // distances at a time
+  constexpr int some = 8 * packet_size;  // distances at a time
   alignas(64) double square[some];
   for (int first = 0; first < given.count; first += some) {
     const int end = given.count - first < some ? given.count - first : some;
@@ -43,52 +43,52 @@ int takeWithin(const Candidates& candidates, const double* point, int p, double 
 }
 
 void rankValues(const double* values, int count, float* rounded, int* rank) {
-  for (int i = 0; i < count; i += lane_size) storeFloats(load(values + i), rounded + i);
+  for (int i = 0; i < count; i += packet_size) storeFloats(load(values + i), rounded + i);
   // All at once as long as they fit in registers.
-  if (count <= float_lane_size) return rankFloats<1>(rounded, rounded, count, rank);
-  if (count <= 2 * float_lane_size) return rankFloats<2>(rounded, rounded, count, rank);
-  if (count <= 3 * float_lane_size) return rankFloats<3>(rounded, rounded, count, rank);
-  for (int i = 0; i < count; i += float_lane_size) rankFloats<1>(rounded + i, rounded, count, rank + i);
+  if (count <= float_packet_size) return rankFloats<1>(rounded, rounded, count, rank);
+  if (count <= 2 * float_packet_size) return rankFloats<2>(rounded, rounded, count, rank);
+  if (count <= 3 * float_packet_size) return rankFloats<3>(rounded, rounded, count, rank);
+  for (int i = 0; i < count; i += float_packet_size) rankFloats<1>(rounded + i, rounded, count, rank + i);
 }
 
 double extent(const Offsets& offsets) {
-  Lane largest = all(0);
-  for (int i = 0; i < offsets.count; i += lane_size)
-    largest = most(most(largest, absolute(load(&offsets.x[i]))),
-                   most(absolute(load(&offsets.y[i])), absolute(load(&offsets.z[i]))));
-  return most(largest);
+  Packet largest = broadcast(0);
+  for (int i = 0; i < offsets.count; i += packet_size)
+    largest = max(max(largest, absolute(load(&offsets.x[i]))),
+                  max(absolute(load(&offsets.y[i])), absolute(load(&offsets.z[i]))));
+  return reduceMax(largest);
 }
 
-/// The total of each of the lanes, added in one order on any processor.
+/// The sum of the numbers in each packet, added in the same order on any processor.
 TUFTED_INLINE void addAcross(const double* lanes, int count, double* totals) {
   int n = 0;
-#ifdef TUFTED_WIDE_LANES
-  const auto halves = [](Lane a, Lane b) {
+#ifdef TUFTED_WIDE_PACKETS
+  const auto halves = [](Packet a, Packet b) {
     return _mm512_shuffle_f64x2(a, b, 0x44) + _mm512_shuffle_f64x2(a, b, 0xee);
   };
-  const auto quarters = [](Lane a, Lane b) {
+  const auto quarters = [](Packet a, Packet b) {
     return _mm512_shuffle_f64x2(a, b, 0x88) + _mm512_shuffle_f64x2(a, b, 0xdd);
   };
-  for (; n + lane_size <= count; n += lane_size) {
-    const auto at = [&](int i) { return load(lanes + (n + i) * lane_size); };
-    const Lane even = quarters(halves(at(0), at(2)), halves(at(4), at(6)));
-    const Lane odd = quarters(halves(at(1), at(3)), halves(at(5), at(7)));
+  for (; n + packet_size <= count; n += packet_size) {
+    const auto at = [&](int i) { return load(lanes + (n + i) * packet_size); };
+    const Packet even = quarters(halves(at(0), at(2)), halves(at(4), at(6)));
+    const Packet odd = quarters(halves(at(1), at(3)), halves(at(5), at(7)));
     store(_mm512_unpacklo_pd(even, odd) + _mm512_unpackhi_pd(even, odd), totals + n);
   }
 #endif
   for (; n < count; ++n) {
-    const double* s = &lanes[n * lane_size];
+    const double* s = &lanes[n * packet_size];
     totals[n] = ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
   }
 }
 
-/// Each a lane after the one before.
+/// Stores the parts one after the other, each a packet behind the one before.
 template <class... Parts>
 TUFTED_INLINE void putInTurn(double* to, const Parts&... parts) {
-  (..., (store(parts, to), to += lane_size));
+  (..., (store(parts, to), to += packet_size));
 }
 
-/// OffsetSums in lanes.
+/// OffsetSums of eight neighbours at a time.
 struct OffsetParts {
   Part x, y, z, xx, xy, xz, yy, yz, zz;
 };
@@ -101,17 +101,17 @@ TUFTED_INLINE OffsetParts plus(const OffsetParts& sum, Part x, Part y, Part z) {
 void sumOffsets(const Offsets& offsets, double unit, const int* ends, int sets, OffsetSums* totals) {
   constexpr int numbers = sizeof(OffsetSums) / sizeof(double);
   alignas(64) static constexpr double numbered[] = {0, 1, 2, 3, 4, 5, 6, 7};
-  static_assert(sizeof(numbered) == lane_size * sizeof(double));
-  alignas(64) double lanes[most_sets][numbers * lane_size];
-  const Part scale = allOfPart(unit), zero = allOfPart(0);
-  for (int part = 0; part < lane_size; part += part_size) {
+  static_assert(sizeof(numbered) == packet_size * sizeof(double));
+  alignas(64) double lanes[most_sets][numbers * packet_size];
+  const Part scale = broadcastPart(unit), zero = broadcastPart(0);
+  for (int part = 0; part < packet_size; part += part_size) {
     OffsetParts sum = {zero, zero, zero, zero, zero, zero, zero, zero, zero};
     const auto at = [&](const double* values, int i) { return loadPart(values + i + part) * scale; };
     int i = 0;
     for (int set = 0; set < sets; ++set) {
-      for (; i + lane_size <= ends[set]; i += lane_size)
+      for (; i + packet_size <= ends[set]; i += packet_size)
         sum = plus(sum, at(offsets.x, i), at(offsets.y, i), at(offsets.z, i));
-      const auto isInSet = isLess(loadPart(numbered + part), allOfPart(ends[set] - i));
+      const auto isInSet = isLess(loadPart(numbered + part), broadcastPart(ends[set] - i));
       const auto some = [&](const double* values) { return select(isInSet, at(values, i), zero); };
       const OffsetParts here = i == ends[set] ? sum : plus(sum, some(offsets.x), some(offsets.y), some(offsets.z));
       putInTurn(lanes[set] + part, here.x, here.y, here.z, here.xx, here.xy, here.xz, here.yy, here.yz, here.zz);
@@ -120,22 +120,22 @@ void sumOffsets(const Offsets& offsets, double unit, const int* ends, int sets, 
   for (int set = 0; set < sets; ++set) addAcross(lanes[set], numbers, &totals[set].x);
 }
 
-/// HeightSums in lanes, each in a register as far as there are any.
+/// HeightSums of eight neighbours at a time, each in a register as far as there are any.
 struct HeightParts {
   Part u, v, uu, uv, vv, uuu, uuv, uvv, vvv, uuuu, uuuv, uuvv, uvvv, vvvv, h, hu, hv, huu, huv, hvv, hh;
 };
 
 void sumHeights(const Offsets& offsets, const double* axes, HeightSums& total) {
   constexpr int numbers = HeightSystems::numbers;
-  alignas(64) double lanes[numbers * lane_size];
-  for (int part = 0; part < lane_size; part += part_size) {
-    const Part zero = allOfPart(0);
+  alignas(64) double lanes[numbers * packet_size];
+  for (int part = 0; part < packet_size; part += part_size) {
+    const Part zero = broadcastPart(0);
     HeightParts sum = {zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero,
                        zero, zero, zero, zero, zero, zero, zero, zero, zero, zero};
-    for (int i = part; i < offsets.count; i += lane_size) {
+    for (int i = part; i < offsets.count; i += packet_size) {
       const Part x = loadPart(&offsets.x[i]), y = loadPart(&offsets.y[i]), z = loadPart(&offsets.z[i]);
       const auto along = [&](const double* axis) {
-        return x * allOfPart(axis[0]) + y * allOfPart(axis[1]) + z * allOfPart(axis[2]);
+        return x * broadcastPart(axis[0]) + y * broadcastPart(axis[1]) + z * broadcastPart(axis[2]);
       };
       const Part u = along(axes), v = along(axes + 3), h = along(axes + 6);
       const Part uu = u * u, uv = u * v, vv = v * v;
@@ -158,13 +158,13 @@ void solveHeights(const HeightSystems& systems, HeightSolutions& solutions) {
   constexpr int lower[size][size] = {
       {},  // the count
       {u, uu}, {v, uv, vv}, {uu, uuu, uuv, uuuu}, {uv, uuv, uvv, uuuv, uuvv}, {vv, uvv, vvv, uuvv, uvvv, vvvv}};
-  Lane gram[size][size], pivot[size], solution[size];
+  Packet gram[size][size], pivot[size], solution[size];
   for (int i = 0; i < size; ++i)
     for (int j = 0; j <= i; ++j) gram[i][j] = load(i + j == 0 ? systems.count : systems.sums[lower[i][j]]);
   for (int j = 0; j < size; ++j) {
     pivot[j] = gram[j][j];
     for (int k = 0; k < j; ++k) pivot[j] = pivot[j] - gram[j][k] * gram[j][k] * pivot[k];
-    const Lane inverse = all(1) / pivot[j];
+    const Packet inverse = broadcast(1) / pivot[j];
     for (int i = j + 1; i < size; ++i) {
       for (int k = 0; k < j; ++k) gram[i][j] = gram[i][j] - gram[i][k] * gram[j][k] * pivot[k];
       gram[i][j] = gram[i][j] * inverse;
@@ -174,15 +174,15 @@ void solveHeights(const HeightSystems& systems, HeightSolutions& solutions) {
     solution[i] = load(systems.sums[h + i]);
     for (int k = 0; k < i; ++k) solution[i] = solution[i] - gram[i][k] * solution[k];
   }
-  Lane explained = all(0), smallest = pivot[0], largest = pivot[0];
+  Packet explained = broadcast(0), smallest = pivot[0], largest = pivot[0];
   for (int i = size - 1; i >= 0; --i) {
     solution[i] = solution[i] / pivot[i];
     for (int k = i + 1; k < size; ++k) solution[i] = solution[i] - gram[k][i] * solution[k];
   }
   for (int i = 0; i < size; ++i) {
     explained = explained + solution[i] * load(systems.sums[h + i]);
-    smallest = least(smallest, pivot[i]);
-    largest = most(largest, pivot[i]);
+    smallest = min(smallest, pivot[i]);
+    largest = max(largest, pivot[i]);
   }
   store(solution[0], solutions.height);
   store(explained, solutions.explained);
@@ -196,51 +196,54 @@ constexpr int most_steps = 8;
 /// The smallest eigenvalue by Newton's method on the characteristic polynomial, which from 0 rises to its first root,
 /// and the eigenvector as a cross product.
 void findSmallest(const Covariances& given, SmallestAxes& axes) {
-  const Lane xx = load(given.xx), xy = load(given.xy), xz = load(given.xz);
-  const Lane yy = load(given.yy), yz = load(given.yz), zz = load(given.zz);
-  const Lane x_minor = yy * zz - yz * yz, trace = xx + yy + zz;
-  const Lane minors = x_minor + (xx * zz - xz * xz) + (xx * yy - xy * xy);
-  const Lane determinant = xx * x_minor - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
-  Lane smallest = all(0);
+  const Packet xx = load(given.xx), xy = load(given.xy), xz = load(given.xz);
+  const Packet yy = load(given.yy), yz = load(given.yz), zz = load(given.zz);
+  const Packet x_minor = yy * zz - yz * yz, trace = xx + yy + zz;
+  const Packet minors = x_minor + (xx * zz - xz * xz) + (xx * yy - xy * xy);
+  const Packet determinant = xx * x_minor - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
+  Packet smallest = broadcast(0);
   Mask converged = none();  // slowly towards a double root, or not at all
-  for (int step = 0; step < most_steps && countOf(converged) < lane_size; ++step) {
-    const Lane value = ((smallest - trace) * smallest + minors) * smallest - determinant;
-    const Lane slope = (all(3) * smallest - all(2) * trace) * smallest + minors;
-    const Lane change = value / slope;
-    smallest = select(converged, smallest, smallest - change);                     // each as if it were alone
-    converged = either(converged, isAtMost(absolute(change), all(1e-9) * trace));  // and quadratically it went further
+  for (int step = 0; step < most_steps && countOf(converged) < packet_size; ++step) {
+    const Packet value = ((smallest - trace) * smallest + minors) * smallest - determinant;
+    const Packet slope = (broadcast(3) * smallest - broadcast(2) * trace) * smallest + minors;
+    const Packet change = value / slope;
+    smallest = select(converged, smallest, smallest - change);  // each as if it were alone
+    converged =
+        logicalOr(converged, isAtMost(absolute(change), broadcast(1e-9) * trace));  // and quadratically it went further
   }
-  const Lane rest = trace - smallest;  // sum and product of the other two
-  const Lane product = minors - smallest * rest;
-  const Lane root = squareRoot(most(all(0), rest * rest - all(4) * product));
-  const Lane middle = all(0.5) * (rest - root), largest = all(0.5) * (rest + root);
-  const Mask is_found = both(converged, isLess(all(least_gap) * largest, middle - smallest));
+  const Packet rest = trace - smallest;  // sum and product of the other two
+  const Packet product = minors - smallest * rest;
+  const Packet root = squareRoot(max(broadcast(0), rest * rest - broadcast(4) * product));
+  const Packet middle = broadcast(0.5) * (rest - root), largest = broadcast(0.5) * (rest + root);
+  const Mask is_found = logicalAnd(converged, isLess(broadcast(least_gap) * largest, middle - smallest));
 
   // Two rows of the matrix less the eigenvalue span what is perpendicular to the eigenvector.
-  const Lane xs = xx - smallest, ys = yy - smallest, zs = zz - smallest;
-  const Lane ax = xy * yz - xz * ys, ay = xz * xy - xs * yz, az = xs * ys - xy * xy;  // rows x and y
-  const Lane bx = ys * zs - yz * yz, by = yz * xz - xy * zs, bz = xy * yz - ys * xz;  // y and z
-  const Lane cx = yz * xz - zs * xy, cy = zs * xs - xz * xz, cz = xz * xy - yz * xs;  // z and x
-  const Lane a = ax * ax + ay * ay + az * az, b = bx * bx + by * by + bz * bz, c = cx * cx + cy * cy + cz * cz;
-  const Mask second = isLess(a, b), third = isLess(most(a, b), c);
-  const auto longest = [&](Lane of_a, Lane of_b, Lane of_c) { return select(third, of_c, select(second, of_b, of_a)); };
-  const Lane length = squareRoot(longest(a, b, c));
-  const Lane x = longest(ax, bx, cx) / length, y = longest(ay, by, cy) / length, z = longest(az, bz, cz) / length;
-  const Lane along = x * (xx * x + xy * y + xz * z) + y * (xy * x + yy * y + yz * z) + z * (xz * x + yz * y + zz * z);
+  const Packet xs = xx - smallest, ys = yy - smallest, zs = zz - smallest;
+  const Packet ax = xy * yz - xz * ys, ay = xz * xy - xs * yz, az = xs * ys - xy * xy;  // rows x and y
+  const Packet bx = ys * zs - yz * yz, by = yz * xz - xy * zs, bz = xy * yz - ys * xz;  // y and z
+  const Packet cx = yz * xz - zs * xy, cy = zs * xs - xz * xz, cz = xz * xy - yz * xs;  // z and x
+  const Packet a = ax * ax + ay * ay + az * az, b = bx * bx + by * by + bz * bz, c = cx * cx + cy * cy + cz * cz;
+  const Mask second = isLess(a, b), third = isLess(max(a, b), c);
+  const auto longest = [&](Packet of_a, Packet of_b, Packet of_c) {
+    return select(third, of_c, select(second, of_b, of_a));
+  };
+  const Packet length = squareRoot(longest(a, b, c));
+  const Packet x = longest(ax, bx, cx) / length, y = longest(ay, by, cy) / length, z = longest(az, bz, cz) / length;
+  const Packet along = x * (xx * x + xy * y + xz * z) + y * (xy * x + yy * y + yz * z) + z * (xz * x + yz * y + zz * z);
   store(x, axes.x);
   store(y, axes.y);
   store(z, axes.z);
-  store(most(all(0), along), axes.smallest);
+  store(max(broadcast(0), along), axes.smallest);
   store(middle, axes.middle);
   store(largest, axes.largest);
-  store(select(is_found, all(1), all(0)), axes.is_found);
+  store(select(is_found, broadcast(1), broadcast(0)), axes.is_found);
 }
 
 void project(const Offsets& offsets, double unit, const double* x, const double* y, PlanarOffsets& planar) {
   planar.count = offsets.count;
-  const Part scale = allOfPart(unit);
-  const Part x0 = allOfPart(x[0]), x1 = allOfPart(x[1]), x2 = allOfPart(x[2]), y0 = allOfPart(y[0]),
-             y1 = allOfPart(y[1]), y2 = allOfPart(y[2]);
+  const Part scale = broadcastPart(unit);
+  const Part x0 = broadcastPart(x[0]), x1 = broadcastPart(x[1]), x2 = broadcastPart(x[2]), y0 = broadcastPart(y[0]),
+             y1 = broadcastPart(y[1]), y2 = broadcastPart(y[2]);
   for (int i = 0; i < offsets.count; i += part_size) {
     const Part dx = loadPart(&offsets.x[i]) * scale, dy = loadPart(&offsets.y[i]) * scale,
                dz = loadPart(&offsets.z[i]) * scale;
@@ -256,23 +259,24 @@ TUFTED_INLINE Part lengthOf(const double* x, const double* y, const double* z) {
 
 /// 4 A cot of the angle opposite a.
 TUFTED_INLINE Part cotanNumerator(Part a, Part b, Part c) {
-  const Part shorter = least(b, c), longer = most(b, c);
+  const Part shorter = min(b, c), longer = max(b, c);
   return shorter * shorter + (longer - a) * (longer + a);
 }
 
-void measureFans(const Fans& given, double added) {
-  const Fans fans = given;  // a copy, which what is written below cannot change
+void measureTriangleFans(const TriangleFans& given, double added) {
+  const TriangleFans fans = given;  // a copy, which what is written below cannot change
   for (int i = 0; i < fans.count + 1; i += part_size)
-    store(lengthOf(fans.spoke_x + i, fans.spoke_y + i, fans.spoke_z + i) + allOfPart(added), fans.spoke + i);
+    store(lengthOf(fans.spoke_x + i, fans.spoke_y + i, fans.spoke_z + i) + broadcastPart(added), fans.spoke + i);
   for (int i = 0; i < fans.count; i += part_size) {
     const Part own = loadPart(fans.spoke + i), next = loadPart(fans.spoke + i + 1);
-    const Part rim = lengthOf(fans.rim_x + i, fans.rim_y + i, fans.rim_z + i) + allOfPart(added);
-    const Part longer = most(own, next), shorter = least(own, next), rest = least(longer, rim);
-    const Part a = most(longer, rim), b = most(shorter, rest), c = least(shorter, rest);
+    const Part rim = lengthOf(fans.rim_x + i, fans.rim_y + i, fans.rim_z + i) + broadcastPart(added);
+    const Part longer = max(own, next), shorter = min(own, next), rest = min(longer, rim);
+    const Part a = max(longer, rim), b = max(shorter, rest), c = min(shorter, rest);
     const Part slack = c - (a - b);
     const Part square = (a + (b + c)) * slack * (c + (a - b)) * (a + (b - c));
-    const Part area = select(isLess(allOfPart(0), square), allOfPart(0.25) * squareRoot(square), allOfPart(0));
-    const Part inverse = allOfPart(1) / (allOfPart(4) * area);
+    const Part area =
+        select(isLess(broadcastPart(0), square), broadcastPart(0.25) * squareRoot(square), broadcastPart(0));
+    const Part inverse = broadcastPart(1) / (broadcastPart(4) * area);
     store(rim, fans.rim + i);
     store(slack, fans.slack + i);
     store(area, fans.area + i);
@@ -284,8 +288,9 @@ void measureFans(const Fans& given, double added) {
 }  // namespace
 
 extern const Kernels TUFTED_KERNELS;
-const Kernels TUFTED_KERNELS = {takeWithin,   rankValues,   extent,           sumOffsets,  sumHeights,
-                                solveHeights, reachHeights, reachAlong,       keepReached, findSmallest,
-                                project,      measureFans,  wrapInvertedLanes};
+const Kernels TUFTED_KERNELS = {takeWithin,         rankValues,   extent,           sumOffsets,
+                                sumHeights,         solveHeights, connectedHeights, connectedHeightsAlong,
+                                keepConnected,      findSmallest, project,          measureTriangleFans,
+                                wrapInvertedPackets};
 
 }  // namespace tufted

@@ -15,7 +15,7 @@ namespace {
 
 constexpr std::int64_t block_size = 4096;
 constexpr int search_factor = 8;    // times k: what is looked through for points beyond a gap
-constexpr double off_plane = 0.25;  // of the reach, as between the heights of two sheets
+constexpr double off_plane = 0.25;  // of the fit radius, as between the heights of two sheets
 constexpr double farthest = 2;      // times the longest edge
 constexpr double infinity = 1e70;   // median spreads; squares of what lies farther away may overflow
 constexpr double margin = 0.25;     // of a gap, on either side: neighbours along its border may reach into that
@@ -130,7 +130,8 @@ class BoundaryFinder {
     const Eigen::RowVector3d d = points_.row(q) - points_.row(p);
     const double height = std::abs(d.dot(stars_.normals.row(p)));
     const double along = std::sqrt(std::max(0.0, d.squaredNorm() - height * height));
-    return height > off_plane * (view == View::along_normal ? std::max(stars_.reach[p], along) : stars_.reach[p]);
+    return height >
+           off_plane * (view == View::along_normal ? std::max(stars_.fit_radius[p], along) : stars_.fit_radius[p]);
   }
 
   Boundary lookBeyond(int p, View view, const Chart& chart, WorkerState& state) const {

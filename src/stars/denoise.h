@@ -16,13 +16,13 @@ struct HeightFit {
 
 /// What a fit is made from.
 struct HeightMoments {
-  HeightSums sums{};  ///< in units of the reach
-  int count = 0;      ///< points, p included
-  double reach = 0;   ///< radius of the neighbourhood
+  HeightSums sums{};      ///< in units of the fit radius
+  int count = 0;          ///< points, p included
+  double fit_radius = 0;  ///< the radius of the neighbourhood that the heights were taken from
 };
 
 /// @param normal unit length
-HeightMoments heightMoments(const Offsets& neighbors, const Eigen::Vector3d& normal, double reach);
+HeightMoments heightMoments(const Offsets& neighbors, const Eigen::Vector3d& normal, double fit_radius);
 
 /// Least squares over {1, u, v, u^2, u v, v^2}, each as if it were alone.
 void fitHeights(std::span<const HeightMoments> moments, std::span<HeightFit> fits);
@@ -30,6 +30,6 @@ void fitHeights(std::span<const HeightMoments> moments, std::span<HeightFit> fit
 /// Whether a neighbourhood is noise around a surface rather than curved: the residuals of the fit are more than a fifth
 /// of the smallest variance. An exact plane is not.
 /// @param variance the smallest eigenvalue of the neighbourhood's covariance
-bool isNoisy(const HeightFit& fit, double variance, double reach);
+bool isNoisy(const HeightFit& fit, double variance, double fit_radius);
 
 }  // namespace tufted

@@ -24,7 +24,7 @@ struct Neighborhood {
   std::int64_t cut = 0;                                         ///< left out because the surface jumps in between
   int k = 0;                                                    ///< neighbours asked for
   double radius = 0;                                            ///< distance to the last of them
-  double reach = 0;                                             ///< the radius that the plane was fitted in, S(p)
+  double fit_radius = 0;                                        ///< the radius that the plane was fitted in, S(p)
   bool grown = false;                                           ///< the plane was fitted to more than the caller's k
   bool split = false;                                           ///< neighbours of another sheet were left out
   bool restored = false;                                        ///< there were some, but without them there is no plane
@@ -32,13 +32,13 @@ struct Neighborhood {
 };
 
 /// Memory that one worker reuses from point to point.
-struct HoodScratch {
-  GroupScratch group;
+struct NeighborhoodScratch {
+  BatchScratch group;
   Buffer<Neighbor> found;
   OffsetBuffer offsets_of_all;
   Buffer<double> heights;
-  Buffer<double> heights_along;                ///< see Kernels::reachAlong
-  Reached sheet;                               ///< see isOneSheet()
+  Buffer<double> heights_along;                ///< see Kernels::connectedHeightsAlong
+  HeightRange sheet;                           ///< see isOneSheet()
   Buffer<Neighbor> all;                        ///< of splitSheets(): before any were left out; empty while none were
   static constexpr int most_tried = 6;         ///< planes through p and two of four others
   std::array<OffsetBuffer, most_tried> tried;  ///< see findSheet()
@@ -54,42 +54,43 @@ class NeighborhoodFinder {
 
   /// For each of `count` points from `first` on the caller's k neighbours, or the caller's own list. What is asked of
   /// these points later with the same scratch takes least time.
-  void find(int first, int count, HoodScratch& scratch, Neighborhood* hoods) const;
+  void find(int first, int count, NeighborhoodScratch& scratch, Neighborhood* neighborhoods) const;
 
   static constexpr int most_planes = 16;
   /// Fits planes to at most most_planes neighbourhoods of points from `first` on, and to the first few of each where
   /// sheets are split.
   /// @param[out] offsets of the neighbours of each
-  void fitPlanes(int first, std::span<Neighborhood> hoods, std::span<OffsetBuffer> offsets) const;
+  void fitPlanes(int first, std::span<Neighborhood> neighborhoods, std::span<OffsetBuffer> offsets) const;
 
   /// Doubles the neighbourhood while it says too little about the surface, with a plane fitted anew, and leaves other
   /// sheets out.
   /// @param offsets of the neighbours, before and after
-  void refine(int p, Neighborhood& hood, OffsetBuffer& offsets, HoodScratch& scratch) const;
+  void refine(int p, Neighborhood& neighborhood, OffsetBuffer& offsets, NeighborhoodScratch& scratch) const;
 
   /// Asks for twice as many neighbours, at most `most`; other sheets are left out as before, the plane stays as it is.
   /// False when there are no more to be had.
   /// @param offsets of the neighbours, before and after
-  bool grow(int p, int most, Neighborhood& hood, OffsetBuffer& offsets, HoodScratch& scratch) const;
+  bool grow(int p, int most, Neighborhood& neighborhood, OffsetBuffer& offsets, NeighborhoodScratch& scratch) const;
 
   /// The most neighbours that refine() asks for.
   int mostNeighbors() const;
 
  private:
-  void take(int k, const ScanSearch::Searched& searched, Neighborhood& hood) const;
-  bool query(int p, int k, Neighborhood& hood, OffsetBuffer& offsets, HoodScratch& scratch) const;
+  void take(int k, const ScanSearch::Searched& searched, Neighborhood& neighborhood) const;
+  bool query(int p, int k, Neighborhood& neighborhood, OffsetBuffer& offsets, NeighborhoodScratch& scratch) const;
   /// Rings, and the far side of a small cloud, would be taken for sheets.
   bool splitsSheets() const;
-  bool isUneven(const Neighborhood& hood) const;
-  /// Keeps the neighbours whose heights along `normal` are reached from p over gaps of at most a quarter of the reach.
-  /// True if some were left out.
+  bool isUneven(const Neighborhood& neighborhood) const;
+  /// Keeps the neighbours whose heights along `normal` are reached from p over gaps of at most a quarter of the fit
+  /// radius. True if some were left out.
   /// @param saves_all keep all as they are aside before the first are left out
-  bool keepSheet(const Eigen::Vector3d& normal, Neighborhood& hood, OffsetBuffer& offsets, HoodScratch& scratch,
-                 bool saves_all = false) const;
-  void splitSheets(Neighborhood& hood, OffsetBuffer& offsets, HoodScratch& scratch) const;
+  bool keepSheet(const Eigen::Vector3d& normal, Neighborhood& neighborhood, OffsetBuffer& offsets,
+                 NeighborhoodScratch& scratch, bool saves_all = false) const;
+  void splitSheets(Neighborhood& neighborhood, OffsetBuffer& offsets, NeighborhoodScratch& scratch) const;
   /// For where the planes of several neighbours stand across two sheets: the largest sheet along a plane through p and
   /// two of the nearest four. False, and the neighbourhood as it was before any were left out, if there is none.
-  bool findSheet(const PrincipalAxes& before, Neighborhood& hood, OffsetBuffer& offsets, HoodScratch& scratch) const;
+  bool findSheet(const PrincipalAxes& before, Neighborhood& neighborhood, OffsetBuffer& offsets,
+                 NeighborhoodScratch& scratch) const;
 
   PointsView points_;
   const NeighborSource& source_;

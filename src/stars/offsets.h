@@ -34,14 +34,14 @@ class OffsetBuffer {
       y[i] = d[1];
       z[i] = d[2];
     }
-    for (int i = count; i < toLanes(count); ++i) x[i] = y[i] = z[i] = 0;
+    for (int i = count; i < toPackets(count); ++i) x[i] = y[i] = z[i] = 0;
   }
 
-  /// Of others, or of these themselves, those whose heights are reached.
-  void takeReached(const OffsetBuffer& others, const double* heights, const Reached& reached) {
+  /// Of others, or of these themselves, those whose heights are range.
+  void takeConnected(const OffsetBuffer& others, const double* heights, const HeightRange& range) {
     const Offsets given = others.view();
     if (this != &others) resize(given.count);
-    count_ = kernels().keepReached(given, heights, reached, axis(0), axis(1), axis(2));
+    count_ = kernels().keepConnected(given, heights, range, axis(0), axis(1), axis(2));
   }
 
   int count() const { return count_; }
@@ -51,19 +51,19 @@ class OffsetBuffer {
 
  private:
   struct alignas(64) Values {
-    double value[kernel_lane];
+    double value[kernel_packet];
   };
 
   void resize(int count) {
     count_ = count;
-    room_ = static_cast<std::size_t>(toLanes(count)) / kernel_lane;
+    room_ = static_cast<std::size_t>(toPackets(count)) / kernel_packet;
     if (memory_.size() < 3 * room_ + 1) memory_.resize(3 * room_ + 1);  // never empty
   }
   double* axis(int c) { return (memory_.data() + c * room_)->value; }
   const double* axis(int c) const { return (memory_.data() + c * room_)->value; }
 
   RawBuffer<Values> memory_;  ///< x, y, z, one after the other
-  std::size_t room_ = 0;      ///< of each, in lanes
+  std::size_t room_ = 0;      ///< of each, in packets
   int count_ = 0;
 };
 

@@ -14,7 +14,7 @@ constexpr double steep = 0.5;  // sine of the angle between a tangent plane and 
 
 /// Whether p lies beyond the neighbours that q looked at.
 bool isUnseen(const Stars& stars, const PointsView& points, int p, int q) {
-  return (points.row(p) - points.row(q)).squaredNorm() > stars.reach[q] * stars.reach[q];
+  return (points.row(p) - points.row(q)).squaredNorm() > stars.fit_radius[q] * stars.fit_radius[q];
 }
 
 /// Whether p lies far off the tangent plane of q, for its distance.

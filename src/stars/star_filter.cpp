@@ -67,19 +67,19 @@ struct SquaredRadius {
 /// corners, which are bridges to outliers.
 bool isTooLarge(const Stars& stars, int p, int i) {
   const int a = stars.link[i], b = stars.link[stars.after(p, i)];
-  const double smallest = std::min({stars.reach[p], stars.reach[a], stars.reach[b]});
-  return stars.radius[i] > stars.reach[p] || stars.radius[i] > 4 * smallest;
+  const double smallest = std::min({stars.fit_radius[p], stars.fit_radius[a], stars.fit_radius[b]});
+  return stars.radius[i] > stars.fit_radius[p] || stars.radius[i] > 4 * smallest;
 }
 
 /// Filter::votes: far larger than the neighbourhood; or of one star alone and, in space, large for its corners: for
 /// any of them, or for those around a point that sees further than they do.
 bool isImplausible(const Stars& stars, const PointsView& points, int p, int i) {
   const int a = stars.link[i], b = stars.link[stars.after(p, i)];
-  if (stars.radius[i] > 3 * stars.reach[p]) return true;
-  const double smallest = std::min({stars.reach[p], stars.reach[a], stars.reach[b]});
+  if (stars.radius[i] > 3 * stars.fit_radius[p]) return true;
+  const double smallest = std::min({stars.fit_radius[p], stars.fit_radius[a], stars.fit_radius[b]});
   const SquaredRadius radius(points, p, a, b, smallest);
   if (radius.isAtMost(1)) return false;
-  const bool sees_further = stars.reach[p] > further * std::max(stars.reach[a], stars.reach[b]);
+  const bool sees_further = stars.fit_radius[p] > further * std::max(stars.fit_radius[a], stars.fit_radius[b]);
   if (radius.isAtMost(4) && !sees_further) return false;
   return otherVotes(stars, p, i) == 0;
 }
@@ -115,7 +115,7 @@ void filterStars(Stars& stars, const PointsView& points, Filter filter, const Wo
   if (stars.size() == 0) return;
   const bool any_isolated = std::any_of(stars.isolated.begin(), stars.isolated.end(), [](auto is) { return is != 0; });
   // No triangle smaller than this is condemned, so that their corners need not be looked at.
-  const double harmless = *std::min_element(stars.reach.begin(), stars.reach.end());
+  const double harmless = *std::min_element(stars.fit_radius.begin(), stars.fit_radius.end());
   report.dropped_triangles += dropTriangles(stars, workers, [&](int p, int i) {
     if (any_isolated && (stars.isolated[stars.link[i]] != 0 || stars.isolated[stars.link[stars.after(p, i)]] != 0))
       return true;

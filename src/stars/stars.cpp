@@ -14,11 +14,11 @@
 #include "base/power_of_two.h"
 #include "base/require.h"
 #include "stars/delaunay_star.h"
+#include "stars/displacements.h"
 #include "stars/inverted_star.h"
 #include "stars/neighborhood.h"
 #include "stars/offsets.h"
 #include "stars/star_gap.h"
-#include "stars/surface_moves.h"
 #include "stars/tangent_frame.h"
 
 namespace tufted {
@@ -81,11 +81,11 @@ class BlocksInOrder {
 
 /// Memory, counts and times of one worker.
 struct WorkerState {
-  Buffer<Neighborhood> hoods;
+  Buffer<Neighborhood> neighborhoods;
   std::array<OffsetBuffer, group_size> offsets;
   FitScratch fits;
-  HoodScratch hood;
-  Neighborhood saved_hood;
+  NeighborhoodScratch neighborhood;
+  Neighborhood saved_neighborhood;
   DelaunayStar saved_star;
   Buffer<PlanarPoint> planar;
   StarScratch scratch;
@@ -104,28 +104,31 @@ class StarBuilder {
         finder_(cloud.points, source, options),
         wrap_(options.delaunay == Delaunay::star ? delaunayStar : cgalBackend()),
         has_short_cut_(options.delaunay == Delaunay::star),
-        denoises_(stars.move.rows() > 0),
+        denoises_(stars.displacement.rows() > 0),
         stars_(stars) {}
 
   /// Leaves the stars in state.block.
   void build(std::int64_t begin, std::int64_t end, WorkerState& state, NoisyPoints& noisy) const {
     const int count = static_cast<int>(end - begin);
     const int first = static_cast<int>(begin);
-    state.hoods.resize(std::max<std::size_t>(state.hoods.size(), count));
+    state.neighborhoods.resize(std::max<std::size_t>(state.neighborhoods.size(), count));
     state.block.link.reserve(usual_degree * count);
     state.block.triangle.reserve(usual_degree * count);
     state.block.radius.reserve(usual_degree * count);
     Stopwatch watch;
-    finder_.find(first, count, state.hood, state.hoods.data());
+    finder_.find(first, count, state.neighborhood, state.neighborhoods.data());
     state.seconds[0] += watch.restart();
     for (int group = 0; group < count; group += group_size) {
       const int group_end = std::min(count, group + group_size);
-      const std::span hoods(state.hoods.data() + group, state.hoods.data() + group_end);
-      finder_.fitPlanes(first + group, hoods, state.offsets);
-      for (int i = group; i < group_end; ++i) takeFrame(first + i, state.hoods[i], state.offsets[i - group], state);
-      if (denoises_) moveNoisyPoints(first + group, hoods, state.offsets, state.fits, stars_.move, noisy);
+      const std::span neighborhoods(state.neighborhoods.data() + group, state.neighborhoods.data() + group_end);
+      finder_.fitPlanes(first + group, neighborhoods, state.offsets);
+      for (int i = group; i < group_end; ++i)
+        takeFrame(first + i, state.neighborhoods[i], state.offsets[i - group], state);
+      if (denoises_)
+        displaceNoisyPoints(first + group, neighborhoods, state.offsets, state.fits, stars_.displacement, noisy);
       state.seconds[1] += watch.restart();
-      for (int i = group; i < group_end; ++i) wrapStar(first + i, state.hoods[i], state.offsets[i - group], state);
+      for (int i = group; i < group_end; ++i)
+        wrapStar(first + i, state.neighborhoods[i], state.offsets[i - group], state);
       state.seconds[2] += watch.restart();
     }
   }
@@ -141,29 +144,30 @@ class StarBuilder {
 #endif
   }
 
-  void takeFrame(int p, Neighborhood& hood, OffsetBuffer& offsets, WorkerState& state) const {
-    finder_.refine(p, hood, offsets, state.hood);
-    state.grown_neighborhoods += hood.grown ? 1 : 0;
-    state.split_neighborhoods += hood.split ? 1 : 0;
-    state.isolated += hood.isolated ? 1 : 0;
-    if (source_.normals.rows() > 0 && !source_.normals.row(p).isZero(0)) hood.axes.normal = source_.normals.row(p);
-    stars_.normals.row(p) = hood.axes.normal;
-    stars_.reach[p] = hood.reach;
-    stars_.isolated[p] = hood.isolated ? 1 : 0;
-    stars_.flat[p] = hood.axes.variance[0] < flat_share * hood.axes.variance[1] ? 1 : 0;
+  void takeFrame(int p, Neighborhood& neighborhood, OffsetBuffer& offsets, WorkerState& state) const {
+    finder_.refine(p, neighborhood, offsets, state.neighborhood);
+    state.grown_neighborhoods += neighborhood.grown ? 1 : 0;
+    state.split_neighborhoods += neighborhood.split ? 1 : 0;
+    state.isolated += neighborhood.isolated ? 1 : 0;
+    if (source_.normals.rows() > 0 && !source_.normals.row(p).isZero(0))
+      neighborhood.axes.normal = source_.normals.row(p);
+    stars_.normals.row(p) = neighborhood.axes.normal;
+    stars_.fit_radius[p] = neighborhood.fit_radius;
+    stars_.isolated[p] = neighborhood.isolated ? 1 : 0;
+    stars_.flat[p] = neighborhood.axes.variance[0] < flat_share * neighborhood.axes.variance[1] ? 1 : 0;
   }
 
   /// Calls visit(planar, neighbors) for the neighbours projected to the tangent plane of p, times `unit`, as many at a
   /// time as `planar` holds, until it returns false.
   template <class Visit>
-  void projectParts(const Neighborhood& hood, double unit, const Offsets& offsets, const Visit& visit) const {
-    const Eigen::Vector3d x = tangentOf(hood.axes.normal), y = hood.axes.normal.cross(x);
+  void projectParts(const Neighborhood& neighborhood, double unit, const Offsets& offsets, const Visit& visit) const {
+    const Eigen::Vector3d x = tangentOf(neighborhood.axes.normal), y = neighborhood.axes.normal.cross(x);
     PlanarOffsets planar;
     for (int first = 0; first < offsets.count; first += PlanarOffsets::most) {
       const int count = std::min(offsets.count - first, PlanarOffsets::most);
       kernels_.project({count, offsets.x + first, offsets.y + first, offsets.z + first}, unit, x.data(), y.data(),
                        planar);
-      if (!visit(planar, std::span<const Neighbor>(hood.neighbors).subspan(first, count))) break;
+      if (!visit(planar, std::span<const Neighbor>(neighborhood.neighbors).subspan(first, count))) break;
     }
   }
 
@@ -172,10 +176,10 @@ class StarBuilder {
   }
 
   /// The star among the neighbours.
-  void wrap(int p, const Neighborhood& hood, double unit, const Offsets& offsets, WorkerState& state) const {
+  void wrap(int p, const Neighborhood& neighborhood, double unit, const Offsets& offsets, WorkerState& state) const {
     state.planar.clear();
     StarKind kind = StarKind::unknown;
-    projectParts(hood, unit, offsets, [&](const PlanarOffsets& planar, std::span<const Neighbor> neighbors) {
+    projectParts(neighborhood, unit, offsets, [&](const PlanarOffsets& planar, std::span<const Neighbor> neighbors) {
       if (planar.count == offsets.count && has_short_cut_)
         kind = wrapInverted(kernels_, planar, neighbors, state.star, state.planar);
       if (kind == StarKind::closed || kind == StarKind::tied) return false;
@@ -191,10 +195,10 @@ class StarBuilder {
   }
 
   /// Whether the star is open among more neighbours as well, without building it.
-  bool staysOpen(const Eigen::Vector2d& gap, const Neighborhood& hood, double unit, const Offsets& offsets,
+  bool staysOpen(const Eigen::Vector2d& gap, const Neighborhood& neighborhood, double unit, const Offsets& offsets,
                  WorkerState& state) const {
     state.planar.clear();
-    projectParts(hood, unit, offsets, [&](const PlanarOffsets& planar, std::span<const Neighbor> neighbors) {
+    projectParts(neighborhood, unit, offsets, [&](const PlanarOffsets& planar, std::span<const Neighbor> neighbors) {
       append(planar, neighbors, state.planar);
       return true;
     });
@@ -203,51 +207,55 @@ class StarBuilder {
 
   /// Wraps the star and looks further where what was found is no proof that the star is right: a circle of a closed
   /// star leaves the ball that was searched, or the star is open and might not be among more neighbours.
-  void wrapUntilCertain(int p, Neighborhood& hood, double unit, OffsetBuffer& offsets, WorkerState& state) const {
+  void wrapUntilCertain(int p, Neighborhood& neighborhood, double unit, OffsetBuffer& offsets,
+                        WorkerState& state) const {
     const bool thorough = options_.steps.star_search == StarSearch::thorough;
     DelaunayStar& star = state.star;
-    int most = 2 * hood.k;
-    if (thorough) most = hood.k >= finder_.mostNeighbors() ? hood.k : std::max(2 * source_.k, most);
+    int most = 2 * neighborhood.k;
+    if (thorough) most = neighborhood.k >= finder_.mostNeighbors() ? neighborhood.k : std::max(2 * source_.k, most);
     int open_tries = thorough && !source_.isGraded() ? 2 : 0;  // graded neighbours reach past the star as it is
-    wrap(p, hood, unit, offsets.view(), state);
+    wrap(p, neighborhood, unit, offsets.view(), state);
     for (;;) {
       if (star.closed) {
-        if (2 * star.largestCircumradius() <= hood.radius * unit || !finder_.grow(p, most, hood, offsets, state.hood))
+        if (2 * star.largestCircumradius() <= neighborhood.radius * unit ||
+            !finder_.grow(p, most, neighborhood, offsets, state.neighborhood))
           return;
         ++state.grown_stars;
-        wrap(p, hood, unit, offsets.view(), state);
+        wrap(p, neighborhood, unit, offsets.view(), state);
         if (!thorough) return;
         continue;
       }
       if (open_tries == 0) return;
       state.saved_star = star;
-      state.saved_hood = hood;
+      state.saved_neighborhood = neighborhood;
       const Eigen::Vector2d gap = middleOfGap(star);
-      while (!star.closed && open_tries-- > 0 && finder_.grow(p, 2 * hood.k, hood, offsets, state.hood))
-        if (!staysOpen(gap, hood, unit, offsets.view(), state)) wrap(p, hood, unit, offsets.view(), state);
+      while (!star.closed && open_tries-- > 0 &&
+             finder_.grow(p, 2 * neighborhood.k, neighborhood, offsets, state.neighborhood))
+        if (!staysOpen(gap, neighborhood, unit, offsets.view(), state))
+          wrap(p, neighborhood, unit, offsets.view(), state);
       open_tries = 0;
       if (!star.closed) {
         star = state.saved_star;
-        hood = state.saved_hood;
+        neighborhood = state.saved_neighborhood;
         return;
       }
       ++state.reopened_stars;
-      most = std::max(most, 2 * hood.k);
+      most = std::max(most, 2 * neighborhood.k);
     }
   }
 
-  void wrapStar(int p, Neighborhood& hood, OffsetBuffer& offsets, WorkerState& state) const {
-    // A power of two near the reach, so that the predicates meet numbers near 1 and scaling rounds nothing.
-    const double unit = magnitudeOf(hood.reach);
+  void wrapStar(int p, Neighborhood& neighborhood, OffsetBuffer& offsets, WorkerState& state) const {
+    // A power of two near the fit radius, so that the predicates meet numbers near 1 and scaling rounds nothing.
+    const double unit = magnitudeOf(neighborhood.fit_radius);
     DelaunayStar& star = state.star;
-    if (hood.isolated) {
+    if (neighborhood.isolated) {
       star.link.clear();
       star.closed = false;
     } else {
-      wrapUntilCertain(p, hood, 1 / unit, offsets, state);
+      wrapUntilCertain(p, neighborhood, 1 / unit, offsets, state);
     }
 
-    state.cut_neighbors += hood.cut;
+    state.cut_neighbors += neighborhood.cut;
     state.open_stars += star.closed ? 0 : 1;
     stars_.ends[p] = star.closed ? 0 : 1;
     stars_.offset[p + 1] = static_cast<int>(star.link.size());
@@ -282,8 +290,8 @@ std::int64_t Stars::triangles() const {
 }
 
 std::size_t Stars::bytes() const {
-  return bytesOf(triangle) + bytesOf(offset) + bytesOf(link) + bytesOf(radius) + bytesOf(reach) + bytesOf(ends) +
-         bytesOf(isolated) + bytesOf(flat) + bytesOf(disagrees) + normals.bytes() + move.bytes();
+  return bytesOf(triangle) + bytesOf(offset) + bytesOf(link) + bytesOf(radius) + bytesOf(fit_radius) + bytesOf(ends) +
+         bytesOf(isolated) + bytesOf(flat) + bytesOf(disagrees) + normals.bytes() + displacement.bytes();
 }
 
 Stars buildStars(const RankedCloud& cloud, const NeighborSource& source, const CloudOptions& options,
@@ -291,12 +299,12 @@ Stars buildStars(const RankedCloud& cloud, const NeighborSource& source, const C
   const int n = cloud.size();
   Stars stars;
   stars.offset.assign(static_cast<std::size_t>(n) + 1, 0);
-  stars.reach.resize(n);
+  stars.fit_radius.resize(n);
   stars.ends.resize(n);
   stars.isolated.resize(n);
   stars.flat.resize(n);
   stars.normals.resize(n);
-  if (options.steps.lengths == Lengths::denoised && !source.isWholeCloud(n)) stars.move.setZero(n);
+  if (options.steps.lengths == Lengths::denoised && !source.isWholeCloud(n)) stars.displacement.setZero(n);
 
   Stopwatch wall;
   const std::int64_t blocks = (n + block_size - 1) / block_size;
@@ -314,11 +322,12 @@ Stars buildStars(const RankedCloud& cloud, const NeighborSource& source, const C
 
   for (const NoisyPoints& points : noisy) report.denoised += std::ssize(points.rank);
   if (report.denoised > 0) {
-    const PointBuffer moved = stars.move;
+    const PointBuffer moved = stars.displacement;
     workers.forBlocks("surface", blocks, 1, [&](std::int64_t begin, std::int64_t end, int worker) {
       WorkerState& state = states[worker];
       for (std::int64_t b = begin; b < end; ++b)
-        moveOnceMore(cloud.points, moved, noisy[b], stars.reach, state.offsets, state.fits, stars.move);
+        displaceOnceMore(cloud.points, moved, noisy[b], stars.fit_radius, state.offsets, state.fits,
+                         stars.displacement);
     });
   }
 

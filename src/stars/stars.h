@@ -23,14 +23,14 @@ struct Stars {
   RawBuffer<int> link;               ///< ranks
   RawBuffer<std::uint8_t> triangle;  ///< per link entry, 0 where there is none
   RawBuffer<double> radius;          ///< circumradius in the tangent plane, per link entry, until the cover is built
-  RawBuffer<double> reach;           ///< n, r_k: distance to the last neighbour before a star grows
+  RawBuffer<double> fit_radius;      ///< n, r_k: distance to the last neighbour before a star grows
   RawBuffer<std::uint8_t> ends;      ///< n, 1 where the surface ends at p: an open star or a lost triangle
   RawBuffer<std::uint8_t>
       isolated;  ///< n, 1 for points without a star: outliers, and where all neighbours are of other sheets
   Buffer<std::uint8_t> disagrees;  ///< n, see findDisagreement(); empty before the filter has run
   RawBuffer<std::uint8_t> flat;    ///< n, 1 where the neighbourhood is next to a plane
   PointBuffer normals;             ///< n x 3
-  PointBuffer move;                ///< n x 3, from each point to where lengths are measured; 0 x 3: no point moves
+  PointBuffer displacement;        ///< n x 3, from each point to where lengths are measured; 0 x 3: no point moves
 
   int size() const { return std::max(0, static_cast<int>(offset.size()) - 1); }
   /// The link entry after i in star p, cyclically.

@@ -57,11 +57,11 @@ Covariance covarianceOf(const Offsets& neighbors, double size) {
 
 void principalAxes(std::span<const Covariance> covariances, std::span<PrincipalAxes> axes) {
   const Kernels& kernel = kernels();
-  for (std::size_t first = 0; first < covariances.size(); first += kernel_lane) {
-    const auto part = covariances.subspan(first, std::min<std::size_t>(kernel_lane, covariances.size() - first));
+  for (std::size_t first = 0; first < covariances.size(); first += kernel_packet) {
+    const auto part = covariances.subspan(first, std::min<std::size_t>(kernel_packet, covariances.size() - first));
     Covariances lanes;
     SmallestAxes found;
-    for (std::size_t i = 0; i < kernel_lane; ++i) {
+    for (std::size_t i = 0; i < kernel_packet; ++i) {
       const Covariance& a = part[std::min(i, part.size() - 1)];
       lanes.xx[i] = a.xx;
       lanes.xy[i] = a.xy;

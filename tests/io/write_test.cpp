@@ -121,7 +121,7 @@ TEST(WriteLaplacian, AFullDiskLeavesNoFileAndNamesThePath) {
   const TemporaryDir dir;
   auto geometry = sampleGeometry();
   auto laplacian = sampleLaplacian();
-  // Reached by the largest file, after others were written.
+  // HeightRange by the largest file, after others were written.
   for (const rlim_t limit : {100u, 400u, 1400u}) {
     std::string message;
     try {

@@ -38,7 +38,7 @@ TEST(Rank, OnALatticeIsItsInterleavedCoordinates) {
     const RankedCloud cloud = rankOn(threads, points, status, representative);
     ASSERT_EQ(cloud.size(), points.rows());
     for (int rank = 0; rank < cloud.size(); ++rank)
-      ASSERT_EQ(interleaved(points.row(cloud.caller[rank])), rank) << threads << " threads";
+      ASSERT_EQ(interleaved(points.row(cloud.input_index[rank])), rank) << threads << " threads";
   }
 }
 
@@ -59,7 +59,7 @@ TEST(Rank, OfCrowdsAndCopiesIsTheSameOnAnyNumberOfThreads) {
   }
   for (const int threads : {2, 5}) {
     const RankedCloud again = rankOn(threads, points, status_again, representative_again);
-    EXPECT_EQ(again.caller, cloud.caller);
+    EXPECT_EQ(again.input_index, cloud.input_index);
     EXPECT_EQ(again.points.all(), cloud.points.all());
     EXPECT_EQ(status_again, status);
     EXPECT_EQ(representative_again, representative);

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "neighbors/group_search.h"
+#include "neighbors/batched_search.h"
 #include "neighbors/morton.h"
 #include "shapes/random.h"
 #include "shapes/shapes.h"
@@ -97,7 +97,7 @@ TEST(Neighbors, AreTheSameInAnyNumberOfTrees) {
       several.nearest(p, 30, found, NeighborOrder::ascending, &before);
       expectSame(p);
     }
-    GroupScratch scratch;
+    BatchScratch scratch;
     nearestOfEach(one, ranked.points, 0, ranked.size(), 30, kernels(), scratch, expected);
     nearestOfEach(several, ranked.points, 0, ranked.size(), 30, kernels(), scratch, found);
     expectSame(-1);
@@ -119,7 +119,7 @@ TEST(Neighbors, OfEachAreThoseOfOne) {
     const RankedCloud ranked = rankPoints(cloud.points, status, representative);
     const NeighborSearch search(ranked.points);
     const int k = std::min(30, ranked.size() - 1);
-    GroupScratch scratch;
+    BatchScratch scratch;
     Buffer<Neighbor> each, one;
     for (const Kernels* kernel : {&portableKernels(), &kernels()}) {
       nearestOfEach(search, ranked.points, 0, ranked.size(), 30, *kernel, scratch, each);
@@ -142,7 +142,7 @@ TEST(Neighbors, OfKnownCandidatesAreThoseOfTheTree) {
     std::vector<int> representative;
     const RankedCloud ranked = rankPoints(cloud.points, status, representative);
     const NeighborSearch search(ranked.points);
-    GroupScratch scratch;
+    BatchScratch scratch;
     Buffer<Neighbor> each, known, expected;
     EXPECT_FALSE(
         nearestOfKnown(search, ranked.points, 0, 1, 1, kernels(), scratch, known));  // nothing was asked before
@@ -182,7 +182,7 @@ TEST(Neighbors, OfKnownCandidatesOutliveASearchThatFailed) {
   for (Eigen::Index i = lattice.rows(); i < points.rows(); ++i)
     points.row(i) << 1000 + double(i % 2) + 1e-3 * random.uniform(), 1e-3 * random.uniform(), 1e-3 * random.uniform();
   const NeighborSearch search(points);
-  GroupScratch scratch;
+  BatchScratch scratch;
   Buffer<Neighbor> each, known, expected;
   const int n = static_cast<int>(lattice.rows());
   nearestOfEach(search, points, 0, n + 32, 8, kernels(), scratch, each);

@@ -25,12 +25,13 @@ struct Scan {
     search->nearest(rank(point), k, found);
     EXPECT_TRUE(std::is_sorted(found.begin(), found.end()));
     std::vector<int> points;
-    for (const Neighbor& q : found) points.push_back(cloud.caller[q.index]);
+    for (const Neighbor& q : found) points.push_back(cloud.input_index[q.index]);
     return points;
   }
 
   int rank(int point) const {
-    return static_cast<int>(std::find(cloud.caller.begin(), cloud.caller.end(), point) - cloud.caller.begin());
+    return static_cast<int>(std::find(cloud.input_index.begin(), cloud.input_index.end(), point) -
+                            cloud.input_index.begin());
   }
 
   Report report;
@@ -60,7 +61,7 @@ TEST(ImageSearch, FindsTheNearestOfAllPointsOnPlanes) {
     const NeighborSearch tree(scan.cloud.points);
     Buffer<Neighbor> found, expected;
     for (int p = 0; p < scan.cloud.size(); ++p) {
-      const int column = scan.cloud.caller[p] % width, row = scan.cloud.caller[p] / width;
+      const int column = scan.cloud.input_index[p] % width, row = scan.cloud.input_index[p] / width;
       if (std::min({column, row, width - 1 - column, height - 1 - row}) < 12) continue;
       scan.search->nearest(p, 30, found);
       tree.nearest(p, 30, expected);
@@ -83,8 +84,8 @@ TEST(ImageSearch, NeverLooksAcrossADepthJump) {
     for (const int q : scan.around(i, 60)) ASSERT_EQ(q % width < 30, i % width < 30) << i << " and " << q;
   }
   Buffer<Neighbor> found;
-  const auto rank = std::find(scan.cloud.caller.begin(), scan.cloud.caller.end(), 25 * width + 30);
-  const auto p = static_cast<int>(rank - scan.cloud.caller.begin());
+  const auto rank = std::find(scan.cloud.input_index.begin(), scan.cloud.input_index.end(), 25 * width + 30);
+  const auto p = static_cast<int>(rank - scan.cloud.input_index.begin());
   EXPECT_GT(scan.search->nearest(p, 30, found).cut, 0);
 }
 
@@ -98,7 +99,7 @@ TEST(ImageSearch, PassesOverPixelsWithoutAPoint) {
   Buffer<Neighbor> found, expected;
   int equal = 0, inner = 0;
   for (int p = 0; p < scan.cloud.size(); ++p) {
-    const int column = scan.cloud.caller[p] % width, row = scan.cloud.caller[p] / width;
+    const int column = scan.cloud.input_index[p] % width, row = scan.cloud.input_index[p] / width;
     if (std::min({column, row, width - 1 - column, height - 1 - row}) < 12) continue;
     scan.search->nearest(p, 30, found);
     tree.nearest(p, 30, expected);

@@ -19,7 +19,7 @@ std::optional<VectorXd> exactDistances(const Points& points, const Triangles& tr
   namespace processing = CGAL::Polygon_mesh_processing;
 
   // Without vertices of no triangle, which the search does not expect.
-  std::vector<int> number(points.rows(), -1), caller;
+  std::vector<int> number(points.rows(), -1), input_index;
   std::vector<Kernel::Point_3> corners;
   std::vector<std::array<std::size_t, 3>> soup;
   for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
@@ -28,7 +28,7 @@ std::optional<VectorXd> exactDistances(const Points& points, const Triangles& tr
       const int i = triangles(f, k);
       if (number[i] < 0) {
         number[i] = static_cast<int>(corners.size());
-        caller.push_back(i);
+        input_index.push_back(i);
         corners.emplace_back(points(i, 0), points(i, 1), points(i, 2));
       }
       polygon[k] = static_cast<std::size_t>(number[i]);
@@ -57,7 +57,7 @@ std::optional<VectorXd> exactDistances(const Points& points, const Triangles& tr
   VectorXd result = VectorXd::Constant(points.rows(), std::numeric_limits<double>::quiet_NaN());
   for (const auto vertex : mesh.vertices()) {
     const double distance = search.shortest_distance_to_source_points(vertex).first;
-    if (distance >= 0) result[caller[vertex.idx()]] = distance;
+    if (distance >= 0) result[input_index[vertex.idx()]] = distance;
   }
   return result;
 }

@@ -63,14 +63,14 @@ Book badBook(int pages, int n, double stretch, std::uint64_t seed) {
   std::vector<int> corners;
   int next = n + 1;
   for (int page = 0; page < pages; ++page) {
-    std::vector<int> caller(n + 1);
-    for (int i = 0; i <= n; ++i) caller[i] = i;
+    std::vector<int> input_index(n + 1);
+    for (int i = 0; i <= n; ++i) input_index[i] = i;
     const double angle = 2 * M_PI * page / pages;
     const auto add = [&](double outward, double height) {
       book.points.row(next) << outward * std::cos(angle), outward * std::sin(angle), height;
       book.outward[next] = outward;
       book.page[next] = page;
-      caller.push_back(next++);
+      input_index.push_back(next++);
     };
     for (int i = 0; i <= n; ++i) add(1, static_cast<double>(i) / n);
     for (int i = 1; i <= n / 2; ++i) {
@@ -80,14 +80,14 @@ Book badBook(int pages, int n, double stretch, std::uint64_t seed) {
       const double outward = random.uniform(0.01, 0.99);
       add(outward, random.uniform(0.01, 0.99));
     }
-    Points flat = Points::Zero(static_cast<Eigen::Index>(caller.size()), 3);
-    for (std::size_t k = 0; k < caller.size(); ++k) {
-      flat(static_cast<Eigen::Index>(k), 0) = book.outward[caller[k]];
-      flat(static_cast<Eigen::Index>(k), 1) = book.points(caller[k], 2);
+    Points flat = Points::Zero(static_cast<Eigen::Index>(input_index.size()), 3);
+    for (std::size_t k = 0; k < input_index.size(); ++k) {
+      flat(static_cast<Eigen::Index>(k), 0) = book.outward[input_index[k]];
+      flat(static_cast<Eigen::Index>(k), 1) = book.points(input_index[k], 2);
     }
     const Triangles triangles = stretchedDelaunay(flat, stretch);
     for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
-      for (int k = 0; k < 3; ++k) corners.push_back(caller[triangles(f, k)]);
+      for (int k = 0; k < 3; ++k) corners.push_back(input_index[triangles(f, k)]);
     }
   }
   book.triangles = Eigen::Map<Triangles>(corners.data(), static_cast<Eigen::Index>(corners.size() / 3), 3);

@@ -60,14 +60,14 @@ TEST_P(FlatSolid, NeedsItsFlips) {
   }
   glueEdges(cover, bad.points, {}, workers);
   measureLengths(cover, bad.points, Points(0, 3), workers);
-  Buffer<int> caller(n);
-  for (int i = 0; i < n; ++i) caller[i] = i;
+  Buffer<int> input_index(n);
+  for (int i = 0; i < n; ++i) input_index[i] = i;
   Laplacian before, after;
-  assembleLaplacian(cover, caller, n, 0.5, workers, before);
+  assembleLaplacian(cover, input_index, n, 0.5, workers, before);
   EXPECT_FALSE(validate(cover).ok());
   EXPECT_GT(before.report.clamped_large, 0);
   flipToDelaunay(cover, workers);
-  assembleLaplacian(cover, caller, n, 0.5, workers, after);
+  assembleLaplacian(cover, input_index, n, 0.5, workers, after);
   EXPECT_TRUE(validate(cover).ok());
   EXPECT_EQ(after.report.clamped_large, 0);
   EXPECT_GT(largestDifference(before.L, after.L), 1e-2);

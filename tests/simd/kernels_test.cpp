@@ -67,12 +67,12 @@ TEST(Kernels, KeepWhatIsReachedInItsOrder) {
       OffsetBuffer offsets;
       offsets.take(points, 0, std::span(neighbors).first(count));
       const Offsets all = offsets.view();
-      std::vector<double> heights(toLanes(static_cast<int>(count)));
+      std::vector<double> heights(toPackets(static_cast<int>(count)));
       std::array<std::vector<double>, 3> expected;
       const Eigen::Vector3d normal(0, 0, 1);
-      const Reached reached = kernel->reachHeights(all, normal.data(), 0.02, heights.data());
+      const HeightRange range = kernel->connectedHeights(all, normal.data(), 0.02, heights.data());
       for (int i = 0; i < all.count; ++i) {
-        if (heights[i] < reached.lowest || heights[i] > reached.highest) continue;
+        if (heights[i] < range.lowest || heights[i] > range.highest) continue;
         expected[0].push_back(all.x[i]);
         expected[1].push_back(all.y[i]);
         expected[2].push_back(all.z[i]);
@@ -80,15 +80,15 @@ TEST(Kernels, KeepWhatIsReachedInItsOrder) {
       std::array<std::vector<double>, 3> kept;
       for (auto& axis : kept) axis.assign(heights.size(), NAN);
       const int size =
-          kernel->keepReached(all, heights.data(), reached, kept[0].data(), kept[1].data(), kept[2].data());
+          kernel->keepConnected(all, heights.data(), range, kept[0].data(), kept[1].data(), kept[2].data());
       ASSERT_EQ(size, std::ssize(expected[0]));
       for (int c = 0; c < 3; ++c) {
-        expected[c].resize(toLanes(size));
+        expected[c].resize(toPackets(size));
         EXPECT_TRUE(std::equal(expected[c].begin(), expected[c].end(), kept[c].begin()));
       }
       OffsetBuffer in_place = offsets;
       chooseKernels(kernel);
-      in_place.takeReached(in_place, heights.data(), reached);
+      in_place.takeConnected(in_place, heights.data(), range);
       chooseKernels(nullptr);
       ASSERT_EQ(in_place.count(), size);
       EXPECT_TRUE(std::equal(expected[2].begin(), expected[2].end(), in_place.view().z));
@@ -180,7 +180,7 @@ TEST(Kernels, ReachHeightsOverGapsThatAreNotTooWide) {
   for (int count = 0; count < 120; ++count) {
     Points points(count, 3);
     for (double& x : points.reshaped()) x = random.normal();
-    const int room = toLanes(count);
+    const int room = toPackets(count);
     Buffer<double> x(room), y(room), z(room), height(room);
     std::vector<double> up, down;
     for (int i = 0; i < count; ++i) {
@@ -190,14 +190,14 @@ TEST(Kernels, ReachHeightsOverGapsThatAreNotTooWide) {
     }
     const double gap = 4.0 / (count + 1);
     for (const Kernels* kernel : {&portableKernels(), &kernels()}) {
-      const Reached reached =
-          kernel->reachHeights({count, x.data(), y.data(), z.data()}, normal.data(), gap, height.data());
-      EXPECT_EQ(reached.highest, climb(up, gap)) << count;
-      EXPECT_EQ(reached.lowest, -climb(down, gap)) << count;
-      EXPECT_EQ(reached.top, std::max(0.0, count > 0 ? *std::max_element(up.begin(), up.end()) : 0)) << count;
-      EXPECT_EQ(reached.bottom, -std::max(0.0, count > 0 ? *std::max_element(down.begin(), down.end()) : 0)) << count;
+      const HeightRange range =
+          kernel->connectedHeights({count, x.data(), y.data(), z.data()}, normal.data(), gap, height.data());
+      EXPECT_EQ(range.highest, climb(up, gap)) << count;
+      EXPECT_EQ(range.lowest, -climb(down, gap)) << count;
+      EXPECT_EQ(range.top, std::max(0.0, count > 0 ? *std::max_element(up.begin(), up.end()) : 0)) << count;
+      EXPECT_EQ(range.bottom, -std::max(0.0, count > 0 ? *std::max_element(down.begin(), down.end()) : 0)) << count;
       EXPECT_TRUE(std::equal(up.begin(), up.end(), height.begin()));
-      ends += reached.highest < reached.top && reached.lowest > reached.bottom ? 1 : 0;
+      ends += range.highest < range.top && range.lowest > range.bottom ? 1 : 0;
     }
   }
   EXPECT_GT(ends, 20);  // gaps on both sides
@@ -207,27 +207,27 @@ TEST(Kernels, ReachAlongEachNormalWhatIsReachedAlongItAlone) {
   shapes::Random random(8);
   int ends = 0;
   for (int count = 0; count < 120; ++count) {
-    const int room = toLanes(count);
-    Buffer<double> x(room), y(room), z(room), height(room), along(static_cast<std::size_t>(kernel_lane) * count);
+    const int room = toPackets(count);
+    Buffer<double> x(room), y(room), z(room), height(room), along(static_cast<std::size_t>(kernel_packet) * count);
     for (int i = 0; i < count; ++i) x[i] = random.normal(), y[i] = random.normal(), z[i] = random.normal();
     const Offsets offsets{count, x.data(), y.data(), z.data()};
     Normals normals{};  // one is zero
-    for (int j = 0; j + 1 < kernel_lane; ++j) {
+    for (int j = 0; j + 1 < kernel_packet; ++j) {
       const Eigen::Vector3d normal = Eigen::Vector3d(random.normal(), random.normal(), random.normal()).normalized();
       normals.x[j] = normal.x(), normals.y[j] = normal.y(), normals.z[j] = normal.z();
     }
     const double gap = 4.0 / (count + 1);
     for (const Kernels* kernel : {&portableKernels(), &kernels()}) {
-      std::array<Reached, kernel_lane> reached;
-      kernel->reachAlong(offsets, normals, gap, along.data(), reached.data());
-      for (int j = 0; j < kernel_lane; ++j) {
+      std::array<HeightRange, kernel_packet> range;
+      kernel->connectedHeightsAlong(offsets, normals, gap, along.data(), range.data());
+      for (int j = 0; j < kernel_packet; ++j) {
         const std::array<double, 3> normal = {normals.x[j], normals.y[j], normals.z[j]};
-        const Reached alone = portableKernels().reachHeights(offsets, normal.data(), gap, height.data());
-        EXPECT_EQ(reached[j].highest, alone.highest) << count;
-        EXPECT_EQ(reached[j].lowest, alone.lowest) << count;
-        EXPECT_EQ(reached[j].top, alone.top) << count;
-        EXPECT_EQ(reached[j].bottom, alone.bottom) << count;
-        for (int i = 0; i < count; ++i) ASSERT_EQ(along[kernel_lane * i + j], height[i]);
+        const HeightRange alone = portableKernels().connectedHeights(offsets, normal.data(), gap, height.data());
+        EXPECT_EQ(range[j].highest, alone.highest) << count;
+        EXPECT_EQ(range[j].lowest, alone.lowest) << count;
+        EXPECT_EQ(range[j].top, alone.top) << count;
+        EXPECT_EQ(range[j].bottom, alone.bottom) << count;
+        for (int i = 0; i < count; ++i) ASSERT_EQ(along[kernel_packet * i + j], height[i]);
         ends += alone.highest < alone.top && alone.lowest > alone.bottom ? 1 : 0;
       }
     }
@@ -251,7 +251,7 @@ TEST(Kernels, MeasureTrianglesByTheFormulasOfGeometry) {
   }
   const auto measure = [&](const Kernels& kernel, double more, auto& result) {
     for (auto& values : result) values.assign(room, 0);
-    kernel.measureFans(
+    kernel.measureTriangleFans(
         {count, given[0].data(), given[1].data(), given[2].data(), given[3].data(), given[4].data(), given[5].data(),
          result[0].data(), result[1].data(), result[2].data(), result[3].data(), result[4].data(), result[5].data()},
         more);

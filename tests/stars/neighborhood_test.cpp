@@ -22,22 +22,23 @@ class Hoods {
   }
 
   Neighborhood at(int p) {
-    Neighborhood hood;
-    finder_.find(p, 1, scratch_, &hood);
-    finder_.fitPlanes(p, {&hood, 1}, {&offsets_, 1});
-    finder_.refine(p, hood, offsets_, scratch_);
-    expectOffsetsOf(p, hood);
-    return hood;
+    Neighborhood neighborhood;
+    finder_.find(p, 1, scratch_, &neighborhood);
+    finder_.fitPlanes(p, {&neighborhood, 1}, {&offsets_, 1});
+    finder_.refine(p, neighborhood, offsets_, scratch_);
+    expectOffsetsOf(p, neighborhood);
+    return neighborhood;
   }
 
  private:
-  void expectOffsetsOf(int p, const Neighborhood& hood) const {
+  void expectOffsetsOf(int p, const Neighborhood& neighborhood) const {
     const Offsets offsets = offsets_.view();
-    ASSERT_EQ(offsets.count, std::ssize(hood.neighbors));
-    for (int i = 0; i < toLanes(offsets.count); ++i) {
+    ASSERT_EQ(offsets.count, std::ssize(neighborhood.neighbors));
+    for (int i = 0; i < toPackets(offsets.count); ++i) {
       const Eigen::RowVector3d offset(offsets.x[i], offsets.y[i], offsets.z[i]);
-      const Eigen::RowVector3d expected =
-          i < offsets.count ? points_.row(hood.neighbors[i].index) - points_.row(p) : Eigen::RowVector3d(0, 0, 0);
+      const Eigen::RowVector3d expected = i < offsets.count
+                                              ? points_.row(neighborhood.neighbors[i].index) - points_.row(p)
+                                              : Eigen::RowVector3d(0, 0, 0);
       ASSERT_EQ(offset, expected) << p << " " << i;
     }
   }
@@ -47,7 +48,7 @@ class Hoods {
   NeighborSource source_;
   NeighborhoodFinder finder_;
   OffsetBuffer offsets_;
-  HoodScratch scratch_;
+  NeighborhoodScratch scratch_;
 };
 
 /// n points of the unit square at height z, p = row 0 in its middle.
@@ -68,10 +69,10 @@ TEST(Neighborhood, OnALineGrowsUntilItIsAPlane) {
   // Lines 40 times as far apart as the points on them.
   Points lines(9 * 401, 3);
   for (int i = 0; i < lines.rows(); ++i) lines.row(i) << (i % 401 - 200) * 0.01, (i / 401 - 4) * 0.4, 0;
-  const Neighborhood hood = Hoods(lines, {}).at(4 * 401 + 200);
-  EXPECT_TRUE(hood.grown);
-  EXPECT_EQ(hood.k, 120);  // 30 and 60 lie on one line
-  EXPECT_NEAR(std::abs(hood.axes.normal.z()), 1, 1e-12);
+  const Neighborhood neighborhood = Hoods(lines, {}).at(4 * 401 + 200);
+  EXPECT_TRUE(neighborhood.grown);
+  EXPECT_EQ(neighborhood.k, 120);  // 30 and 60 lie on one line
+  EXPECT_NEAR(std::abs(neighborhood.axes.normal.z()), 1, 1e-12);
 }
 
 TEST(Neighborhood, OnAnEvenSurfaceStaysAsItIs) {
@@ -102,18 +103,18 @@ TEST(Neighborhood, LeavesTheOtherSheetOut) {
   EXPECT_TRUE(own.split);
   EXPECT_FALSE(own.isolated);
   EXPECT_NEAR(std::abs(own.axes.normal.z()), 1, 1e-12);
-  EXPECT_EQ(own.reach, mixed.reach);  // what was searched does not depend on what was kept
+  EXPECT_EQ(own.fit_radius, mixed.fit_radius);  // what was searched does not depend on what was kept
 }
 
 TEST(Neighborhood, HoldsOneOfTwoSheetsAtTwoSpacings) {
   // Random gaps leave some points, above all on the rim, with hardly more neighbours on their own sheet than across.
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
     const shapes::Cloud cloud = shapes::twoSheets(4000, 2 * std::sqrt(2.0 / 4000), seed);
-    Hoods hoods(cloud.points, {.steps = cloudSteps(Preset::scan)});
+    Hoods neighborhoods(cloud.points, {.steps = cloudSteps(Preset::scan)});
     int mixed = 0;
     for (int p = 0; p < 4000; ++p) {
-      const Neighborhood hood = hoods.at(p);
-      mixed += std::any_of(hood.neighbors.begin(), hood.neighbors.end(),
+      const Neighborhood neighborhood = neighborhoods.at(p);
+      mixed += std::any_of(neighborhood.neighbors.begin(), neighborhood.neighbors.end(),
                            [&](const Neighbor& q) { return cloud.labels[q.index] != cloud.labels[p]; })
                    ? 1
                    : 0;
@@ -126,9 +127,9 @@ TEST(Neighborhood, OfANoisySheetIsNotSplit) {
   Points points = sheet(4000, 0, 3);
   shapes::Random random(4);
   for (int i = 0; i < points.rows(); ++i) points(i, 2) = 0.005 * random.normal();
-  Hoods hoods(points, {.steps = cloudSteps(Preset::scan)});
+  Hoods neighborhoods(points, {.steps = cloudSteps(Preset::scan)});
   int split = 0;
-  for (int p = 0; p < 500; ++p) split += hoods.at(p).split || hoods.at(p).isolated ? 1 : 0;
+  for (int p = 0; p < 500; ++p) split += neighborhoods.at(p).split || neighborhoods.at(p).isolated ? 1 : 0;
   EXPECT_LE(split, 5);
 }
 
@@ -137,18 +138,18 @@ TEST(Neighborhood, OfAPointBetweenSheetsIsIsolated) {
   const double spacing = 1 / std::sqrt(double(n));
   Points points = sheet(n, 0, 1);
   points.row(0) << 0.5, 0.5, 2.5 * spacing;  // an outlier
-  const Neighborhood hood = Hoods(points, {.steps = cloudSteps(Preset::scan)}).at(0);
-  EXPECT_TRUE(hood.isolated);
+  const Neighborhood neighborhood = Hoods(points, {.steps = cloudSteps(Preset::scan)}).at(0);
+  EXPECT_TRUE(neighborhood.isolated);
 }
 
 TEST(Neighborhood, MayLoseAllItsNeighbors) {
-  // Two points far above each other and above all others: nothing lies within a quarter of the reach.
+  // Two points far above each other and above all others: nothing lies within a quarter of the fit radius.
   Points points(12, 3);
   for (int i = 0; i < 12; ++i) points.row(i) << i % 3, i / 3 % 2, std::pow(3.0, i);
-  Hoods hoods(points, {.neighbors = 9, .steps = cloudSteps(Preset::scan)});
+  Hoods neighborhoods(points, {.neighbors = 9, .steps = cloudSteps(Preset::scan)});
   for (int p = 0; p < points.rows(); ++p) {
-    const Neighborhood hood = hoods.at(p);
-    EXPECT_TRUE(!hood.isolated || hood.neighbors.size() <= 2) << p;
+    const Neighborhood neighborhood = neighborhoods.at(p);
+    EXPECT_TRUE(!neighborhood.isolated || neighborhood.neighbors.size() <= 2) << p;
   }
 }
 

@@ -85,7 +85,7 @@ StarComparison compareStars(const Points& points, int step) {
     result.with_ties += tied ? 1 : 0;
     result.different += different ? 1 : 0;
     if (different && result.first_difference.empty()) {
-      result.first_difference = "point " + std::to_string(cloud.caller[p]) + ": our link has " +
+      result.first_difference = "point " + std::to_string(cloud.input_index[p]) + ": our link has " +
                                 std::to_string(our_link.size()) + " vertices, CGAL's " +
                                 std::to_string(oracle_link.size());
     }

@@ -25,8 +25,8 @@ Triangles unionOfStars(const Points& points, const CloudOptions& options, const 
     for (int i = stars.offset[p]; i < stars.offset[p + 1]; ++i) {
       if (!stars.hasTriangle(i)) continue;
       if (count < triangles.rows()) {
-        triangles.row(count) << cloud.caller[p], cloud.caller[stars.link[i]],
-            cloud.caller[stars.link[stars.after(p, i)]];
+        triangles.row(count) << cloud.input_index[p], cloud.input_index[stars.link[i]],
+            cloud.input_index[stars.link[stars.after(p, i)]];
       }
       ++count;
     }

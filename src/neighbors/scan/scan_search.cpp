@@ -46,7 +46,7 @@ RankedScan rankScan(const ScanStructure& structure, const RankedCloud& cloud, co
     throw InvalidInput(std::string(function_name) + "origin is not finite, must be");
   }
   Buffer<int> rank(status.size(), -1);
-  for (int r = 0; r < cloud.size(); ++r) rank[cloud.caller[r]] = r;
+  for (int r = 0; r < cloud.size(); ++r) rank[cloud.input_index[r]] = r;
   RankedScan scan{Buffer<int>(cloud.size(), -1), Buffer<double>(cloud.size(), 0), {}, std::ssize(status)};
   for (int axis = 0; axis < 3; ++axis) scan.origin[axis] = std::ldexp(structure.origin[axis], -cloud.exponent);
   for (std::size_t i = 0; i < status.size(); ++i) {

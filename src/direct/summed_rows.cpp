@@ -1,4 +1,4 @@
-#include "direct/mixed_rows.h"
+#include "direct/summed_rows.h"
 
 #include <algorithm>
 #include <array>
@@ -7,13 +7,13 @@
 #include "cover/face_areas.h"
 #include "cover/geometry.h"
 #include "direct/block_exchange.h"
-#include "direct/fan_buffer.h"
+#include "direct/triangle_fans.h"
 #include "stars/agreement.h"
 
 namespace tufted {
 namespace {
 
-constexpr int block_size = PartialCover::block_size;
+constexpr int block_size = CoverNearFlips::block_size;
 
 /// Part of the weight of an edge, or of the mass of a point where `low` and `high` are the same.
 struct Term {
@@ -54,7 +54,7 @@ void sumTerms(Buffer<Term>& terms, int begin, SumScratch& scratch) {
 struct WorkerState {
   Buffer<int> numbers;   ///< of the mixed points of a block
   Buffer<double> count;  ///< how often each triangle of a star counts, by entry
-  FanBuffer fans;
+  TriangleFanBuffer fans;
   Buffer<Term> own, others;
   Buffer<int> fill;
   SumScratch sums;
@@ -87,8 +87,8 @@ class TermReader {
     const int begin = static_cast<int>(block_) * block_size, end = std::min(begin + block_size, stars_.size());
     for (int p = begin; p < end; ++p)
       if (mixed_[p] != 0) state_.numbers.push_back(p);
-    forEachFan(stars_, length_, state_.numbers, state_.fans,
-               [this](int p, const Fans& fans, int at) { takeStar(p, fans, at); });
+    forEachTriangleFan(stars_, length_, state_.numbers, state_.fans,
+                       [this](int p, const TriangleFans& fans, int at) { takeStar(p, fans, at); });
     cover_.forEachMovedFace(block_, [this](const auto& corners, const double* side) { takeFace(corners, side); });
   }
 
@@ -108,7 +108,7 @@ class TermReader {
   }
 
   /// @param at the first triangle of star p in the fans
-  void takeStar(int p, const Fans& fans, int at) {
+  void takeStar(int p, const TriangleFans& fans, int at) {
     weighTriangles(p);
     const Buffer<double>& counts = state_.count;
     const int begin = stars_.offset[p], count = stars_.offset[p + 1] - begin;
@@ -160,7 +160,7 @@ class TermReader {
 
   const Stars& stars_;
   const EdgeLengths& length_;
-  const PartialCover& cover_;
+  const CoverNearFlips& cover_;
   const Buffer<std::uint8_t>& mixed_;
   const double scale_;
   const std::size_t block_;
@@ -195,8 +195,8 @@ Rows fileEdges(int n, const Buffer<Buffer<Term>>& edges, const BlockExchange<Ter
 
 }  // namespace
 
-Rows mixedRows(const GluedStars& glued, const Buffer<std::uint8_t>& mixed, bool keep_cover, double scale,
-               RawBuffer<double>& mass, const Workers& workers, Report& report) {
+Rows summedRows(const GluedStars& glued, const Buffer<std::uint8_t>& mixed, bool keep_cover, double scale,
+                RawBuffer<double>& mass, const Workers& workers, Report& report) {
   const int n = glued.stars.size();
   const std::size_t blocks = blockOf(n + block_size - 1);
   Buffer<WorkerState> states(workers.count());

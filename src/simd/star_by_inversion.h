@@ -1,7 +1,7 @@
 #pragma once
 
 #include "simd/kernels.h"
-#include "simd/lanes.h"
+#include "simd/packet.h"
 
 namespace tufted {
 namespace {
@@ -23,19 +23,19 @@ struct Inverted {
   alignas(64) double x[most_given], y[most_given];
 };
 
-/// Some of the inverted candidates, and room for whole lanes behind them.
+/// Some of the inverted candidates, and room for whole packets behind them.
 struct Subset {
   int size;
-  alignas(64) double x[most_given + lane_size], y[most_given + lane_size];
-  int of[most_given + lane_size];
+  alignas(64) double x[most_given + packet_size], y[most_given + packet_size];
+  int of[most_given + packet_size];
 };
 
 /// Points by direction from the origin, as a ring: the first stands at 1, the last also at 0, and the first once more
 /// behind it.
 struct Ring {
   int size;
-  double x[most_given + 3 * lane_size], y[most_given + 3 * lane_size];
-  int of[most_given + 3 * lane_size];
+  double x[most_given + 3 * packet_size], y[most_given + 3 * packet_size];
+  int of[most_given + 3 * packet_size];
 
   void close(int copies) {
     x[0] = x[size];
@@ -50,31 +50,31 @@ struct Ring {
 /// False where a point lies too near or too far for the bounds to hold.
 TUFTED_INLINE bool invert(const PlanarOffsets& planar, Inverted& points) {
   points.count = planar.count;
-  Lane nearest = all(most_square), furthest = all(least_square);
-  for (int i = 0; i < planar.count; i += lane_size) {
+  Packet nearest = broadcast(most_square), furthest = broadcast(least_square);
+  for (int i = 0; i < planar.count; i += packet_size) {
     const Mask is_point = firstOf(planar.count - i);
-    const Lane u = load(planar.u + i), v = load(planar.v + i);
-    const Lane square = select(is_point, u * u + v * v, all(1));
-    nearest = least(nearest, square);
-    furthest = most(furthest, square);
-    const Lane inverse = all(1) / square;
-    store(select(is_point, u * inverse, all(0)), points.x + i);
-    store(select(is_point, v * inverse, all(0)), points.y + i);
+    const Packet u = load(planar.u + i), v = load(planar.v + i);
+    const Packet square = select(is_point, u * u + v * v, broadcast(1));
+    nearest = min(nearest, square);
+    furthest = max(furthest, square);
+    const Packet inverse = broadcast(1) / square;
+    store(select(is_point, u * inverse, broadcast(0)), points.x + i);
+    store(select(is_point, v * inverse, broadcast(0)), points.y + i);
   }
-  return least(nearest) > least_square && most(furthest) < most_square;
+  return reduceMin(nearest) > least_square && reduceMax(furthest) < most_square;
 }
 
 /// Sorts by direction, counterclockwise from the u axis. Of points in one direction the first
 /// alone is left.
 TUFTED_INLINE void sortByDirection(const Subset& given, Ring& ring) {
-  alignas(64) float key[most_given + float_lane_size];  // a pseudo-angle, 0 to 4
-  for (int i = 0; i < given.size; i += lane_size) {
-    const Lane x = load(given.x + i), y = load(given.y + i);
-    const Lane turn = x / (absolute(x) + absolute(y));
-    storeFloats(select(isLess(y, all(0)), all(3) + turn, all(1) - turn), key + i);
+  alignas(64) float key[most_given + float_packet_size];  // a pseudo-angle, 0 to 4
+  for (int i = 0; i < given.size; i += packet_size) {
+    const Packet x = load(given.x + i), y = load(given.y + i);
+    const Packet turn = x / (absolute(x) + absolute(y));
+    storeFloats(select(isLess(y, broadcast(0)), broadcast(3) + turn, broadcast(1) - turn), key + i);
   }
-  alignas(64) int rank[most_given + float_lane_size];
-  for (int i = 0; i < given.size; i += float_lane_size) rankFloats<1>(key + i, key, given.size, rank + i);
+  alignas(64) int rank[most_given + float_packet_size];
+  for (int i = 0; i < given.size; i += float_packet_size) rankFloats<1>(key + i, key, given.size, rank + i);
   for (int i = 1; i <= given.size; ++i) ring.of[i] = missing;
   int sum = 0;
   for (int i = given.size - 1; i >= 0; --i) {
@@ -103,15 +103,15 @@ TUFTED_INLINE void removeReflex(Ring& first, Ring& second, Ring*& hull) {
   for (;;) {
     ring->close(1);
     int kept = 1;
-    for (int i = 0; i < ring->size; i += lane_size) {
-      const Lane ax = load(ring->x + i), ay = load(ring->y + i);
-      const Lane bx = load(ring->x + i + 1), by = load(ring->y + i + 1);
-      const Lane cx = load(ring->x + i + 2), cy = load(ring->y + i + 2);
+    for (int i = 0; i < ring->size; i += packet_size) {
+      const Packet ax = load(ring->x + i), ay = load(ring->y + i);
+      const Packet bx = load(ring->x + i + 1), by = load(ring->y + i + 1);
+      const Packet cx = load(ring->x + i + 2), cy = load(ring->y + i + 2);
       const Mask turns_left = isLess((by - ay) * (cx - bx), (bx - ax) * (cy - by));
-      const Mask stays = both(turns_left, firstOf(ring->size - i));
-      squeeze(stays, bx, next->x + kept);
-      squeeze(stays, by, next->y + kept);
-      squeeze(stays, ring->of + i + 1, next->of + kept);
+      const Mask stays = logicalAnd(turns_left, firstOf(ring->size - i));
+      compress(stays, bx, next->x + kept);
+      compress(stays, by, next->y + kept);
+      compress(stays, ring->of + i + 1, next->of + kept);
       kept += countOf(stays);
     }
     next->size = kept - 1;
@@ -138,57 +138,58 @@ enum class Verdict { certain, tied, incomplete, open, doubtful };
 TUFTED_INLINE Verdict judge(const Inverted& points, Ring& hull, Subset& given, InvertedStar& star) {
   if (hull.size < 3) return Verdict::open;
   if (hull.size > InvertedStar::most) return Verdict::doubtful;
-  hull.close(toLanes(hull.size) - hull.size + 2);
+  hull.close(toPackets(hull.size) - hull.size + 2);
   // A point is left of the edge from a to b where across . point < 1.
   alignas(64) double across_x[InvertedStar::most], across_y[InvertedStar::most];
   Mask is_open = none(), is_tied = none(), is_ambiguous = none();
-  Lane inner_square = all(most_square), least_cross = all(most_square), most_size = all(0);
-  for (int i = 0; i < hull.size; i += lane_size) {
-    const Lane ax = load(hull.x + i + 1), ay = load(hull.y + i + 1);
-    const Lane bx = load(hull.x + i + 2), by = load(hull.y + i + 2);
-    const Lane cx = load(hull.x + i + 3), cy = load(hull.y + i + 3);
-    const Lane ux = bx - ax, uy = by - ay, vx = cx - bx, vy = cy - by;
-    const Lane u = absolute(ux) + absolute(uy), v = absolute(vx) + absolute(vy);
-    const Lane a = absolute(ax) + absolute(ay), b = absolute(bx) + absolute(by), c = absolute(cx) + absolute(cy);
+  Packet inner_square = broadcast(most_square), least_cross = broadcast(most_square), most_size = broadcast(0);
+  for (int i = 0; i < hull.size; i += packet_size) {
+    const Packet ax = load(hull.x + i + 1), ay = load(hull.y + i + 1);
+    const Packet bx = load(hull.x + i + 2), by = load(hull.y + i + 2);
+    const Packet cx = load(hull.x + i + 3), cy = load(hull.y + i + 3);
+    const Packet ux = bx - ax, uy = by - ay, vx = cx - bx, vy = cy - by;
+    const Packet u = absolute(ux) + absolute(uy), v = absolute(vx) + absolute(vy);
+    const Packet a = absolute(ax) + absolute(ay), b = absolute(bx) + absolute(by), c = absolute(cx) + absolute(cy);
     // A difference is off by the rounding of its ends, and counts times the length of the other.
-    const Lane doubt = all(distinct) * u * v + all(rounding) * ((a + b) * v + (b + c) * u);
-    const Lane cross = ax * by - ay * bx, edge_square = ux * ux + uy * uy;
-    is_open = either(is_open, isAtMost(cross, all(0)));
-    const Lane turn = ux * vy - uy * vx;
-    is_tied = either(is_tied, isAtMost(turn, doubt));
-    is_ambiguous = either(is_ambiguous, both(isAtMost(turn, doubt), isLess(all(surely_tied) * u * v, turn)));
+    const Packet doubt = broadcast(distinct) * u * v + broadcast(rounding) * ((a + b) * v + (b + c) * u);
+    const Packet cross = ax * by - ay * bx, edge_square = ux * ux + uy * uy;
+    is_open = logicalOr(is_open, isAtMost(cross, broadcast(0)));
+    const Packet turn = ux * vy - uy * vx;
+    is_tied = logicalOr(is_tied, isAtMost(turn, doubt));
+    is_ambiguous =
+        logicalOr(is_ambiguous, logicalAnd(isAtMost(turn, doubt), isLess(broadcast(surely_tied) * u * v, turn)));
     store(uy / cross, across_x + i);
     store(-ux / cross, across_y + i);
-    const Lane square = cross * cross / edge_square;  // of the distance from the origin to the edge
-    inner_square = least(inner_square, square);
-    least_cross = least(least_cross, cross);
-    most_size = most(most_size, a);
-    store(all(0.5) / squareRoot(square), star.radius + i);
+    const Packet square = cross * cross / edge_square;  // of the distance from the origin to the edge
+    inner_square = min(inner_square, square);
+    least_cross = min(least_cross, cross);
+    most_size = max(most_size, a);
+    store(broadcast(0.5) / squareRoot(square), star.radius + i);
   }
   if (any(is_open)) return Verdict::open;
-  const double size = most(most_size), ratio = size / __builtin_sqrt(least(inner_square));
-  const double limit = 1 - 2 * inside * ratio - rounding * size * size / least(least_cross);
+  const double size = reduceMax(most_size), ratio = size / __builtin_sqrt(reduceMin(inner_square));
+  const double limit = 1 - 2 * inside * ratio - rounding * size * size / reduceMin(least_cross);
   if (!(limit > 0)) return Verdict::open;
 
   alignas(64) double gauge[most_given];  // the largest across . point
-  for (int i = 0; i < points.count; i += lane_size) {
-    const Lane x = load(points.x + i), y = load(points.y + i);
-    Lane largest = all(0);
-    for (int e = 0; e < hull.size; ++e) largest = most(largest, x * all(across_x[e]) + y * all(across_y[e]));
+  for (int i = 0; i < points.count; i += packet_size) {
+    const Packet x = load(points.x + i), y = load(points.y + i);
+    Packet largest = broadcast(0);
+    for (int e = 0; e < hull.size; ++e) largest = max(largest, x * broadcast(across_x[e]) + y * broadcast(across_y[e]));
     store(largest, gauge + i);
   }
   for (int i = 1; i <= hull.size; ++i) gauge[hull.of[i]] = 0;
-  Lane outermost = all(0);
-  for (int i = 0; i < points.count; i += lane_size) outermost = most(outermost, load(gauge + i));
-  if (most(outermost) < limit && !any(is_tied)) {
+  Packet outermost = broadcast(0);
+  for (int i = 0; i < points.count; i += packet_size) outermost = max(outermost, load(gauge + i));
+  if (reduceMax(outermost) < limit && !any(is_tied)) {
     star.size = hull.size;
     for (int i = 0; i < hull.size; ++i) star.link[i] = hull.of[i + 1];
     return Verdict::certain;
   }
-  const Lane from = all(1 - distinct * ratio), to = all(1 - surely_tied * ratio);
-  for (int i = 0; i < points.count; i += lane_size) {
-    const Lane value = load(gauge + i);
-    is_ambiguous = either(is_ambiguous, both(isLess(from, value), isLess(value, to)));
+  const Packet from = broadcast(1 - distinct * ratio), to = broadcast(1 - surely_tied * ratio);
+  for (int i = 0; i < points.count; i += packet_size) {
+    const Packet value = load(gauge + i);
+    is_ambiguous = logicalOr(is_ambiguous, logicalAnd(isLess(from, value), isLess(value, to)));
   }
   if (any(is_ambiguous)) return Verdict::doubtful;
   // All that lie on the hull or too near to it, by ascending distance.
@@ -216,14 +217,14 @@ TUFTED_INLINE Verdict judge(const Inverted& points, Ring& hull, Subset& given, I
 
 TUFTED_INLINE void giveFirst(const Inverted& points, int count, Subset& given) {
   given.size = count;
-  for (int i = 0; i < count; i += lane_size) {
+  for (int i = 0; i < count; i += packet_size) {
     store(load(points.x + i), given.x + i);
     store(load(points.y + i), given.y + i);
-    for (int j = i; j < i + lane_size; ++j) given.of[j] = j;
+    for (int j = i; j < i + packet_size; ++j) given.of[j] = j;
   }
 }
 
-StarKind wrapInvertedLanes(const PlanarOffsets& planar, InvertedStar& star) {
+StarKind wrapInvertedPackets(const PlanarOffsets& planar, InvertedStar& star) {
   if (planar.count < 3) return StarKind::unknown;
   Inverted points;
   if (!invert(planar, points)) return StarKind::unknown;

@@ -30,16 +30,16 @@ struct FitScratch {
 /// look.
 /// @param first at most FitScratch::most points from here on
 /// @param offsets of their neighbours
-/// @param move n x 3, of which theirs are set
-void moveNoisyPoints(int first, std::span<const Neighborhood> hoods, std::span<const OffsetBuffer> offsets,
-                     FitScratch& scratch, PointBuffer& move, NoisyPoints& noisy);
+/// @param displacement n x 3, of which theirs are set
+void displaceNoisyPoints(int first, std::span<const Neighborhood> neighborhoods, std::span<const OffsetBuffer> offsets,
+                         FitScratch& scratch, PointBuffer& displacement, NoisyPoints& noisy);
 
 /// Moves noisy points once more, onto the surface through the places that their neighbours have by now.
 /// @param moved of all points, before any is moved once more
 /// @param offsets scratch for FitScratch::most neighbourhoods
-/// @param move `moved`, to which more is added
-void moveOnceMore(const PointsView& points, const PointBuffer& moved, const NoisyPoints& noisy,
-                  const RawBuffer<double>& reach, std::span<OffsetBuffer> offsets, FitScratch& scratch,
-                  PointBuffer& move);
+/// @param displacement `moved`, to which more is added
+void displaceOnceMore(const PointsView& points, const PointBuffer& moved, const NoisyPoints& noisy,
+                      const RawBuffer<double>& fit_radius, std::span<OffsetBuffer> offsets, FitScratch& scratch,
+                      PointBuffer& displacement);
 
 }  // namespace tufted

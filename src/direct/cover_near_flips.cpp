@@ -1,4 +1,4 @@
-#include "direct/partial_cover.h"
+#include "direct/cover_near_flips.h"
 
 #include <algorithm>
 #include <array>
@@ -41,7 +41,7 @@ void setLengths(Triangulation& cover, int t, const std::array<double, 3>& side_l
 /// What flipEdges() works on.
 class Flipping {
  public:
-  Flipping(PartialCover& cover, Buffer<Buffer<FlipSeed>> seeds) : cover_(cover), seeds_(std::move(seeds)) {}
+  Flipping(CoverNearFlips& cover, Buffer<Buffer<FlipSeed>> seeds) : cover_(cover), seeds_(std::move(seeds)) {}
 
   CoverBuffer& triangulation() { return cover_.cover_; }
   std::int64_t blocks() const { return std::ssize(seeds_); }
@@ -64,20 +64,20 @@ class Flipping {
   void flipped(int side, int mate) { cover_.moved_[side / 6] = cover_.moved_[mate / 6] = 1; }
 
  private:
-  PartialCover& cover_;
+  CoverNearFlips& cover_;
   Buffer<Buffer<FlipSeed>> seeds_;
 };
 
-PartialCover::PartialCover(const Stars& stars, const EdgeLengths& length, const StarPools& pools)
+CoverNearFlips::CoverNearFlips(const Stars& stars, const EdgeLengths& length, const RadialCycles& pools)
     : stars_(stars),
       length_(length),
-      pools_(pools),
+      cycles_(pools),
       first_(static_cast<std::size_t>(stars.size()), -1),
       flipped_(static_cast<std::size_t>(stars.size())) {
   cover_.vertices = stars.size();
 }
 
-void PartialCover::makeRoom(std::size_t triangles) {
+void CoverNearFlips::makeRoom(std::size_t triangles) {
   entry_of_.resize(triangles);
   state_.resize(6 * triangles);
   moved_.resize(triangles);
@@ -86,7 +86,7 @@ void PartialCover::makeRoom(std::size_t triangles) {
   cover_.length.resize(6 * triangles);
 }
 
-bool PartialCover::add(int p, bool may_grow) {
+bool CoverNearFlips::add(int p, bool may_grow) {
   const int block = p / block_size, count = triangleCount(stars_, p);
   if (next_[block] + count <= block_begin_[block + 1]) {
     first_[p] = std::exchange(next_[block], next_[block] + count);
@@ -108,22 +108,22 @@ bool PartialCover::add(int p, bool may_grow) {
   return true;
 }
 
-StarSide PartialCover::starSide(int side) const {
+StarSide CoverNearFlips::starSide(int side) const {
   const int t = side / 6, s = side % 6;
   // A side that is not glued yet has not moved, nor has its face been flipped: its first corner is the star's centre.
   return {cover_.faces[side / 3][0], entry_of_[t], s < 3 ? s : 5 - s};
 }
 
-StarSide PartialCover::mateOf(const StarSide& side, bool is_plus) const {
-  return is_plus ? pools_.next(side) : pools_.previous(side);
+StarSide CoverNearFlips::mateOf(const StarSide& side, bool is_plus) const {
+  return is_plus ? cycles_.next(side) : cycles_.previous(side);
 }
 
-int PartialCover::sideNumber(const StarSide& side, bool is_front, const Buffer<int>& first) const {
+int CoverNearFlips::sideNumber(const StarSide& side, bool is_front, const Buffer<int>& first) const {
   const int t = first[side.star] + trianglesBefore(stars_, side.star, side.entry);
   return is_front ? frontSide(t, side.side) : backSide(t, side.side);
 }
 
-bool PartialCover::resolve(int side, const SideRange& range) {
+bool CoverNearFlips::resolve(int side, const SideRange& range) {
   if (cover_.glue[side] != unglued) return true;
   const StarSide here = starSide(side);
   // The plus copy is the front where the front runs up.
@@ -135,7 +135,7 @@ bool PartialCover::resolve(int side, const SideRange& range) {
   return true;
 }
 
-void PartialCover::reserve(const Buffer<Buffer<FlipSeed>>& seeds, const Workers& workers) {
+void CoverNearFlips::reserve(const Buffer<Buffer<FlipSeed>>& seeds, const Workers& workers) {
   // Flips stay near the points that disagree. What is reserved but not used costs next to no memory; growing would.
   block_begin_.assign(seeds.size() + 1, 0);
   workers.forBlocks("flips", stars_.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
@@ -153,7 +153,7 @@ void PartialCover::reserve(const Buffer<Buffer<FlipSeed>>& seeds, const Workers&
   makeRoom(triangles);
 }
 
-void PartialCover::findFlippedPoints() {
+void CoverNearFlips::findFlippedPoints() {
   for (int p = 0; p < stars_.size(); ++p) {
     if (!isPresent(p)) continue;
     int t = first_[p];
@@ -165,8 +165,8 @@ void PartialCover::findFlippedPoints() {
   }
 }
 
-FlipCounts PartialCover::flipToDelaunay(const StarMetric& metric, const Workers& workers) {
-  Buffer<Buffer<FlipSeed>> seeds = findFlipSeeds(stars_, length_, pools_, metric, block_size, workers);
+FlipCounts CoverNearFlips::flipToDelaunay(const StarMetric& metric, const Workers& workers) {
+  Buffer<Buffer<FlipSeed>> seeds = findFlipSeeds(stars_, length_, cycles_, metric, block_size, workers);
   if (std::all_of(seeds.begin(), seeds.end(), [](const auto& part) { return part.empty(); })) return {};
   reserve(seeds, workers);
   Flipping flipping(*this, std::move(seeds));
@@ -177,7 +177,7 @@ FlipCounts PartialCover::flipToDelaunay(const StarMetric& metric, const Workers&
   return counts;
 }
 
-std::size_t PartialCover::bytes() const {
+std::size_t CoverNearFlips::bytes() const {
   constexpr std::size_t of_triangle = 2 * sizeof(cover_.faces[0]) + 6 * sizeof(cover_.glue[0]) +
                                       6 * sizeof(cover_.length[0]) + sizeof(entry_of_[0]) + 6 * sizeof(state_[0]);
   if (next_.empty()) return 0;
@@ -186,7 +186,7 @@ std::size_t PartialCover::bytes() const {
   return of_triangle * triangles;
 }
 
-void PartialCover::keepMovedFaces() {
+void CoverNearFlips::keepMovedFaces() {
   release(cover_.glue);
   release(state_);
   release(entry_of_);
@@ -207,12 +207,12 @@ void PartialCover::keepMovedFaces() {
   cover_.length.shrink_to_fit();
 }
 
-void PartialCover::dropFaces() {
+void CoverNearFlips::dropFaces() {
   release(cover_.faces);
   release(cover_.length);
 }
 
-void PartialCover::fillStar(int p, const Buffer<int>& first, IntrinsicTriangulation& whole) const {
+void CoverNearFlips::fillStar(int p, const Buffer<int>& first, IntrinsicTriangulation& whole) const {
   int t = first[p];
   forEachTriangle(stars_, length_, p, [&](int i, int a, int b, const std::array<double, 3>& side_length) {
     addTriangle(whole, t, p, a, b);
@@ -223,7 +223,7 @@ void PartialCover::fillStar(int p, const Buffer<int>& first, IntrinsicTriangulat
       if (s != 1 && stars_.hasTriangle(neighbor)) continue;  // a spoke between two triangles
       const bool is_up = runsUp(side);
       const StarSide at_front = mateOf(side, is_up);
-      const StarSide at_back = pools_.isPooled(side) ? mateOf(side, !is_up) : at_front;  // of two faces
+      const StarSide at_back = cycles_.isInCycle(side) ? mateOf(side, !is_up) : at_front;  // of two faces
       whole.glue[frontSide(t, s)] = sideNumber(at_front, runsUp(at_front) != is_up, first);
       whole.glue[backSide(t, s)] = sideNumber(at_back, runsUp(at_back) == is_up, first);
     }
@@ -232,8 +232,8 @@ void PartialCover::fillStar(int p, const Buffer<int>& first, IntrinsicTriangulat
   glueSpokes(stars_, p, first[p], whole);
 }
 
-void PartialCover::copyStar(int p, const Buffer<int>& first, const RawBuffer<int>& triangle,
-                            IntrinsicTriangulation& whole) const {
+void CoverNearFlips::copyStar(int p, const Buffer<int>& first, const RawBuffer<int>& triangle,
+                              IntrinsicTriangulation& whole) const {
   const int from = 6 * first_[p], to = 6 * first[p];
   for (int s = 0; s < 6 * (first[p + 1] - first[p]); ++s) {
     whole.length[to + s] = cover_.length[from + s];
@@ -244,7 +244,7 @@ void PartialCover::copyStar(int p, const Buffer<int>& first, const RawBuffer<int
   }
 }
 
-IntrinsicTriangulation PartialCover::complete(const Workers& workers) const {
+IntrinsicTriangulation CoverNearFlips::complete(const Workers& workers) const {
   const int n = stars_.size();
   const Buffer<int> first = firstTriangles(stars_);
   RawBuffer<int> triangle(entry_of_.size());  // number in the whole of each that is present

@@ -9,8 +9,8 @@
 #include "cover/flip_edges.h"
 #include "direct/edge_lengths.h"
 #include "direct/flip_seeds.h"
+#include "direct/radial_cycles.h"
 #include "direct/star_metric.h"
-#include "direct/star_pools.h"
 #include "stars/agreement.h"
 
 namespace tufted {
@@ -20,12 +20,12 @@ namespace tufted {
 ///
 /// Triangles are numbered as their stars are added, but within a range for each block of stars, so that threads can add
 /// stars of different blocks.
-class PartialCover {
+class CoverNearFlips {
  public:
   static constexpr int block_size = 4096;  // stars
 
   /// All borrowed for the life of the cover.
-  PartialCover(const Stars& stars, const EdgeLengths& length, const StarPools& pools);
+  CoverNearFlips(const Stars& stars, const EdgeLengths& length, const RadialCycles& pools);
 
   /// Algorithm 2.
   FlipCounts flipToDelaunay(const StarMetric& metric, const Workers& workers);
@@ -82,7 +82,7 @@ class PartialCover {
 
   const Stars& stars_;
   const EdgeLengths& length_;
-  const StarPools& pools_;
+  const RadialCycles& cycles_;
   CoverBuffer cover_;
   Buffer<int> first_;                ///< n, the first triangle of a star, -1 where absent
   Buffer<int> block_begin_;          ///< where the range of each block of stars begins, and the last one ends

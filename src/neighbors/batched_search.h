@@ -9,19 +9,19 @@
 namespace tufted {
 
 /// Points whose neighbours were found together.
-struct SearchedGroup {
+struct SearchedBatch {
   int first, count;
   SearchedBall ball;
-  std::size_t begin, end;  ///< of its candidates in GroupScratch::known
+  std::size_t begin, end;  ///< of its candidates in BatchScratch::known
 };
 
 /// Memory that one worker reuses from group to group, and the groups of its last call of nearestOfEach().
-struct GroupScratch {
-  Buffer<SearchedGroup> groups;  ///< in the order of their points
+struct BatchScratch {
+  Buffer<SearchedBatch> groups;  ///< in the order of their points
   Buffer<int> known;             ///< ranks of the candidates of each
   Buffer<int> searched;          ///< those of the last search, of use or not
   int gathered = -1;             ///< the first point of the group whose candidates stand below
-  Buffer<int> candidate;         ///< ranks of those of one group, filled up to whole lanes
+  Buffer<int> candidate;         ///< ranks of those of one group, filled up to whole packets
   Buffer<double> x, y, z;        ///< where they are
   Buffer<double> bounds;         ///< see NeighborSearch::candidates
   Buffer<double> squared;        ///< squared distances of those near one point
@@ -39,7 +39,7 @@ struct GroupScratch {
 /// @param points what `search` was built from
 /// @param found count rows of min(k, n - 1), one after the other; overwritten
 void nearestOfEach(const NeighborSearch& search, const PointsView& points, int first, int count, int k,
-                   const Kernels& kernels, GroupScratch& scratch, Buffer<Neighbor>& found);
+                   const Kernels& kernels, BatchScratch& scratch, Buffer<Neighbor>& found);
 
 /// The k nearest of p, one of the points that nearestOfEach() was called for last, among the candidates of its group;
 /// these become more where that helps, for others of the group as well. False, and nothing of use, where it does not.
@@ -47,6 +47,6 @@ void nearestOfEach(const NeighborSearch& search, const PointsView& points, int f
 /// @param likely a squared distance that there are most often k points within, and few more
 /// @param found as by NeighborSearch::nearest
 bool nearestOfKnown(const NeighborSearch& search, const PointsView& points, int p, int k, double likely,
-                    const Kernels& kernels, GroupScratch& scratch, Buffer<Neighbor>& found);
+                    const Kernels& kernels, BatchScratch& scratch, Buffer<Neighbor>& found);
 
 }  // namespace tufted

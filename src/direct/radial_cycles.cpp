@@ -1,4 +1,4 @@
-#include "direct/star_pools.h"
+#include "direct/radial_cycles.h"
 
 #include <algorithm>
 #include <numeric>
@@ -7,7 +7,7 @@
 #include "base/buffer.h"
 #include "base/point_buffer.h"
 #include "base/stable_sort.h"
-#include "cover/edge_order.h"
+#include "cover/dihedral_order.h"
 #include "stars/agreement.h"
 
 namespace tufted {
@@ -28,50 +28,50 @@ void forEachOpenSide(const Stars& stars, int p, const Visit& visit) {
 
 }  // namespace
 
-StarPools::StarPools(const Stars& stars, const PointsView& points, const Workers& workers) : stars_(stars) {
+RadialCycles::RadialCycles(const Stars& stars, const PointsView& points, const Workers& workers) : stars_(stars) {
   collect(workers);
   sort(points, workers);
 }
 
-void StarPools::collect(const Workers& workers) {
+void RadialCycles::collect(const Workers& workers) {
   const int n = stars_.size();
   const Buffer<int> near = numbersWhere("glue", n, workers, [this](int p) {  // the others have no side in a pool
     const auto first = stars_.link.begin() + stars_.offset[p], last = stars_.link.begin() + stars_.offset[p + 1];
     return std::any_of(first, last, [this](int q) { return stars_.disagrees[q] != 0; });
   });
-  const auto forEachPooled = [&](const auto& visit) {
+  const auto forEachUnglued = [&](const auto& visit) {
     for (const int p : near) {
       forEachOpenSide(stars_, p, [&](const StarSide& side) {
-        if (isPooled(side)) visit(side, std::minmax({tail(stars_, side), head(stars_, side)}));
+        if (isInCycle(side)) visit(side, std::minmax({tail(stars_, side), head(stars_, side)}));
       });
     }
   };
   offset_.assign(static_cast<std::size_t>(n) + 1, 0);
-  forEachPooled([&](const StarSide&, const auto& ends) { ++offset_[ends.first + 1]; });
+  forEachUnglued([&](const StarSide&, const auto& ends) { ++offset_[ends.first + 1]; });
   std::partial_sum(offset_.begin(), offset_.end(), offset_.begin());
-  pooled_.resize(static_cast<std::size_t>(offset_.back()));
+  sides_.resize(static_cast<std::size_t>(offset_.back()));
   Buffer<int> fill(offset_.begin(), offset_.end() - 1);
-  forEachPooled(
-      [&](const StarSide& side, const auto& ends) { pooled_[fill[ends.first]++] = Pooled(ends.second, side); });
+  forEachUnglued(
+      [&](const StarSide& side, const auto& ends) { sides_[fill[ends.first]++] = CycleSide(ends.second, side); });
 }
 
-void StarPools::sort(const PointsView& points, const Workers& workers) {
+void RadialCycles::sort(const PointsView& points, const Workers& workers) {
   workers.forBlocks("glue", stars_.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
-    Buffer<Pooled> sides;
-    Buffer<std::pair<double, Pooled>> keys, sorted;
+    Buffer<CycleSide> sides;
+    Buffer<std::pair<double, CycleSide>> keys, sorted;
     for (int low = static_cast<int>(begin); low < end; ++low) {
       // They came in the order of stars and entries, which decides ties.
-      stableSort(pooled_.data() + offset_[low], pooled_.data() + offset_[low + 1], sides,
-                 [](const Pooled& a, const Pooled& b) { return a.high() < b.high(); });
+      stableSort(sides_.data() + offset_[low], sides_.data() + offset_[low + 1], sides,
+                 [](const CycleSide& a, const CycleSide& b) { return a.high() < b.high(); });
       for (int i = offset_[low]; i < offset_[low + 1];) {
-        const int stop = endOfPool(i);
+        const int stop = endOfCycle(i);
         if (stop - i > 2) {  // any order of two is the same one
-          const DihedralOrder order(points, low, pooled_[i].high());
+          const DihedralOrder order(points, low, sides_[i].high());
           keys.clear();
-          for (int j = i; j < stop; ++j) keys.emplace_back(order.key(apex(stars_, pooled_[j].side())), pooled_[j]);
+          for (int j = i; j < stop; ++j) keys.emplace_back(order.key(apex(stars_, sides_[j].side())), sides_[j]);
           stableSort(keys.data(), keys.data() + keys.size(), sorted,
                      [](const auto& a, const auto& b) { return a.first < b.first; });
-          for (int j = i; j < stop; ++j) pooled_[j] = keys[j - i].second;
+          for (int j = i; j < stop; ++j) sides_[j] = keys[j - i].second;
         }
         i = stop;
       }
@@ -79,29 +79,29 @@ void StarPools::sort(const PointsView& points, const Workers& workers) {
   });
 }
 
-int StarPools::endOfPool(int i) const {
+int RadialCycles::endOfCycle(int i) const {
   int stop = i + 1;
-  const StarSide side = pooled_[i].side();
+  const StarSide side = sides_[i].side();
   const int last = offset_[std::min(tail(stars_, side), head(stars_, side)) + 1];
-  while (stop < last && pooled_[stop].high() == pooled_[i].high()) ++stop;
+  while (stop < last && sides_[stop].high() == sides_[i].high()) ++stop;
   return stop;
 }
 
-StarSide StarPools::neighbor(const StarSide& side, int step) const {
+StarSide RadialCycles::neighbor(const StarSide& side, int step) const {
   const int from = tail(stars_, side), to = head(stars_, side);
   if (stars_.disagrees[from] == 0) return acrossAgreeing(side, from, to);
   if (stars_.disagrees[to] == 0) return acrossAgreeing(side, to, from);
   const int low = std::min(from, to);
   int at = offset_[low];
-  while (pooled_[at].side() != side) ++at;
+  while (sides_[at].side() != side) ++at;
   int begin = at, end = at + 1;
-  while (begin > offset_[low] && pooled_[begin - 1].high() == pooled_[at].high()) --begin;
-  while (end < offset_[low + 1] && pooled_[end].high() == pooled_[at].high()) ++end;
+  while (begin > offset_[low] && sides_[begin - 1].high() == sides_[at].high()) --begin;
+  while (end < offset_[low + 1] && sides_[end].high() == sides_[at].high()) ++end;
   const int count = end - begin;
-  return pooled_[begin + (at - begin + step + count) % count].side();
+  return sides_[begin + (at - begin + step + count) % count].side();
 }
 
-StarSide StarPools::acrossAgreeing(const StarSide& side, int agreeing, int other) const {
+StarSide RadialCycles::acrossAgreeing(const StarSide& side, int agreeing, int other) const {
   const int j = entryOf(stars_, agreeing, other);
   const int left = stars_.link[before(stars_, agreeing, j)];
   const int star = left == side.star ? stars_.link[stars_.after(agreeing, j)] : left;

@@ -11,12 +11,12 @@
 
 namespace tufted {
 
-/// The arrays of Fans.
-class FanBuffer {
+/// The arrays of TriangleFans.
+class TriangleFanBuffer {
  public:
   void clear() { fans_.count = 0; }
   int count() const { return fans_.count; }
-  const Fans& fans() const { return fans_; }
+  const TriangleFans& fans() const { return fans_; }
 
   /// The triangles of star p, then the first spoke once more, which begins a triangle that nobody reads.
   void add(const Stars& stars, const EdgeLengths& length, int p) {
@@ -42,7 +42,7 @@ class FanBuffer {
 
  private:
   void reserve(int count) {
-    const auto room = static_cast<std::size_t>(toLanes(count) + kernel_lane);
+    const auto room = static_cast<std::size_t>(toPackets(count) + kernel_packet);
     if (given_[0].size() >= room) return;
     for (auto& values : given_) values.resize(2 * room);
     for (auto& values : found_) values.resize(2 * room);
@@ -52,7 +52,7 @@ class FanBuffer {
   }
 
   std::array<Buffer<double>, 6> given_, found_;
-  Fans fans_{};
+  TriangleFans fans_{};
 };
 
 /// The numbers [first, last); clang 14 cannot read std::views::iota.
@@ -66,8 +66,8 @@ struct Numbers {
 /// Calls visit(p, fans, at) for each star in `numbers`, a sequence of numbers: its triangles are measured, the first is
 /// number `at`.
 template <class Sequence, class Visit>
-void forEachFan(const Stars& stars, const EdgeLengths& length, const Sequence& numbers, FanBuffer& buffer,
-                const Visit& visit) {
+void forEachTriangleFan(const Stars& stars, const EdgeLengths& length, const Sequence& numbers,
+                        TriangleFanBuffer& buffer, const Visit& visit) {
   constexpr int batch = 128;  // triangles that are measured together, from the first-level cache
   const Kernels& kernel = kernels();
   const auto size = std::ssize(numbers);
@@ -75,7 +75,7 @@ void forEachFan(const Stars& stars, const EdgeLengths& length, const Sequence& n
     const auto first = i;
     buffer.clear();
     for (; i < size && buffer.count() < batch; ++i) buffer.add(stars, length, numbers[i]);
-    if (buffer.count() > 0) kernel.measureFans(buffer.fans(), length.added);
+    if (buffer.count() > 0) kernel.measureTriangleFans(buffer.fans(), length.added);
     int at = 0;
     for (auto j = first; j < i; ++j) {
       const int p = numbers[j];

@@ -1,4 +1,4 @@
-#include "direct/partial_cover.h"
+#include "direct/cover_near_flips.h"
 
 #include <gtest/gtest.h>
 
@@ -29,15 +29,15 @@ class ShearedSphere : public testing::Test {
     const Workers workers(1, silent);
     const NeighborSource source = neighborSource(options, cloud_, status, representative, workers, report);
     stars_ = surfaceStars(cloud_, source, options, workers, report);
-    stars_.move.setZero(cloud_.size());
-    for (int p = 0; p < cloud_.size(); ++p) stars_.move.row(p)[0] = 3 * cloud_.points.row(p)[2];
+    stars_.displacement.setZero(cloud_.size());
+    for (int p = 0; p < cloud_.size(); ++p) stars_.displacement.row(p)[0] = 3 * cloud_.points.row(p)[2];
   }
 
   /// Whether a star of a later block has a smaller number: then not all fitted into the range of their block.
-  static bool hasStarsBehindAllRanges(const PartialCover& cover, int stars) {
+  static bool hasStarsBehindAllRanges(const CoverNearFlips& cover, int stars) {
     int largest = -1, largest_before = -1;  // of all stars so far, of those of earlier blocks
     for (int p = 0; p < stars; ++p) {
-      if (p % PartialCover::block_size == 0) largest_before = largest;
+      if (p % CoverNearFlips::block_size == 0) largest_before = largest;
       if (!cover.isPresent(p)) continue;
       if (cover.firstTriangle(p) < largest_before) return true;
       largest = std::max(largest, cover.firstTriangle(p));
@@ -50,12 +50,12 @@ class ShearedSphere : public testing::Test {
 };
 
 TEST_F(ShearedSphere, AddsStarsBehindAllRangesWhereTheyDoNotFit) {
-  const EdgeLengths length{cloud_.points, stars_.move};
+  const EdgeLengths length{cloud_.points, stars_.displacement};
   IntrinsicTriangulation reference;
   for (const int threads : {1, 3}) {
     const Workers workers(threads, silent);
-    const StarPools pools(stars_, cloud_.points, workers);
-    PartialCover cover(stars_, length, pools);
+    const RadialCycles pools(stars_, cloud_.points, workers);
+    CoverNearFlips cover(stars_, length, pools);
     StarMetric metric = measureStars(stars_, length, {}, workers);
     for (std::size_t i = 0; i < metric.cotan_sum.size(); ++i)
       if (i % 1000 != 0) metric.cotan_sum[i] = 1;  // as if few edges were to be flipped at the start
@@ -71,7 +71,7 @@ TEST_F(ShearedSphere, AddsStarsBehindAllRangesWhereTheyDoNotFit) {
     EXPECT_EQ(whole.glue, reference.glue);
     EXPECT_EQ(whole.length, reference.length);
 
-    const std::size_t blocks = (stars_.size() + PartialCover::block_size - 1) / PartialCover::block_size;
+    const std::size_t blocks = (stars_.size() + CoverNearFlips::block_size - 1) / CoverNearFlips::block_size;
     const auto movedFaces = [&] {
       std::vector<std::pair<std::array<int, 3>, double>> faces;
       for (std::size_t b = 0; b < blocks; ++b) {

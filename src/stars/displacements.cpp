@@ -1,4 +1,4 @@
-#include "stars/surface_moves.h"
+#include "stars/displacements.h"
 
 #include <algorithm>
 
@@ -19,27 +19,27 @@ void takeMoved(const PointsView& points, const PointBuffer& moved, int p, std::s
 
 }  // namespace
 
-void moveNoisyPoints(int first, std::span<const Neighborhood> hoods, std::span<const OffsetBuffer> offsets,
-                     FitScratch& scratch, PointBuffer& move, NoisyPoints& noisy) {
-  for (std::size_t i = 0; i < hoods.size(); ++i)
-    scratch.moments[i] = heightMoments(offsets[i].view(), hoods[i].axes.normal, hoods[i].reach);
-  fitHeights(std::span(scratch.moments).first(hoods.size()), scratch.fits);
-  for (std::size_t i = 0; i < hoods.size(); ++i) {
-    const PrincipalAxes& axes = hoods[i].axes;
+void displaceNoisyPoints(int first, std::span<const Neighborhood> neighborhoods, std::span<const OffsetBuffer> offsets,
+                         FitScratch& scratch, PointBuffer& displacement, NoisyPoints& noisy) {
+  for (std::size_t i = 0; i < neighborhoods.size(); ++i)
+    scratch.moments[i] = heightMoments(offsets[i].view(), neighborhoods[i].axes.normal, neighborhoods[i].fit_radius);
+  fitHeights(std::span(scratch.moments).first(neighborhoods.size()), scratch.fits);
+  for (std::size_t i = 0; i < neighborhoods.size(); ++i) {
+    const PrincipalAxes& axes = neighborhoods[i].axes;
     const int p = first + static_cast<int>(i);
-    if (!isNoisy(scratch.fits[i], axes.variance[0] * axes.extent * axes.extent, hoods[i].reach)) continue;
-    move.row(p) = scratch.fits[i].height * axes.normal.transpose();
+    if (!isNoisy(scratch.fits[i], axes.variance[0] * axes.extent * axes.extent, neighborhoods[i].fit_radius)) continue;
+    displacement.row(p) = scratch.fits[i].height * axes.normal.transpose();
     noisy.rank.push_back(p);
     const std::size_t begin = noisy.neighbors.size();
-    noisy.neighbors.resize(begin + hoods[i].neighbors.size());
-    std::ranges::transform(hoods[i].neighbors, noisy.neighbors.begin() + begin, &Neighbor::index);
+    noisy.neighbors.resize(begin + neighborhoods[i].neighbors.size());
+    std::ranges::transform(neighborhoods[i].neighbors, noisy.neighbors.begin() + begin, &Neighbor::index);
     noisy.end.push_back(noisy.neighbors.size());
   }
 }
 
-void moveOnceMore(const PointsView& points, const PointBuffer& moved, const NoisyPoints& noisy,
-                  const RawBuffer<double>& reach, std::span<OffsetBuffer> offsets, FitScratch& scratch,
-                  PointBuffer& move) {
+void displaceOnceMore(const PointsView& points, const PointBuffer& moved, const NoisyPoints& noisy,
+                      const RawBuffer<double>& fit_radius, std::span<OffsetBuffer> offsets, FitScratch& scratch,
+                      PointBuffer& displacement) {
   std::array<Covariance, FitScratch::most> covariances;
   std::array<PrincipalAxes, FitScratch::most> axes;
   std::size_t begin = 0;  // of the neighbours of each
@@ -49,15 +49,15 @@ void moveOnceMore(const PointsView& points, const PointBuffer& moved, const Nois
     for (std::size_t i = 0; i < count; ++i) {
       const std::size_t end = noisy.end[group + i];
       takeMoved(points, moved, ranks[i], std::span<const int>(noisy.neighbors).subspan(begin, end - begin), offsets[i]);
-      covariances[i] = covarianceOf(offsets[i].view(), reach[ranks[i]]);
+      covariances[i] = covarianceOf(offsets[i].view(), fit_radius[ranks[i]]);
       begin = end;
     }
     principalAxes(std::span(covariances).first(count), axes);
     for (std::size_t i = 0; i < count; ++i)
-      scratch.moments[i] = heightMoments(offsets[i].view(), axes[i].normal, reach[ranks[i]]);
+      scratch.moments[i] = heightMoments(offsets[i].view(), axes[i].normal, fit_radius[ranks[i]]);
     fitHeights(std::span(scratch.moments).first(count), scratch.fits);
     for (std::size_t i = 0; i < count; ++i)
-      if (scratch.fits[i].is_valid) move.row(ranks[i]) += scratch.fits[i].height * axes[i].normal.transpose();
+      if (scratch.fits[i].is_valid) displacement.row(ranks[i]) += scratch.fits[i].height * axes[i].normal.transpose();
   }
 }
 

@@ -1,4 +1,4 @@
-#include "neighbors/group_search.h"
+#include "neighbors/batched_search.h"
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +20,7 @@ constexpr double spare_around = 1.05;                 // times what may hold mor
 constexpr double nowhere = std::numeric_limits<double>::infinity();
 
 /// Puts what was searched last to the candidates that are known, for this group.
-void keepSearched(SearchedGroup& group, GroupScratch& scratch) {
+void keepSearched(SearchedBatch& group, BatchScratch& scratch) {
   group.begin = scratch.known.size();
   scratch.known.insert(scratch.known.end(), scratch.searched.begin(), scratch.searched.end());
   group.end = scratch.known.size();
@@ -34,13 +34,13 @@ double roomAround(const Eigen::RowVector3d& point, const SearchedBall& ball) {
 /// The candidates of a group, from which its points take their neighbours.
 class GroupCandidates {
  public:
-  GroupCandidates(const PointsView& points, const Kernels& kernels, GroupScratch& scratch)
+  GroupCandidates(const PointsView& points, const Kernels& kernels, BatchScratch& scratch)
       : points_(points), kernels_(kernels), scratch_(scratch) {}
 
-  void gather(const SearchedGroup& group) {
+  void gather(const SearchedBatch& group) {
     const auto ranks = std::span<const int>(scratch_.known).subspan(group.begin, group.end - group.begin);
     scratch_.gathered = group.first;
-    const int size = static_cast<int>(ranks.size()), room = toLanes(size);
+    const int size = static_cast<int>(ranks.size()), room = toPackets(size);
     scratch_.candidate.resize(room);
     for (auto* axis : {&scratch_.x, &scratch_.y, &scratch_.z}) axis->resize(room);
     for (int i = 0; i < size; ++i) {
@@ -51,8 +51,8 @@ class GroupCandidates {
       scratch_.z[i] = point[2];
     }
     for (int i = size; i < room; ++i) scratch_.x[i] = scratch_.y[i] = scratch_.z[i] = nowhere;
-    scratch_.squared.resize(room + kernel_lane);
-    scratch_.index.resize(room + kernel_lane);
+    scratch_.squared.resize(room + kernel_packet);
+    scratch_.index.resize(room + kernel_packet);
   }
 
   /// Within `guess` where that is less than `bound` and holds k, else within `bound`. Returns how many.
@@ -74,10 +74,10 @@ class GroupCandidates {
   /// or the end's spare room is. Where no two distances are one float, each goes to the place that says how many are
   /// less.
   void takeNearest(int count, int k, Neighbor* row) {
-    const int room = toLanes(count);
+    const int room = toPackets(count);
     std::fill(scratch_.squared.begin() + count, scratch_.squared.begin() + room, nowhere);
-    scratch_.rounded.resize(room + 2 * kernel_lane);
-    scratch_.place.resize(room + 2 * kernel_lane);
+    scratch_.rounded.resize(room + 2 * kernel_packet);
+    scratch_.place.resize(room + 2 * kernel_packet);
     kernels_.rankValues(scratch_.squared.data(), room, scratch_.rounded.data(), scratch_.place.data());
     std::int64_t sum = 0;
     for (int i = 0; i < count; ++i) {  // those behind the k-th as well: which they are cannot be foreseen
@@ -108,13 +108,13 @@ class GroupCandidates {
 
   PointsView points_;
   const Kernels& kernels_;
-  GroupScratch& scratch_;
+  BatchScratch& scratch_;
 };
 
 class GroupSearch {
  public:
   GroupSearch(const NeighborSearch& search, const PointsView& points, int k, const Kernels& kernels,
-              GroupScratch& scratch)
+              BatchScratch& scratch)
       : search_(search), points_(points), k_(k), candidates_(points, kernels, scratch), scratch_(scratch) {
     scratch_.groups.clear();
     scratch_.known.clear();
@@ -137,7 +137,7 @@ class GroupSearch {
     int done = 0;
     if (count > 1 && radius < nowhere) {
       for (double around = first_around; around < last_around; around *= next_around) {
-        SearchedGroup group{first, count, {}, 0, 0};
+        SearchedBatch group{first, count, {}, 0, 0};
         if (!search_.candidatesWithin(first, count, around * radius, scratch_.searched, group.ball)) break;
         keep(group);
         while (done < count && selectKnown(first, done, group.ball, radius, found)) ++done;
@@ -155,7 +155,7 @@ class GroupSearch {
  private:
   /// Those of the group from `done` on, as far away as they are.
   void findSurely(int first, int done, int count, Neighbor* found) {
-    SearchedGroup group{first, count, {}, 0, 0};
+    SearchedBatch group{first, count, {}, 0, 0};
     if (count == 1) {
       search_.nearest(first, k_, scratch_.sorted);
       std::copy(scratch_.sorted.begin(), scratch_.sorted.end(), found);
@@ -169,7 +169,7 @@ class GroupSearch {
   }
 
   /// Makes what was searched last the candidates of the group.
-  void keep(SearchedGroup& group) {
+  void keep(SearchedBatch& group) {
     keepSearched(group, scratch_);
     scratch_.groups.push_back(group);
     candidates_.gather(group);
@@ -187,7 +187,7 @@ class GroupSearch {
   void select(int first, int i, const SearchedBall& ball, Neighbor* found) {
     const int p = first + i;
     // By the neighbours of the centre or, most often nearer, by those of the point before.
-    double bound = ball.reach + (points_.row(p) - ball.center).norm(), guess = nowhere;
+    double bound = ball.k_radius + (points_.row(p) - ball.center).norm(), guess = nowhere;
     if (i > 0) {
       const double before = radiusOf(rowOf(found, i - 1));
       bound = std::min(bound, before + (points_.row(p) - points_.row(p - 1)).norm());
@@ -205,13 +205,13 @@ class GroupSearch {
   PointsView points_;
   const int k_;
   GroupCandidates candidates_;
-  GroupScratch& scratch_;
+  BatchScratch& scratch_;
 };
 
 }  // namespace
 
 void nearestOfEach(const NeighborSearch& search, const PointsView& points, int first, int count, int k,
-                   const Kernels& kernels, GroupScratch& scratch, Buffer<Neighbor>& found) {
+                   const Kernels& kernels, BatchScratch& scratch, Buffer<Neighbor>& found) {
   k = std::max(0, std::min(k, static_cast<int>(points.rows()) - 1));
   if (k == 0) return found.clear();
   found.resize(static_cast<std::size_t>(count) * static_cast<std::size_t>(k) + NeighborSearch::most_candidates);
@@ -228,11 +228,11 @@ void nearestOfEach(const NeighborSearch& search, const PointsView& points, int f
 }
 
 bool nearestOfKnown(const NeighborSearch& search, const PointsView& points, int p, int k, double likely,
-                    const Kernels& kernels, GroupScratch& scratch, Buffer<Neighbor>& found) {
+                    const Kernels& kernels, BatchScratch& scratch, Buffer<Neighbor>& found) {
   const auto after = std::partition_point(scratch.groups.begin(), scratch.groups.end(),
-                                          [p](const SearchedGroup& group) { return group.first <= p; });
+                                          [p](const SearchedBatch& group) { return group.first <= p; });
   if (after == scratch.groups.begin()) return false;
-  SearchedGroup& group = *(after - 1);
+  SearchedBatch& group = *(after - 1);
   if (p >= group.first + group.count) return false;
   GroupCandidates candidates(points, kernels, scratch);
   if (scratch.gathered != group.first) candidates.gather(group);

@@ -17,7 +17,7 @@ namespace tufted {
 /// @param scale of one face, see faceScale()
 /// @param mass n, is added to
 /// @param report degenerate_faces counts faces without area at a mixed point
-Rows mixedRows(const GluedStars& glued, const Buffer<std::uint8_t>& mixed, bool keep_cover, double scale,
-               RawBuffer<double>& mass, const Workers& workers, Report& report);
+Rows summedRows(const GluedStars& glued, const Buffer<std::uint8_t>& mixed, bool keep_cover, double scale,
+                RawBuffer<double>& mass, const Workers& workers, Report& report);
 
 }  // namespace tufted

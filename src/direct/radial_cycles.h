@@ -35,10 +35,10 @@ inline int apex(const Stars& stars, const StarSide& s) {
 ///
 /// Only edges between points that both disagree need a pool; any other has two faces, which the link of its agreeing
 /// end names.
-class StarPools {
+class RadialCycles {
  public:
   /// @param stars borrowed
-  StarPools(const Stars& stars, const PointsView& points, const Workers& workers);
+  RadialCycles(const Stars& stars, const PointsView& points, const Workers& workers);
 
   /// The sides after and before this one around its edge; itself where there is no other.
   StarSide next(const StarSide& side) const { return neighbor(side, 1); }
@@ -47,28 +47,28 @@ class StarPools {
   /// Gives the memory back. Nothing may be asked afterwards.
   void drop() {
     release(offset_);
-    release(pooled_);
+    release(sides_);
   }
 
   /// Whether the side lies in a pool.
-  bool isPooled(const StarSide& side) const {
+  bool isInCycle(const StarSide& side) const {
     return stars_.disagrees[tail(stars_, side)] != 0 && stars_.disagrees[head(stars_, side)] != 0;
   }
 
   /// Calls visit(sides) for each pool whose smaller vertex lies in [begin, end), its sides in order.
   template <class Visit>
-  void forEachPool(int begin, int end, const Visit& visit) const {
+  void forEachCycle(int begin, int end, const Visit& visit) const {
     for (int i = offset_[begin]; i < offset_[end];) {
-      const int stop = endOfPool(i);
-      visit(std::span<const Pooled>(pooled_).subspan(i, stop - i));
+      const int stop = endOfCycle(i);
+      visit(std::span<const CycleSide>(sides_).subspan(i, stop - i));
       i = stop;
     }
   }
 
-  class Pooled {
+  class CycleSide {
    public:
-    Pooled() = default;
-    Pooled(int high, const StarSide& side)
+    CycleSide() = default;
+    CycleSide(int high, const StarSide& side)
         : high_(high), star_(side.star), entry_and_side_(4 * static_cast<unsigned>(side.entry) + side.side) {}
 
     /// The larger vertex.
@@ -87,11 +87,11 @@ class StarPools {
   StarSide acrossAgreeing(const StarSide& side, int agreeing, int other) const;
   void collect(const Workers& workers);
   void sort(const PointsView& points, const Workers& workers);
-  int endOfPool(int i) const;
+  int endOfCycle(int i) const;
 
   const Stars& stars_;
   Buffer<int> offset_;  ///< n + 1, by smaller vertex
-  RawBuffer<Pooled> pooled_;
+  RawBuffer<CycleSide> sides_;
 };
 
 }  // namespace tufted

@@ -1,10 +1,11 @@
 #pragma once
 
-// Arithmetic on eight numbers at once, a Lane, for the sources of kernels only. Loops that treat each number alone go
-// by Parts, which fill one register: a lane of several would fill all of them. Includes no header with functions of
-// others: a copy of one that is compiled for one kind of processor could be linked into code for another.
+// Arithmetic on eight numbers at once, a Packet, for the sources of kernels only. A Part is as much of a packet as one
+// register holds; loops that treat each number alone go by parts, since whole packets would fill all registers. This
+// header includes none with functions of others: a copy of one that is compiled for one kind of processor could be
+// linked into code for another.
 #include <cstdint>
-#if defined(TUFTED_WIDE_LANES) || defined(__SSE2__)
+#if defined(TUFTED_WIDE_PACKETS) || defined(__SSE2__)
 #include <immintrin.h>
 #endif
 
@@ -13,61 +14,61 @@
 namespace tufted {
 namespace {
 
-constexpr int lane_size = 8, float_lane_size = 16;
+constexpr int packet_size = 8, float_packet_size = 16;
 
-#ifdef TUFTED_WIDE_LANES
+#ifdef TUFTED_WIDE_PACKETS
 
-using Lane = __m512d;
+using Packet = __m512d;
 using Mask = __mmask8;  // a bit for each number
-using Part = Lane;
-constexpr int part_size = lane_size;
+using Part = Packet;
+constexpr int part_size = packet_size;
 
-TUFTED_INLINE Lane all(double value) {
+TUFTED_INLINE Packet broadcast(double value) {
   return _mm512_set1_pd(value);
 }
-TUFTED_INLINE Lane load(const double* values) {
+TUFTED_INLINE Packet load(const double* values) {
   return _mm512_loadu_pd(values);
 }
 TUFTED_INLINE Part loadPart(const double* values) {
   return load(values);
 }
-TUFTED_INLINE Part allOfPart(double value) {
-  return all(value);
+TUFTED_INLINE Part broadcastPart(double value) {
+  return broadcast(value);
 }
-TUFTED_INLINE void store(Lane a, double* values) {
+TUFTED_INLINE void store(Packet a, double* values) {
   _mm512_storeu_pd(values, a);
 }
-TUFTED_INLINE Lane select(Mask mask, Lane a, Lane b) {
+TUFTED_INLINE Packet select(Mask mask, Packet a, Packet b) {
   return _mm512_mask_blend_pd(mask, b, a);
 }
-TUFTED_INLINE Lane absolute(Lane a) {
+TUFTED_INLINE Packet absolute(Packet a) {
   return _mm512_abs_pd(a);
 }
-TUFTED_INLINE Lane squareRoot(Lane a) {
+TUFTED_INLINE Packet squareRoot(Packet a) {
   return _mm512_sqrt_pd(a);
 }
-TUFTED_INLINE Lane least(Lane a, Lane b) {
+TUFTED_INLINE Packet min(Packet a, Packet b) {
   return _mm512_min_pd(a, b);
 }
-TUFTED_INLINE Lane most(Lane a, Lane b) {
+TUFTED_INLINE Packet max(Packet a, Packet b) {
   return _mm512_max_pd(a, b);
 }
-TUFTED_INLINE double least(Lane a) {
+TUFTED_INLINE double reduceMin(Packet a) {
   return _mm512_reduce_min_pd(a);
 }
-TUFTED_INLINE double most(Lane a) {
+TUFTED_INLINE double reduceMax(Packet a) {
   return _mm512_reduce_max_pd(a);
 }
-TUFTED_INLINE Mask isLess(Lane a, Lane b) {
+TUFTED_INLINE Mask isLess(Packet a, Packet b) {
   return _mm512_cmp_pd_mask(a, b, _CMP_LT_OQ);
 }
-TUFTED_INLINE Mask isAtMost(Lane a, Lane b) {
+TUFTED_INLINE Mask isAtMost(Packet a, Packet b) {
   return _mm512_cmp_pd_mask(a, b, _CMP_LE_OQ);
 }
-TUFTED_INLINE Mask both(Mask a, Mask b) {
+TUFTED_INLINE Mask logicalAnd(Mask a, Mask b) {
   return static_cast<Mask>(a & b);
 }
-TUFTED_INLINE Mask either(Mask a, Mask b) {
+TUFTED_INLINE Mask logicalOr(Mask a, Mask b) {
   return static_cast<Mask>(a | b);
 }
 TUFTED_INLINE bool any(Mask mask) {
@@ -78,7 +79,7 @@ TUFTED_INLINE Mask none() {
 }
 /// The first `count` numbers, all of them for more.
 TUFTED_INLINE Mask firstOf(int count) {
-  return static_cast<Mask>(count < lane_size ? (1U << count) - 1 : 0xFF);
+  return static_cast<Mask>(count < packet_size ? (1U << count) - 1 : 0xFF);
 }
 TUFTED_INLINE Mask differ(const int* values, int value) {
   return _mm256_cmpneq_epi32_mask(_mm256_loadu_si256(reinterpret_cast<const __m256i*>(values)),
@@ -88,35 +89,35 @@ TUFTED_INLINE int countOf(Mask mask) {
   return __builtin_popcount(mask);
 }
 
-/// Writes the chosen numbers to the front and anything behind them, a whole lane.
-TUFTED_INLINE void squeeze(Mask chosen, Lane a, double* to) {
-  // In the register: storing instructions that squeeze are slow on some processors.
+/// Writes the chosen numbers to the front and anything behind them, a whole packet.
+TUFTED_INLINE void compress(Mask chosen, Packet a, double* to) {
+  // In the register: compressing stores are slow on some processors.
   _mm512_storeu_pd(to, _mm512_maskz_compress_pd(chosen, a));
 }
-TUFTED_INLINE void squeeze(Mask chosen, const int* a, int* to) {
+TUFTED_INLINE void compress(Mask chosen, const int* a, int* to) {
   const __m256i values = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(a));
   _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm256_maskz_compress_epi32(chosen, values));
 }
 
 /// Each number to the nearest float.
-TUFTED_INLINE void storeFloats(Lane a, float* to) {
+TUFTED_INLINE void storeFloats(Packet a, float* to) {
   _mm256_storeu_ps(to, _mm512_cvtpd_ps(a));
 }
 
-/// How many of the values are less than each of `some`, which are `lanes` groups.
-template <int lanes>
+/// How many of the values are less than each of `some`, which are so many packets of floats.
+template <int packets>
 TUFTED_INLINE void rankFloats(const float* some, const float* values, int count, int* rank) {
-  __m512 mine[lanes];
-  __m512i less[lanes];
-  for (int l = 0; l < lanes; ++l) mine[l] = _mm512_loadu_ps(some + l * float_lane_size);
-  for (int l = 0; l < lanes; ++l) less[l] = _mm512_setzero_si512();
+  __m512 mine[packets];
+  __m512i less[packets];
+  for (int l = 0; l < packets; ++l) mine[l] = _mm512_loadu_ps(some + l * float_packet_size);
+  for (int l = 0; l < packets; ++l) less[l] = _mm512_setzero_si512();
   const __m512i one = _mm512_set1_epi32(1);
   for (int j = 0; j < count; ++j) {
     const __m512 value = _mm512_set1_ps(values[j]);
-    for (int l = 0; l < lanes; ++l)
+    for (int l = 0; l < packets; ++l)
       less[l] = _mm512_mask_add_epi32(less[l], _mm512_cmp_ps_mask(value, mine[l], _CMP_LT_OQ), less[l], one);
   }
-  for (int l = 0; l < lanes; ++l) _mm512_storeu_si512(rank + l * float_lane_size, less[l]);
+  for (int l = 0; l < packets; ++l) _mm512_storeu_si512(rank + l * float_packet_size, less[l]);
 }
 
 #else
@@ -124,9 +125,9 @@ TUFTED_INLINE void rankFloats(const float* some, const float* values, int count,
 // Pairs are what every processor has. Larger vectors are left to the compiler, which takes them apart badly.
 using Pair = double __attribute__((vector_size(16)));
 using PairMask = std::int64_t __attribute__((vector_size(16)));  // 0 or -1
-constexpr int pairs = lane_size / 2;
+constexpr int pairs = packet_size / 2;
 
-struct Lane {
+struct Packet {
   Pair of[pairs];
 };
 struct Mask {
@@ -148,24 +149,24 @@ TUFTED_INLINE Result forPairs(const A& a, const B& b, const Each& each) {
   return result;
 }
 
-TUFTED_INLINE Lane operator+(Lane a, Lane b) {
-  return forPairs<Lane>(a, b, [](Pair x, Pair y) { return x + y; });
+TUFTED_INLINE Packet operator+(Packet a, Packet b) {
+  return forPairs<Packet>(a, b, [](Pair x, Pair y) { return x + y; });
 }
-TUFTED_INLINE Lane operator-(Lane a, Lane b) {
-  return forPairs<Lane>(a, b, [](Pair x, Pair y) { return x - y; });
+TUFTED_INLINE Packet operator-(Packet a, Packet b) {
+  return forPairs<Packet>(a, b, [](Pair x, Pair y) { return x - y; });
 }
-TUFTED_INLINE Lane operator*(Lane a, Lane b) {
-  return forPairs<Lane>(a, b, [](Pair x, Pair y) { return x * y; });
+TUFTED_INLINE Packet operator*(Packet a, Packet b) {
+  return forPairs<Packet>(a, b, [](Pair x, Pair y) { return x * y; });
 }
-TUFTED_INLINE Lane operator/(Lane a, Lane b) {
-  return forPairs<Lane>(a, b, [](Pair x, Pair y) { return x / y; });
+TUFTED_INLINE Packet operator/(Packet a, Packet b) {
+  return forPairs<Packet>(a, b, [](Pair x, Pair y) { return x / y; });
 }
-TUFTED_INLINE Lane operator-(Lane a) {
-  return forPairs<Lane>(a, [](Pair x) { return -x; });
+TUFTED_INLINE Packet operator-(Packet a) {
+  return forPairs<Packet>(a, [](Pair x) { return -x; });
 }
 
-TUFTED_INLINE Lane all(double value) {
-  Lane lane;
+TUFTED_INLINE Packet broadcast(double value) {
+  Packet lane;
   for (Pair& pair : lane.of) pair = Pair{value, value};
   return lane;
 }
@@ -177,7 +178,7 @@ TUFTED_INLINE Part loadPart(const double* values) {
 TUFTED_INLINE void store(Part a, double* values) {
   __builtin_memcpy(values, &a, sizeof(a));
 }
-TUFTED_INLINE Part allOfPart(double value) {
+TUFTED_INLINE Part broadcastPart(double value) {
   return Part{value, value};
 }
 TUFTED_INLINE PairMask isLess(Part a, Part b) {
@@ -186,22 +187,22 @@ TUFTED_INLINE PairMask isLess(Part a, Part b) {
 TUFTED_INLINE Part select(PairMask mask, Part a, Part b) {
   return mask ? a : b;
 }
-TUFTED_INLINE Lane load(const double* values) {
-  Lane lane;
+TUFTED_INLINE Packet load(const double* values) {
+  Packet lane;
   __builtin_memcpy(&lane, values, sizeof(lane));
   return lane;
 }
-TUFTED_INLINE void store(const Lane& a, double* values) {
+TUFTED_INLINE void store(const Packet& a, double* values) {
   __builtin_memcpy(values, &a, sizeof(a));
 }
 #ifdef __SSE2__  // what the compiler makes of the generic ones below takes longer
 TUFTED_INLINE Pair squareRoot(Pair x) {
   return _mm_sqrt_pd(x);
 }
-TUFTED_INLINE Pair least(Pair x, Pair y) {
+TUFTED_INLINE Pair min(Pair x, Pair y) {
   return _mm_min_pd(x, y);
 }
-TUFTED_INLINE Pair most(Pair x, Pair y) {
+TUFTED_INLINE Pair max(Pair x, Pair y) {
   return _mm_max_pd(x, y);
 }
 TUFTED_INLINE Pair absolute(Pair x) {
@@ -215,10 +216,10 @@ TUFTED_INLINE unsigned bitsOf(PairMask mask) {
 TUFTED_INLINE Pair squareRoot(Pair x) {
   return Pair{__builtin_sqrt(x[0]), __builtin_sqrt(x[1])};
 }
-TUFTED_INLINE Pair least(Pair x, Pair y) {
+TUFTED_INLINE Pair min(Pair x, Pair y) {
   return x < y ? x : y;
 }
-TUFTED_INLINE Pair most(Pair x, Pair y) {
+TUFTED_INLINE Pair max(Pair x, Pair y) {
   return x > y ? x : y;
 }
 TUFTED_INLINE Pair absolute(Pair x) {
@@ -229,37 +230,37 @@ TUFTED_INLINE unsigned bitsOf(PairMask mask) {
 }
 #endif
 
-TUFTED_INLINE Lane absolute(Lane a) {
-  return forPairs<Lane>(a, [](Pair x) { return absolute(x); });
+TUFTED_INLINE Packet absolute(Packet a) {
+  return forPairs<Packet>(a, [](Pair x) { return absolute(x); });
 }
-TUFTED_INLINE Lane squareRoot(Lane a) {
-  return forPairs<Lane>(a, [](Pair x) { return squareRoot(x); });
+TUFTED_INLINE Packet squareRoot(Packet a) {
+  return forPairs<Packet>(a, [](Pair x) { return squareRoot(x); });
 }
-TUFTED_INLINE Lane least(Lane a, Lane b) {
-  return forPairs<Lane>(a, b, [](Pair x, Pair y) { return least(x, y); });
+TUFTED_INLINE Packet min(Packet a, Packet b) {
+  return forPairs<Packet>(a, b, [](Pair x, Pair y) { return min(x, y); });
 }
-TUFTED_INLINE Lane most(Lane a, Lane b) {
-  return forPairs<Lane>(a, b, [](Pair x, Pair y) { return most(x, y); });
+TUFTED_INLINE Packet max(Packet a, Packet b) {
+  return forPairs<Packet>(a, b, [](Pair x, Pair y) { return max(x, y); });
 }
-TUFTED_INLINE double least(Lane a) {
+TUFTED_INLINE double reduceMin(Packet a) {
   double value = a.of[0][0];
   for (const Pair& pair : a.of)
     for (int i = 0; i < 2; ++i) value = pair[i] < value ? pair[i] : value;
   return value;
 }
-TUFTED_INLINE double most(Lane a) {
-  return -least(-a);
+TUFTED_INLINE double reduceMax(Packet a) {
+  return -reduceMin(-a);
 }
-TUFTED_INLINE Mask isLess(Lane a, Lane b) {
+TUFTED_INLINE Mask isLess(Packet a, Packet b) {
   return forPairs<Mask>(a, b, [](Pair x, Pair y) { return x < y; });
 }
-TUFTED_INLINE Mask isAtMost(Lane a, Lane b) {
+TUFTED_INLINE Mask isAtMost(Packet a, Packet b) {
   return forPairs<Mask>(a, b, [](Pair x, Pair y) { return x <= y; });
 }
-TUFTED_INLINE Mask both(Mask a, Mask b) {
+TUFTED_INLINE Mask logicalAnd(Mask a, Mask b) {
   return forPairs<Mask>(a, b, [](PairMask x, PairMask y) { return x & y; });
 }
-TUFTED_INLINE Mask either(Mask a, Mask b) {
+TUFTED_INLINE Mask logicalOr(Mask a, Mask b) {
   return forPairs<Mask>(a, b, [](PairMask x, PairMask y) { return x | y; });
 }
 TUFTED_INLINE Mask none() {
@@ -275,8 +276,8 @@ TUFTED_INLINE bool any(const Mask& mask) {
   for (const PairMask& pair : mask.of) found |= pair;
   return bitsOf(found) != 0;
 }
-TUFTED_INLINE Lane select(Mask mask, Lane a, Lane b) {
-  Lane result;
+TUFTED_INLINE Packet select(Mask mask, Packet a, Packet b) {
+  Packet result;
   for (int i = 0; i < pairs; ++i) result.of[i] = mask.of[i] ? a.of[i] : b.of[i];
   return result;
 }
@@ -292,36 +293,36 @@ TUFTED_INLINE int countOf(const Mask& mask) {
 }
 
 template <class Value>
-TUFTED_INLINE void squeezeEach(unsigned chosen, const Value* values, Value* to) {
-  for (int i = 0; i < lane_size; ++i) {  // without a branch: which are chosen cannot be foreseen
+TUFTED_INLINE void compressEach(unsigned chosen, const Value* values, Value* to) {
+  for (int i = 0; i < packet_size; ++i) {  // without a branch: which are chosen cannot be foreseen
     *to = values[i];
     to += chosen >> i & 1U;
   }
 }
-TUFTED_INLINE void squeeze(const Mask& chosen, const Lane& a, double* to) {
-  double values[lane_size];
+TUFTED_INLINE void compress(const Mask& chosen, const Packet& a, double* to) {
+  double values[packet_size];
   store(a, values);
-  squeezeEach(bitsOf(chosen), values, to);
+  compressEach(bitsOf(chosen), values, to);
 }
-TUFTED_INLINE void squeeze(const Mask& chosen, const int* a, int* to) {
-  squeezeEach(bitsOf(chosen), a, to);
+TUFTED_INLINE void compress(const Mask& chosen, const int* a, int* to) {
+  compressEach(bitsOf(chosen), a, to);
 }
 
-TUFTED_INLINE void storeFloats(const Lane& a, float* to) {
-  double values[lane_size];
+TUFTED_INLINE void storeFloats(const Packet& a, float* to) {
+  double values[packet_size];
   store(a, values);
-  for (int i = 0; i < lane_size; ++i) to[i] = static_cast<float>(values[i]);
+  for (int i = 0; i < packet_size; ++i) to[i] = static_cast<float>(values[i]);
 }
 
-template <int lanes>
+template <int packets>
 TUFTED_INLINE void rankFloats(const float* some, const float* values, int count, int* rank) {
   using Four = float __attribute__((vector_size(16)));
   using FourCounts = int __attribute__((vector_size(16)));
-  constexpr int fours = float_lane_size / 4;
-  for (int l = 0; l < lanes; ++l, rank += float_lane_size) {
+  constexpr int fours = float_packet_size / 4;
+  for (int l = 0; l < packets; ++l, rank += float_packet_size) {
     Four mine[fours];
     FourCounts less[fours] = {};
-    __builtin_memcpy(mine, some + l * float_lane_size, sizeof(mine));
+    __builtin_memcpy(mine, some + l * float_packet_size, sizeof(mine));
     for (int j = 0; j < count; ++j) {
       const Four value = {values[j], values[j], values[j], values[j]};
       for (int i = 0; i < fours; ++i) less[i] -= value < mine[i];  // true is -1
