@@ -7,8 +7,6 @@
 #include <array>
 #include <optional>
 
-#include "base/foreign_memory.h"
-
 namespace tufted {
 namespace {
 
@@ -29,7 +27,6 @@ struct KdForest::Tree {
     const auto rows = points.middleRows(begin, end - begin);
     Eigen::Map<Eigen::RowVector3d>(lowest.data()) = rows.colwise().minCoeff();
     Eigen::Map<Eigen::RowVector3d>(highest.data()) = rows.colwise().maxCoeff();
-    const ForeignMemory building;
     // The points are in Morton order already, so FLANN's reordered copy would only cost memory.
     index.emplace(flann::Matrix<double>(const_cast<double*>(rows.data()), static_cast<std::size_t>(end - begin), 3),
                   flann::KDTreeSingleIndexParams(16, false));
@@ -62,7 +59,6 @@ void KdForest::search(const double* position, int near_rank, RankSet& found) con
   const auto after = std::partition_point(trees_.begin() + 1, trees_.end(),
                                           [near_rank](const Tree& tree) { return tree.first <= near_rank; });
   const Tree& nearest = *(after - 1);
-  const ForeignMemory query;
   search(nearest, position, found);
   for (const Tree& tree : trees_)
     if (&tree != &nearest && !(tree.squaredDistance(position) > found.worstDist())) search(tree, position, found);

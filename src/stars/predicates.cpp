@@ -4,7 +4,6 @@
 
 #include <cmath>
 
-#include "base/foreign_memory.h"
 
 namespace tufted {
 namespace {
@@ -40,7 +39,6 @@ int orientation(const PlanarPoint& a, const PlanarPoint& b) {
     if (determinant != rest) return determinant > rest ? 1 : -1;
     if (rest == 0) return 0;
   }
-  const ForeignMemory exact;
   return static_cast<int>(CGAL::orientation(Kernel::Point_2(0, 0), toCgal(a), toCgal(b)));
 }
 
@@ -63,7 +61,6 @@ CircleSide sideOfCircle(const PlanarPoint& a, const PlanarPoint& b, const Planar
   const double cross_a = cross(-a.u, -a.v, -abu, -abv);
   const double sides_a = dot(a.u, a.v, a.u, a.v) * dot(abu, abv, abu, abv);
   if (in_range && cosine < 0 && cross_a * cross_a > flat_sine * flat_sine * sides_a) return CircleSide::tie;
-  const ForeignMemory exact;
   switch (CGAL::side_of_oriented_circle(Kernel::Point_2(0, 0), toCgal(a), toCgal(b), toCgal(c))) {
     case CGAL::ON_POSITIVE_SIDE:
       return CircleSide::inside;

@@ -1,17 +1,43 @@
 #include "heap/heap_count.h"
 
+#include <dlfcn.h>
+#include <execinfo.h>
+
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <cstddef>
-
-#include "base/foreign_memory.h"
+#include <string_view>
 
 namespace {
 
 std::atomic<std::int64_t> blocks{0}, foreign_blocks{0};
 
+/// Whether an address lies in FLANN or CGAL, or in one of our functions that do nothing but call them, into which the
+/// compiler may have put their code. Needs the program's symbols, so it is linked with -rdynamic.
+bool isForeign(const void* address) {
+  constexpr std::array<std::string_view, 5> foreign = {"flann", "CGAL", "KdForest6search", "11orientation",
+                                                       "12sideOfCircle"};
+  Dl_info info;
+  if (dladdr(address, &info) == 0 || info.dli_sname == nullptr) return false;
+  const std::string_view name = info.dli_sname;
+  return std::any_of(foreign.begin(), foreign.end(), [&](auto part) { return name.find(part) != name.npos; });
+}
+
+/// Whether a library is asking, by the functions that are being run.
+bool isAskedByLibrary() {
+  std::array<void*, 64> caller;
+  const int count = backtrace(caller.data(), static_cast<int>(caller.size()));
+  return std::any_of(caller.begin(), caller.begin() + count, isForeign);
+}
+
 void count() {
-  ++(tufted::ForeignMemory::isBeingTaken() ? foreign_blocks : blocks);
+  thread_local bool is_counting = false;  // backtrace() may ask for memory itself
+  if (is_counting) return;
+  is_counting = true;
+  ++(isAskedByLibrary() ? foreign_blocks : blocks);
+  is_counting = false;
 }
 
 }  // namespace

@@ -7,7 +7,7 @@ namespace tufted::heap {
 /// What this process has asked of malloc(), and operator new by way of it, so far.
 struct Count {
   std::int64_t blocks = 0;          ///< our own
-  std::int64_t foreign_blocks = 0;  ///< of libraries, see ForeignMemory
+  std::int64_t foreign_blocks = 0;  ///< those that FLANN and CGAL asked for
 };
 
 Count countSoFar();
