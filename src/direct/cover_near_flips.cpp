@@ -68,10 +68,10 @@ class Flipping {
   Buffer<Buffer<FlipSeed>> seeds_;
 };
 
-CoverNearFlips::CoverNearFlips(const Stars& stars, const EdgeLengths& length, const RadialCycles& pools)
+CoverNearFlips::CoverNearFlips(const Stars& stars, const EdgeLengths& length, const RadialCycles& cycles)
     : stars_(stars),
       length_(length),
-      cycles_(pools),
+      cycles_(cycles),
       first_(static_cast<std::size_t>(stars.size()), -1),
       flipped_(static_cast<std::size_t>(stars.size())) {
   cover_.vertices = stars.size();
@@ -142,7 +142,7 @@ void CoverNearFlips::reserve(const Buffer<Buffer<FlipSeed>>& seeds, const Worker
     const auto degree = [this](std::int64_t p) { return std::int64_t{stars_.offset[p + 1]} - stars_.offset[p]; };
     std::int64_t room = 1;  // by which blocks are told apart
     for (const FlipSeed& seed : seeds[begin / block_size]) room += degree(seed.side.star);
-    for (std::int64_t p = begin; p < end; ++p) room += stars_.disagrees[p] != 0 ? 2 * degree(p) : 0;
+    for (std::int64_t p = begin; p < end; ++p) room += cycles_.disagrees(static_cast<int>(p)) ? 2 * degree(p) : 0;
     const std::int64_t all = std::int64_t{stars_.offset[end]} - stars_.offset[begin] + 1;
     block_begin_[begin / block_size + 1] = static_cast<int>(std::min(room, all));
   });

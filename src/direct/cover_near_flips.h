@@ -25,7 +25,7 @@ class CoverNearFlips {
   static constexpr int block_size = 4096;  // stars
 
   /// All borrowed for the life of the cover.
-  CoverNearFlips(const Stars& stars, const EdgeLengths& length, const RadialCycles& pools);
+  CoverNearFlips(const Stars& stars, const EdgeLengths& length, const RadialCycles& cycles);
 
   /// Algorithm 2.
   FlipCounts flipToDelaunay(const StarMetric& metric, const Workers& workers);

@@ -10,6 +10,7 @@ namespace tufted {
 /// A union of stars glued with Gluing::star, after flips. Borrowed.
 struct GluedStars {
   const Stars& stars;
+  const Buffer<std::uint8_t>& disagrees;  ///< see findDisagreement()
   const StarMetric& metric;
   const EdgeLengths& length;
   CoverNearFlips& cover;

@@ -28,7 +28,9 @@ void forEachOpenSide(const Stars& stars, int p, const Visit& visit) {
 
 }  // namespace
 
-RadialCycles::RadialCycles(const Stars& stars, const PointsView& points, const Workers& workers) : stars_(stars) {
+RadialCycles::RadialCycles(const Stars& stars, const Buffer<std::uint8_t>& disagreement, const PointsView& points,
+                           const Workers& workers)
+    : stars_(stars), disagrees_(disagreement) {
   collect(workers);
   sort(points, workers);
 }
@@ -37,7 +39,7 @@ void RadialCycles::collect(const Workers& workers) {
   const int n = stars_.size();
   const Buffer<int> near = numbersWhere("glue", n, workers, [this](int p) {  // the others have no side in a pool
     const auto first = stars_.link.begin() + stars_.offset[p], last = stars_.link.begin() + stars_.offset[p + 1];
-    return std::any_of(first, last, [this](int q) { return stars_.disagrees[q] != 0; });
+    return std::any_of(first, last, [this](int q) { return disagrees(q); });
   });
   const auto forEachUnglued = [&](const auto& visit) {
     for (const int p : near) {
@@ -89,8 +91,8 @@ int RadialCycles::endOfCycle(int i) const {
 
 StarSide RadialCycles::neighbor(const StarSide& side, int step) const {
   const int from = tail(stars_, side), to = head(stars_, side);
-  if (stars_.disagrees[from] == 0) return acrossAgreeing(side, from, to);
-  if (stars_.disagrees[to] == 0) return acrossAgreeing(side, to, from);
+  if (!disagrees(from)) return acrossAgreeing(side, from, to);
+  if (!disagrees(to)) return acrossAgreeing(side, to, from);
   const int low = std::min(from, to);
   int at = offset_[low];
   while (sides_[at].side() != side) ++at;

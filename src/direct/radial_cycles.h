@@ -38,7 +38,11 @@ inline int apex(const Stars& stars, const StarSide& s) {
 class RadialCycles {
  public:
   /// @param stars borrowed
-  RadialCycles(const Stars& stars, const PointsView& points, const Workers& workers);
+  /// @param disagreement see findDisagreement(); borrowed
+  RadialCycles(const Stars& stars, const Buffer<std::uint8_t>& disagreement, const PointsView& points,
+               const Workers& workers);
+
+  bool disagrees(int p) const { return disagrees_[p] != 0; }
 
   /// The sides after and before this one around its edge; itself where there is no other.
   StarSide next(const StarSide& side) const { return neighbor(side, 1); }
@@ -51,9 +55,7 @@ class RadialCycles {
   }
 
   /// Whether the side lies in a pool.
-  bool isInCycle(const StarSide& side) const {
-    return stars_.disagrees[tail(stars_, side)] != 0 && stars_.disagrees[head(stars_, side)] != 0;
-  }
+  bool isInCycle(const StarSide& side) const { return disagrees(tail(stars_, side)) && disagrees(head(stars_, side)); }
 
   /// Calls visit(sides) for each pool whose smaller vertex lies in [begin, end), its sides in order.
   template <class Visit>
@@ -90,6 +92,7 @@ class RadialCycles {
   int endOfCycle(int i) const;
 
   const Stars& stars_;
+  const Buffer<std::uint8_t>& disagrees_;
   Buffer<int> offset_;  ///< n + 1, by smaller vertex
   RawBuffer<CycleSide> sides_;
 };

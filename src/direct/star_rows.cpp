@@ -23,7 +23,7 @@ class StarAssembler {
       : stars_(glued.stars),
         metric_(glued.metric),
         scale_(scale),
-        mixed_(stars_.disagrees),
+        mixed_(glued.disagrees),
         mass_(static_cast<std::size_t>(stars_.size())) {
     workers.forBlocks("assemble", stars_.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
       for (int p = static_cast<int>(begin); p < end; ++p) {

@@ -17,13 +17,15 @@ double sumAreas(const StarMetric& metric) {
 
 }  // namespace
 
-StarUnion::StarUnion(Stars stars, RankedCloud cloud, int size, bool has_own_areas, const Workers& workers)
+StarUnion::StarUnion(Stars stars, Buffer<std::uint8_t> disagrees, RankedCloud cloud, int size, bool has_own_areas,
+                     const Workers& workers)
     : stars_(std::move(stars)),
+      disagrees_(std::move(disagrees)),
       cloud_(std::move(cloud)),
       size_(size),
       threads_(workers.count()),
       has_own_areas_(has_own_areas),
-      cycles_(stars_, cloud_.points, workers),
+      cycles_(stars_, disagrees_, cloud_.points, workers),
       cover_(stars_, length_, cycles_) {}
 
 StarMetric StarUnion::measure(double delta, RawBuffer<double> memory, const Workers& workers, OwnAreas* own) {
@@ -50,8 +52,8 @@ void StarUnion::assemble(const StarMetric& metric, bool keep_cover, const Worker
     cycles_.drop();
     cover_.keepMovedFaces();
   }
-  assembleStars({stars_, metric, length_, cover_}, keep_cover, cloud_.input_index, size_, faceScale(result.kind),
-                workers, result);
+  assembleStars({stars_, disagrees_, metric, length_, cover_}, keep_cover, cloud_.input_index, size_,
+                faceScale(result.kind), workers, result);
 }
 
 const IntrinsicTriangulation& StarUnion::cover() const {

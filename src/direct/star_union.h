@@ -27,9 +27,11 @@ namespace tufted {
 class StarUnion final : public CoverSource {
  public:
   /// Glues (Algorithm 1).
+  /// @param disagrees see findDisagreement()
   /// @param size how many points the caller has
   /// @param has_own_areas whether starAreas() will be asked for
-  StarUnion(Stars stars, RankedCloud cloud, int size, bool has_own_areas, const Workers& workers);
+  StarUnion(Stars stars, Buffer<std::uint8_t> disagrees, RankedCloud cloud, int size, bool has_own_areas,
+            const Workers& workers);
 
   /// Lengths, mollified (Section 4.5), and the cotangents and areas that follow.
   /// @param delta least slack in mean edge lengths
@@ -56,6 +58,7 @@ class StarUnion final : public CoverSource {
 
  private:
   const Stars stars_;
+  const Buffer<std::uint8_t> disagrees_;
   const RankedCloud cloud_;
   const int size_, threads_;
   const bool has_own_areas_;

@@ -10,15 +10,15 @@
 
 namespace tufted {
 
-OwnAreas finishFromStars(Stars stars, RankedCloud cloud, const CloudOptions& options, const Workers& workers,
+OwnAreas finishFromStars(SurfaceStars built, RankedCloud cloud, const CloudOptions& options, const Workers& workers,
                          StageClock& clock, Laplacian& result) {
   const int exponent = cloud.exponent;
-  RawBuffer<double> memory = std::move(stars.radius);
-  BuildFigures figures{.triangles = stars.triangles()};
+  RawBuffer<double> memory = std::move(built.support.radius);
+  BuildFigures figures{.triangles = built.stars.triangles()};
   const bool has_own_areas = options.steps.mass == Mass::star;
-  const auto stars_and_cover =
-      std::allocate_shared<StarUnion>(WorkspaceAllocator<StarUnion>(), std::move(stars), std::move(cloud),
-                                      static_cast<int>(result.status.size()), has_own_areas, workers);
+  const auto stars_and_cover = std::allocate_shared<StarUnion>(
+      WorkspaceAllocator<StarUnion>(), std::move(built.stars), std::move(built.disagrees), std::move(cloud),
+      static_cast<int>(result.status.size()), has_own_areas, workers);
   clock.finish("cover", 0);
 
   OwnAreas own;

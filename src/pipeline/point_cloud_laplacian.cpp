@@ -35,16 +35,17 @@ constexpr std::int64_t most_entries = most_triangles - most_triangles / 64;
 
 /// Algorithms 1 to 3 on the whole cover.
 /// @returns ownAreas() with Mass::star, else nothing
-OwnAreas finishFromWholeCover(Stars stars, const RankedCloud& cloud, const CloudOptions& options,
+OwnAreas finishFromWholeCover(SurfaceStars built, const RankedCloud& cloud, const CloudOptions& options,
                               const Workers& workers, StageClock& clock, Laplacian& result) {
+  Stars& stars = built.stars;
   OwnAreas own;
   if (options.steps.mass == Mass::star) own = ownAreas(stars, cloud.points, workers);
   clock.finish("mass", 0);
   const PointBuffer displacement = std::move(stars.displacement);
-  release(stars.radius);
+  release(built.support.radius);
   std::shared_ptr<IntrinsicTriangulation> cover = takeCover(result);
   addStars(stars, options.gluing, *cover, workers);
-  stars = {};
+  built = {};
   glueEdges(*cover, cloud.points, {options.order, options.seed}, workers);
   clock.finish("cover", bytesOfCover(*cover));
   finishFromCover(std::move(cover), {cloud.points, displacement, cloud.input_index, cloud.exponent}, options.mollify,
@@ -78,17 +79,19 @@ void buildCloudLaplacian(const Points& points, const CloudOptions& options, Clou
 
   // Each point's neighbours, tangent plane and local Delaunay triangulation (Section 5.7), without outliers and
   // triangles that the neighbours refuse. Books its own stages.
-  Stars stars = surfaceStars(cloud, source, options, workers, result.report);
-  if (std::ssize(stars.link) > most_entries) tooMany(stars.size(), std::ssize(stars.link));
+  SurfaceStars built = surfaceStars(cloud, source, options, workers, result.report);
+  if (std::ssize(built.stars.link) > most_entries) tooMany(cloud.size(), std::ssize(built.stars.link));
   clock.restart();
 
   // Where the surface ends, and which way it faces.
   const Eigen::Vector3d* viewpoint = options.viewpoint;
   if (viewpoint == nullptr && options.structure != nullptr) viewpoint = &options.structure->origin;
-  setBoundaryAndNormals(stars, findBoundary(stars, cloud, source, viewpoint, workers), cloud, workers, result);
+  setBoundaryAndNormals(findBoundary(built, cloud, source, viewpoint, workers), built.support.normals, cloud, workers,
+                        result);
   source = {};
-  stars.normals = {};
-  release(stars.fit_radius);
+  built.support.normals = {};
+  release(built.support.fit_radius);
+  release(built.support.isolated);
   clock.finish("boundary", 0);
 
   // The union of all stars, glued to its tufted cover (Algorithm 1), measured and mollified (Section 4.5), flipped to
@@ -100,9 +103,9 @@ void buildCloudLaplacian(const Points& points, const CloudOptions& options, Clou
   OwnAreas own;
   if (stars_agree && build == CloudBuild::automatic) {
     result.stored_cover.reset();
-    own = finishFromStars(std::move(stars), std::move(cloud), options, workers, clock, result);
+    own = finishFromStars(std::move(built), std::move(cloud), options, workers, clock, result);
   } else {
-    own = finishFromWholeCover(std::move(stars), cloud, options, workers, clock, result);
+    own = finishFromWholeCover(std::move(built), cloud, options, workers, clock, result);
   }
 
   // With Mass::star a point's area is what belongs to it in its own star.

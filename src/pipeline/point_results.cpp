@@ -12,16 +12,16 @@ constexpr std::int64_t block_size = 4096;
 
 }  // namespace
 
-void setBoundaryAndNormals(const Stars& stars, const Buffer<Boundary>& boundary, const RankedCloud& cloud,
+void setBoundaryAndNormals(const Buffer<Boundary>& boundary, const PointsView& normals, const RankedCloud& cloud,
                            const Workers& workers, Laplacian& result) {
   const auto n = static_cast<Eigen::Index>(result.status.size());
   result.boundary.assign(result.status.size(), Boundary::none);
   result.frames.normals.resize(n, 3);
-  workers.forBlocks("boundary", stars.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+  workers.forBlocks("boundary", cloud.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
     for (std::int64_t p = begin; p < end; ++p) {
       const int i = cloud.input_index[p];
       result.boundary[i] = boundary[p];
-      result.frames.normals.row(i) = stars.normals.row(p);
+      result.frames.normals.row(i) = normals.row(p);
     }
   });
   for (Eigen::Index i = 0; i < n; ++i) {

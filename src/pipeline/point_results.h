@@ -2,9 +2,9 @@
 
 #include "base/buffer.h"
 #include "base/parallel.h"
+#include "base/point_buffer.h"
 #include "direct/star_areas.h"
 #include "neighbors/morton.h"
-#include "stars/stars.h"
 #include "tufted/laplacian.h"
 
 namespace tufted {
@@ -13,7 +13,8 @@ namespace tufted {
 
 /// Sets the boundary tags and the normals; coincident points take the normal of their representative.
 /// @param boundary by rank
-void setBoundaryAndNormals(const Stars& stars, const Buffer<Boundary>& boundary, const RankedCloud& cloud,
+/// @param normals n x 3, by rank
+void setBoundaryAndNormals(const Buffer<Boundary>& boundary, const PointsView& normals, const RankedCloud& cloud,
                            const Workers& workers, Laplacian& result);
 
 /// Sets the tangents, which are zero where the normal is.

@@ -65,8 +65,8 @@ struct WorkerState {
 /// Looks through the gaps between a point's triangles.
 class BoundaryFinder {
  public:
-  BoundaryFinder(const Stars& stars, const PointsView& points, const NeighborSource& source)
-      : stars_(stars), points_(points), source_(source) {}
+  BoundaryFinder(const BuiltStars& built, const PointsView& points, const NeighborSource& source)
+      : stars_(built.stars), support_(built.support), points_(points), source_(source) {}
 
   /// Has find() look from there as well.
   void lookFrom(const Eigen::Vector3d& viewpoint, const Workers& workers) {
@@ -82,7 +82,7 @@ class BoundaryFinder {
     if (stars_.ends[p] == 0) return Boundary::none;
     if (!hasTriangles(p)) return Boundary::lost;
     source_.nearest(points_, p, search_factor * source_.k, state.near, NeighborOrder::any, &state.before);
-    const Eigen::Vector3d normal = stars_.normals.row(p);
+    const Eigen::Vector3d normal = support_.normals.row(p);
     const Boundary along_normal = lookBeyond(p, View::along_normal, Chart(points_, p, normal), state);
     if (!seen_ || along_normal == Boundary::jump) return along_normal;
 
@@ -128,10 +128,10 @@ class BoundaryFinder {
   /// bends away in the distance may be the same; what is seen beside p from the viewpoint is near or elsewhere.
   bool isElsewhere(int p, int q, View view) const {
     const Eigen::RowVector3d d = points_.row(q) - points_.row(p);
-    const double height = std::abs(d.dot(stars_.normals.row(p)));
+    const double height = std::abs(d.dot(support_.normals.row(p)));
     const double along = std::sqrt(std::max(0.0, d.squaredNorm() - height * height));
     return height >
-           off_plane * (view == View::along_normal ? std::max(stars_.fit_radius[p], along) : stars_.fit_radius[p]);
+           off_plane * (view == View::along_normal ? std::max(support_.fit_radius[p], along) : support_.fit_radius[p]);
   }
 
   Boundary lookBeyond(int p, View view, const Chart& chart, WorkerState& state) const {
@@ -154,6 +154,7 @@ class BoundaryFinder {
   }
 
   const Stars& stars_;
+  const StarSupport& support_;
   PointsView points_;
   const NeighborSource& source_;
   PointBuffer directions_;  ///< n x 3, unit vectors from the viewpoint; 0 x 3 without one
@@ -162,10 +163,11 @@ class BoundaryFinder {
 
 }  // namespace
 
-Buffer<Boundary> findBoundary(const Stars& stars, const RankedCloud& cloud, const NeighborSource& source,
+Buffer<Boundary> findBoundary(const BuiltStars& built, const RankedCloud& cloud, const NeighborSource& source,
                               const Eigen::Vector3d* viewpoint, const Workers& workers) {
+  const Stars& stars = built.stars;
   Buffer<Boundary> boundary(stars.size(), Boundary::none);
-  BoundaryFinder finder(stars, cloud.points, source);
+  BoundaryFinder finder(built, cloud.points, source);
   const auto scaled = [&](double x) { return std::clamp(std::ldexp(x, -cloud.exponent), -infinity, infinity); };
   const bool any = std::any_of(stars.ends.begin(), stars.ends.end(), [](std::uint8_t ends) { return ends != 0; });
   if (any && viewpoint != nullptr) finder.lookFrom(viewpoint->unaryExpr(scaled), workers);

@@ -13,7 +13,7 @@ namespace tufted {
 /// on a dense one, its points are not seen either, but lie in the plane. Nothing is done where the neighbours are not
 /// the nearest points: with the caller's lists or the structure of a scan.
 /// @param cloud,source what the stars were built from
-void isolateOutliers(Stars& stars, const RankedCloud& cloud, const NeighborSource& source, const Workers& workers,
+void isolateOutliers(BuiltStars& built, const RankedCloud& cloud, const NeighborSource& source, const Workers& workers,
                      Report& report);
 
 }  // namespace tufted

@@ -65,21 +65,23 @@ struct SquaredRadius {
 
 /// Filter::radius: circumradius R > r_k(p), which are slivers along a rim, or R > 4 times the smallest r_k of the three
 /// corners, which are bridges to outliers.
-bool isTooLarge(const Stars& stars, int p, int i) {
+bool isTooLarge(const BuiltStars& built, int p, int i) {
+  const auto& [stars, support] = built;
   const int a = stars.link[i], b = stars.link[stars.after(p, i)];
-  const double smallest = std::min({stars.fit_radius[p], stars.fit_radius[a], stars.fit_radius[b]});
-  return stars.radius[i] > stars.fit_radius[p] || stars.radius[i] > 4 * smallest;
+  const double smallest = std::min({support.fit_radius[p], support.fit_radius[a], support.fit_radius[b]});
+  return support.radius[i] > support.fit_radius[p] || support.radius[i] > 4 * smallest;
 }
 
 /// Filter::votes: far larger than the neighbourhood; or of one star alone and, in space, large for its corners: for
 /// any of them, or for those around a point that sees further than they do.
-bool isImplausible(const Stars& stars, const PointsView& points, int p, int i) {
+bool isImplausible(const BuiltStars& built, const PointsView& points, int p, int i) {
+  const auto& [stars, support] = built;
   const int a = stars.link[i], b = stars.link[stars.after(p, i)];
-  if (stars.radius[i] > 3 * stars.fit_radius[p]) return true;
-  const double smallest = std::min({stars.fit_radius[p], stars.fit_radius[a], stars.fit_radius[b]});
+  if (support.radius[i] > 3 * support.fit_radius[p]) return true;
+  const double smallest = std::min({support.fit_radius[p], support.fit_radius[a], support.fit_radius[b]});
   const SquaredRadius radius(points, p, a, b, smallest);
   if (radius.isAtMost(1)) return false;
-  const bool sees_further = stars.fit_radius[p] > further * std::max(stars.fit_radius[a], stars.fit_radius[b]);
+  const bool sees_further = support.fit_radius[p] > further * std::max(support.fit_radius[a], support.fit_radius[b]);
   if (radius.isAtMost(4) && !sees_further) return false;
   return otherVotes(stars, p, i) == 0;
 }
@@ -111,16 +113,19 @@ std::int64_t dropTriangles(Stars& stars, const Workers& workers, const Test& tes
 
 }  // namespace
 
-void filterStars(Stars& stars, const PointsView& points, Filter filter, const Workers& workers, Report& report) {
+void filterStars(BuiltStars& built, const PointsView& points, Filter filter, const Workers& workers, Report& report) {
+  Stars& stars = built.stars;
+  const StarSupport& support = built.support;
   if (stars.size() == 0) return;
-  const bool any_isolated = std::any_of(stars.isolated.begin(), stars.isolated.end(), [](auto is) { return is != 0; });
+  const bool any_isolated =
+      std::any_of(support.isolated.begin(), support.isolated.end(), [](auto is) { return is != 0; });
   // No triangle smaller than this is condemned, so that their corners need not be looked at.
-  const double harmless = *std::min_element(stars.fit_radius.begin(), stars.fit_radius.end());
+  const double harmless = *std::min_element(support.fit_radius.begin(), support.fit_radius.end());
   report.dropped_triangles += dropTriangles(stars, workers, [&](int p, int i) {
-    if (any_isolated && (stars.isolated[stars.link[i]] != 0 || stars.isolated[stars.link[stars.after(p, i)]] != 0))
+    if (any_isolated && (support.isolated[stars.link[i]] != 0 || support.isolated[stars.link[stars.after(p, i)]] != 0))
       return true;
-    if (filter == Filter::votes) return isImplausible(stars, points, p, i);
-    return stars.radius[i] > harmless && isTooLarge(stars, p, i);
+    if (filter == Filter::votes) return isImplausible(built, points, p, i);
+    return support.radius[i] > harmless && isTooLarge(built, p, i);
   });
 }
 

@@ -11,7 +11,7 @@ namespace tufted {
 /// Drops triangles that no surface sampled like this would have, see Filter. A point that loses a triangle is tagged in
 /// `ends`.
 /// @param points n x 3, by rank
-void filterStars(Stars& stars, const PointsView& points, Filter filter, const Workers& workers, Report& report);
+void filterStars(BuiltStars& built, const PointsView& points, Filter filter, const Workers& workers, Report& report);
 
 /// Counts the distinct triangles that 1, 2 and 3 of their corners' stars contain.
 /// @param disagrees see findDisagreement(): all corners' stars contain the triangles of the others

@@ -35,10 +35,10 @@ struct BlockOfStars {
   Buffer<std::uint8_t> triangle;
   Buffer<double> radius;
 
-  void appendTo(Stars& stars) const {
-    stars.link.insert(stars.link.end(), link.begin(), link.end());
-    stars.triangle.insert(stars.triangle.end(), triangle.begin(), triangle.end());
-    stars.radius.insert(stars.radius.end(), radius.begin(), radius.end());
+  void appendTo(BuiltStars& built) const {
+    built.stars.link.insert(built.stars.link.end(), link.begin(), link.end());
+    built.stars.triangle.insert(built.stars.triangle.end(), triangle.begin(), triangle.end());
+    built.support.radius.insert(built.support.radius.end(), radius.begin(), radius.end());
   }
   void clear() {
     link.clear();
@@ -50,11 +50,11 @@ struct BlockOfStars {
 /// Puts stars one after the other in the order of their blocks, whichever is done first.
 class BlocksInOrder {
  public:
-  BlocksInOrder(std::int64_t blocks, Stars& stars) : waiting_(static_cast<std::size_t>(blocks)), stars_(stars) {
-    const std::size_t likely = most_usual_degree * static_cast<std::size_t>(stars.size());
-    stars.link.reserve(likely);
-    stars.triangle.reserve(likely);
-    stars.radius.reserve(likely);
+  BlocksInOrder(std::int64_t blocks, BuiltStars& built) : waiting_(static_cast<std::size_t>(blocks)), built_(built) {
+    const std::size_t likely = most_usual_degree * static_cast<std::size_t>(built.stars.size());
+    built.stars.link.reserve(likely);
+    built.stars.triangle.reserve(likely);
+    built.support.radius.reserve(likely);
   }
 
   /// @param block left empty, mostly with its memory
@@ -64,10 +64,10 @@ class BlocksInOrder {
       waiting_[number].emplace(std::exchange(block, {}));
       return;
     }
-    block.appendTo(stars_);
+    block.appendTo(built_);
     block.clear();
     for (++next_; next_ < waiting_.size() && waiting_[next_].has_value(); ++next_) {
-      waiting_[next_]->appendTo(stars_);
+      waiting_[next_]->appendTo(built_);
       waiting_[next_].reset();
     }
   }
@@ -76,7 +76,7 @@ class BlocksInOrder {
   std::mutex mutex_;
   std::size_t next_ = 0;
   Buffer<std::optional<BlockOfStars>> waiting_;
-  Stars& stars_;
+  BuiltStars& built_;
 };
 
 /// Memory, counts and times of one worker.
@@ -98,14 +98,15 @@ struct WorkerState {
 
 class StarBuilder {
  public:
-  StarBuilder(const RankedCloud& cloud, const NeighborSource& source, const CloudOptions& options, Stars& stars)
+  StarBuilder(const RankedCloud& cloud, const NeighborSource& source, const CloudOptions& options, BuiltStars& built)
       : source_(source),
         options_(options),
         finder_(cloud.points, source, options),
         wrap_(options.delaunay == Delaunay::star ? delaunayStar : cgalBackend()),
         has_short_cut_(options.delaunay == Delaunay::star),
-        denoises_(stars.displacement.rows() > 0),
-        stars_(stars) {}
+        denoises_(built.stars.displacement.rows() > 0),
+        stars_(built.stars),
+        support_(built.support) {}
 
   /// Leaves the stars in state.block.
   void build(std::int64_t begin, std::int64_t end, WorkerState& state, NoisyPoints& noisy) const {
@@ -151,9 +152,9 @@ class StarBuilder {
     state.isolated += neighborhood.isolated ? 1 : 0;
     if (source_.normals.rows() > 0 && !source_.normals.row(p).isZero(0))
       neighborhood.axes.normal = source_.normals.row(p);
-    stars_.normals.row(p) = neighborhood.axes.normal;
-    stars_.fit_radius[p] = neighborhood.fit_radius;
-    stars_.isolated[p] = neighborhood.isolated ? 1 : 0;
+    support_.normals.row(p) = neighborhood.axes.normal;
+    support_.fit_radius[p] = neighborhood.fit_radius;
+    support_.isolated[p] = neighborhood.isolated ? 1 : 0;
     stars_.flat[p] = neighborhood.axes.variance[0] < flat_share * neighborhood.axes.variance[1] ? 1 : 0;
   }
 
@@ -281,6 +282,7 @@ class StarBuilder {
   Wrap wrap_;
   bool has_short_cut_, denoises_;
   Stars& stars_;
+  StarSupport& support_;
 };
 
 }  // namespace
@@ -290,28 +292,33 @@ std::int64_t Stars::triangles() const {
 }
 
 std::size_t Stars::bytes() const {
-  return bytesOf(triangle) + bytesOf(offset) + bytesOf(link) + bytesOf(radius) + bytesOf(fit_radius) + bytesOf(ends) +
-         bytesOf(isolated) + bytesOf(flat) + bytesOf(disagrees) + normals.bytes() + displacement.bytes();
+  return bytesOf(triangle) + bytesOf(offset) + bytesOf(link) + bytesOf(ends) + bytesOf(flat) + displacement.bytes();
 }
 
-Stars buildStars(const RankedCloud& cloud, const NeighborSource& source, const CloudOptions& options,
-                 const Workers& workers, Report& report) {
+std::size_t StarSupport::bytes() const {
+  return bytesOf(radius) + bytesOf(fit_radius) + bytesOf(isolated) + normals.bytes();
+}
+
+BuiltStars buildStars(const RankedCloud& cloud, const NeighborSource& source, const CloudOptions& options,
+                      const Workers& workers, Report& report) {
   const int n = cloud.size();
-  Stars stars;
+  BuiltStars built;
+  Stars& stars = built.stars;
+  StarSupport& support = built.support;
   stars.offset.assign(static_cast<std::size_t>(n) + 1, 0);
-  stars.fit_radius.resize(n);
+  support.fit_radius.resize(n);
   stars.ends.resize(n);
-  stars.isolated.resize(n);
+  support.isolated.resize(n);
   stars.flat.resize(n);
-  stars.normals.resize(n);
+  support.normals.resize(n);
   if (options.steps.lengths == Lengths::denoised && !source.isWholeCloud(n)) stars.displacement.setZero(n);
 
   Stopwatch wall;
   const std::int64_t blocks = (n + block_size - 1) / block_size;
   Buffer<NoisyPoints> noisy(static_cast<std::size_t>(blocks));
   Buffer<WorkerState> states(workers.count());
-  const StarBuilder builder(cloud, source, options, stars);
-  BlocksInOrder in_order(blocks, stars);
+  const StarBuilder builder(cloud, source, options, built);
+  BlocksInOrder in_order(blocks, built);
   workers.forBlocks("stars", n, block_size, [&](std::int64_t begin, std::int64_t end, int worker) {
     const std::size_t number = begin / block_size;
     builder.build(begin, end, states[worker], noisy[number]);
@@ -326,7 +333,7 @@ Stars buildStars(const RankedCloud& cloud, const NeighborSource& source, const C
     workers.forBlocks("surface", blocks, 1, [&](std::int64_t begin, std::int64_t end, int worker) {
       WorkerState& state = states[worker];
       for (std::int64_t b = begin; b < end; ++b)
-        displaceOnceMore(cloud.points, moved, noisy[b], stars.fit_radius, state.offsets, state.fits,
+        displaceOnceMore(cloud.points, moved, noisy[b], support.fit_radius, state.offsets, state.fits,
                          stars.displacement);
     });
   }
@@ -347,8 +354,8 @@ Stars buildStars(const RankedCloud& cloud, const NeighborSource& source, const C
   const double share = cpu > 0 ? wall.seconds() / cpu : 0;
   report.stages.push_back({"neighbors", seconds[0] * share, 0});
   report.stages.push_back({"frames", seconds[1] * share, 0});
-  report.stages.push_back({"stars", seconds[2] * share, stars.bytes()});
-  return stars;
+  report.stages.push_back({"stars", seconds[2] * share, stars.bytes() + support.bytes()});
+  return built;
 }
 
 }  // namespace tufted

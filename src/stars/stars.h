@@ -21,16 +21,10 @@ namespace tufted {
 struct Stars {
   Buffer<int> offset;                ///< n + 1
   RawBuffer<int> link;               ///< ranks
-  RawBuffer<std::uint8_t> triangle;  ///< per link entry, 0 where there is none
-  RawBuffer<double> radius;          ///< circumradius in the tangent plane, per link entry, until the cover is built
-  RawBuffer<double> fit_radius;      ///< n, r_k: distance to the last neighbour before a star grows
+  RawBuffer<std::uint8_t> triangle;  ///< per link entry, 0 where there is no triangle
   RawBuffer<std::uint8_t> ends;      ///< n, 1 where the surface ends at p: an open star or a lost triangle
-  RawBuffer<std::uint8_t>
-      isolated;  ///< n, 1 for points without a star: outliers, and where all neighbours are of other sheets
-  Buffer<std::uint8_t> disagrees;  ///< n, see findDisagreement(); empty before the filter has run
-  RawBuffer<std::uint8_t> flat;    ///< n, 1 where the neighbourhood is next to a plane
-  PointBuffer normals;             ///< n x 3
-  PointBuffer displacement;        ///< n x 3, from each point to where lengths are measured; 0 x 3: no point moves
+  RawBuffer<std::uint8_t> flat;      ///< n, 1 where the neighbourhood is nearly a plane
+  PointBuffer displacement;          ///< n x 3, from each point to where lengths are measured; 0 x 3: nothing moves
 
   int size() const { return std::max(0, static_cast<int>(offset.size()) - 1); }
   /// The link entry after i in star p, cyclically.
@@ -40,9 +34,24 @@ struct Stars {
   std::size_t bytes() const;
 };
 
+/// What the steps from stars to the cover look at beside the stars: the neighbourhoods in which they were found.
+struct StarSupport {
+  RawBuffer<double> radius;          ///< circumradius in the tangent plane, per link entry
+  RawBuffer<double> fit_radius;      ///< n, r_k: distance to the last neighbour before a star grows
+  RawBuffer<std::uint8_t> isolated;  ///< n, 1 for points without a star: outliers, and where all others lie elsewhere
+  PointBuffer normals;               ///< n x 3
+
+  std::size_t bytes() const;
+};
+
+struct BuiltStars {
+  Stars stars;
+  StarSupport support;
+};
+
 /// For every point the neighbourhood, the tangent frame, the projection and the Delaunay star with its certificate.
 /// Counts growth, splits and open stars, and books the three stages' costs.
-Stars buildStars(const RankedCloud& cloud, const NeighborSource& source, const CloudOptions& options,
-                 const Workers& workers, Report& report);
+BuiltStars buildStars(const RankedCloud& cloud, const NeighborSource& source, const CloudOptions& options,
+                      const Workers& workers, Report& report);
 
 }  // namespace tufted

@@ -5,8 +5,13 @@
 
 namespace tufted {
 
-/// The stars that the cover is made of: built, outliers isolated and filtered as the options say. Books every stage.
-Stars surfaceStars(const RankedCloud& cloud, const NeighborSource& source, const CloudOptions& options,
-                   const Workers& workers, Report& report);
+/// The stars that the cover is made of.
+struct SurfaceStars : BuiltStars {
+  Buffer<std::uint8_t> disagrees;  ///< n, see findDisagreement()
+};
+
+/// Builds stars, isolates outliers and filters triangles as the options say. Books every stage.
+SurfaceStars surfaceStars(const RankedCloud& cloud, const NeighborSource& source, const CloudOptions& options,
+                          const Workers& workers, Report& report);
 
 }  // namespace tufted

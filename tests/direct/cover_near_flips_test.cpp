@@ -28,7 +28,9 @@ class ShearedSphere : public testing::Test {
     Report report;
     const Workers workers(1, silent);
     const NeighborSource source = neighborSource(options, cloud_, status, representative, workers, report);
-    stars_ = surfaceStars(cloud_, source, options, workers, report);
+    SurfaceStars built = surfaceStars(cloud_, source, options, workers, report);
+    stars_ = std::move(built.stars);
+    disagrees_ = std::move(built.disagrees);
     stars_.displacement.setZero(cloud_.size());
     for (int p = 0; p < cloud_.size(); ++p) stars_.displacement.row(p)[0] = 3 * cloud_.points.row(p)[2];
   }
@@ -47,6 +49,7 @@ class ShearedSphere : public testing::Test {
 
   RankedCloud cloud_;
   Stars stars_;
+  Buffer<std::uint8_t> disagrees_;
 };
 
 TEST_F(ShearedSphere, AddsStarsBehindAllRangesWhereTheyDoNotFit) {
@@ -54,8 +57,8 @@ TEST_F(ShearedSphere, AddsStarsBehindAllRangesWhereTheyDoNotFit) {
   IntrinsicTriangulation reference;
   for (const int threads : {1, 3}) {
     const Workers workers(threads, silent);
-    const RadialCycles pools(stars_, cloud_.points, workers);
-    CoverNearFlips cover(stars_, length, pools);
+    const RadialCycles cycles(stars_, disagrees_, cloud_.points, workers);
+    CoverNearFlips cover(stars_, length, cycles);
     StarMetric metric = measureStars(stars_, length, {}, workers);
     for (std::size_t i = 0; i < metric.cotan_sum.size(); ++i)
       if (i % 1000 != 0) metric.cotan_sum[i] = 1;  // as if few edges were to be flipped at the start

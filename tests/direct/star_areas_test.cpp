@@ -27,7 +27,7 @@ TEST(StarAreas, AreNoMoreThanTwentyTimesTheTrianglesOfTheStar) {
     Report report;
     const Workers workers(2, silent);
     const NeighborSource source = neighborSource(options, cloud, status, representative, workers, report);
-    Stars stars = surfaceStars(cloud, source, options, workers, report);
+    Stars stars = surfaceStars(cloud, source, options, workers, report).stars;
     stars.displacement = PointBuffer();  // so that areas are those of the points themselves
     const OwnAreas own = ownAreas(stars, cloud.points, workers);
     for (int p = 0; p < stars.size(); ++p) {

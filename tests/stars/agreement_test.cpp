@@ -16,7 +16,7 @@ namespace {
 
 const Progress silent;
 
-Stars starsOf(const Points& points) {
+SurfaceStars starsOf(const Points& points) {
   std::vector<PointStatus> status;
   std::vector<int> representative;
   const RankedCloud cloud = rankPoints(points, status, representative);
@@ -44,7 +44,8 @@ TEST(Agreement, IsThatOfEveryStarWithEachOfItsLinkVertices) {
   const Points noisy = shapes::withNoise(shapes::sphere(20000), 0.005).points;
   const Points square = shapes::square(20000, shapes::Sampling::uniform, shapes::Rim::none, 1).points;
   for (const Points& points : {noisy, square, shapes::squareLattice(130).points}) {
-    const Stars stars = starsOf(points);
+    const SurfaceStars built = starsOf(points);
+    const Stars& stars = built.stars;
     Buffer<std::uint8_t> expected(stars.size());
     for (int p = 0; p < stars.size(); ++p) {
       for (int i = stars.offset[p]; i < stars.offset[p + 1]; ++i) {
@@ -53,7 +54,7 @@ TEST(Agreement, IsThatOfEveryStarWithEachOfItsLinkVertices) {
         if (here.first < 0 || here != cornersBeside(stars, q, p)) expected[p] = expected[q] = 1;
       }
     }
-    EXPECT_EQ(stars.disagrees, expected);
+    EXPECT_EQ(built.disagrees, expected);
     EXPECT_EQ(findDisagreement(stars, Workers(2, silent)), expected);
     const auto disagreeing = std::count(expected.begin(), expected.end(), 1);
     EXPECT_GT(disagreeing, 0);

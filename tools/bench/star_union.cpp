@@ -17,7 +17,7 @@ Triangles unionOfStars(const Points& points, const CloudOptions& options, const 
   Report report;
   const RankedCloud cloud = rankPoints(points, status, representative);
   const NeighborSource source = neighborSource(options, cloud, status, representative, workers, report);
-  const Stars stars = surfaceStars(cloud, source, options, workers, report);
+  const Stars stars = surfaceStars(cloud, source, options, workers, report).stars;
 
   Triangles triangles(laplacian.report.triangles, 3);
   Eigen::Index count = 0;
