@@ -99,7 +99,9 @@ class RoundsByFactor : public HeatRounds {
 
 HeatSystem makeHeatSystem(const std::string& function, SparseMatrix matrix, VectorXd interior,
                           const SolverOptions& options) {
-  HeatSystem system = {.ends = interior.size() > 0 && interior.minCoeff() == 0, .window = options};
+  HeatSystem system;
+  system.ends = interior.size() > 0 && interior.minCoeff() == 0;
+  system.window = options;
   system.interior = std::move(interior);
   if (options.method != SolverMethod::multigrid) system.closed = factorise(function, matrix, options);
   if (system.closed && system.ends) {

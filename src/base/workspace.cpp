@@ -17,7 +17,7 @@ constexpr int classes = steps * (48 - least_exponent);
 
 thread_local Workspace* current_workspace = nullptr;
 
-/// Of all blocks of a class; that of the least class is 2^least_exponent.
+/// The bytes that blocks of a class hold; in the least class 2^least_exponent.
 std::size_t sizeOf(int size_class) {
   const int exponent = least_exponent + size_class / steps;
   return (std::size_t{1} << exponent) / steps * static_cast<std::size_t>(steps + size_class % steps);
@@ -34,8 +34,8 @@ int classOf(std::size_t bytes) {
 
 using Owner = Workspace::Store*;
 
-/// In front of every block of a workspace. Those of the heap have the owner alone, null: with one word in front malloc
-/// gives an array of n numbers the room that it gives Eigen's, so that each fits where the other was.
+/// Stands in front of every block of a workspace. Blocks of the heap have a null owner alone in front: with one word in
+/// front malloc gives an array of n numbers the room that it gives Eigen's, so that each fits where the other was.
 struct Header {
   std::int64_t size_class;
   Owner owner;

@@ -23,14 +23,15 @@ class Workspace {
   /// Gives the blocks that nobody uses back to the heap.
   void release();
 
-  /// The same where they are more than what was in use at one time since the last call. Frames of changing size leave
+  /// As release(), but only if they are more than what was in use at one time since the last call. Frames of changing
+  /// size leave
   /// blocks of sizes that none asks for again.
   void trim();
 
   /// Bytes taken from the heap, in use or not.
   std::size_t bytes() const;
 
-  /// That of the innermost scope of the calling thread, or null.
+  /// The workspace of the innermost scope of the calling thread, or null.
   static Workspace* current();
 
   /// Makes a workspace that of the calling thread, or none if null.

@@ -1,3 +1,4 @@
+// Algorithm 3 of the paper, lines 6 to 15: cotan weights and lumped areas (Section 3.3) of a cover.
 #include "cover/assemble.h"
 
 #include <algorithm>
@@ -87,7 +88,7 @@ void clampNegative(UpperRows& upper, const Buffer<double>& diagonal, Report& rep
   }
 }
 
-/// Both halves and the diagonal as compressed columns in the caller's numbering. Zero weights are not stored.
+/// Writes both halves and the diagonal as compressed columns in the caller's numbering. Zero weights are not stored.
 void toInputOrder(const UpperRows& upper, const Buffer<double>& diagonal, const Buffer<int>& input_index, int size,
                   SparseMatrix& L) {
   const int n = static_cast<int>(diagonal.size());

@@ -37,7 +37,7 @@ class Column {
   }
 
  private:
-  /// Each to the place that says how many rows come before: faster than sorting, whose branches cannot be foreseen.
+  /// Puts each entry where the number of smaller rows says: faster than sorting, whose branches cannot be predicted.
   template <int most>
   void place(int* row, double* value) const {
     std::array<int, most> rows, before{};

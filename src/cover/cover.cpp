@@ -1,3 +1,4 @@
+// The cover itself (Section 4.1), and MEASUREEDGELENGTHS of Algorithm 3.
 #include "cover/cover.h"
 
 #include "base/buffer.h"

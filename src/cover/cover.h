@@ -73,7 +73,7 @@ struct EdgeCounts {
   std::int64_t nonmanifold = 0;  ///< edges of more than two faces
 };
 
-/// Algorithm 1: puts all sides that are not glued yet into one pool per vertex pair, orders each pool circularly and
+/// Algorithm 1: puts all sides that are not glued yet into one group per vertex pair, orders each group circularly and
 /// glues front to back. `boundary`, if given, gets rim at both vertices of an edge of a single face.
 EdgeCounts glueEdges(IntrinsicTriangulation& cover, const PointsView& points, const EdgeOrder& order,
                      const Workers& workers, std::vector<Boundary>* boundary = nullptr);

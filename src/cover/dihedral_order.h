@@ -1,5 +1,6 @@
 #pragma once
 
+// The circular order of Algorithm 1 (Section 4.2; Section 5.4 compares it with others).
 #include <Eigen/Geometry>
 
 #include "base/point_buffer.h"

@@ -19,7 +19,7 @@ void forEachFace(std::int64_t faces, const Workers& workers, const Visit& visit)
   });
 }
 
-/// Of every face of an IntrinsicTriangulation or a CoverBuffer.
+/// The area of every face of an IntrinsicTriangulation or a CoverBuffer.
 template <class Triangulation>
 Buffer<double> faceAreas(const Triangulation& t, const Workers& workers) {
   Buffer<double> areas(static_cast<std::size_t>(t.size()));

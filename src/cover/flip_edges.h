@@ -1,5 +1,6 @@
 #pragma once
 
+// Algorithm 2 of the paper, for whole covers and for parts of covers.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,3 +1,4 @@
+// Algorithm 2 of the paper: flips of a whole cover until it is intrinsic Delaunay. flip_edges.h has the loop itself.
 #include "base/buffer.h"
 #include "cover/flip_edges.h"
 

@@ -1,5 +1,6 @@
 #pragma once
 
+// Angles, areas and flips from edge lengths alone (Sections 3.2 and 3.3).
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -39,12 +40,13 @@ inline double oppositeCotan(double a, double b, double c) {
   return cotanNumerator(a, b, c) / (4 * triangleArea(a, b, c));
 }
 
-/// The same for `side` in its face, and whether that angle is obtuse.
+/// Cotangent of the angle opposite `side` in its face. Infinite or NaN in a face of no area.
 template <class Triangulation>
 double oppositeCotan(const Triangulation& t, int side) {
   return oppositeCotan(t.length[side], t.length[nextSide(side)], t.length[previousSide(side)]);
 }
 
+/// Whether the angle opposite `side` in its face is obtuse.
 template <class Triangulation>
 bool isOppositeObtuse(const Triangulation& t, int side) {
   return cotanNumerator(t.length[side], t.length[nextSide(side)], t.length[previousSide(side)]) < 0;

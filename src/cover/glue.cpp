@@ -1,3 +1,5 @@
+// Algorithm 1 of the paper: the sides of all triangles around each edge are ordered circularly, then glued front to
+// back.
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
@@ -113,29 +115,29 @@ EdgeCounts glueEdges(IntrinsicTriangulation& cover, const PointsView& points, co
     if (isOpen(side)) ++offset[ends(side).first + 1];
   }
   std::partial_sum(offset.begin(), offset.end(), offset.begin());
-  Buffer<UngluedSide> pooled(offset.back());
+  Buffer<UngluedSide> unglued_sides(offset.back());
   Buffer<int> fill(offset.begin(), offset.end() - 1);
   for (int side = 0; side < sides; ++side) {
     if (!isOpen(side)) continue;
     const auto [low, high] = ends(side);
-    pooled[fill[low]++] = {high, side};
+    unglued_sides[fill[low]++] = {high, side};
   }
   release(fill);
 
   std::array<std::atomic<std::int64_t>, 3> edges = {};
   workers.forBlocks("glue", cover.vertices, block_size, [&](std::int64_t begin, std::int64_t end, int) {
-    EdgeCycle pool(cover, points, order);
+    EdgeCycle cycle(cover, points, order);
     std::array<std::int64_t, 3> count = {};
     for (int low = static_cast<int>(begin); low < end; ++low) {
-      UngluedSide* at = pooled.data() + offset[low];
-      UngluedSide* const last = pooled.data() + offset[low + 1];
+      UngluedSide* at = unglued_sides.data() + offset[low];
+      UngluedSide* const last = unglued_sides.data() + offset[low + 1];
       std::sort(at, last, [](const UngluedSide& a, const UngluedSide& b) {
         return a.other < b.other || (a.other == b.other && a.side < b.side);
       });
       while (at != last) {
         UngluedSide* const stop = std::find_if(at, last, [&](const UngluedSide& s) { return s.other != at->other; });
         const auto faces = static_cast<std::size_t>(stop - at);
-        pool.sort(low, at->other, at, faces);
+        cycle.sort(low, at->other, at, faces);
         glueAround(cover, at, faces);
         ++count[std::min<std::size_t>(faces, 3) - 1];
         at = stop;

@@ -1,3 +1,4 @@
+// Section 4.5 of the paper: intrinsic mollification.
 #include <algorithm>
 #include <numeric>
 
@@ -10,7 +11,7 @@ namespace {
 
 constexpr std::int64_t block_size = 16384;
 
-/// Of all faces. Summed in blocks, so that the number of threads does not matter.
+/// The area of all faces, summed in blocks, so that it does not depend on the number of threads.
 double sumAreas(const IntrinsicTriangulation& cover, const Workers& workers) {
   Buffer<double> sums((cover.size() + block_size - 1) / block_size);
   workers.forBlocks("mollify", cover.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {

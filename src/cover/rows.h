@@ -33,7 +33,7 @@ inline Entry* mergeColumns(Entry* first, Entry* last, Buffer<Entry>& scratch) {
   return kept;
 }
 
-/// The same in every row; returns their sizes. `rows` stay where they begin.
+/// mergeColumns() in every row. Returns the sizes of the rows, which still begin where they began.
 inline Buffer<int> mergeRows(Rows& rows, const Workers& workers) {
   constexpr std::int64_t block_size = 8192;
   Buffer<int> size(rows.offset.size() - 1);

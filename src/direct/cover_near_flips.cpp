@@ -1,3 +1,4 @@
+// Algorithm 2 of the paper on stars; cover/flips.cpp is the reference.
 #include "direct/cover_near_flips.h"
 
 #include <algorithm>

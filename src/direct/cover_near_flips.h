@@ -24,13 +24,13 @@ class CoverNearFlips {
  public:
   static constexpr int block_size = 4096;  // stars
 
-  /// All borrowed for the life of the cover.
+  /// All arguments are borrowed for the life of the cover.
   CoverNearFlips(const Stars& stars, const EdgeLengths& length, const RadialCycles& cycles);
 
   /// Algorithm 2.
   FlipCounts flipToDelaunay(const StarMetric& metric, const Workers& workers);
 
-  /// Of the faces that are present.
+  /// The bytes of the faces that are present.
   std::size_t bytes() const;
   /// Gives the memory of all faces back but the moved ones, of how they are glued too. There is no bytes()
   /// and no complete() any more.
@@ -39,7 +39,7 @@ class CoverNearFlips {
   void dropFaces();
 
   bool isPresent(int p) const { return first_[p] >= 0; }
-  /// Of a star that is present; its triangles have consecutive numbers, in the order of its link.
+  /// The first triangle of a star that is present; the others follow in the order of its link.
   int firstTriangle(int p) const { return first_[p]; }
   /// Whether the front or the back of triangle t was flipped.
   bool isMoved(int t) const { return moved_[t] != 0; }

@@ -12,8 +12,8 @@ namespace {
 
 class SeedFinder {
  public:
-  SeedFinder(const Stars& stars, const EdgeLengths& length, const RadialCycles& pools, const StarMetric& metric)
-      : stars_(stars), length_(length), cycles_(pools), metric_(metric) {}
+  SeedFinder(const Stars& stars, const EdgeLengths& length, const RadialCycles& cycles, const StarMetric& metric)
+      : stars_(stars), length_(length), cycles_(cycles), metric_(metric) {}
 
   /// Edges within the star of p, and their copies at neighbours that agree.
   template <class Add>
@@ -22,7 +22,7 @@ class SeedFinder {
       if (!(metric_.cotan_sum[i] < flip_below)) continue;
       const StarSide spoke{p, i, 0};
       add({spoke, true, true});
-      // The copy between the links of the two neighbours, which is in no pool.
+      // The copy between the links of the two neighbours, which is in no radial cycle.
       if (cycles_.isInCycle(spoke)) continue;
       const int x = stars_.link[before(stars_, p, i)], j = entryOf(stars_, x, p);
       const bool follows = stars_.link[stars_.after(x, j)] == stars_.link[i];
@@ -30,16 +30,16 @@ class SeedFinder {
     }
   }
 
-  /// Edges between sides of pools whose smaller vertex lies in [begin, end).
+  /// Edges between sides of radial cycles whose smaller vertex lies in [begin, end).
   template <class Add>
   void findInCycles(int begin, int end, const Add& add) const {
-    cycles_.forEachCycle(begin, end, [&](const auto& pool) {
+    cycles_.forEachCycle(begin, end, [&](const auto& cycle) {
       // The plus copy of each faces the minus copy of the next.
-      const double first = roughCotan(pool[0].side());
+      const double first = roughCotan(cycle[0].side());
       double here = first;
-      for (std::size_t i = 0; i < pool.size(); ++i) {
-        const double next = i + 1 == pool.size() ? first : roughCotan(pool[i + 1].side());
-        if (!(here + next > flip_below / 2)) add({pool[i].side(), true, false});
+      for (std::size_t i = 0; i < cycle.size(); ++i) {
+        const double next = i + 1 == cycle.size() ? first : roughCotan(cycle[i + 1].side());
+        if (!(here + next > flip_below / 2)) add({cycle[i].side(), true, false});
         here = next;
       }
     });
@@ -51,7 +51,7 @@ class SeedFinder {
     return oppositeCotan(length_(a, b), length_(b, c), length_(c, a));
   }
 
-  /// The same to within 1e-11, with fewer roots where the triangle allows it.
+  /// cotanAt() to within 1e-11, with fewer roots where the triangle allows it.
   double roughCotan(const StarSide& side) const {
     if (length_.added > 0) return cotanAt(side);
     const auto [ux, uy, uz] = length_.offset(tail(stars_, side), apex(stars_, side));
@@ -70,9 +70,9 @@ class SeedFinder {
 
 }  // namespace
 
-Buffer<Buffer<FlipSeed>> findFlipSeeds(const Stars& stars, const EdgeLengths& length, const RadialCycles& pools,
+Buffer<Buffer<FlipSeed>> findFlipSeeds(const Stars& stars, const EdgeLengths& length, const RadialCycles& cycles,
                                        const StarMetric& metric, std::int64_t block_size, const Workers& workers) {
-  const SeedFinder finder(stars, length, pools, metric);
+  const SeedFinder finder(stars, length, cycles, metric);
   const std::int64_t blocks = (stars.size() + block_size - 1) / block_size;
   Buffer<Buffer<FlipSeed>> seeds(blocks), elsewhere(blocks);  // of stars of the block, and of others
   workers.forBlocks("flips", stars.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {

@@ -17,8 +17,8 @@ struct FlipSeed {
   bool is_plus, is_minus;
 };
 
-/// Where Algorithm 2 begins on a union of stars: all such edges, by blocks of so many stars that the sides belong to.
-Buffer<Buffer<FlipSeed>> findFlipSeeds(const Stars& stars, const EdgeLengths& length, const RadialCycles& pools,
+/// The edges with which Algorithm 2 begins on a union of stars, by blocks of stars that the sides belong to.
+Buffer<Buffer<FlipSeed>> findFlipSeeds(const Stars& stars, const EdgeLengths& length, const RadialCycles& cycles,
                                        const StarMetric& metric, std::int64_t block_size, const Workers& workers);
 
 }  // namespace tufted

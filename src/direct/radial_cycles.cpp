@@ -1,3 +1,4 @@
+// Algorithm 1 of the paper on stars; cover/glue.cpp is the reference.
 #include "direct/radial_cycles.h"
 
 #include <algorithm>
@@ -37,7 +38,7 @@ RadialCycles::RadialCycles(const Stars& stars, const Buffer<std::uint8_t>& disag
 
 void RadialCycles::collect(const Workers& workers) {
   const int n = stars_.size();
-  const Buffer<int> near = numbersWhere("glue", n, workers, [this](int p) {  // the others have no side in a pool
+  const Buffer<int> near = numbersWhere("glue", n, workers, [this](int p) {  // the others have no side in a cycle
     const auto first = stars_.link.begin() + stars_.offset[p], last = stars_.link.begin() + stars_.offset[p + 1];
     return std::any_of(first, last, [this](int q) { return disagrees(q); });
   });

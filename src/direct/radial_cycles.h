@@ -33,7 +33,7 @@ inline int apex(const Stars& stars, const StarSide& s) {
 /// The circular order of the faces around each edge of the union of stars with Gluing::star and FaceOrder::angle: link
 /// sides, and spokes where a star ends. (All other spokes are glued within their star.)
 ///
-/// Only edges between points that both disagree need a pool; any other has two faces, which the link of its agreeing
+/// Only edges between points that both disagree need a cycle; any other has two faces, which the link of its agreeing
 /// end names.
 class RadialCycles {
  public:
@@ -54,10 +54,10 @@ class RadialCycles {
     release(sides_);
   }
 
-  /// Whether the side lies in a pool.
+  /// Whether the side lies in a cycle.
   bool isInCycle(const StarSide& side) const { return disagrees(tail(stars_, side)) && disagrees(head(stars_, side)); }
 
-  /// Calls visit(sides) for each pool whose smaller vertex lies in [begin, end), its sides in order.
+  /// Calls visit(sides) for each cycle whose smaller vertex lies in [begin, end), its sides in order.
   template <class Visit>
   void forEachCycle(int begin, int end, const Visit& visit) const {
     for (int i = offset_[begin]; i < offset_[end];) {

@@ -1,3 +1,4 @@
+// Voronoi and mixed areas in stars (Meyer, Desbrun, Schroeder, Barr 2003, Section 3.3).
 #include "direct/star_areas.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Lengths, cotangents and areas of stars; cover/cover.cpp and cover/mollify.cpp are the reference.
 #include "direct/star_metric.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Algorithm 3 of the paper, lines 6 to 15, on stars; cover/assemble.cpp is the reference.
 #include "direct/star_rows.h"
 
 #include <algorithm>
@@ -28,7 +29,7 @@ class StarAssembler {
     workers.forBlocks("assemble", stars_.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
       for (int p = static_cast<int>(begin); p < end; ++p) {
         mixed_[p] |= metric_.is_flat[p] | static_cast<std::uint8_t>(glued.cover.isFlipped(p));
-        mass_[p] = mixed_[p] == 0 ? 2 * scale_ * metric_.area[p] : 0;  // 2 sheets, 3 stars, a third
+        mass_[p] = mixed_[p] == 0 ? 2 * scale_ * metric_.area[p] : 0;  // front and back, 3 stars, a third
       }
     });
     mixed_rows_ = summedRows(glued, mixed_, keep_cover, scale_, mass_, workers, report);
@@ -36,7 +37,7 @@ class StarAssembler {
 
   double mass(int p) const { return mass_[p]; }
 
-  /// No fewer than the edges of p.
+  /// At least the number of edges of p.
   int mostInRow(int p) const {
     const int own = stars_.offset[p + 1] - stars_.offset[p];
     return mixed_[p] == 0 ? own : own + mixed_rows_.offset[p + 1] - mixed_rows_.offset[p];
@@ -68,8 +69,8 @@ class StarAssembler {
   }
 
  private:
-  /// Of the spoke to link vertex i of an unmixed star.
-  double spokeWeight(int i) const { return 3 * scale_ * metric_.cotan_sum[i]; }  // 2 sheets, 3 stars, 1/2
+  /// The weight of the spoke to link vertex i of an unmixed star.
+  double spokeWeight(int i) const { return 3 * scale_ * metric_.cotan_sum[i]; }  // front and back, 3 stars, 1/2
 
   const Stars& stars_;
   const StarMetric& metric_;

@@ -10,7 +10,7 @@
 namespace tufted {
 namespace {
 
-/// Of the cover: each triangle has two faces, of which one counts a sixth.
+/// The area of the surface by the cover: each triangle has two faces, and each face counts a sixth.
 double sumAreas(const StarMetric& metric) {
   return std::accumulate(metric.area.begin(), metric.area.end(), 0.0) / 3;
 }

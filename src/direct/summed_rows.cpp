@@ -142,7 +142,7 @@ class TermReader {
     }
   }
 
-  /// @param cotans as many as two sheets have, halved (Section 3.3)
+  /// @param cotans the sum over front and back, halved (Section 3.3)
   void put(int a, int b, double cotans) {
     const Term term{std::min(a, b), std::max(a, b), scale_ * cotans};
     (blockOf(term.low) == block_ ? state_.own : state_.others).push_back(term);

@@ -175,7 +175,7 @@ class GroupSearch {
     candidates_.gather(group);
   }
 
-  /// The same as select(), but false where the candidates are too few to be sure.
+  /// As select(), but returns false where the candidates are too few to be sure.
   bool selectKnown(int first, int i, const SearchedBall& ball, double radius, Neighbor* found) {
     const double before = i > 0 ? radiusOf(rowOf(found, i - 1)) : radius;
     const int count = candidates_.takeKnown(first + i, k_, likely * before * before, ball);

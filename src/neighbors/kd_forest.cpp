@@ -33,7 +33,8 @@ struct KdForest::Tree {
     index->buildIndex();
   }
 
-  /// No more than that of any point of the tree as L2_Simple rounds it, which adds in the order x, y, z as well.
+  /// A lower bound on the squared distance to the points of the tree, with the rounding of L2_Simple, which adds in
+  /// the order x, y, z as well.
   double squaredDistance(const double* position) const {
     double sum = 0;
     for (int axis = 0; axis < 3; ++axis) {

@@ -149,7 +149,7 @@ class WholeBall : public RankSet {
   double worst_ = 0;
 };
 
-/// The same, but the radius shrinks to that of the k nearest of the centre plus a margin.
+/// Collects points in a ball whose radius shrinks to that of the k nearest of the centre plus a margin.
 class ShrinkingBall final : public WholeBall {
  public:
   /// @param nearest k squared distances of points from the centre, a heap with the largest in front

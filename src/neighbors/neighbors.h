@@ -26,7 +26,7 @@ inline double widened(double squared_distance) {
   return squared_distance * (1 + 1e-12) + std::numeric_limits<double>::denorm_min();
 }
 
-/// Of a distance; below, squares have no digits left to bound others by.
+/// The least squared distance that bounds others; smaller ones have no digits left.
 constexpr double least_square = 1e-290;
 
 enum class NeighborOrder { ascending, any };
@@ -76,7 +76,8 @@ class NeighborSearch : public InWorkspace {
   /// @param[out] ball around the middle of the points' box
   bool candidates(int first, int count, int k, Buffer<int>& found, Buffer<double>& bounds, SearchedBall& ball) const;
 
-  /// All points within `around` of any of the points [first, first + count), and others near them. False as above.
+  /// All points within `around` of any of the points [first, first + count), and others near them. False,
+  /// and nothing of use, where these are too many or too close, as for candidates().
   /// @param[out] ball its k_radius is not known
   bool candidatesWithin(int first, int count, double around, Buffer<int>& found, SearchedBall& ball) const;
 

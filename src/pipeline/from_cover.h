@@ -11,7 +11,7 @@
 
 namespace tufted {
 
-/// Where the vertices of a cover lie, and what they are called outside.
+/// The positions of a cover's vertices, and their numbers in the input.
 struct CoverVertices {
   const PointsView& points;        ///< by vertex, in units of 2^exponent of the caller's
   const PointsView& displacement;  ///< by vertex, from the points to where lengths are measured; 0 x 3: nothing moves

@@ -24,7 +24,8 @@ namespace {
 
 constexpr const char* function_name = "pointCloudLaplacian";
 
-/// Of the links of all stars; somewhat fewer than triangles that have numbers, since flips keep some in reserve.
+/// The most link entries that all stars may have: somewhat fewer than triangles can have numbers, since flips keep some
+/// in reserve.
 constexpr std::int64_t most_entries = most_triangles - most_triangles / 64;
 
 [[noreturn]] void tooMany(std::int64_t points, std::int64_t entries) {

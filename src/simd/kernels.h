@@ -44,7 +44,7 @@ struct HeightSystems {
   alignas(64) double count[kernel_packet];          ///< points, that of height 0 at the origin included
 };
 
-/// Their solutions.
+/// The solutions of HeightSystems.
 struct HeightSolutions {
   alignas(64) double height[kernel_packet];     ///< of the quadratic over the origin
   alignas(64) double explained[kernel_packet];  ///< of the sum of squared heights
@@ -69,7 +69,7 @@ struct Covariances {
       zz[kernel_packet];
 };
 
-/// Their eigenvalues, and the unit eigenvector of the smallest one.
+/// The eigenvalues of Covariances, and the unit eigenvector of the smallest one.
 struct SmallestAxes {
   alignas(64) double x[kernel_packet], y[kernel_packet], z[kernel_packet];
   alignas(64) double smallest[kernel_packet], middle[kernel_packet], largest[kernel_packet];

@@ -6,7 +6,7 @@
 namespace tufted {
 namespace {
 
-static_assert(packet_size == kernel_packet, "arrays are filled up to the lanes that are worked on");
+static_assert(packet_size == kernel_packet, "arrays are filled up to the packets that are worked on");
 
 int takeWithin(const Candidates& candidates, const double* point, int p, double bound, double* squared_distance,
                int* index) {
@@ -60,7 +60,7 @@ double extent(const Offsets& offsets) {
 }
 
 /// The sum of the numbers in each packet, added in the same order on any processor.
-TUFTED_INLINE void addAcross(const double* lanes, int count, double* totals) {
+TUFTED_INLINE void addAcross(const double* packets, int count, double* totals) {
   int n = 0;
 #ifdef TUFTED_WIDE_PACKETS
   const auto halves = [](Packet a, Packet b) {
@@ -70,14 +70,14 @@ TUFTED_INLINE void addAcross(const double* lanes, int count, double* totals) {
     return _mm512_shuffle_f64x2(a, b, 0x88) + _mm512_shuffle_f64x2(a, b, 0xdd);
   };
   for (; n + packet_size <= count; n += packet_size) {
-    const auto at = [&](int i) { return load(lanes + (n + i) * packet_size); };
+    const auto at = [&](int i) { return load(packets + (n + i) * packet_size); };
     const Packet even = quarters(halves(at(0), at(2)), halves(at(4), at(6)));
     const Packet odd = quarters(halves(at(1), at(3)), halves(at(5), at(7)));
     store(_mm512_unpacklo_pd(even, odd) + _mm512_unpackhi_pd(even, odd), totals + n);
   }
 #endif
   for (; n < count; ++n) {
-    const double* s = &lanes[n * packet_size];
+    const double* s = &packets[n * packet_size];
     totals[n] = ((s[0] + s[4]) + (s[2] + s[6])) + ((s[1] + s[5]) + (s[3] + s[7]));
   }
 }
@@ -102,7 +102,7 @@ void sumOffsets(const Offsets& offsets, double unit, const int* ends, int sets, 
   constexpr int numbers = sizeof(OffsetSums) / sizeof(double);
   alignas(64) static constexpr double numbered[] = {0, 1, 2, 3, 4, 5, 6, 7};
   static_assert(sizeof(numbered) == packet_size * sizeof(double));
-  alignas(64) double lanes[most_sets][numbers * packet_size];
+  alignas(64) double packets[most_sets][numbers * packet_size];
   const Part scale = broadcastPart(unit), zero = broadcastPart(0);
   for (int part = 0; part < packet_size; part += part_size) {
     OffsetParts sum = {zero, zero, zero, zero, zero, zero, zero, zero, zero};
@@ -114,10 +114,10 @@ void sumOffsets(const Offsets& offsets, double unit, const int* ends, int sets, 
       const auto isInSet = isLess(loadPart(numbered + part), broadcastPart(ends[set] - i));
       const auto some = [&](const double* values) { return select(isInSet, at(values, i), zero); };
       const OffsetParts here = i == ends[set] ? sum : plus(sum, some(offsets.x), some(offsets.y), some(offsets.z));
-      putInTurn(lanes[set] + part, here.x, here.y, here.z, here.xx, here.xy, here.xz, here.yy, here.yz, here.zz);
+      putInTurn(packets[set] + part, here.x, here.y, here.z, here.xx, here.xy, here.xz, here.yy, here.yz, here.zz);
     }
   }
-  for (int set = 0; set < sets; ++set) addAcross(lanes[set], numbers, &totals[set].x);
+  for (int set = 0; set < sets; ++set) addAcross(packets[set], numbers, &totals[set].x);
 }
 
 /// HeightSums of eight neighbours at a time, each in a register as far as there are any.
@@ -127,7 +127,7 @@ struct HeightParts {
 
 void sumHeights(const Offsets& offsets, const double* axes, HeightSums& total) {
   constexpr int numbers = HeightSystems::numbers;
-  alignas(64) double lanes[numbers * packet_size];
+  alignas(64) double packets[numbers * packet_size];
   for (int part = 0; part < packet_size; part += part_size) {
     const Part zero = broadcastPart(0);
     HeightParts sum = {zero, zero, zero, zero, zero, zero, zero, zero, zero, zero, zero,
@@ -145,13 +145,13 @@ void sumHeights(const Offsets& offsets, const double* axes, HeightSums& total) {
              sum.hu + h * u,     sum.hv + h * v,     sum.huu + h * uu,   sum.huv + h * uv,   sum.hvv + h * vv,
              sum.hh + h * h};
     }
-    putInTurn(lanes + part, sum.u, sum.v, sum.uu, sum.uv, sum.vv, sum.uuu, sum.uuv, sum.uvv, sum.vvv, sum.uuuu,
+    putInTurn(packets + part, sum.u, sum.v, sum.uu, sum.uv, sum.vv, sum.uuu, sum.uuv, sum.uvv, sum.vvv, sum.uuuu,
               sum.uuuv, sum.uuvv, sum.uvvv, sum.vvvv, sum.h, sum.hu, sum.hv, sum.huu, sum.huv, sum.hvv, sum.hh);
   }
-  addAcross(lanes, numbers, &total.u);
+  addAcross(packets, numbers, &total.u);
 }
 
-/// By L D L^T of the lower triangle.
+/// Solves by the decomposition L D L^T of the lower triangle.
 void solveHeights(const HeightSystems& systems, HeightSolutions& solutions) {
   enum { u, v, uu, uv, vv, uuu, uuv, uvv, vvv, uuuu, uuuv, uuvv, uvvv, vvvv, h, hu, hv, huu, huv, hvv };
   constexpr int size = 6;

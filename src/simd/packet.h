@@ -99,7 +99,7 @@ TUFTED_INLINE void compress(Mask chosen, const int* a, int* to) {
   _mm256_storeu_si256(reinterpret_cast<__m256i*>(to), _mm256_maskz_compress_epi32(chosen, values));
 }
 
-/// Each number to the nearest float.
+/// Rounds each number to the nearest float.
 TUFTED_INLINE void storeFloats(Packet a, float* to) {
   _mm256_storeu_ps(to, _mm512_cvtpd_ps(a));
 }
@@ -166,9 +166,9 @@ TUFTED_INLINE Packet operator-(Packet a) {
 }
 
 TUFTED_INLINE Packet broadcast(double value) {
-  Packet lane;
-  for (Pair& pair : lane.of) pair = Pair{value, value};
-  return lane;
+  Packet packet;
+  for (Pair& pair : packet.of) pair = Pair{value, value};
+  return packet;
 }
 TUFTED_INLINE Part loadPart(const double* values) {
   Part part;
@@ -188,9 +188,9 @@ TUFTED_INLINE Part select(PairMask mask, Part a, Part b) {
   return mask ? a : b;
 }
 TUFTED_INLINE Packet load(const double* values) {
-  Packet lane;
-  __builtin_memcpy(&lane, values, sizeof(lane));
-  return lane;
+  Packet packet;
+  __builtin_memcpy(&packet, values, sizeof(packet));
+  return packet;
 }
 TUFTED_INLINE void store(const Packet& a, double* values) {
   __builtin_memcpy(values, &a, sizeof(a));

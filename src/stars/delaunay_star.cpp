@@ -1,3 +1,4 @@
+// Section 5.7 of the paper: the Delaunay triangles at one point, without the triangulation of its neighbours.
 #include "stars/delaunay_star.h"
 
 #include <algorithm>

@@ -18,7 +18,7 @@ struct DelaunayStar {
   double largestCircumradius() const;
 };
 
-/// Of the triangle (origin, a, b), counterclockwise; infinite where it is too flat for a double.
+/// The circumradius of the triangle (origin, a, b), counterclockwise; infinite where it is too flat for a double.
 double circumradius(const PlanarPoint& a, const PlanarPoint& b);
 
 /// A planar point with a number that grows with the angle of its direction.

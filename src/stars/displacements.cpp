@@ -7,8 +7,8 @@
 namespace tufted {
 namespace {
 
-/// Where the neighbours of p are by now, seen from where p is. Moves may be far smaller than positions are far from the
-/// origin: they are added to differences.
+/// The offsets from p to its neighbours, all where they have been moved to. Moves may be far smaller than positions are
+/// far from the origin: they are added to differences.
 void takeMoved(const PointsView& points, const PointBuffer& moved, int p, std::span<const int> neighbors,
                OffsetBuffer& offsets) {
   offsets.fill(static_cast<int>(neighbors.size()), [&](int i) -> Eigen::RowVector3d {

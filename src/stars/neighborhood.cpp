@@ -35,7 +35,7 @@ bool isSheet(int neighbors, const PrincipalAxes& axes, const PrincipalAxes& befo
 
 constexpr std::size_t nested_sets = few_neighbors.size() + 1;
 
-/// Of the first few neighbours, or all where there are fewer, then of all.
+/// The numbers of neighbours that planes are fitted to: the first few, if there are so many, then all.
 std::array<Covariance, nested_sets> nestedCovariances(const Offsets& neighbors, double radius) {
   std::array<int, nested_sets> ends;
   for (std::size_t j = 0; j < few_neighbors.size(); ++j) ends[j] = std::min(few_neighbors[j], neighbors.count);
@@ -69,7 +69,7 @@ bool isOneSheet(const Offsets& neighbors, const Eigen::Vector3d& normal, double 
   return isWhole(scratch.sheet);
 }
 
-/// Those of the neighbours last looked at that are range.
+/// Keeps the neighbours last looked at whose heights are in the range.
 void takeSheet(const NeighborhoodScratch& scratch, Neighborhood& neighborhood, OffsetBuffer& offsets) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < neighborhood.neighbors.size(); ++i) {

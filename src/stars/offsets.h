@@ -13,7 +13,7 @@ namespace tufted {
 /// Memory for the offsets of one neighbourhood, as large as any before.
 class OffsetBuffer {
  public:
-  /// Those of the neighbours from p.
+  /// Takes the offsets from p to the neighbours.
   void take(const PointsView& points, int p, std::span<const Neighbor> neighbors) {
     const double* const all = points.data();
     const double* const origin = all + 3 * std::ptrdiff_t{p};
@@ -23,7 +23,7 @@ class OffsetBuffer {
     });
   }
 
-  /// Those that offset(0), offset(1), ... return.
+  /// Takes what offset(0), offset(1), ... return.
   template <class Offset>
   void fill(int count, const Offset& offset) {
     resize(count);
@@ -37,7 +37,7 @@ class OffsetBuffer {
     for (int i = count; i < toPackets(count); ++i) x[i] = y[i] = z[i] = 0;
   }
 
-  /// Of others, or of these themselves, those whose heights are range.
+  /// Takes those of the others whose heights are in the range; `others` may be this buffer.
   void takeConnected(const OffsetBuffer& others, const double* heights, const HeightRange& range) {
     const Offsets given = others.view();
     if (this != &others) resize(given.count);

@@ -33,7 +33,7 @@ int otherVotes(const Stars& stars, int p, int i) {
   return (contains(stars, a, b, p) ? 1 : 0) + (contains(stars, b, p, a) ? 1 : 0);
 }
 
-/// The same for every triangle of star p, with one look at the star of each link vertex.
+/// Counts the other votes for every triangle of star p, with one look at the star of each link vertex.
 /// @param[out] votes one per link entry
 void countOtherVotes(const Stars& stars, int p, Buffer<int>& votes) {
   const int first = stars.offset[p], last = stars.offset[p + 1];

@@ -1,3 +1,4 @@
+// Section 5.7 of the paper: the local Delaunay triangulation of each point in its tangent plane.
 #include "stars/stars.h"
 
 #include <Eigen/Geometry>

@@ -1,3 +1,4 @@
+// Section 5.7 of the paper: the tangent plane through the neighbours, by principal component analysis.
 #include "stars/tangent_frame.h"
 
 #include <Eigen/Eigenvalues>
@@ -13,7 +14,7 @@ namespace tufted {
 
 namespace {
 
-/// By Eigen, where two eigenvalues lie close together.
+/// The axes by Eigen's iteration, for matrices with two eigenvalues close together.
 PrincipalAxes carefulAxes(const Covariance& a) {
   Eigen::Matrix3d matrix;
   matrix << a.xx, a.xy, a.xz, a.xy, a.yy, a.yz, a.xz, a.yz, a.zz;
@@ -59,18 +60,18 @@ void principalAxes(std::span<const Covariance> covariances, std::span<PrincipalA
   const Kernels& kernel = kernels();
   for (std::size_t first = 0; first < covariances.size(); first += kernel_packet) {
     const auto part = covariances.subspan(first, std::min<std::size_t>(kernel_packet, covariances.size() - first));
-    Covariances lanes;
+    Covariances covariances_by_lane;
     SmallestAxes found;
     for (std::size_t i = 0; i < kernel_packet; ++i) {
       const Covariance& a = part[std::min(i, part.size() - 1)];
-      lanes.xx[i] = a.xx;
-      lanes.xy[i] = a.xy;
-      lanes.xz[i] = a.xz;
-      lanes.yy[i] = a.yy;
-      lanes.yz[i] = a.yz;
-      lanes.zz[i] = a.zz;
+      covariances_by_lane.xx[i] = a.xx;
+      covariances_by_lane.xy[i] = a.xy;
+      covariances_by_lane.xz[i] = a.xz;
+      covariances_by_lane.yy[i] = a.yy;
+      covariances_by_lane.yz[i] = a.yz;
+      covariances_by_lane.zz[i] = a.zz;
     }
-    kernel.findSmallest(lanes, found);
+    kernel.findSmallest(covariances_by_lane, found);
     for (std::size_t i = 0; i < part.size(); ++i) {
       PrincipalAxes& of_part = axes[first + i];
       if (part[i].extent == 0)

@@ -24,15 +24,15 @@ struct Covariance {
   double extent = 0;                                      ///< see PrincipalAxes; 0 where all are at one place
 };
 
-/// Of p and its first ends[0], ends[1], ... neighbours, each as if it were alone.
+/// The covariances of p and its first ends[0], ends[1], ... neighbours, each with the bits as if it were alone.
 /// @param ends ascending, at most most_sets
 /// @param size of the neighbourhood, to within some powers of two; 0 where nobody knows
 void findCovariances(const Offsets& neighbors, double size, std::span<const int> ends,
                      std::span<Covariance> covariances);
-/// Of all.
+/// The covariance of p and all its neighbours.
 Covariance covarianceOf(const Offsets& neighbors, double size = 0);
 
-/// Of each covariance; those of one do not depend on the others.
+/// The principal axes of each covariance, which do not depend on the other covariances.
 void principalAxes(std::span<const Covariance> covariances, std::span<PrincipalAxes> axes);
 PrincipalAxes principalAxes(const Offsets& neighbors);
 PrincipalAxes principalAxes(const PointsView& points, int p, std::span<const Neighbor> neighbors);
