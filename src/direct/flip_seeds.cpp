@@ -35,11 +35,11 @@ class SeedFinder {
   void findInCycles(int begin, int end, const Add& add) const {
     cycles_.forEachCycle(begin, end, [&](const auto& cycle) {
       // The plus copy of each faces the minus copy of the next.
-      const double first = roughCotan(cycle[0].side());
+      const double first = roughCotan(cycle[0].side);
       double here = first;
       for (std::size_t i = 0; i < cycle.size(); ++i) {
-        const double next = i + 1 == cycle.size() ? first : roughCotan(cycle[i + 1].side());
-        if (!(here + next > flip_below / 2)) add({cycle[i].side(), true, false});
+        const double next = i + 1 == cycle.size() ? first : roughCotan(cycle[i + 1].side);
+        if (!(here + next > flip_below / 2)) add({cycle[i].side, true, false});
         here = next;
       }
     });

@@ -54,8 +54,7 @@ void RadialCycles::collect(const Workers& workers) {
   std::partial_sum(offset_.begin(), offset_.end(), offset_.begin());
   sides_.resize(static_cast<std::size_t>(offset_.back()));
   Buffer<int> fill(offset_.begin(), offset_.end() - 1);
-  forEachUnglued(
-      [&](const StarSide& side, const auto& ends) { sides_[fill[ends.first]++] = CycleSide(ends.second, side); });
+  forEachUnglued([&](const StarSide& side, const auto& ends) { sides_[fill[ends.first]++] = {ends.second, side}; });
 }
 
 void RadialCycles::sort(const PointsView& points, const Workers& workers) {
@@ -65,13 +64,13 @@ void RadialCycles::sort(const PointsView& points, const Workers& workers) {
     for (int low = static_cast<int>(begin); low < end; ++low) {
       // They came in the order of stars and entries, which decides ties.
       stableSort(sides_.data() + offset_[low], sides_.data() + offset_[low + 1], sides,
-                 [](const CycleSide& a, const CycleSide& b) { return a.high() < b.high(); });
+                 [](const CycleSide& a, const CycleSide& b) { return a.high < b.high; });
       for (int i = offset_[low]; i < offset_[low + 1];) {
         const int stop = endOfCycle(i);
         if (stop - i > 2) {  // any order of two is the same one
-          const DihedralOrder order(points, low, sides_[i].high());
+          const DihedralOrder order(points, low, sides_[i].high);
           keys.clear();
-          for (int j = i; j < stop; ++j) keys.emplace_back(order.key(apex(stars_, sides_[j].side())), sides_[j]);
+          for (int j = i; j < stop; ++j) keys.emplace_back(order.key(apex(stars_, sides_[j].side)), sides_[j]);
           stableSort(keys.data(), keys.data() + keys.size(), sorted,
                      [](const auto& a, const auto& b) { return a.first < b.first; });
           for (int j = i; j < stop; ++j) sides_[j] = keys[j - i].second;
@@ -84,9 +83,9 @@ void RadialCycles::sort(const PointsView& points, const Workers& workers) {
 
 int RadialCycles::endOfCycle(int i) const {
   int stop = i + 1;
-  const StarSide side = sides_[i].side();
+  const StarSide side = sides_[i].side;
   const int last = offset_[std::min(tail(stars_, side), head(stars_, side)) + 1];
-  while (stop < last && sides_[stop].high() == sides_[i].high()) ++stop;
+  while (stop < last && sides_[stop].high == sides_[i].high) ++stop;
   return stop;
 }
 
@@ -96,12 +95,12 @@ StarSide RadialCycles::neighbor(const StarSide& side, int step) const {
   if (!disagrees(to)) return acrossAgreeing(side, to, from);
   const int low = std::min(from, to);
   int at = offset_[low];
-  while (sides_[at].side() != side) ++at;
+  while (sides_[at].side != side) ++at;
   int begin = at, end = at + 1;
-  while (begin > offset_[low] && sides_[begin - 1].high() == sides_[at].high()) --begin;
-  while (end < offset_[low + 1] && sides_[end].high() == sides_[at].high()) ++end;
+  while (begin > offset_[low] && sides_[begin - 1].high == sides_[at].high) --begin;
+  while (end < offset_[low + 1] && sides_[end].high == sides_[at].high) ++end;
   const int count = end - begin;
-  return sides_[begin + (at - begin + step + count) % count].side();
+  return sides_[begin + (at - begin + step + count) % count].side;
 }
 
 StarSide RadialCycles::acrossAgreeing(const StarSide& side, int agreeing, int other) const {

@@ -67,21 +67,9 @@ class RadialCycles {
     }
   }
 
-  class CycleSide {
-   public:
-    CycleSide() = default;
-    CycleSide(int high, const StarSide& side)
-        : high_(high), star_(side.star), entry_and_side_(4 * static_cast<unsigned>(side.entry) + side.side) {}
-
-    /// The larger vertex.
-    int high() const { return high_; }
-    StarSide side() const {
-      return {star_, static_cast<int>(entry_and_side_ / 4), static_cast<int>(entry_and_side_ % 4)};
-    }
-
-   private:
-    int high_, star_;
-    unsigned entry_and_side_;  // there are fewer than 2^30 entries
+  struct CycleSide {
+    int high;  ///< the larger vertex
+    StarSide side;
   };
 
  private:

@@ -72,29 +72,12 @@ class UnorderedSet final : public NearestSet {
     setWorst(found_.back().squared_distance);
   }
 
-  /// The largest comes last. Squared distances of points on a surface are spread evenly: counted in bins, all but a few
-  /// are known to be nearer or farther than the k-th.
+  /// Keeps the k nearest; the largest comes last.
   void choose() {
     if (found_.size() < k_) return;
-    double largest = 0;
-    for (const Neighbor& q : found_) largest = std::max(largest, q.squared_distance);
-    const bool has_bins = largest > least_square && largest < std::numeric_limits<double>::infinity();
-    const double scale = has_bins ? bins * (1 - 1e-9) / largest : 0;
-    const auto binOf = [=](const Neighbor& q) { return has_bins ? static_cast<int>(scale * q.squared_distance) : 0; };
-    std::array<int, bins> count{};
-    for (const Neighbor& q : found_) ++count[binOf(q)];
-    int nearer = 0, last = 0;  // those of the bins before that of the k-th, and that bin
-    while (nearer + count[last] < static_cast<int>(k_)) nearer += count[last++];
-
-    const auto from = std::partition(found_.begin(), found_.end(), [&](const Neighbor& q) { return binOf(q) < last; });
-    const auto to = std::partition(from, found_.end(), [&](const Neighbor& q) { return binOf(q) == last; });
-    const auto kth = found_.begin() + static_cast<std::ptrdiff_t>(k_ - 1);
-    std::nth_element(from, kth, to);
+    std::nth_element(found_.begin(), found_.begin() + static_cast<std::ptrdiff_t>(k_ - 1), found_.end());
     found_.resize(k_);
   }
-
- private:
-  static constexpr int bins = 256;
 };
 
 /// All points in a ball that shrinks to reach as far as the nearest and a little beyond: the roundings of squares,
