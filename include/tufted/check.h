@@ -11,43 +11,44 @@
 
 namespace tufted {
 
-/// L, M and cover_areas against what the faces of the cover say: L is assembled once more, corner by corner.
+/// Errors of L, M and cover_areas against values recomputed from the faces of the cover; L is assembled once more,
+/// corner by corner.
 ///
-/// Where the cover is a cloud's that was built from stars, masses are compared with the areas of these; on meshes and
-/// with Mass::cover with the cover's. Masses of stars that are not there any more, as with other gluings and after
-/// reading from files, leave nothing to compare each with: there the sum of M must lie within what areas of stars can
-/// be, between 3/40 of and 30 times that of the cover without Report::mollify_area.
+/// For the cover of a cloud that was built from stars, masses are compared with the areas of the stars; on meshes and
+/// with Mass::cover, with the areas of the cover. If the stars no longer exist, as with other gluings and after reading
+/// from files, single masses cannot be compared. The sum of M must then lie within what areas of stars can be: between
+/// 3/40 of and 30 times the area of the cover without Report::mollify_area.
 struct SurfaceCheck {
   double weight_error = 0;         ///< greatest |L_ij - L'_ij| over the larger diagonal of L' at i and j
   double area_error = 0;           ///< greatest relative error of cover_areas, 0 where these are not known
   double mass_error = 0;           ///< greatest relative error of M, 0 where `masses_compared` is false
   bool masses_compared = false;    ///< each mass was compared with the area it must be
-  std::int64_t coarse_points = 0;  ///< not compared: lengths at them are below 1e-292, where doubles have fewer digits
+  std::int64_t coarse_points = 0;  ///< points not compared, for lengths below 1e-292, where doubles have fewer digits
 };
 
-/// What `validate` measures on L, M, status and the cover themselves. Only the edges that were given up, and without a
-/// cover the clamped weights, leave no trace there; for those the report is asked.
+/// What `validate` measures on L, M, status and the cover. Edges that were given up, and without a cover the clamped
+/// weights, leave no trace there; their counts are taken from the report.
 struct LaplacianCheck {
   std::array<std::int64_t, 4> status = {};  ///< number of points, by PointStatus
   std::int64_t components = 0;              ///< connected components among points with a row
-  double nonzeros_per_row = 0;              ///< stored entries of L over active points
+  double nonzeros_per_row = 0;              ///< stored entries of L over the number of active points
 
   std::int64_t positive_off_diagonals = 0;
-  std::int64_t not_finite = 0;              ///< entries of L and of M
-  std::int64_t not_positive_diagonals = 0;  ///< of active points
+  std::int64_t not_finite = 0;              ///< entries of L and of M that are not finite
+  std::int64_t not_positive_diagonals = 0;  ///< active points whose diagonal in L is not positive
   std::int64_t negative_masses = 0;
-  std::int64_t zero_masses = 0;        ///< of active points; no fault, areas of lengths below 1e-154 underflow
+  std::int64_t zero_masses = 0;        ///< active points of mass 0; no fault: areas of lengths below 1e-154 underflow
   std::int64_t inactive_not_zero = 0;  ///< entries of L and of M that belong to a point that is not active
   double symmetry_error = 0;           ///< greatest |L_ij - L_ji| over the larger diagonal of i and j
-  double row_sum_error = 0;            ///< greatest |sum of row i| over L_ii, active points
+  double row_sum_error = 0;            ///< greatest |sum of row i| over L_ii of active points
   bool definite = false;               ///< L + 1e-12 diag(L) of the active points has a Cholesky factor
 
-  std::optional<CoverCheck> cover;      ///< where the cover is kept
-  std::optional<SurfaceCheck> surface;  ///< the same, and the cover is whole
-  /// A sentence per thing that could not be looked at, with its reason. Empty when everything was.
+  std::optional<CoverCheck> cover;      ///< set if the cover is kept
+  std::optional<SurfaceCheck> surface;  ///< set if the cover is kept and whole
+  /// One sentence for each check that could not be made, with the reason. Empty if all were made.
   std::vector<std::string> not_checked;
 
-  /// A sentence per broken promise: which, how often, and where first. Empty when all hold.
+  /// One sentence for each broken promise: which, how often, and where first. Empty if all hold.
   std::vector<std::string> faults;
 
   bool ok() const { return faults.empty(); }
@@ -59,16 +60,17 @@ struct LaplacianCheck {
 /// L must be symmetric bit for bit, its off-diagonals must not be positive at all, and its rows must sum to 0 within
 /// the rounding of their own sum. The factorisation is that of D^-1/2 L D^-1/2 + 1e-12, D = diag(L): each weight is
 /// judged against its own diagonals, and the shift exceeds the rounding.
-/// Each entry of L must be that of the cover's faces within 1e-11 of the larger diagonal of its row and column, and
-/// each area and mass within 1e-11 of itself; see SurfaceCheck.
-/// Whatever the arrays hold is reported and does not throw. The rest is left at zero where their sizes or the indices
-/// of L are wrong.
+/// Every entry of L must equal that of the cover's faces to within 1e-11 of the larger diagonal of its row and column,
+/// and every area and mass to within 1e-11 of itself; see SurfaceCheck.
+/// Wrong values in the arrays are reported and do not throw. If array sizes or indices of L are wrong, the other
+/// figures stay at zero.
 LaplacianCheck validate(const Laplacian& laplacian);
 
-/// What every function that takes a Laplacian asks for first, as its members may have been put together by hand: for N
-/// points L is N x N; M, status, representative and boundary have N entries, cover_areas and frames N or none; a cover
-/// has N vertices if it is stored; and every representative lies in [0, N) and is its own. O(N).
-/// @param function to be named
+/// Checks the sizes of a Laplacian's members, which may have been put together by hand; every function that takes a
+/// Laplacian does so first. For N points L is N x N; M, status, representative and boundary have N entries, cover_areas
+/// and frames N or none; a cover has N vertices if it is stored; and every representative lies in [0, N) and is its own
+/// representative. O(N).
+/// @param function name of the caller, for the message
 /// @throws InvalidInput naming the member, its size or value, and the rule
 void checkSizes(const std::string& function, const Laplacian& laplacian);
 

@@ -16,7 +16,7 @@ namespace tufted {
 struct SurfacePoint {
   std::array<int, 3> corners;       ///< points of the Laplacian; a vertex has its own index thrice
   std::array<double, 3> weights;    ///< barycentric coordinates, >= 0, sum 1; a vertex has 1, 0, 0
-  std::array<double, 3> distances;  ///< from the corners, along the triangle
+  std::array<double, 3> distances;  ///< of the point from the corners, along the triangle
 
   static SurfacePoint vertex(int index) { return {{index, index, index}, {1, 0, 0}, {0, 0, 0}}; }
 
@@ -28,51 +28,53 @@ struct SurfacePoint {
                              const std::array<double, 3>& barycentric);
 };
 
-/// What the time step of the heat equation is measured in.
+/// The unit of the time step of the heat equation.
 enum class TimeUnit {
   mean_edge,     ///< the mean squared length of the cover's edges
-  adapted_edge,  ///< that mean with each face weighted by its area: where density is very uneven, so that many short
-                 ///< edges say nothing about the gaps that heat has to cross elsewhere
+  adapted_edge,  ///< the mean squared length of the cover's edges, each face weighted by its area: for very uneven
+                 ///< density, where many short edges say nothing about the gaps that heat has to cross elsewhere
 };
 
 struct DistanceOptions {
-  /// t > 0, in `unit`. Larger ones smooth the distance and round off its creases. The mean error is least at 1/4 to
-  /// 1/2 on CGAL's meshes and near 1 from two points of a sphere; from one it falls up to 8.
+  /// Time step t > 0, in `unit`. Larger values smooth the distance and round off its creases. The mean error is least
+  /// at 1/4 to 1/2 on CGAL's meshes and near 1 for two sources on a sphere; for one source it falls up to t = 8.
   double time_step = 0.5;
   TimeUnit unit = TimeUnit::mean_edge;
-  /// Where the surface ends, the mean of heat that cannot leave and heat that is lost, as if the surface went on
-  /// (Section 3.2 of the paper on the heat method); otherwise heat that cannot leave, for one factorisation less.
+  /// If true, heat at boundaries is the mean of heat that cannot leave (Neumann) and heat that is lost (Dirichlet), as
+  /// if the surface went on (Section 3.2 of the paper on the heat method). If false, heat cannot leave, which takes one
+  /// factorisation less.
   bool open_boundary = true;
-  /// How systems are solved. A solver makes three factors where the surface ends and two elsewhere, and `memory_limit`
-  /// bounds all of them together. By multigrid, or where not all factors fit, `tolerance` is that of L d = div X, so d
-  /// is right to about as much. Heat is then solved in windows, each of some 130 edges by a factor of its own as far as
-  /// `memory_limit` allows, and of some 30 edges to 1e-12 beyond.
+  /// How systems are solved. A solver makes three factors if the surface has a boundary and two otherwise, and
+  /// `memory_limit` bounds all of them together. With multigrid, or if not all factors fit, `tolerance` is that of
+  /// L d = div X, so d is accurate to about as much. Heat is then solved in windows: some 130 edges wide, each by a
+  /// factor of its own, as far as `memory_limit` allows; otherwise some 30 edges wide, to 1e-12.
   SolverOptions solver = {};
 };
 
 /// What a query did.
 struct DistanceReport {
-  int rounds = 0;                            ///< of heat: one per some 500 edge lengths, in windows per 100 or 10
-  int iterations = 0;                        ///< of conjugate gradients, the most of any solve; 0 by Cholesky
-  double residual = 0;                       ///< the greatest of any solve, see SolveReport
-  double backward_error = 0;                 ///< the greatest of any solve, see SolveReport
-  double seconds = 0;                        ///< wall-clock
-  std::optional<WeakJoint> weak_joint = {};  ///< see SolveReport
+  int rounds = 0;             ///< rounds of heat: one per some 500 edge lengths, in windows per 100 or 10
+  int iterations = 0;         ///< most conjugate gradient iterations of any solve; 0 with Cholesky
+  double residual = 0;        ///< greatest residual of any solve, see SolveReport
+  double backward_error = 0;  ///< greatest backward error of any solve, see SolveReport
+  double seconds = 0;         ///< wall-clock
+  std::optional<WeakJoint> weak_joint = {};  ///< where the system is nearly disconnected, see SolveReport
 };
 
 /// Geodesic distance by the heat method (Crane, Weischedel, Wardetzky: "The heat method for distance computation",
 /// 2017) on the faces of the tufted cover: u is the heat that spreads from the sources, (M + t L) u = delta;
 /// X = -grad u / |grad u| its direction; and the distance the function whose gradient fits X best, L d = div X.
-/// Factorised once, queried often; queries may run side by side.
+/// The systems are factorised once and queried often; queries may run side by side.
 ///
-/// Two things differ. X is taken from log u, which is next to linear in a face where u is not: at the same t the error
-/// on a sphere is a third. And u, which falls to a third with every edge and would soon underflow, starts again from
-/// where it could still be seen, so distances are right at any number of edges. With factors of the whole a round sees
-/// some 500 edges and costs one or two solves. In windows (see `DistanceOptions::solver`) it sees 100 edges, or 10 by
-/// conjugate gradients, and costs in proportion to its window, so that all rounds together cost as much as some
-/// factorisations of the whole, for every query.
+/// Two things differ from that paper. X is taken from log u, which is nearly linear in a face where u is not: at the
+/// same t the error on a sphere is a third. And u, which falls to a third with every edge and would soon underflow, is
+/// started again in rounds from where it is still accurate, so distances are right at any number of edges. With factors
+/// of the whole matrix a round covers some 500 edges and costs one or two solves. In windows (see
+/// `DistanceOptions::solver`) it covers 100 edges, or 10 by conjugate gradients, and costs in proportion to its window,
+/// so that for every query all rounds together cost as much as some factorisations of the whole matrix.
 class DistanceSolver {
  public:
+  /// Prepares the systems of a Laplacian for queries.
   /// @param laplacian must have its cover; not needed after construction
   /// @throws InvalidInput for options out of range, arrays of the wrong size, or where there is no cover
   /// @throws SolverFailure when a matrix cannot be factorised
@@ -82,22 +84,24 @@ class DistanceSolver {
   /// Distance from the nearest of the sources, points of the cloud or vertices of the mesh: N values >= 0, in the
   /// points' unit.
   ///
-  /// 0 at sources. Infinity where no path leads: in components without a source, at isolated points and at those that
-  /// are not finite. Coincident points have the value of their representative. A source given twice counts once. Where
-  /// sources fill a region, distances are those from its boundary. Sources that are isolated or not finite say nothing.
+  /// The distance is 0 at sources, and infinity where no path leads: in components without a source, at isolated points
+  /// and at those that are not finite. Coincident points have the value of their representative. A source given twice
+  /// counts once. Where sources fill a region, distances are those from its boundary. Sources that are isolated or not
+  /// finite are ignored.
   /// @throws InvalidInput for no source, an index out of range, or no source on any component
   /// @throws SolverFailure as Solver::solve
   /// @throws Cancelled when `progress` returns false
   VectorXd query(const std::vector<int>& sources, DistanceReport* report = nullptr,
                  const Progress& progress = {}) const;
-  /// The same from any points of the surface. The corners around one have their distance along the triangle.
+  /// Distance from the nearest of the sources, any points of the surface; values and errors are as in query(). The
+  /// corners around a source have their distance along the triangle.
   VectorXd queryAt(const std::vector<SurfacePoint>& sources, DistanceReport* report = nullptr,
                    const Progress& progress = {}) const;
 
   /// The time step t in use, in the points' unit squared.
   double timeStep() const;
 
-  /// What the constructor did: all systems together, and its seconds. Where only some are solved by multigrid,
+  /// What the constructor did: all systems together, and its seconds. If only some systems are solved by multigrid,
   /// `method` names both ways.
   const SolverReport& report() const;
 

@@ -9,23 +9,24 @@
 
 namespace tufted {
 
-/// Points whose values are given. A pin at a coincident point is one at its representative; several at one place give
-/// their mean.
+/// Points whose values are given. A pin at a coincident point counts as one at its representative; several pins at one
+/// place count as one with their mean.
 struct Pins {
-  std::vector<int> points;  ///< P
+  std::vector<int> points;  ///< P indices
   Eigen::MatrixXd values;   ///< P x c, finite
 };
 
-/// The smoothest function with given values: L u = 0 at all other points, for each of the c columns (Section 5.5).
+/// The smoothest function with given values: L u = 0 at all other points, for each of the c columns (Sharp and Crane
+/// 2020, Section 5.5).
 ///
-/// Each value lies within the range of the pinned values of its component, and so it does at boundaries, as L is an
-/// M-matrix. Rounding takes it at most 1e-12 of that range outside, or by the last digit of values that are large
-/// beside it; nothing is clamped. With a single pin the component is constant.
+/// Every value lies within the range of the pinned values of its component, also at boundaries, as L is an M-matrix.
+/// Rounding takes it outside by at most 1e-12 of that range, or by the last digit of values that are large compared
+/// with the range; nothing is clamped. With a single pin the component is constant.
 ///
-/// What a first solve leaves is solved for again until rounding is all that is left, whatever `options.tolerance`: a
-/// last correction of more than 1e-12 of the range is a SolverFailure. Parts that next to nothing joins to a pin (see
-/// WeakJoint) are solved for as parts. The report's iterations are those of all these solves, and its residual is what
-/// is missing in the end, over what was missing of the constant that is the mean of the pins.
+/// The solution is corrected until only rounding is left, whatever `options.tolerance`: a last correction of more than
+/// 1e-12 of the range is a SolverFailure. Parts that are nearly disconnected from all pins (see WeakJoint) are solved
+/// for as parts. The report's iterations are those of all these solves, and its residual is the final one over that of
+/// the constant which is the mean of the pins.
 /// @return N x c. NaN in components without a pin and, unless pinned, at points that are isolated or not finite; a
 ///         coincident point has its representative's values
 /// @throws InvalidInput for an index out of range, arrays of different sizes, values that are not finite, or no pin on
@@ -36,23 +37,23 @@ Eigen::MatrixXd harmonic(const Laplacian& laplacian, const Pins& pins, const Sol
                          SolveReport* report = nullptr);
 
 /// The function of least bending with given values: the least sum over M of the squared Laplacian, so L M^-1 L u = 0 at
-/// all other points. Smooth at the pins, where harmonic functions have peaks, but not bounded by their values; at a
-/// boundary it meets the rim at a right angle, as L does not see beyond. The report is that of harmonic(); here a last
-/// correction of more than 1e-3 of the range is a SolverFailure.
+/// all other points. It is smooth at the pins, where harmonic functions have peaks, but not bounded by their values; at
+/// a boundary it meets the rim at a right angle, as L does not see beyond. The report is as that of harmonic(), but
+/// only a last correction of more than 1e-3 of the range is a SolverFailure.
 ///
-/// Multigrid is not fit for this: where a factor exceeds `options.memory_limit` it is a SolverFailure.
-/// @return, @throws as harmonic()
+/// Multigrid is not fit for this system: a factor that exceeds `options.memory_limit` is a SolverFailure.
+/// The result and the errors are otherwise those of harmonic().
 Eigen::MatrixXd biharmonic(const Laplacian& laplacian, const Pins& pins, const SolverOptions& options = {},
                            SolveReport* report = nullptr);
 
-/// The mean over the connected component of each point, weighted by M: what poisson() takes out of f.
-/// @param values N x c; those of points that are not active are not looked at
+/// The mean of `values` over the connected component of each point, weighted by M; poisson() subtracts it from f.
+/// @param values N x c; those of points that are not active are ignored
 /// @return N x c; 0 at points that are isolated or not finite
 /// @throws InvalidInput for a wrong number of rows
 Eigen::MatrixXd componentMeans(const Laplacian& laplacian, const Eigen::MatrixXd& values);
 
-/// Solves L u = M f: minus the Laplacian of u is f. On a component that is only possible where f has mean 0, so its
-/// mean (weighted by M) is taken out; and u is made to have mean 0. Refined as harmonic() is.
+/// Solves L u = M f: minus the Laplacian of u is f. On a component this is only possible if f has mean 0, so the mean
+/// of f (weighted by M) is subtracted; and u is made to have mean 0. The solution is corrected as in harmonic().
 /// @param f N x c, finite at active points
 /// @return N x c, NaN at points that are isolated or not finite
 /// @throws InvalidInput for a wrong number of rows, values that are not finite, or options out of range
@@ -60,15 +61,16 @@ Eigen::MatrixXd componentMeans(const Laplacian& laplacian, const Eigen::MatrixXd
 Eigen::MatrixXd poisson(const Laplacian& laplacian, const Eigen::MatrixXd& f, const SolverOptions& options = {},
                         SolveReport* report = nullptr);
 
-/// The same with given values: L u = M f at all points that are not pinned.
-/// @return, @throws as harmonic()
+/// Solves L u = M f at all points that are not pinned, with given values at the pins. The result and the errors are as
+/// those of harmonic().
 Eigen::MatrixXd poisson(const Laplacian& laplacian, const Eigen::MatrixXd& f, const Pins& pins,
                         const SolverOptions& options = {}, SolveReport* report = nullptr);
 
-/// Green's function of points (Figure 19), a column for each: L g = delta - M / area, with mean 0 over the component.
+/// Green's function of points (Sharp and Crane 2020, Figure 19), one column for each point: L g = delta - M / area,
+/// with mean 0 over the component.
 /// On a sphere of radius 1 g approximates -(ln((1 - cos angle) / 2) + 1) / (4 pi).
 /// @return N x c; 0 in other components, NaN at points that are isolated or not finite
-/// @throws InvalidInput for no point, an index out of range or of a point on no component, or options out of range
+/// @throws InvalidInput for no point, an index out of range, a point on no component, or options out of range
 /// @throws SolverFailure when the system cannot be solved; Cancelled when `options.progress` returns false
 Eigen::MatrixXd greensFunction(const Laplacian& laplacian, const std::vector<int>& points,
                                const SolverOptions& options = {}, SolveReport* report = nullptr);

@@ -10,16 +10,16 @@
 namespace tufted {
 
 /// A closed, edge-manifold, oriented triangulation given by its connectivity and edge lengths alone
-/// (Sections 3.2 and 4.1): a Delta-complex, so two faces may share several edges, a face may be glued to
-/// itself and an edge may join a vertex to itself.
+/// (Sharp and Crane 2020, Sections 3.2 and 4.1). It is a Delta-complex, so two faces may share several edges, a face
+/// may be glued to itself and an edge may join a vertex to itself.
 ///
 /// Side `s` of face `f` has the number 3 f + s and runs from corner `s` to corner `(s + 1) % 3`. `glue` maps a
 /// side to the one side it is glued to, which runs the other way. As built, face 2 t is the front and face
 /// 2 t + 1 the back of triangle t, with the corners (i, j, k) and (i, k, j).
 struct IntrinsicTriangulation {
   int vertices = 0;                       ///< number of vertices; corners lie in [0, vertices)
-  std::vector<std::array<int, 3>> faces;  ///< F corners
-  std::vector<int> glue;                  ///< 3 F sides
+  std::vector<std::array<int, 3>> faces;  ///< F times three corners
+  std::vector<int> glue;                  ///< 3 F; for each side the one it is glued to
   std::vector<double> length;             ///< 3 F lengths, equal on both sides of an edge
 
   std::int64_t size() const { return static_cast<std::int64_t>(faces.size()); }
@@ -50,7 +50,8 @@ struct CoverCheck {
   }
 };
 
-/// Checks what the guarantees of L rest on, for corners in [0, vertices). Lengths below 1e-292 are not judged. O(F).
+/// Checks the properties of the cover on which the guarantees of L rest, for corners in [0, vertices). Lengths below
+/// 1e-292 are not judged. O(F).
 CoverCheck validate(const IntrinsicTriangulation& cover, double delaunay_tolerance = 1e-9);
 
 }  // namespace tufted

@@ -17,13 +17,13 @@ struct Frames {
   Points tangents;  ///< N x 3, unit length
 };
 
-/// What a cover is built from when it is asked for.
+/// Builds a cover when it is asked for.
 class CoverSource {
  public:
   virtual ~CoverSource() = default;
   virtual const IntrinsicTriangulation& cover() const = 0;
-  /// The area of each point in its own star, N in length^2, which Mass::star makes M wherever it is positive; size 0
-  /// with Mass::cover. Measured again with each call, by all threads of the build.
+  /// The area of each point in its own star, N values in length^2, which Mass::star takes for M wherever it is
+  /// positive; size 0 with Mass::cover. Measured again with each call, by all threads of the build.
   virtual VectorXd starAreas() const { return {}; }
 };
 
@@ -36,8 +36,9 @@ class CoverSource {
 /// The faces of the cover count 1/2 (it has a front and a back), on clouds times 1/3 (each triangle is found by its
 /// three corners).
 struct Laplacian {
-  /// Set by the builds, and by readLaplacian() from the file. One that is put together by hand is taken for a mesh's
-  /// unless it says otherwise. Frames say nothing of it: a mesh may have some, and a cloud none.
+  /// What the Laplacian is of. Set by the builds, and by readLaplacian() from the file. A Laplacian that is put
+  /// together by hand is taken for a mesh's unless it says otherwise. Frames do not tell: a mesh may have some, and a
+  /// cloud none.
   Kind kind = Kind::mesh;
   SparseMatrix L;                   ///< N x N, column-major, compressed, rows ascending; no unit (lengths cancel)
   VectorXd M;                       ///< N areas in length^2, see Mass; their sum approximates the surface area
@@ -45,29 +46,29 @@ struct Laplacian {
   std::vector<PointStatus> status;  ///< N
   std::vector<int> representative;  ///< N; the point itself unless coincident, then the lowest equal index
   std::vector<Boundary> boundary;   ///< N; why the surface ends at a point, if it does
-  Frames frames;                    ///< of clouds; 0 x 3 on meshes, where those of meshFrames() may be stored
+  Frames frames;                    ///< set on clouds; 0 x 3 on meshes, where those of meshFrames() may be stored
   Report report;
 
   /// The tufted cover after flips to intrinsic Delaunay, vertices numbered as the caller's points. On clouds the first
-  /// call builds it, which takes half as long as the build of L and M or less, but as long for five million points; any
+  /// call builds it, which takes at most half as long as the build of L and M, but as long for five million points. Any
   /// number of threads may call.
   /// @throws InvalidInput after `keep_cover = false`
   const IntrinsicTriangulation& cover() const;
   bool hasCover() const { return stored_cover != nullptr || cover_source != nullptr; }
 
-  std::shared_ptr<const IntrinsicTriangulation> stored_cover;  ///< use cover()
-  std::shared_ptr<const CoverSource> cover_source;             ///< use cover()
+  std::shared_ptr<const IntrinsicTriangulation> stored_cover;  ///< the cover, if it is stored; use cover()
+  std::shared_ptr<const CoverSource> cover_source;             ///< builds the cover on demand; use cover()
 };
 
-/// The point cloud Laplacian of Section 5.7.
+/// Builds the point cloud Laplacian (Sharp and Crane 2020, Section 5.7).
 /// @param points N x 3; NaN and infinite rows keep their index and are skipped.
 /// @throws InvalidInput for options out of range, arrays of the wrong size, indices of neighbours out of range, a
-/// structure beside neighborhoods or one that is none (see ScanStructure), Delaunay::cgal without TUFTED_WITH_GPL, more
-/// than about 58 million points
+/// structure beside neighborhoods or one that is not valid (see ScanStructure), Delaunay::cgal without TUFTED_WITH_GPL,
+/// more than about 58 million points
 /// @throws Cancelled when `options.progress` returns false
 Laplacian pointCloudLaplacian(const Points& points, const CloudOptions& options = {});
 
-/// The mesh Laplacian of Algorithm 3, for triangles of any connectivity.
+/// Builds the mesh Laplacian (Sharp and Crane 2020, Algorithm 3), for triangles of any connectivity.
 /// @param points V x 3; coincident vertices stay separate.
 /// @param triangles F x 3 indices into `points`; triangles with a repeated vertex are dropped and counted.
 /// @throws InvalidInput for indices or options out of range, more than 357 million triangles or 2^31 entries of L

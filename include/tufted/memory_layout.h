@@ -4,8 +4,9 @@
 
 // How Eigen allocates depends on the compiler's flags: with -mavx2 or -march=native on both sides of a call its
 // matrices lie at multiples of 32 or 64 bytes, without at multiples of 16, and under the address sanitizer they are
-// freed in another way. A program whose files and whose tufted differ in that would crash. It does not link instead:
-// every file that includes a header with functions asks for the symbol of its own flags, and the library has one alone.
+// freed in another way. A program whose files and whose tufted differ in that would crash. So that it fails to link
+// instead, every file that includes a header with functions asks for the symbol of its own flags, and the library has
+// only one.
 #if EIGEN_DEFAULT_ALIGN_BYTES > 32
 #define TUFTED_MEMORY_LAYOUT \
   tufted_is_not_built_with_the_mavx512f_or_march_native_of_this_file__give_both_the_same_CMAKE_CXX_FLAGS

@@ -8,15 +8,16 @@
 
 namespace tufted {
 
-/// The active point nearest to a position, the first one where several are. O(N).
+/// The active point nearest to a position, the first one if several are equally near. O(N).
 /// @param points N x 3, those that the Laplacian was built from
 /// @throws InvalidInput for positions or active points that are not finite, arrays of different sizes, or no active
 ///         point
 int nearestPoint(const Laplacian& laplacian, const Points& points, const Eigen::Vector3d& position);
 
-/// The same for many positions by a search tree: O(N log N), then O(log N) for each that is near the points.
+/// The active points nearest to many positions, found by a search tree: O(N log N), then O(log N) for each position
+/// that is near the points. Errors are those of nearestPoint().
 /// @param positions P x 3
-/// @return P
+/// @return P indices
 std::vector<int> nearestPoints(const Laplacian& laplacian, const Points& points, const Points& positions);
 
 }  // namespace tufted

@@ -14,20 +14,20 @@ namespace tufted {
 /// Returns false to stop the build, which then throws `Cancelled`.
 using Progress = std::function<bool(std::string_view stage, double fraction)>;
 
-/// How the edges of the union of stars are named before Algorithm 1 glues around them.
+/// Which edges of the union of stars count as one before Algorithm 1 (Sharp and Crane 2020) glues around them.
 enum class Gluing {
   star,         ///< the two faces of p's star at a spoke meet each other only; link edges are shared between stars
   vertex_pair,  ///< all copies of an edge meet, as in the paper (5 % off on spectra at any N)
 };
 
-/// Circular order of the faces around an edge (Section 5.4).
+/// Circular order of the faces around an edge (Sharp and Crane 2020, Section 5.4).
 enum class FaceOrder {
   angle,   ///< dihedral angle
   area,    ///< ascending area
   random,  ///< shuffled by `seed`
 };
 
-/// Who finds the Delaunay stars. Both give the same triangles.
+/// How the Delaunay stars are found. Both ways give the same triangles.
 enum class Delaunay {
   star,  ///< angular sort and in-circle test around each point
   cgal,  ///< CGAL::Delaunay_triangulation_2 (GPL; needs TUFTED_WITH_GPL)
@@ -35,14 +35,15 @@ enum class Delaunay {
 
 /// When the k nearest neighbours of a point are doubled, up to 8 k, before a plane is fitted to them.
 enum class Growth {
-  line,    ///< they lie on one line, as on one ring of a scanner
-  uneven,  ///< also when 40 % of them lie within half the radius: rings that are close to lines, density steps
+  line,    ///< when they lie on one line, as on one ring of a scanner
+  uneven,  ///< when they lie on one line or 40 % of them within half the radius: rings close to lines, density steps
 };
 
 /// When a star is wrapped again from twice as many neighbours.
 enum class StarSearch {
-  once,      ///< closed, but a circumcircle leaves the ball that was searched
-  thorough,  ///< the same again and again up to twice the neighbourhood; and up to twice when it is open
+  once,      ///< once, when it is closed but a circumcircle leaves the ball that was searched
+  thorough,  ///< again and again, up to twice the neighbourhood, when a closed star's circumcircle leaves the ball that
+             ///< was searched; and up to two times when the star is open
 };
 
 /// Which triangles of the stars are dropped.
@@ -51,18 +52,18 @@ enum class Filter {
   votes,   ///< by circumradius, more strictly where no other corner's star has the triangle
 };
 
-/// What the lengths of edges are measured between.
+/// Positions from which the lengths of edges are measured.
 enum class Lengths {
   points,    ///< the points themselves
-  denoised,  ///< where a neighbourhood is noise around a curved surface, its points moved onto the surface
+  denoised,  ///< points moved onto the surface where a neighbourhood is noise around a curved surface
 };
 
 /// What M holds.
 enum class Mass {
   cover,  ///< a third of the area of each face of the cover around the point
-  /// The Voronoi area in the point's own star, which noise, rims and uneven sampling distort less. Where the surface
-  /// ends or bends next to the point, or a Voronoi area there exceeds 20 times the mixed area of Meyer et al. 2003, the
-  /// mixed area: so no point gets more than 20 times the triangles of its star.
+  /// The Voronoi area in the point's own star, which noise, rims and uneven sampling distort less. It is replaced by
+  /// the mixed area of Meyer et al. 2003 where the surface ends or bends next to the point, or a Voronoi area there
+  /// exceeds 20 times the mixed area: so no point gets more than 20 times the triangles of its star.
   star,
 };
 
@@ -71,12 +72,12 @@ enum class Preset {
   clean,  ///< exact samples: the paper's steps and no others, the fastest
   scan,   ///< the default; depth images, laser scans, photogrammetry: noise, jumps, outliers, near sheets, rims; on
           ///< clean clouds as good as `clean`
-  lidar,  ///< the same from a spinning scanner, whose rings would be taken for sheets
+  lidar,  ///< scans of a spinning scanner, whose rings `scan` would take for sheets
 };
 
-/// What is done about clouds that are not exact samples of one surface. By default those of Preset::scan. With the
-/// caller's neighborhoods nothing is grown, split or searched again and outliers stay. With a structure outliers stay;
-/// on rings, moreover, no sheets are split, only lines are grown, and open stars are not searched again.
+/// What is done about clouds that are not exact samples of one surface. The defaults are those of Preset::scan. With
+/// the caller's neighborhoods nothing is grown, split or searched again and outliers stay. With a structure outliers
+/// stay; on rings, moreover, no sheets are split, only lines are grown, and open stars are not searched again.
 struct CloudSteps {
   Growth growth = Growth::line;
   bool split_sheets = true;  ///< neighbours beyond a gap along the normal belong to another surface and are left out
@@ -97,27 +98,28 @@ struct CloudOptions {
   FaceOrder order = FaceOrder::angle;
   std::uint64_t seed = 0;  ///< for FaceOrder::random
   Delaunay delaunay = Delaunay::star;
-  double mollify = 1e-5;   ///< delta of Section 4.5 in mean edge lengths, 0 to 1; 0 leaves flat triangles flat,
-                           ///< and then rounding may break the guarantees
+  double mollify = 1e-5;   ///< delta (Sharp and Crane 2020, Section 4.5) in mean edge lengths, 0 to 1; 0 leaves flat
+                           ///< triangles flat, and then rounding may break the guarantees
   int threads = 0;         ///< at most this many; 0: one per processor
   bool keep_cover = true;  ///< false frees what the cover is built from (about 100 bytes per point, up to 700 on noise)
   const Points* normals = nullptr;               ///< N x 3, any length and sign, used instead of the PCA's; borrowed
   const Neighborhoods* neighborhoods = nullptr;  ///< N x k indices used as they are, never grown; borrowed
   const ScanStructure* structure = nullptr;      ///< finds neighbours by rows and columns, not by a tree; borrowed
-  /// Where the sensor stood, in the points' unit; tells Boundary::jump from rim however far the surfaces lie apart
-  /// along the line of sight. Null: the origin of `structure`, if there is one. Borrowed.
+  /// Where the sensor stood, in the points' unit; distinguishes Boundary::jump from rim however far the surfaces lie
+  /// apart along the line of sight. Null: the origin of `structure`, if there is one. Borrowed.
   const Eigen::Vector3d* viewpoint = nullptr;
   Progress progress = {};
 };
 
-/// CloudOptions of these steps, all else as by default.
+/// CloudOptions with the steps for a kind of cloud and defaults otherwise.
 CloudOptions cloudOptions(Preset preset);
 
 struct MeshOptions {
   FaceOrder order = FaceOrder::angle;
   std::uint64_t seed = 0;  ///< for FaceOrder::random
-  double mollify = 1e-6;   ///< delta of Section 4.5 in mean edge lengths; see CloudOptions. Below 3e-7 rounding may
-                           ///< break the guarantees on needles, above it needles gain area, see Report::mollify_area
+  double mollify = 1e-6;   ///< delta (Sharp and Crane 2020, Section 4.5) in mean edge lengths; see CloudOptions. Below
+                           ///< 3e-7 rounding may break the guarantees on needles, above it needles gain area, see
+                           ///< Report::mollify_area
   int threads = 0;         ///< at most this many; 0: one per processor
   bool keep_cover = true;  ///< false frees the cover (96 bytes per triangle)
   Progress progress = {};

@@ -9,8 +9,8 @@ namespace tufted {
 /// keeping its orientation. Polygons of fewer than three vertices give nothing. A polygon that is degenerate or
 /// crosses itself still gives n - 2 triangles.
 ///
-/// The best shaped ear is clipped first, whatever n. 100,000 vertices take less than a second, and n the time of
-/// n log n, on needles between scattered vertices of n sqrt(n); beside the result about 100 bytes per vertex of the
+/// The best shaped ear is clipped first, whatever n. 100,000 vertices take less than a second. The time grows as
+/// n log n, on needles between scattered vertices as n sqrt(n). Beside the result about 100 bytes per vertex of the
 /// largest polygon are used.
 /// @param progress called for every few thousand triangles
 /// @throws InvalidInput for an index outside [0, points.rows())

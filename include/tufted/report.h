@@ -30,15 +30,15 @@ struct Report {
   std::int64_t lost_points = 0;
 
   // Clouds
-  int neighbors = 0;                       ///< k in use, after clamping to N - 1; of the caller's lists the longest
+  int neighbors = 0;                       ///< k in use, after clamping to N - 1; with the caller's lists, the longest
   bool neighbors_clamped = false;          ///< the caller's k exceeded N - 1
   std::int64_t rejected_normals = 0;       ///< caller's normals that are zero or not finite, replaced by PCA
-  std::int64_t rejected_neighbors = 0;     ///< caller's neighbours that repeat or name the point or an unusable one
+  std::int64_t rejected_neighbors = 0;     ///< caller's neighbours that are repeated, unusable or the point itself
   std::int64_t unplaced = 0;               ///< usable points that have no place in the structure of the scan
   std::int64_t cut_neighbors = 0;          ///< neighbours in the scan left out because the surface jumps in between
   std::int64_t grown_neighborhoods = 0;    ///< k doubled because the neighbours say too little, see Growth
   std::int64_t split_neighborhoods = 0;    ///< neighbours of another sheet left out
-  std::int64_t isolated_by_sheets = 0;     ///< points without a star: next to all neighbours belong to other sheets
+  std::int64_t isolated_by_sheets = 0;     ///< points without a star: nearly all neighbours belong to other sheets
   std::int64_t outliers = 0;               ///< points without a star: they hover over a surface, see CloudSteps
   std::int64_t denoised = 0;               ///< points moved onto a surface for the lengths, see Lengths
   std::int64_t grown_stars = 0;            ///< times k was doubled because a closed star was not certified
@@ -54,18 +54,18 @@ struct Report {
   std::int64_t nonmanifold_edges = 0;          ///< edges of more than two triangles
 
   // Cover
-  std::int64_t triangles = 0;         ///< triangles under the cover, all copies counted; the cover has twice as many
-  double mean_edge = 0;               ///< mean length over the triangles' sides, before mollification
-  double mean_squared_edge = 0;       ///< mean of their squares, the unit of the smoothing's time
-  double mollify_length = 0;          ///< length added to every edge (Section 4.5)
-  double mollify_area = 0;            ///< area that the cover has gained by that, before flips, in length^2
+  std::int64_t triangles = 0;    ///< triangles under the cover, all copies counted; the cover has twice as many
+  double mean_edge = 0;          ///< mean length over the triangles' sides, before mollification
+  double mean_squared_edge = 0;  ///< mean squared length over the triangles' sides, the unit of smoothing's time step
+  double mollify_length = 0;     ///< length added to every edge (Section 4.5)
+  double mollify_area = 0;       ///< area that mollification has added to the cover, before flips, in length^2
   std::int64_t degenerate_faces = 0;  ///< cover faces of no area even after mollification; they contribute nothing
   std::int64_t flips = 0;             ///< intrinsic edge flips
   std::int64_t flip_failures = 0;     ///< times an edge was given up after 100 flips; 0 unless something is wrong
 
   // Operator
   double area = 0;                   ///< sum of M
-  double cover_area = 0;             ///< sum of the cover's areas, which M is where Mass::cover is chosen
+  double cover_area = 0;             ///< sum of the cover's areas; equal to `area` with Mass::cover
   std::int64_t star_masses = 0;      ///< points whose mass is an area of their own star, see Mass::star; 0 on meshes
   std::int64_t cover_masses = 0;     ///< points whose mass is the cover's because their own star holds no triangle
   std::int64_t bounded_masses = 0;   ///< points whose mass comes from parts of their triangles because a Voronoi area
@@ -74,7 +74,7 @@ struct Report {
   std::int64_t components = 0;       ///< connected components among active points
   std::int64_t clamped_weights = 0;  ///< negative weights set to 0, within 1e-9 of the larger diagonal
   std::int64_t clamped_large =
-      0;                       ///< negative weights beyond that, a failure of the flips; 0 unless something is wrong
+      0;  ///< larger negative weights set to 0, a failure of the flips; 0 unless something is wrong
   double largest_clamped = 0;  ///< largest clamped |weight| over the larger diagonal of its row and column
 
   int threads = 1;

@@ -9,14 +9,14 @@
 namespace tufted {
 
 /// How a scanner took the points of a cloud: in rows, each point at a place along its row. Rows are those of an image
-/// or the rings of a spinning scanner; consecutive rows were taken side by side. With it neighbours are found without a
-/// tree, and on rings however far apart those are. The part of an image that holds points must have at most 2^24
-/// pixels or 64 per entry. See imageStructure(), ringStructure() and findRings().
+/// or the rings of a spinning scanner; consecutive rows were taken side by side. With this structure neighbours are
+/// found without a tree, and on rings however far apart the rings are. The part of an image that holds points must have
+/// at most 2^24 pixels or 64 per entry. See imageStructure(), ringStructure() and findRings().
 struct ScanStructure {
   std::vector<int> row;          ///< N; row of the image or number of the ring; negative: the point has no place
   std::vector<double> position;  ///< N; column of the image, or azimuth in radians; not finite: the point has no place
   bool has_rings = false;        ///< rows are rings, closed around 2 pi; otherwise positions are whole columns >= 0
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< of the sensor, in the points' unit
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< position of the sensor, in the points' unit
 };
 
 /// The pixels of an organized cloud, row-major as in PCL.
@@ -31,8 +31,8 @@ ScanStructure imageStructure(int width, int height, const Eigen::Vector3d& origi
 ScanStructure ringStructure(const Points& points, std::vector<int> ring,
                             const Eigen::Vector3d& origin = Eigen::Vector3d::Zero());
 
-/// The same where nobody numbered them: the rings are the clusters of the points' elevations seen from the origin.
-/// Points that are not finite, or at the origin, have no place.
+/// Finds the rings of a spinning scanner without ring numbers: they are the clusters of the points' elevations seen
+/// from the origin. Points that are not finite, or at the origin, have no place.
 /// @param points N x 3, in the scanner's frame: it turns around the z axis through `origin`
 /// @throws InvalidInput where the elevations do not cluster: fewer than 4 rings, one wider than the narrowest gap, or
 /// no gap within one is less than a quarter of that; and for an origin that is not finite

@@ -10,11 +10,11 @@
 namespace tufted {
 
 struct SmoothingOptions {
-  /// t >= 0 in units of the mean squared edge length, report.mean_squared_edge. A wave of length 2 pi sqrt(t) times the
-  /// root of that unit loses half its height in a step, shorter ones more.
+  /// Time step t >= 0 in units of the mean squared edge length, report.mean_squared_edge. A wave of length 2 pi sqrt(t)
+  /// times the root of that unit loses half its height in a step, shorter ones more.
   double time_step = 1;
   int iterations = 1;                                ///< steps >= 1, all with the Laplacian given
-  const std::vector<std::uint8_t>* fixed = nullptr;  ///< N; points other than 0 stay where they are; borrowed
+  const std::vector<std::uint8_t>* fixed = nullptr;  ///< N; points with an entry other than 0 stay in place; borrowed
   int threads = 0;                                   ///< at most this many; 0: one per processor
   Progress progress = {};
 };
@@ -22,10 +22,10 @@ struct SmoothingOptions {
 /// Smooths positions by implicit steps of the heat equation, (M + t L) x' = M x for each coordinate; the matrix is
 /// factorised once.
 ///
-/// Each coordinate of x' lies in the range of x over the point's connected component and, where no point of it is
-/// fixed, sum(M x) of the component stays the same, both up to rounding. (Where a point's mass is below 1e-13 of
-/// t L's diagonal, and thus lost in rounding, that much is added to it.) Coincident points move with their
-/// representative, and stay if any one of them is fixed; points that are not finite or isolated stay as they are.
+/// Every coordinate of x' lies in the range of x over the point's connected component. If no point of the component is
+/// fixed, its sum(M x) does not change. Both hold up to rounding. (A point's mass below 1e-13 of t L's diagonal, which
+/// would be lost in rounding, is raised to that.) Coincident points move with their representative, and stay if any one
+/// of them is fixed; points that are not finite or isolated stay as they are.
 /// @param points N x 3, those that the Laplacian was built from
 /// @return N x 3
 /// @throws InvalidInput for options out of range, arrays of the wrong size, or active points that are not finite

@@ -9,19 +9,20 @@
 
 namespace tufted {
 
-// What follows from a few eigenpairs, values lambda_i and vectors phi_i. Where the vectors are 0, at points that take
-// no part, so are signatures and embeddings; coincident points have those of their representative.
+// Signatures, embeddings and filters from a few eigenpairs, values lambda_i and vectors phi_i. Signatures and
+// embeddings are 0 where the vectors are, at points that take no part; coincident points have those of their
+// representative.
 
-/// Times at which the pairs of a spectrum say something, evenly spaced on a logarithmic scale as Sun et al. (2009)
-/// have them: from 4 ln 10 / (the largest eigenvalue) to 4 ln 10 / (the smallest positive one).
-/// @param count >= 1; one alone is their geometric mean
+/// Times for which the pairs of a spectrum suffice in heatKernelSignature(), evenly spaced on a logarithmic scale as in
+/// Sun et al. (2009): from 4 ln 10 / (the largest eigenvalue) to 4 ln 10 / (the smallest positive one).
+/// @param count >= 1; a single time is the geometric mean of these two
 /// @return `count` times, ascending, length^2
 /// @throws InvalidInput for count < 1 or a spectrum without a positive eigenvalue
 VectorXd heatTimes(const Spectrum& spectrum, int count = 16);
 
 /// The heat kernel signature of J. Sun, M. Ovsjanikov and L. Guibas, "A concise and provably informative multi-scale
 /// signature based on heat diffusion" (2009): sum over i of exp(-lambda_i t) phi_i(x)^2, the heat that is left at x
-/// after a time t. Terms beyond the spectrum are missing, which tells at times below heatTimes().
+/// after a time t. Terms beyond the spectrum are missing, which matters at times below heatTimes().
 /// @param times T values >= 0, length^2
 /// @return N x T, 1 / length^2
 /// @throws InvalidInput for times that are negative or not finite
@@ -37,12 +38,12 @@ VectorXd waveEnergies(const Spectrum& spectrum, int count = 100);
 /// mechanical approach to shape analysis" (2011): the mean of phi_i(x)^2 over positive eigenvalues, weighted by exp(-(e
 /// - log lambda_i)^2 / (2 width^2)).
 /// @param energies E logarithms of eigenvalues
-/// @param width standard deviation of the energy, > 0; their choice is seven times the distance of energies
+/// @param width standard deviation of the energy, > 0; Aubry et al. take seven times the distance between energies
 /// @return N x E, 1 / length^2
 /// @throws InvalidInput for energies or a width out of range, or a spectrum without a positive eigenvalue
 Eigen::MatrixXd waveKernelSignature(const Spectrum& spectrum, const VectorXd& energies, double width);
 
-/// The wave kernel signature at waveEnergies(spectrum, count), of a width of seven times their distance.
+/// The wave kernel signature at waveEnergies(spectrum, count), with a width of seven times the distance between these.
 Eigen::MatrixXd waveKernelSignature(const Spectrum& spectrum, int count = 100);
 
 /// Coordinates whose distances are those of a spectral distance, a column per positive eigenvalue.
@@ -51,14 +52,15 @@ enum class Embedding {
   biharmonic  ///< phi_i / lambda_i: the biharmonic distance of Lipman et al. (2010)
 };
 
+/// Places each point so that Euclidean distances are spectral distances, with a coordinate per positive eigenvalue.
 /// @return N x (positive eigenvalues); no unit with `commute`, length with `biharmonic`
 Eigen::MatrixXd spectralEmbedding(const Spectrum& spectrum, Embedding embedding = Embedding::commute);
 
-/// Filters signals by their frequencies: sum over i of gain(lambda_i) phi_i (phi_i^T M f). What lies beyond the
-/// spectrum is taken out. Points that are not finite or isolated keep their value; coincident ones get that of their
+/// Filters signals by their frequencies: sum over i of gain(lambda_i) phi_i (phi_i^T M f). Frequencies beyond the
+/// spectrum are taken out. Points that are not finite or isolated keep their value; coincident ones get that of their
 /// representative.
-/// @param signals N x c; values of points that are not active are not looked at
-/// @param gain of an eigenvalue (1 / length^2); none: 1 for all, the low-pass
+/// @param signals N x c; values of points that are not active are ignored
+/// @param gain factor for an eigenvalue (1 / length^2); if empty it is 1 for all, a low-pass
 /// @return N x c
 /// @throws InvalidInput for arrays of the wrong size or signals that are not finite at active points
 Eigen::MatrixXd filterSignals(const Laplacian& laplacian, const Spectrum& spectrum,

@@ -25,7 +25,7 @@ enum class Kind : std::uint8_t {
   mesh,   ///< points and triangles: each lies under the cover once
 };
 
-/// Why a point does or does not take part. A point that does not has a zero row, column and mass.
+/// Why a point does or does not take part. A point that does not take part has a zero row, column and mass.
 enum class PointStatus : std::uint8_t {
   active = 0,      ///< has a positive diagonal in L
   not_finite = 1,  ///< NaN, infinite, or more than 1e70 median spreads or 1e152 away from the rest
@@ -34,12 +34,12 @@ enum class PointStatus : std::uint8_t {
                    ///< no triangle names
 };
 
-/// Why the surface ends at a point. Told by what lies beyond, where triangles are missing around the point: the middle
-/// half of the gap between its triangles is looked at, as far as twice its longest edge to a neighbour.
+/// Why the surface ends at a point. This follows from what lies beyond, where triangles are missing around the point:
+/// the middle half of the gap between its triangles is searched, as far as twice its longest edge to a neighbour.
 enum class Boundary : std::uint8_t {
-  none = 0,  ///< it does not: triangles all around; isolated points belong to no surface that could end
+  none = 0,  ///< the surface does not end: triangles all around; isolated points belong to no surface that could end
   rim = 1,   ///< nothing lies beyond: the sampling ends, at a border or at a hole (meshes: a vertex of a free edge)
-  jump = 2,  ///< another surface lies there: behind, before or beside this one, as at a depth discontinuity
+  jump = 2,  ///< another surface lies beyond: behind, before or beside this one, as at a depth discontinuity
   lost = 3,  ///< this surface goes on, but its triangles were dropped or not found: an outlier, uneven sampling;
              ///< also where none of the point's own triangles is left, but others name it
 };

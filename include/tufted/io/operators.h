@@ -20,8 +20,8 @@ namespace tufted {
 ///   L, gradX, gradY as _data (float64), _indices, _indptr (int32) and _shape (int64), N x N in csc; L positive
 ///                  semidefinite
 ///   evals, evecs   k and N x k, float64
-/// All numbers are those of the library bit for bit; the cache itself has float32. Beside it, as writeResults does,
-/// copies of the points with the fields frames and evecs, and report.json.
+/// All numbers are those of the library bit for bit; DiffusionNet's cache itself has float32. As writeResults does, it
+/// also writes copies of the points, with the fields frames and evecs, and report.json.
 /// @throws InvalidInput for arrays that differ in their number of points or of eigenvalues, or are not compressed
 /// @throws IoError naming the path
 /// @throws Cancelled when `options.progress` returns false

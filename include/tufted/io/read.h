@@ -25,19 +25,19 @@ struct Field {
   std::vector<std::byte> bytes;  ///< N * count values, native byte order
 };
 
-/// Value i of the N * count ones of a field. 64-bit integers beyond 2^53 are rounded.
+/// Value i of the N * count values of a field. 64-bit integers beyond 2^53 are rounded.
 double valueOf(const Field& field, std::size_t i);
 
 /// What a file holds: a cloud, or a mesh.
 struct Geometry {
-  std::string format;         ///< of the file, for people: "PCD, binary", "LAS 1.4, point format 6"
+  std::string format;         ///< format of the file, for people: "PCD, binary", "LAS 1.4, point format 6"
   Points points;              ///< N x 3, in the file's unit, float and double without loss
   Points normals;             ///< N x 3 where the file has them, else 0 x 3
   std::vector<Field> fields;  ///< everything else per point, in the file's order
   int width = 0;              ///< columns of an organized cloud; N otherwise
   int height = 1;             ///< rows of an organized cloud; 1 otherwise
   /// Pose of the sensor as PCD states it: translation x y z, then the quaternion w x y z, of any length but 0. All
-  /// finite: readers refuse other files, writers other poses.
+  /// seven numbers are finite: readers refuse other files, writers other poses.
   std::array<double, 7> viewpoint = {0, 0, 0, 1, 0, 0, 0};
   bool is_mesh = false;
   Triangles triangles;               ///< F x 3; polygons are triangulated, in order
@@ -45,7 +45,7 @@ struct Geometry {
   std::int64_t merged_vertices = 0;  ///< vertices merged with an equal earlier one: the corners of an STL, or by weld()
 };
 
-/// How to take a file that may be either.
+/// Whether to read a file as a cloud or as a mesh.
 enum class ReadAs {
   automatic,  ///< a mesh where the file has faces, else a cloud: an OBJ or OFF without faces too
   cloud,      ///< points only; faces are ignored
@@ -57,7 +57,7 @@ enum class FileFormat { automatic, pcd, ply, xyz, las, obj, off, stl };
 
 /// Reads clouds (PCD, PLY, XYZ, LAS, OFF and OBJ without faces) and meshes (PLY, OBJ, OFF, STL).
 ///
-/// What a file announces is compared with its size before anything is counted or made so large. Reading takes less than
+/// The counts that a file announces are compared with its size before memory is taken for them. Reading takes less than
 /// 128 bytes for each byte of the file and twice what is returned.
 /// @param format `automatic` goes by the extension, and where that is unknown by the content.
 /// @param progress called while polygons of many corners are triangulated

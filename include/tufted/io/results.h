@@ -11,11 +11,11 @@
 
 namespace tufted {
 
-/// Values that an algorithm gave.
+/// Values that an algorithm computed, for writeResults().
 struct ResultArray {
-  std::string name;        ///< of the file, without ending, and of the field; one word
-  Eigen::MatrixXd values;  ///< per point: N x c; otherwise of any shape
-  bool per_point = true;   ///< also a field of the copy of the points
+  std::string name;        ///< name of the file, without extension, and of the field; one word
+  Eigen::MatrixXd values;  ///< N x c if per point; otherwise of any shape
+  bool per_point = true;   ///< whether the values are also a field of the copies of the points
 };
 
 struct ResultOptions {
@@ -27,12 +27,12 @@ struct ResultOptions {
 /// The names of the files that writeResults writes.
 std::vector<std::string> resultFiles(const std::vector<ResultArray>& arrays, const ResultOptions& options);
 
-/// Writes results into the directory `dir`, which is made if missing, in the way of writeLaplacian:
+/// Writes results into the directory `dir`, which is made if missing, in the same way as writeLaplacian:
 ///   NAME.npy               float64; one column: N values, else rows x columns in C order
 ///   points.ply, points.pcd as writeLaplacian writes them, with each array per point as a field NAME of float32;
 ///                          several columns: NAME_0, NAME_1, ... in PLY, COUNT values in PCD
 ///   report.json            options.report
-/// @throws InvalidInput if arrays differ in length, a name is not one word, the pose of the sensor is none or a
+/// @throws InvalidInput if arrays differ in length, a name is not one word, the pose of the sensor is not valid or a
 ///         format is neither ply nor pcd
 /// @throws IoError naming the path
 /// @throws Cancelled when `options.progress` returns false
@@ -41,25 +41,25 @@ void writeResults(const std::filesystem::path& dir, const Laplacian& laplacian, 
 
 /// Reads what writeLaplacian wrote with Format::npz: L.npz, M.npy, status.npy, representative.npy, boundary.npy,
 /// frames.npy, and of report.json the kind, counts, lengths and areas. Sign::igl and dummy values are undone.
-/// `cover_areas` is M where that holds the cover's areas, else empty. Where report.json has no kind, as those of before
-/// there was one, it goes by the options of the build that are there; without these a cover is refused, and nothing
-/// else depends on it.
+/// `cover_areas` is M if that holds the cover's areas, else empty. If report.json has no kind, as in older files, the
+/// kind follows from the options of the build in it; without these a cover is refused, and nothing else depends on the
+/// kind.
 ///
 /// What is read must be a Laplacian, by the rules of validate(): L is symmetric bit for bit, its off-diagonals are <= 0
 /// and its rows sum to 0 within the rounding of their own sum; active points have a positive diagonal, all others no
 /// entry and no mass; nothing is negative or not finite in M; a coincident point names an earlier one that stands for
 /// itself. This is O(N), a fifth of the time of reading; the factorisation and the cover are left to validate().
 ///
-/// L.npz and cover.npz may be deflated, to a thousandth. Their arrays must fit each other and the files of the points,
-/// which are not, before they are read, and are read in pieces: beside 128 bytes for each byte of the files this takes
-/// four times what is returned.
-/// @param with_cover takes cover.npz as well, where Format::cover was among those written; otherwise there is no cover
+/// L.npz and cover.npz may be deflated, to a thousandth. Before their arrays are read, they must fit each other and the
+/// files of the points, which are not deflated. They are read in pieces: beside 128 bytes for each byte of the files
+/// this takes four times what is returned.
+/// @param with_cover reads cover.npz as well, if Format::cover was among those written; otherwise there is no cover
 /// @throws IoError naming the file that is missing, damaged or does not fit the others, the entry that breaks a rule,
-/// or
-///         the number of the report that does not fit its type
+///         or the number of the report that does not fit its type
 Laplacian readLaplacian(const std::filesystem::path& dir, bool with_cover = true);
 
-/// The same without these rules, for validate(), which says how often each promise is broken.
+/// Reads the files of readLaplacian() without checking that they hold a Laplacian, for validate(), which says how often
+/// each promise is broken.
 /// @throws IoError naming the file that is missing, damaged or does not fit the others
 Laplacian readUncheckedLaplacian(const std::filesystem::path& dir, bool with_cover = true);
 

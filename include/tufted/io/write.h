@@ -10,7 +10,7 @@
 
 namespace tufted {
 
-/// What writeLaplacian can write, beside report.json, which it always writes.
+/// The files that writeLaplacian can write, beside report.json, which it always writes.
 enum class Format : std::uint8_t {
   npz,    ///< L.npz, M.npy, status.npy, representative.npy, boundary.npy, frames.npy: NumPy and SciPy
   mtx,    ///< L.mtx, M.mtx: Matrix Market
@@ -18,7 +18,7 @@ enum class Format : std::uint8_t {
   spmat,  ///< L.spmat, M.spmat: triplets counted from 1, as the paper's program writes them
   ply,    ///< points.ply
   pcd,    ///< points.pcd
-  cover,  ///< cover.npz: the triangles, which take more than all the rest, for distances alone
+  cover,  ///< cover.npz: the triangles, larger than all other files together; only distances need them
 };
 
 /// Sign of L in the files. M is positive in both.
@@ -30,12 +30,12 @@ enum class Sign : std::uint8_t {
 struct WriteOptions {
   std::vector<Format> formats = {Format::npz, Format::ply};
   Sign sign = Sign::psd;
-  /// For programs that expect full rank: every point that is not active gets 1 (-1 with Sign::igl) on the diagonal of L
-  /// and a thousandth of the smallest positive mass in M (1 if there is none). These are the paper's program's values.
+  /// Gives every point that is not active 1 (-1 with Sign::igl) on the diagonal of L and a thousandth of the smallest
+  /// positive mass in M (1 if there is none), for programs that expect full rank. The paper's program writes the same.
   bool dummy = false;
   std::string source = {};              ///< the file the points are from, recorded in report.json
   const CloudOptions* cloud = nullptr;  ///< the options of the build, recorded in report.json; borrowed
-  const MeshOptions* mesh = nullptr;    ///< the same for a mesh; borrowed
+  const MeshOptions* mesh = nullptr;    ///< the options of a mesh's build, likewise; borrowed
   Progress progress = {};               ///< called between files; returning false leaves no file
 };
 
@@ -72,14 +72,14 @@ std::vector<std::string> resultFiles(const std::vector<Format>& formats);
 /// killed while it renames leaves new files beside old ones, and in `dir`/.tufted-XXXXXX/old those that it replaced.
 /// Where several processes write into one `dir`, each renames all its files before the next one does.
 /// @throws InvalidInput if the arrays of `laplacian` and `geometry` differ in length, the name of a field is not one
-///         word, the pose of the sensor is none, or the cover is asked for and was not kept
+///         word, the pose of the sensor is not valid, or the cover is asked for and was not kept
 /// @throws IoError naming the path
 /// @throws Cancelled when `options.progress` returns false
 void writeLaplacian(const std::filesystem::path& dir, const Laplacian& laplacian, const Geometry& geometry,
                     const WriteOptions& options = {});
 
-/// Refuses what writeLaplacian, writeResults or writeOperators could not write, so that it is known before the results
-/// are computed: makes `dir` if missing and a folder in it, as they do, and removes both again.
+/// Checks, before results are computed, that writeLaplacian, writeResults or writeOperators will be able to write them:
+/// makes `dir` if missing and a folder in it, as they do, and removes both again.
 /// @param files names of the results
 /// @throws IoError naming the path, also where a directory has the name of a result
 void checkWritable(const std::filesystem::path& dir, const std::vector<std::string>& files);

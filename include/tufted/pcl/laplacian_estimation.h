@@ -9,12 +9,12 @@
 
 namespace tufted {
 
-/// L, M and what is known about each point, for a cloud of PCL.
+/// Computes L, M and what is known about each point, for a PCL cloud.
 ///
-/// Built from the points that setIndices names, and from them alone: row r of the result belongs to (*indices)[r].
-/// Without indices row r is point r. Points that are NaN, whatever is_dense says, keep a row of zeros. A caller's
-/// mistake is told on PCL's console and leaves an empty result. Of an organized cloud the sensor's origin is the
-/// viewpoint, which tells jumps from rims in Laplacian::boundary, unless setOptions names another.
+/// They are built from the points that setIndices names, and from them alone: row r of the result belongs to
+/// (*indices)[r]. Without indices row r is point r. Points that are NaN, whatever is_dense says, keep a row of zeros. A
+/// caller's mistake is reported on PCL's console and leaves an empty result. The viewpoint, which distinguishes jumps
+/// from rims in Laplacian::boundary, is the sensor's origin of an organized cloud unless setOptions names another.
 ///
 /// Instantiated for PCL_XYZ_POINT_TYPES; for other types include impl/laplacian_estimation.hpp.
 template <typename PointT>
@@ -24,18 +24,18 @@ class LaplacianEstimation : public pcl::PCLBase<PointT> {
   using ConstPtr = pcl::shared_ptr<const LaplacianEstimation<PointT>>;
   using SearchPtr = typename pcl::search::Search<PointT>::Ptr;
 
-  /// Builds the Laplacian of the input cloud; `result` is overwritten, 0 rows where that failed.
+  /// Builds the Laplacian of the input cloud; `result` is overwritten, with 0 rows if that failed.
   void compute(Laplacian& result);
 
   /// Neighbours per point, at least 3; 30 unless set.
   void setKSearch(int k) { options_.neighbors = k; }
   int getKSearch() const { return options_.neighbors; }
 
-  /// At most this many threads; 0, as at first: one per processor.
+  /// At most this many threads; 0 (default): one per processor.
   void setNumberOfThreads(unsigned int threads = 0) { options_.threads = static_cast<int>(threads); }
   unsigned int getNumberOfThreads() const { return static_cast<unsigned int>(options_.threads); }
 
-  /// Who finds the neighbours; null, as at first: the core, which also looks further where k neighbours are too few.
+  /// The search that finds the neighbours; null (default): the core, which also looks further if k are too few.
   /// compute() gives it the cloud and the finite ones of its indices.
   void setSearchMethod(const SearchPtr& search) { search_ = search; }
   SearchPtr getSearchMethod() const { return search_; }
@@ -45,9 +45,9 @@ class LaplacianEstimation : public pcl::PCLBase<PointT> {
   void setOrganizedSearch(bool organized) { organized_ = organized; }
   bool getOrganizedSearch() const { return organized_; }
 
-  /// Everything that the core can be told, k and threads included. What it borrows (normals, neighborhoods,
-  /// structure: one row per index) must live until compute() is done; a search method or an organized search wins over
-  /// neighborhoods and structure.
+  /// All options of the core, k and threads included. What they borrow (normals, neighborhoods, structure: one row per
+  /// index) must live until compute() is done; a search method or an organized search wins over neighborhoods and
+  /// structure.
   void setOptions(const CloudOptions& options) { options_ = options; }
   const CloudOptions& getOptions() const { return options_; }
 

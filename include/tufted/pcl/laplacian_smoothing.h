@@ -12,10 +12,10 @@ namespace tufted {
 
 /// Smooths the positions of a cloud by implicit steps (M + t L) x' = M x; see tufted::smooth.
 ///
-/// The operator is built from all finite points of the input. With setIndices only the points named move, all others
-/// are held, with every copy of them. Every other field, the order, width and height, header and sensor pose are
+/// The operator is built from all finite points of the input. With setIndices only the points named move; all others,
+/// with every copy of them, stay in place. Every other field, the order, width and height, header and sensor pose are
 /// copied; NaN points stay NaN in place, and is_dense says whether there are any. Nothing is removed, so
-/// getRemovedIndices is always empty. The output may be the input. A caller's mistake is told on PCL's console and
+/// getRemovedIndices is always empty. The output may be the input. A caller's mistake is reported on PCL's console and
 /// leaves an empty output.
 ///
 /// Instantiated for PCL_XYZ_POINT_TYPES; for other types include impl/laplacian_smoothing.hpp.
@@ -29,11 +29,11 @@ class LaplacianSmoothing : public pcl::Filter<PointT> {
 
   LaplacianSmoothing() { this->filter_name_ = "LaplacianSmoothing"; }
 
-  /// t >= 0 in units of the mean squared edge length, 1 unless set; see SmoothingOptions::time_step.
+  /// Time step t >= 0 in units of the mean squared edge length, 1 unless set; see SmoothingOptions::time_step.
   void setTimeStep(double time_step) { time_step_ = time_step; }
   double getTimeStep() const { return time_step_; }
 
-  /// Steps, at least 1, all with the Laplacian of the input; 1 unless set.
+  /// Number of steps, at least 1, all with the Laplacian of the input; 1 unless set.
   void setIterations(int iterations) { iterations_ = iterations; }
   int getIterations() const { return iterations_; }
 
@@ -41,11 +41,11 @@ class LaplacianSmoothing : public pcl::Filter<PointT> {
   void setKSearch(int k) { options_.neighbors = k; }
   int getKSearch() const { return options_.neighbors; }
 
-  /// At most this many threads; 0, as at first: one per processor.
+  /// At most this many threads; 0 (default): one per processor.
   void setNumberOfThreads(unsigned int threads = 0) { options_.threads = static_cast<int>(threads); }
   unsigned int getNumberOfThreads() const { return static_cast<unsigned int>(options_.threads); }
 
-  /// Who finds the neighbours; null, as at first: the core, which also looks further where k neighbours are too few.
+  /// The search that finds the neighbours; null (default): the core, which also looks further if k are too few.
   /// filter() gives it the cloud and the indices of its finite points.
   void setSearchMethod(const SearchPtr& search) { search_ = search; }
   SearchPtr getSearchMethod() const { return search_; }

@@ -10,9 +10,10 @@
 #include "tufted/errors.h"
 #include "tufted/laplacian.h"
 
-/// Between PCL's types and the core's; what the classes have in common.
+/// Conversions between PCL's types and the core's, which the PCL classes have in common.
 namespace tufted::detail {
 
+/// Checks that indices name points of the cloud.
 /// @throws InvalidInput for an index that names no point of the cloud
 template <typename PointT>
 void checkIndices(const char* name, const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices) {
@@ -24,7 +25,7 @@ void checkIndices(const char* name, const pcl::PointCloud<PointT>& cloud, const 
   }
 }
 
-/// Row r is point indices[r], in double before anything is computed.
+/// Points in double, before anything is computed; row r is point indices[r].
 template <typename PointT>
 Points toPoints(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices) {
   Points points(static_cast<Eigen::Index>(indices.size()), 3);
@@ -35,7 +36,7 @@ Points toPoints(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indice
   return points;
 }
 
-/// The k points nearest to each of `points`, itself left out, as rows of `points`; fewer are padded with -1.
+/// The k points nearest to each of `points`, without itself, as row numbers of `points`; fewer are padded with -1.
 /// The search gets the finite points, each once.
 template <typename PointT>
 Neighborhoods nearestNeighbors(pcl::search::Search<PointT>& search,
@@ -67,7 +68,7 @@ Neighborhoods nearestNeighbors(pcl::search::Search<PointT>& search,
   return neighborhoods;
 }
 
-/// Where in an organized cloud the points that `indices` name lie, seen from its sensor.
+/// The pixels of the points that `indices` name in an organized cloud, with its sensor's origin.
 /// @throws InvalidInput for a cloud that is not organized
 template <typename PointT>
 ScanStructure pixelsOf(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices) {
@@ -86,9 +87,9 @@ ScanStructure pixelsOf(const pcl::PointCloud<PointT>& cloud, const pcl::Indices&
 }
 
 /// The Laplacian of the points that `indices` name.
+/// Errors are those of pointCloudLaplacian.
 /// @param search finds the neighbours; null: the core does
 /// @param organized whether the core does so by the pixels of the cloud
-/// @throws what pointCloudLaplacian throws
 template <typename PointT>
 Laplacian cloudLaplacian(const typename pcl::PointCloud<PointT>::ConstPtr& cloud, const pcl::Indices& indices,
                          const Points& points, const typename pcl::search::Search<PointT>::Ptr& search, bool organized,
