@@ -4,6 +4,7 @@
 #include <functional>
 #include <string_view>
 
+#include "tufted/cloud_steps.h"
 #include "tufted/scan_structure.h"
 #include "tufted/types.h"
 
@@ -33,40 +34,6 @@ enum class Delaunay {
   cgal,  ///< CGAL::Delaunay_triangulation_2 (GPL; needs TUFTED_WITH_GPL)
 };
 
-/// When the k nearest neighbours of a point are doubled, up to 8 k, before a plane is fitted to them.
-enum class Growth {
-  line,    ///< when they lie on one line, as on one ring of a scanner
-  uneven,  ///< when they lie on one line or 40 % of them within half the radius: rings close to lines, density steps
-};
-
-/// When a star is wrapped again from twice as many neighbours.
-enum class StarSearch {
-  once,      ///< once, when it is closed but a circumcircle leaves the ball that was searched
-  thorough,  ///< again and again, up to twice the neighbourhood, when a closed star's circumcircle leaves the ball that
-             ///< was searched; and up to two times when the star is open
-};
-
-/// Which triangles of the stars are dropped.
-enum class Filter {
-  radius,  ///< by their circumradius: slivers along a rim, bridges to outliers
-  votes,   ///< by circumradius, more strictly where no other corner's star has the triangle
-};
-
-/// Positions from which the lengths of edges are measured.
-enum class Lengths {
-  points,    ///< the points themselves
-  denoised,  ///< points moved onto the surface where a neighbourhood is noise around a curved surface
-};
-
-/// What M holds.
-enum class Mass {
-  cover,  ///< a third of the area of each face of the cover around the point
-  /// The Voronoi area in the point's own star, which noise, rims and uneven sampling distort less. It is replaced by
-  /// the mixed area of Meyer et al. 2003 where the surface ends or bends next to the point, or a Voronoi area there
-  /// exceeds 20 times the mixed area: so no point gets more than 20 times the triangles of its star.
-  star,
-};
-
 /// Kinds of clouds, see cloudSteps().
 enum class Preset {
   clean,  ///< exact samples: the paper's steps and no others, the fastest
@@ -75,25 +42,12 @@ enum class Preset {
   lidar,  ///< scans of a spinning scanner, whose rings `scan` would take for sheets
 };
 
-/// What is done about clouds that are not exact samples of one surface. The defaults are those of Preset::scan. With
-/// the caller's neighborhoods nothing is grown, split or searched again and outliers stay. With a structure outliers
-/// stay; on rings, moreover, no sheets are split, only lines are grown, and open stars are not searched again.
-struct CloudSteps {
-  Growth growth = Growth::line;
-  bool split_sheets = true;  ///< neighbours beyond a gap along the normal belong to another surface and are left out
-  StarSearch star_search = StarSearch::thorough;
-  bool isolate_outliers = true;  ///< points that hover over a surface that does not reach to them lose their stars
-  Filter filter = Filter::votes;
-  Lengths lengths = Lengths::denoised;
-  Mass mass = Mass::star;
-};
-
-/// The steps for a kind of cloud.
+/// The steps for a kind of cloud, to change single ones of (see cloud_steps.h).
 CloudSteps cloudSteps(Preset preset);
 
 struct CloudOptions {
-  int neighbors = 30;  ///< k >= 3, far fewer than N; larger than N - 1 is clamped and reported
-  CloudSteps steps = {};
+  int neighbors = 30;     ///< k >= 3, far fewer than N; larger than N - 1 is clamped and reported
+  CloudSteps steps = {};  ///< most users set none of these and take cloudOptions(preset)
   Gluing gluing = Gluing::star;
   FaceOrder order = FaceOrder::angle;
   std::uint64_t seed = 0;  ///< for FaceOrder::random
