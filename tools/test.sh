@@ -25,6 +25,10 @@ source tools/build_settings.sh
 if samples=$(tools/fetch_samples.sh); then
   configure_arguments+=("-DTUFTED_CGAL_DATA_DIR=$samples")
 fi
+# Real scans and meshes that may lie beside the project.
+if [[ -d ../shared/data ]]; then
+  configure_arguments+=("-DTUFTED_DATA_DIR=$(realpath ../shared/data)")
+fi
 export CTEST_PARALLEL_LEVEL=${CTEST_PARALLEL_LEVEL:-$(nproc)}
 
 scratch=$(mktemp -d)
