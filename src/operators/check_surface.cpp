@@ -1,3 +1,4 @@
+// Recomputes L and M from the cover (Sharp and Crane 2020, Algorithm 3) and compares them with those of a Laplacian.
 #include "operators/check_surface.h"
 
 #include <algorithm>

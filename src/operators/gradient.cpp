@@ -1,3 +1,4 @@
+// Gradients at points by least squares in tangent planes (DiffusionNet; Sharp et al. 2022, Section 3.4).
 #include "tufted/gradient.h"
 
 #include <Eigen/Eigenvalues>

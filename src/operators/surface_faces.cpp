@@ -1,3 +1,4 @@
+// Gradients and divergences on faces for the heat method (Crane, Weischedel, Wardetzky 2013, 2017).
 #include "operators/surface_faces.h"
 
 #include <algorithm>
