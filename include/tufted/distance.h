@@ -16,7 +16,7 @@ namespace tufted {
 struct SurfacePoint {
   std::array<int, 3> corners;       ///< points of the Laplacian; a vertex has its own index thrice
   std::array<double, 3> weights;    ///< barycentric coordinates, >= 0, sum 1; a vertex has 1, 0, 0
-  std::array<double, 3> distances;  ///< of the point from the corners, along the triangle
+  std::array<double, 3> distances;  ///< distances of the point from the corners, along the triangle
 
   static SurfacePoint vertex(int index) { return {{index, index, index}, {1, 0, 0}, {0, 0, 0}}; }
 

@@ -9,7 +9,7 @@ namespace tufted {
 /// frames.tangents and (Y u)_i the slope along cross(normal, tangent).
 struct Gradients {
   SparseMatrix X, Y;  ///< N x N, compressed; 1 / length; rows sum to 0
-  Frames frames;      ///< of the N points; arbitrary at points that belong to no surface
+  Frames frames;      ///< frames of the N points; arbitrary at points that belong to no surface
 };
 
 /// Tangent frames of a mesh's vertices. A normal is the direction that the normals of the triangles around, weighted by

@@ -41,9 +41,10 @@ struct CoverCheck {
   std::int64_t not_oriented = 0;         ///< sides whose mate does not run the other way between the same vertices
   std::int64_t unequal_lengths = 0;      ///< sides whose mate has another length
   std::int64_t triangle_inequality = 0;  ///< faces whose lengths are not those of a triangle (negative slack)
-  std::int64_t not_delaunay = 0;         ///< edges with cot + cot below -tolerance (Equation 2), and below what the
-                                         ///< sum itself may round by: 16 epsilon (|cot| + |cot|)
-  double smallest_cotan_sum = 0;         ///< the least cot + cot, at most 0
+  /// Edges with cot + cot below -tolerance (Sharp and Crane 2020, Equation 2), and below what the sum itself may round
+  /// by: 16 epsilon (|cot| + |cot|).
+  std::int64_t not_delaunay = 0;
+  double smallest_cotan_sum = 0;  ///< the least cot + cot, at most 0
 
   bool ok() const {
     return not_closed + not_edge_manifold + not_oriented + unequal_lengths + triangle_inequality + not_delaunay == 0;

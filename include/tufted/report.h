@@ -57,7 +57,7 @@ struct Report {
   std::int64_t triangles = 0;    ///< triangles under the cover, all copies counted; the cover has twice as many
   double mean_edge = 0;          ///< mean length over the triangles' sides, before mollification
   double mean_squared_edge = 0;  ///< mean squared length over the triangles' sides, the unit of smoothing's time step
-  double mollify_length = 0;     ///< length added to every edge (Section 4.5)
+  double mollify_length = 0;     ///< length added to every edge (Sharp and Crane 2020, Section 4.5)
   double mollify_area = 0;       ///< area that mollification has added to the cover, before flips, in length^2
   std::int64_t degenerate_faces = 0;  ///< cover faces of no area even after mollification; they contribute nothing
   std::int64_t flips = 0;             ///< intrinsic edge flips

@@ -16,14 +16,15 @@ using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
 constexpr Index block_size = 8;
-/// Steps that a random block gets to show a missed eigenvalue: where nobody can tell, and where one was missed.
+/// Steps that a random block gets to show a missed eigenvalue, if it is unknown whether one was missed.
 constexpr int search_steps = 8;
+/// Steps that a random block gets to show a missed eigenvalue, if one was missed.
 constexpr int longest_search = 40;
-/// A column of which less is left by orthogonalisation is noise, compared with the largest eigenvalue.
+/// A column is noise if orthogonalisation leaves less of it than this part of the largest eigenvalue.
 constexpr double least_part = 1e-15;
-/// Of the largest eigenvalue: as much is uncertain in products with A.
+/// Products with A are uncertain by this part of the largest eigenvalue.
 constexpr double rounding = 1e-13;
-/// An eigenvalue by so much above the next one is found at once, and spoils the digits of the others.
+/// An eigenvalue this many times the next one is found at once, and spoils the digits of the others.
 constexpr double dominance = 1e4;
 
 class BlockLanczos {
@@ -63,8 +64,8 @@ class BlockLanczos {
   }
 
  private:
-  /// The pairs with their residuals. Those that told of convergence followed from the basis, and what it has lost is
-  /// not seen in it.
+  /// Fills in the pairs and measures their residuals. The residuals that showed convergence followed from the basis,
+  /// which does not show what it has lost.
   void finish(LanczosResult& result) {
     result.values = values_.head(problem_.wanted);
     multiplyInPlace(basis_.leftCols(size_), vectors_.leftCols(problem_.wanted), quiet_);
@@ -85,7 +86,7 @@ class BlockLanczos {
   /// Whether nothing is known to be missing where the space is used up.
   bool isWhole() const { return !problem_.is_complete || problem_.is_complete(values_.head(problem_.wanted)) != false; }
 
-  /// Whether nothing was missed among what has converged; otherwise sets out to search.
+  /// Whether nothing was missed among what has converged; otherwise begins to search.
   bool isComplete(int iteration) {
     const VectorXd now = values_.head(problem_.wanted);
     const bool searching = before_.size() > 0;
@@ -103,7 +104,8 @@ class BlockLanczos {
 
   auto fresh() { return basis_.middleCols(size_, fresh_); }
 
-  /// Applies A to the fresh block, books its products, and makes the next block of what is new. False when nothing is.
+  /// Applies A to the fresh block, adds the products to T, and makes the next block of what is new. False if nothing is
+  /// new.
   bool step() {
     if (fresh_ == 0) return false;
     MatrixXd image = problem_.apply(fresh());
@@ -122,7 +124,7 @@ class BlockLanczos {
     return true;
   }
 
-  /// A block that nothing is known of. False when the space is used up.
+  /// Adds a random block to the basis. False if the space is used up.
   bool addRandom() {
     const Index room = std::min<Index>(block_size, problem_.dimension - size_);
     fresh_ = 0;
@@ -141,8 +143,8 @@ class BlockLanczos {
     return fresh_ > 0;
   }
 
-  /// Puts at most `room` orthonormal columns behind the basis that span what `block` has beside it. Columns of which no
-  /// more than `least` is left are noise.
+  /// Appends at most `room` orthonormal columns to the basis that span the part of `block` outside of it. Columns of
+  /// which no more than `least` is left are noise.
   Index orthonormalize(const MatrixXd& block, Index room, double least) {
     if (block.cols() <= room) {
       basis_.middleCols(size_, block.cols()) = block;
@@ -151,8 +153,8 @@ class BlockLanczos {
     return orthonormalizeOneByOne(block, room, least);
   }
 
-  /// The columns behind the basis by Cholesky's factor of their Gram matrix, again where much was taken away. False
-  /// where they are too close to dependent for that.
+  /// Orthonormalises the columns behind the basis by the Cholesky factor of their Gram matrix, repeatedly if much was
+  /// taken away. False if they are too close to dependent for that.
   bool orthonormalizeTogether(Index count, double least) {
     auto all = basis_.leftCols(size_ + count);
     for (int pass = 0; pass < 4; ++pass) {
@@ -188,7 +190,7 @@ class BlockLanczos {
         if (!(norm > (pass == 0 ? least : 0.5))) break;
         column /= norm;
       }
-      // What shrinks again after it was made orthogonal was noise.
+      // A column that shrinks again after it was made orthogonal was noise.
       if (norm > 0.5) basis_.col(size_ + count++) = column;
     }
     return count;
@@ -211,8 +213,8 @@ class BlockLanczos {
     vectors_.bottomRightCorner(rest, rest) = solver.eigenvectors().rowwise().reverse();
   }
 
-  /// Puts pairs whose eigenvalues are far above all others aside, and begins anew without them: rounding of theirs is
-  /// in all that was found so far. False when there are none.
+  /// Sets aside the pairs whose eigenvalues are far above all others, and begins anew without them, as their rounding
+  /// is in all that was found so far. False if there are none.
   bool lockLeading() {
     Index leading = locked_;
     for (Index i = locked_; i + 1 < std::min(size_, problem_.wanted); ++i)
@@ -228,8 +230,8 @@ class BlockLanczos {
     return true;
   }
 
-  /// |A x - theta x| of the leading pairs: the coupling times the last rows of their vectors, or no more than noise
-  /// where nothing was left to be coupled.
+  /// |A x - theta x| of the leading pairs: the coupling times the last rows of their vectors, or noise if nothing was
+  /// left to be coupled.
   VectorXd residuals(Index count) const {
     if (coupling_.cols() == 0) return VectorXd::Constant(count, least_part * scale_);
     return (coupling_ * vectors_.bottomRows(coupling_.cols()).leftCols(count)).colwise().norm();
@@ -245,7 +247,7 @@ class BlockLanczos {
     return count;
   }
 
-  /// Keeps so many leading vectors, and the fresh block behind them.
+  /// Keeps the `keep` leading vectors, and the fresh block behind them.
   void restart(Index keep) {
     const MatrixXd next = fresh();
     multiplyInPlace(basis_.leftCols(size_), vectors_.leftCols(keep), quiet_);
@@ -267,12 +269,12 @@ class BlockLanczos {
   Index size_ = 0, fresh_ = 0;
   Index locked_ = 0;   ///< the first columns of the basis, eigenvectors that are not touched any more
   MatrixXd T_;         ///< basis^T diag(mass) A basis
-  MatrixXd coupling_;  ///< what A leads from the last block to the fresh one
+  MatrixXd coupling_;  ///< the block of A that maps the last block to the fresh one
   VectorXd values_;
   MatrixXd vectors_;
-  VectorXd before_;          ///< what had converged when the search for missed eigenvalues began
-  int search_from_ = 0;      ///< iteration at which it did
-  bool is_missing_ = false;  ///< whether it looks for what is known to be missing
+  VectorXd before_;          ///< eigenvalues that had converged when the search for missed ones began
+  int search_from_ = 0;      ///< iteration at which the search for missed eigenvalues began
+  bool is_missing_ = false;  ///< whether an eigenvalue is known to be missing
   double scale_ = 0;         ///< the largest eigenvalue so far that is not locked
   double found_ = 0;         ///< share of the wanted that has converged
 };

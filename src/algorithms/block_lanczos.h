@@ -11,13 +11,13 @@ namespace tufted {
 /// An operator A that is self-adjoint and positive in the inner product x^T diag(mass) y.
 struct LanczosProblem {
   std::function<Eigen::MatrixXd(const Eigen::Ref<const Eigen::MatrixXd>&)> apply;  ///< A times several columns
-  /// Takes out the directions that A maps to 0 and that are not to be found.
+  /// Takes the directions that A maps to 0, and that are not to be found, out of columns.
   std::function<void(Eigen::Ref<Eigen::MatrixXd>)> deflate;
   Eigen::VectorXd mass;    ///< n, >= 0; rows of mass 0 do not matter to A
-  Eigen::Index dimension;  ///< of the space that is left, > `wanted`
-  Eigen::Index wanted;     ///< pairs, >= 1
-  /// Whether these are the `wanted` largest eigenvalues, or some that are as large were missed; nothing where that
-  /// cannot be told. May be empty.
+  Eigen::Index dimension;  ///< dimension of the space that is left, > `wanted`
+  Eigen::Index wanted;     ///< number of pairs to find, >= 1
+  /// Tells whether eigenvalues are the `wanted` largest, or some that are as large were missed; nullopt if unknown. May
+  /// be empty.
   std::function<std::optional<bool>(const Eigen::VectorXd&)> is_complete;
 };
 
@@ -27,12 +27,12 @@ struct LanczosOptions {
 };
 
 struct LanczosResult {
-  Eigen::VectorXd values;     ///< the `wanted` largest eigenvalues, descending; none where iterations do not suffice
+  Eigen::VectorXd values;     ///< the `wanted` largest eigenvalues, descending; empty if iterations do not suffice
   Eigen::MatrixXd vectors;    ///< n x wanted, mass-orthonormal
   Eigen::MatrixXd images;     ///< A times `vectors`
   Eigen::VectorXd residuals;  ///< |A x - theta x| / theta of each pair, measured on `images`
   int iterations = 0;         ///< blocks that A was applied to
-  /// All residuals are at most the tolerance and what rounding of A leaves, 1e-13 of the largest eigenvalue.
+  /// Whether all residuals are at most the tolerance and what rounding of A leaves, 1e-13 of the largest eigenvalue.
   bool converged = false;
 };
 

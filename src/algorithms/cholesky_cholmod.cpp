@@ -99,7 +99,7 @@ Cholesky::Cholesky(const LongMatrix& lower, std::size_t limit) : analysis_(std::
     a.common->method[0].ordering = ordering;
     return Factor(cholmod_l_analyze(&a.matrix, a.common.get()));
   };
-  // Minimum degree at every size, as nested dissection saves memory alone. Of a torus, seconds of one processor:
+  // Minimum degree at every size, as nested dissection only saves memory. For a torus, seconds of one processor:
   //                            30,000 points        100,000              500,000
   //     AMD    analyse, factor   0.04 0.05  11 MB     0.24 0.22  43 MB     1.7 1.3  258 MB
   //     METIS                    0.14 0.05  10 MB     0.61 0.24  37 MB     3.9 1.1  207 MB

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double least_weight = 1e-14;
 
-/// What weights above this part of the smaller diagonal join.
+/// The components that weights above `least_share` of the smaller diagonal join.
 Components joinedAbove(double least_share, const Laplacian& laplacian) {
   const SparseMatrix& L = laplacian.L;
   const VectorXd diagonal = L.diagonal();

@@ -13,28 +13,28 @@ struct Components {
   std::vector<int> of;      ///< N; which component, numbered by their first points; -1: not active
   std::vector<int> points;  ///< the active points, ascending
 
-  /// The sum over each component, in ascending order of points.
+  /// The sums of `values` over each component, in ascending order of points.
   VectorXd sums(const VectorXd& values) const;
-  /// M divided by its sum over the component; all equal where that sum is 0. 0 at points that are not active.
+  /// M divided by its sum over the component; equal weights if that sum is 0. Points that are not active get 0.
   VectorXd weights(const VectorXd& M) const;
 
   /// Divides each column on each component by its largest magnitude there, so that iterations see them alike.
   /// @return what was divided by, components x columns; 1 where there is nothing but 0
   Eigen::MatrixXd normalise(Eigen::Ref<Eigen::MatrixXd> values) const;
-  /// Multiplies by what normalise() has divided by.
+  /// Multiplies columns on components by the factors that normalise() has divided by.
   void multiply(Eigen::Ref<Eigen::MatrixXd> values, const Eigen::MatrixXd& factors) const;
 };
 
 Components findComponents(const Laplacian& laplacian);
 
-/// Weights of at most this part of the smaller diagonal join badly. A factor loses so many digits of what flows through
-/// them: some 1e-13 over it, of a jump.
+/// Weights of at most this part of the smaller diagonal join badly. A factor loses about 1e-13 over this part of a jump
+/// across them.
 constexpr double weak_share = 1e-6;
-/// As many parts more than components are kept apart, as each takes a solve and N values.
+/// At most this many more parts than components are kept apart, as each takes a solve and N values.
 constexpr int most_floating_parts = 64;
 
-/// The parts of the components that weights above `weak_share` of the smaller diagonal join, nearly always the
-/// components themselves; above less, where there would be too many parts.
+/// The parts that weights above `weak_share` of the smaller diagonal join, nearly always the components themselves. If
+/// there would be too many parts, a smaller share is used.
 Components findParts(const Laplacian& laplacian);
 
 }  // namespace tufted

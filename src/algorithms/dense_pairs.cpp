@@ -31,7 +31,7 @@ std::optional<Eigenpairs> densePairs(const Eigenproblem& problem, Index wanted) 
   std::vector<int> points;
   for (const int i : problem.components.points)
     if (problem.mass[i] > 0) points.push_back(i);
-  // The largest entries first: so the reduction to a tridiagonal matrix keeps what is small beside them.
+  // The largest entries come first, so that the reduction to a tridiagonal matrix keeps the small ones.
   std::stable_sort(points.begin(), points.end(), [&](int a, int b) { return scaled[a] > scaled[b]; });
   MatrixXd S = denseBlock(L, points, points);
   if (!problem.massless.empty()) {

@@ -1,3 +1,4 @@
+// Geodesic distance by the heat method (Crane, Weischedel, Wardetzky 2013, 2017) on the faces of the tufted cover.
 #include "tufted/distance.h"
 
 #include <algorithm>
@@ -38,7 +39,7 @@ void checkArguments(const Laplacian& laplacian, const DistanceOptions& options) 
   }
 }
 
-/// A cover that was put together by hand may not fit.
+/// The cover of a Laplacian, checked, as one that was put together by hand may not fit.
 const IntrinsicTriangulation& checkedCover(const Laplacian& laplacian) {
   const std::string name = std::string(constructor) + ": cover ";
   const IntrinsicTriangulation& cover = laplacian.cover();
@@ -58,7 +59,7 @@ const IntrinsicTriangulation& checkedCover(const Laplacian& laplacian) {
   return cover;
 }
 
-/// M / t + L, with the areas of the faces.
+/// The matrix M / t + L of the heat equation, with M from the areas of the faces.
 SparseMatrix heatMatrix(const Laplacian& laplacian, const SurfaceFaces& surface, double time) {
   SparseMatrix A = laplacian.L;
   const VectorXd areas = lumpedAreas(surface, static_cast<int>(A.rows()));
@@ -87,7 +88,7 @@ void checkSource(const SurfacePoint& source, int n) {
   }
 }
 
-/// What is known of the sources, by active point.
+/// Distance and heat that the sources give, by active point.
 struct Sources {
   VectorXd distance;  ///< in the solver's unit; infinite away from sources
   VectorXd heat;
@@ -188,7 +189,7 @@ Sources DistanceSolver::State::locate(const std::vector<SurfacePoint>& sources) 
   return found;
 }
 
-/// Faces between sources: inside a region of sources nothing points anywhere.
+/// Marks the faces inside a region of sources, where the gradient has no direction.
 std::vector<std::uint8_t> DistanceSolver::State::facesInside(const Sources& sources) const {
   std::vector<std::uint8_t> inside(surface.faces.size(), 0);
   for (std::size_t f = 0; f < inside.size(); ++f) {
@@ -199,7 +200,7 @@ std::vector<std::uint8_t> DistanceSolver::State::facesInside(const Sources& sour
   return inside;
 }
 
-/// From a function that is right up to a constant per component to distances, in the points' unit.
+/// Turns a function that is right up to a constant per component into distances, in the points' unit.
 void DistanceSolver::State::shift(const Sources& sources, VectorXd& distance) const {
   VectorXd excess = VectorXd::Zero(distance.size()), count = VectorXd::Zero(distance.size());
   for (const int i : components.points) {

@@ -1,3 +1,4 @@
+// Step 2 of the heat method (Crane, Weischedel, Wardetzky 2013, 2017): the normalised gradient of heat.
 #include "algorithms/heat_directions.h"
 
 #include <algorithm>
@@ -10,7 +11,7 @@ namespace {
 
 constexpr std::int64_t block_size = 8192;
 
-/// Faces that wait for heat: those that are not still, in components that have some.
+/// Faces that wait for heat: those that are not `still`, in components with heat.
 std::vector<int> waitingFaces(const HeatProblem& problem, const VectorXd& heat,
                               const std::vector<std::uint8_t>& still) {
   const Components& components = problem.components;

@@ -1,3 +1,4 @@
+// Step 1 of the heat method (Crane, Weischedel, Wardetzky 2013, 2017): heat that spreads, here in rounds.
 #include "algorithms/heat_rounds.h"
 
 #include <algorithm>
@@ -12,13 +13,13 @@
 namespace tufted {
 namespace {
 
-/// By elimination heat keeps its relative accuracy down to underflow, because in the factor of an M-matrix and with
-/// sources >= 0 nothing but numbers of one sign is ever added.
+/// Heat found by elimination is accurate above this, relative to its own size: in the factor of an M-matrix and with
+/// sources >= 0 only numbers of one sign are ever added, so accuracy lasts down to underflow.
 constexpr double valid = 1e-285;
-/// Where heat falls below this it starts again: far enough above `valid` to even out.
+/// The next round starts where heat falls below this: far enough above `valid` to even out.
 constexpr double front = 1e-245;
 
-/// The tolerance of conjugate gradients for heat, which is looked at far below its largest value.
+/// The tolerance of conjugate gradients for heat, which is used far below its largest value.
 constexpr double heat_tolerance = 1e-12;
 
 /// A factor, or null where it takes more memory than the options allow.
@@ -30,7 +31,7 @@ std::unique_ptr<const LinearSystem> factorise(const std::string& function, const
   return system;
 }
 
-/// Every round solves with the factors of the whole.
+/// Rounds of heat in which every round solves with the factors of the whole matrix.
 class RoundsByFactor : public HeatRounds {
  public:
   RoundsByFactor(const std::string& function, const HeatProblem& problem, const VectorXd& heat,
@@ -65,8 +66,8 @@ class RoundsByFactor : public HeatRounds {
     return u;
   }
 
-  /// What flows from points that heat has reached into those that it has not is the heat of the next round. Past the
-  /// front the wave is the same as if it had never stopped (Huygens). Returns whether anything flows.
+  /// Prepares the next round, whose heat is what flows from points that heat has reached into those that it has not.
+  /// Past the front the wave is the same as if it had never stopped (Huygens). Returns whether anything flows.
   bool restart() {
     const auto reached = [&](Eigen::Index i) { return u_[i] >= front; };
     bool advanced = false, flows = false;

@@ -11,7 +11,7 @@
 
 namespace tufted {
 
-/// The system M / t + L: as a factor of the whole where that fits, otherwise as a matrix to take windows of.
+/// The system M / t + L: a factor of the whole matrix if that fits, otherwise the matrix to take windows of.
 struct HeatSystem {
   std::unique_ptr<const LinearSystem> closed;  ///< the factor; null: rounds are solved in windows
   std::unique_ptr<const LinearSystem> open;    ///< the factor without the points where the surface ends, if it does
@@ -27,7 +27,7 @@ struct HeatSystem {
 HeatSystem makeHeatSystem(const std::string& function, SparseMatrix matrix, VectorXd interior,
                           const SolverOptions& options);
 
-/// What a query for heat looks at, all in the unit of `surface`. Everything is borrowed.
+/// The data that a query for heat uses, all in the unit of `surface`. Everything is borrowed.
 struct HeatProblem {
   const SurfaceFaces& surface;
   const SparseMatrix& L;
@@ -35,7 +35,7 @@ struct HeatProblem {
   const HeatSystem& system;
 };
 
-/// Heat that starts again and again where it could no longer be seen.
+/// Heat that spreads in rounds, each of which starts where the heat of the last one became too small to be accurate.
 class HeatRounds {
  public:
   virtual ~HeatRounds() = default;
@@ -52,9 +52,10 @@ class HeatRounds {
   double log_valid_ = 0;
 };
 
+/// Makes the rounds of heat for one query, by the factors of `problem` or in windows. All arguments are borrowed;
+/// next() throws SolverFailure and Cancelled in the name of `function`.
 /// @param heat N, >= 0, what the first round starts from
 /// @param report gets rounds, iterations, the residual and the backward error
-/// All are borrowed; next() throws SolverFailure and Cancelled in the name of `function`.
 std::unique_ptr<HeatRounds> makeHeatRounds(const std::string& function, const HeatProblem& problem,
                                            const VectorXd& heat, const Progress& progress, DistanceReport& report);
 

@@ -1,3 +1,4 @@
+// Step 1 of the heat method (Crane, Weischedel, Wardetzky 2013, 2017) in windows, for systems too large for a factor.
 #include "algorithms/heat_windows.h"
 
 #include <algorithm>
@@ -9,20 +10,21 @@
 namespace tufted {
 namespace {
 
-/// Edges that a window is wide at first; heat falls to 1e-61 over so many of mean length. Where a factor does not fit,
-/// windows become as narrow as what conjugate gradients see.
+/// Edges that a window is wide at first, and at least. Heat falls to 1e-61 over the first number of edges of mean
+/// length. If a factor does not fit, windows become as narrow as what conjugate gradients resolve.
 constexpr int first_layers = 128, least_layers = 32;
-/// Heat is right above this part of the window's largest value. A factor keeps it down to underflow, conjugate
-/// gradients know no more than their tolerance.
+/// Heat is right above this part of the window's largest value. A factor keeps it right down to underflow, conjugate
+/// gradients only down to their tolerance.
 constexpr double valid_by_factor = 1e-285, valid_by_iteration = 1e-9;
-/// Heat is right at so many times the greatest of the last layer, beyond which it is taken for 0: what is missing is
-/// the square of their ratio.
+/// Heat is right above this many times the greatest heat of the window's last layer. Beyond that layer it is taken for
+/// 0; the error is the square of their ratio.
 constexpr double above_outer = 1e6;
-/// The next round starts at so many times what is right, so that faces across the front are seen whole.
+/// The next round starts at this many times the least heat that is right, so that faces across the front are all right.
 constexpr double front_above_valid = 1e4;
 /// Where short edges leave a window so narrow that its front would lie above this, it is widened.
 constexpr double highest_front = 1e-3;
-/// Points that heat has passed long ago are so hot that their exponential would overflow.
+/// The logarithm of heat over that at the front is at most this: points that heat has passed long ago are so hot that
+/// exp would overflow.
 constexpr double hottest = 600;
 constexpr double nothing = -std::numeric_limits<double>::infinity();
 
@@ -65,13 +67,14 @@ bool HeatWindows::next() {
   return true;
 }
 
+/// Scales the heat of passed points like that of the points ahead.
 /// @param factors by component, what the heat ahead was divided by
 void HeatWindows::scalePassed(const Eigen::VectorXd& factors) {
   for (const int i : problem_.components.points)
     if (passed_[i] != 0) log_heat_[i] -= std::log(factors[problem_.components.of[i]]);
 }
 
-/// Points ahead, by breadth-first search from those that heat flows into.
+/// Finds the points ahead by breadth-first search from those that heat flows into.
 void HeatWindows::findWindow() {
   constexpr int seen = -2;
   window_.clear();
@@ -97,8 +100,8 @@ void HeatWindows::findWindow() {
   for (const int i : window_) number_[i] = -1;
 }
 
-/// Adds half of the solution over the window, or the whole of it where the surface does not end.
-/// @param open without the points where the surface ends
+/// Adds half of the solution over the window, or the whole of it if the surface does not end.
+/// @param open leaves out the points where the surface ends
 void HeatWindows::solveSystem(bool open) {
   std::vector<int> points;
   for (const int i : window_) {
@@ -141,8 +144,8 @@ VectorXd HeatWindows::solve() {
   return problem_.components.normalise(u_);
 }
 
-/// What flows from points that heat has passed into those ahead is the heat of the next round. Returns whether anything
-/// flows.
+/// Prepares the next round, whose heat is what flows from points that heat has passed into those ahead. Returns whether
+/// anything flows.
 bool HeatWindows::restart() {
   for (const int i : window_) {
     if (log_heat_[i] >= log_front_) {

@@ -8,10 +8,10 @@
 
 namespace tufted {
 
-/// Rounds of heat for systems that are too large for a factor. Each looks at a window alone: the points within so many
-/// edges beyond those that heat has passed. As heat falls to a third with every edge, what lies farther away does not
-/// matter, and as the points behind keep their heat, the wave goes on as if it had never stopped. All windows together
-/// cost as much as a few solves of the whole.
+/// Rounds of heat for systems that are too large for a factor. Each round solves only a window: the points within a
+/// number of edges beyond those that heat has passed. As heat falls to a third with every edge, what lies farther away
+/// does not matter, and as the points behind keep their heat, the wave goes on as if it had never stopped. All windows
+/// together cost as much as a few solves of the whole system.
 class HeatWindows : public HeatRounds {
  public:
   HeatWindows(const std::string& function, const HeatProblem& problem, const VectorXd& heat, const Progress& progress,
@@ -31,7 +31,7 @@ class HeatWindows : public HeatRounds {
   const Progress& progress_;
   DistanceReport& report_;
   int layers_;
-  double log_front_ = 0;              ///< where heat falls below this the next round starts
+  double log_front_ = 0;              ///< logarithm of the heat below which the next round starts
   VectorXd heat_;                     ///< N; what flows into the points ahead
   VectorXd u_;                        ///< N; the heat of the window, 0 elsewhere
   std::vector<std::uint8_t> passed_;  ///< N; whether heat has been here in an earlier round

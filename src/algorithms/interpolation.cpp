@@ -1,3 +1,5 @@
+// Harmonic and biharmonic interpolation, Poisson equations and Green's functions (Sharp and Crane 2020, Section 5.5 and
+// Figure 19).
 #include "tufted/interpolation.h"
 
 #include <algorithm>
@@ -18,12 +20,13 @@
 namespace tufted {
 namespace {
 
-/// What a last correction may be of the values' range. Bending squares what is close to singular.
+/// Parts of the values' range that the last correction may be, for harmonic() and biharmonic(). Bending squares the
+/// condition of the system.
 constexpr double promised = 1e-12, promised_of_bending = 1e-3;
 /// Masses below this part of the mean count as that much where they are divided by: zero areas would bend nothing.
 constexpr double least_mass = 1e-9;
 
-/// Pinned copies keep the mean of their place.
+/// Gives coincident points the values of their representative; pinned copies keep the mean of their place.
 void copyToCoincident(const Laplacian& laplacian, Eigen::MatrixXd& u) {
   for (Eigen::Index i = 0; i < u.rows(); ++i) {
     if (laplacian.status[i] == PointStatus::coincident) u.row(i) = u.row(laplacian.representative[i]);
@@ -39,7 +42,7 @@ Eigen::MatrixXd finish(const Laplacian& laplacian, Eigen::MatrixXd u, const Stop
   return u;
 }
 
-/// M f, 0 at points that are not active.
+/// The product M f, with 0 at points that are not active.
 Eigen::MatrixXd weighted(const Laplacian& laplacian, const Eigen::MatrixXd& f) {
   Eigen::MatrixXd b = Eigen::MatrixXd::Zero(f.rows(), f.cols());
   for (Eigen::Index i = 0; i < f.rows(); ++i) {
@@ -48,10 +51,10 @@ Eigen::MatrixXd weighted(const Laplacian& laplacian, const Eigen::MatrixXd& f) {
   return b;
 }
 
-/// Corrections make a solve exact whatever the tolerance, so another one would not help.
+/// Advice for errors. It does not mention the tolerance: corrections make a solve exact whatever that is.
 constexpr const char* if_slow = "raise max_iterations, or set method to SolverMethod::cholesky";
 
-/// L u = b at free points.
+/// Solves L u = b at free points, with given values at the pins.
 Eigen::MatrixXd solveWithPins(const std::string& function, const Laplacian& laplacian, const Pins& pins,
                               const Eigen::MatrixXd* f, const SolverOptions& options, SolveReport* report) {
   const Stopwatch watch;
@@ -86,7 +89,7 @@ void checkRight(const std::string& function, const Laplacian& laplacian, const E
   }
 }
 
-/// L u = b by components, with mean 0.
+/// Solves L u = b by components, with mean 0.
 Eigen::MatrixXd solveBalanced(const std::string& function, const Laplacian& laplacian, const Eigen::MatrixXd& b,
                               const SolverOptions& options, SolveReport* report) {
   const Stopwatch watch;

@@ -11,7 +11,7 @@
 
 namespace tufted {
 
-/// Thrown where iterations do not suffice; LinearSystem makes a SolverFailure of it.
+/// Thrown if iterations do not suffice; LinearSystem turns it into a SolverFailure.
 struct NotConverged {
   int iterations;
   double residual;  ///< |b - A x| / |b|
@@ -20,12 +20,12 @@ struct NotConverged {
 /// Called with the fraction of a solve that is done; may throw to end it.
 using Tick = std::function<void(double)>;
 
-/// A positive definite system, prepared.
+/// A positive definite system that is prepared for solves.
 class LinearBackend {
  public:
   virtual ~LinearBackend() = default;
   /// Replaces right sides (n x c) by solutions. May be called from several threads at once.
-  /// @return iterations, the most of any column; 0 by elimination
+  /// @return iterations, the most of any column; 0 with a factor
   /// @throws NotConverged, std::bad_alloc, and what `tick` throws
   virtual int solve(Eigen::Ref<Eigen::MatrixXd> x, const Tick& tick) const = 0;
 
@@ -34,11 +34,11 @@ class LinearBackend {
   std::size_t bytes = 0;
 };
 
-/// What symbolic analysis says of a Cholesky factor, and the factor itself on demand.
+/// The symbolic analysis of a Cholesky factor, and the factor itself on demand.
 class Cholesky {
  public:
   /// Orders and analyses the lower triangle of a symmetric matrix, which is borrowed.
-  /// @param limit bytes; where the first ordering leads beyond, another is tried, if there is one that saves memory
+  /// @param limit bytes; if the first ordering needs more, another that saves memory is tried, if there is one
   Cholesky(const LongMatrix& lower, std::size_t limit);
   ~Cholesky();
   Cholesky(const Cholesky&) = delete;
@@ -46,7 +46,7 @@ class Cholesky {
 
   /// Memory that the factor takes.
   std::size_t bytes() const;
-  /// To be called once. Null when the matrix is not positive definite.
+  /// Computes the factor; to be called once. Null if the matrix is not positive definite.
   /// @throws std::bad_alloc
   std::unique_ptr<LinearBackend> factor();
 
@@ -60,9 +60,9 @@ struct MultigridOptions {
   int max_iterations;  ///< of conjugate gradients
 };
 
-/// Conjugate gradients, preconditioned by a V-cycle of smoothed aggregation.
+/// Makes conjugate gradients, preconditioned by a V-cycle of smoothed aggregation. Null if a diagonal entry is not
+/// positive.
 /// @param lower lower triangle of a positive definite matrix, most of whose off-diagonals are negative
-/// Null when a diagonal entry is not positive.
 std::unique_ptr<LinearBackend> makeMultigrid(const LongMatrix& lower, const MultigridOptions& options,
                                              const Workers& workers);
 

@@ -10,25 +10,25 @@
 #include "base/stage_clock.h"
 #include "tufted/errors.h"
 
-// What a system does once it is made.
+// Solves with a LinearSystem and corrections of the solutions; linear_system.cpp makes the system.
 namespace tufted {
 namespace {
 
-/// So many right sides are solved together, on however many threads: each takes as long as among 16, and half as long
-/// as alone.
+/// Number of right sides that are solved together, for any number of threads. Each takes as long as among 16, and half
+/// as long as alone.
 constexpr Eigen::Index columns_per_block = 8;
 
-/// Corrections are rarely more than three.
+/// The most corrections of a solution; rarely more than three are needed.
 constexpr int most_corrections = 10;
 constexpr double negligible = 1e-15;  // of the largest value
 constexpr double last_digits = 1e-15;
 
 }  // namespace
 
-// Column by column and in one pass each, for these take as long as some solves.
+// The functions below go column by column in one pass each, as they take as long as some solves.
 
-/// Of what the sums of a right side over components are off, nothing can be mended: the pinned rows keep it. So digits
-/// that sums lose are added up beside them (Kahan).
+/// Sums over components with the digits that rounding loses (Kahan). An error in these sums of a right side cannot be
+/// corrected later: the pinned rows keep it.
 VectorXd LinearSystem::exactSums(const Eigen::Ref<const VectorXd>& values) const {
   VectorXd sums = VectorXd::Zero(components_->count), lost = sums;
   for (const int i : components_->points) {
@@ -154,7 +154,7 @@ void LinearSystem::improve(const std::string& function, const RightSides& right,
       left.rest.col(c) = now.rest;
       left.residual[c] = now.residual[0];
       left.backward_error[c] = now.backward_error[0];
-      // The next correction would be as much smaller than this one as this one than the last.
+      // The next correction would be smaller than this one by the same factor as this one than the last.
       const double size = largestOf(x.col(c));
       const bool goes_on = largest * (largest / std::min(last[c], size)) > negligible * size;
       if (thorough ? goes_on : !isGood(left, c)) still_open.push_back(c);

@@ -44,7 +44,7 @@ std::string bytesText(std::size_t bytes) {
 LinearSystem::LinearSystem(const SystemNames& names, const SolverOptions& options, std::size_t points)
     : names_(names), unknowns_(points), tolerance_(options.tolerance), threads_(options.threads) {}
 
-/// By the method chosen, or by what fits.
+/// Prepares the system by the method chosen, or by the one that fits into memory.
 void LinearSystem::prepare(const SolverOptions& options, const Workers& workers) {
   report_.unknowns = lower_.rows();
   if (report_.unknowns == 0) return;

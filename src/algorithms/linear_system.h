@@ -13,37 +13,37 @@
 
 namespace tufted {
 
-/// What errors say about a system: who was called, and what that caller can change.
+/// Names for a system's errors: the function that was called, and what its caller can change.
 struct SystemNames {
   std::string function;
   std::string matrix;  ///< "L", "M + t L"
   std::string if_indefinite = "validate() names what is wrong with the Laplacian";
   std::string if_slow = "raise max_iterations or tolerance, or set method to SolverMethod::cholesky";
   std::string if_large = "set method to SolverMethod::multigrid";
-  bool factor_only = false;  ///< multigrid is not fit for the matrix
+  bool factor_only = false;  ///< true if multigrid is not fit for the matrix
 };
 
 /// Solves by a factor end with a backward error of at most this, or in SolverFailure.
 constexpr double most_backward_error = 1e-13;
 
-/// Whether a solve is repeated for what it leaves.
+/// When the solution of a system is corrected by solving for the remainder.
 enum class Refine {
-  never,         ///< and nothing is measured: the caller does both
-  where_needed,  ///< where the backward error is too large, or parts of a Laplacian are badly joined
-  always,        ///< until corrections are next to nothing
+  never,         ///< never, and the backward error is not measured: the caller does both
+  where_needed,  ///< if the backward error is too large, or parts of a Laplacian are badly joined
+  always,        ///< always, until corrections are negligible
 };
 
 std::string bytesText(std::size_t bytes);
 
-/// What Solver does, for all public functions that solve systems: errors name the one that was called.
+/// Does the work of Solver for all public functions that solve systems: errors name the function that was called.
 class LinearSystem {
  public:
-  /// As Solver::positiveDefinite.
+  /// Makes a system as Solver::positiveDefinite does.
   static LinearSystem positiveDefinite(const SystemNames& names, const SparseMatrix& A, const SolverOptions& options);
-  /// As Solver::laplacian.
+  /// Makes a system as Solver::laplacian does.
   static LinearSystem laplacian(const SystemNames& names, const Laplacian& laplacian, const SolverOptions& options);
 
-  /// As Solver::solve.
+  /// Solves as Solver::solve does.
   /// @param function to be named in errors
   Eigen::MatrixXd solve(const std::string& function, const Eigen::Ref<const Eigen::MatrixXd>& b, SolveReport* report,
                         const Progress& progress, Refine refine = Refine::where_needed) const;
@@ -53,28 +53,29 @@ class LinearSystem {
  private:
   LinearSystem(const SystemNames& names, const SolverOptions& options, std::size_t points);
   void prepare(const SolverOptions& options, const Workers& workers);
-  /// Makes what keeps badly joined parts apart.
+  /// Makes `joints_`, which keep badly joined parts apart.
   void separate(const Components& parts, const std::vector<std::uint8_t>& floating);
   VectorXd exactSums(const Eigen::Ref<const VectorXd>& values) const;
-  /// The right sides by row of the system: of a Laplacian all points, without their means; otherwise the unknowns.
+  /// Right sides by row of the system. For a Laplacian the rows are all points and the means are taken out; otherwise
+  /// the rows are the unknowns.
   struct RightSides {
     Eigen::MatrixXd values;
     Eigen::MatrixXd size;  ///< |b|, with what was taken out of it
   };
   RightSides rightSides(const Eigen::Ref<const Eigen::MatrixXd>& b) const;
-  /// Of a Laplacian: with the first point of each part at 0.
+  /// Solves with a Laplacian, with the first point of each part at 0.
   Eigen::MatrixXd withinParts(const Eigen::MatrixXd& right, const Tick& tick, int& iterations) const;
-  /// A first solution, or a correction, by row of the system; of a Laplacian with sum(M x) = 0 on each component.
+  /// A first solution, or a correction, by row of the system; for a Laplacian with sum(M x) = 0 on each component.
   Eigen::MatrixXd approximate(const Eigen::MatrixXd& right, const Tick& tick, int& iterations) const;
-  /// Takes the sum over each component, which is rounding, out of what the solution x leaves: from each row in
+  /// Takes the sum over each component, which is rounding, out of the remainder of the solution x: from each row in
   /// proportion to the numbers that are added up there, so that no row has more than its share.
   /// @param size |b|
   void balance(const Eigen::Ref<const VectorXd>& size, const Eigen::Ref<const VectorXd>& x,
                Eigen::Ref<VectorXd> rest) const;
-  /// What the pinned point of a component leaves is the rounding of all others together: spreads it over them.
+  /// Spreads the remainder at a component's pinned point, the rounding of all other points together, over these.
   void spreadPinned(const Eigen::Ref<const VectorXd>& right, Eigen::Ref<VectorXd> x) const;
   bool isGood(const Remainder& left, Eigen::Index column) const;
-  /// Corrects x by what it leaves.
+  /// Corrects x by solving for its remainder.
   /// @param made gets the residual, the backward error and iterations
   void improve(const std::string& function, const RightSides& right, Eigen::MatrixXd& x, Refine refine,
                const Tick& tick, SolveReport& made) const;

@@ -13,7 +13,7 @@ namespace {
 
 using Path = std::filesystem::path;
 
-/// The number that a file begins with; no limit where there is none, as in "max".
+/// The limit that a file begins with, in bytes; no limit if it does not begin with a number, as in "max".
 std::size_t numberIn(const Path& path) {
   std::ifstream file(path);
   std::size_t number = 0;
@@ -28,7 +28,7 @@ std::size_t groupLimit(const Path& top, Path group, const char* name) {
   return least;
 }
 
-/// From lines `number:controllers:/path`.
+/// The limit of this process's control groups, from lines `number:controllers:/path`.
 std::size_t groupsLimit(const Path& root) {
   const Path top = root / "sys/fs/cgroup";
   std::size_t least = SIZE_MAX;

@@ -1,3 +1,6 @@
+// Smoothed aggregation after P. Vanek, J. Mandel, M. Brezina, "Algebraic multigrid by smoothed aggregation for second
+// and fourth order elliptic problems" (1996). It is written here because the multigrid libraries in Debian (hypre,
+// PETSc, Trilinos) are built for MPI and would make every program that uses tufted an MPI program.
 #include <Eigen/SparseCholesky>
 #include <algorithm>
 #include <cmath>
@@ -7,15 +10,12 @@
 
 #include "algorithms/linear_backend.h"
 
-// Of our own, because the multigrid libraries in Debian (hypre, PETSc, Trilinos) are built for MPI and would make every
-// program that uses tufted one of MPI's. Smoothed aggregation after P. Vanek, J. Mandel, M. Brezina, "Algebraic
-// multigrid by smoothed aggregation for second and fourth order elliptic problems" (1996).
 namespace tufted {
 namespace {
 
 constexpr int coarsest_size = 500;
 constexpr int most_levels = 25;
-/// Neighbours are strong whose weight exceeds this part of the mean of the two diagonals; halved per level.
+/// Neighbours are strong if their weight exceeds this part of the mean of the two diagonals; halved per level.
 constexpr double strong = 0.08;
 constexpr int alone = -1;
 
@@ -50,7 +50,7 @@ std::vector<int> aggregate(const SparseMatrix& A, int& count) {
       if (entry.row() != j) visit(static_cast<int>(entry.row()), std::abs(entry.value()));
   };
   count = 0;
-  for (int j = 0; j < n; ++j) {  // whole neighbourhoods that nobody has touched
+  for (int j = 0; j < n; ++j) {  // whole neighbourhoods without a row in a group
     bool untouched = group[j] == open, neighbors = false;
     forNeighbors(j, [&](int i, double) { neighbors = true, untouched = untouched && group[i] == open; });
     if (!neighbors) group[j] = alone;
@@ -60,14 +60,14 @@ std::vector<int> aggregate(const SparseMatrix& A, int& count) {
     ++count;
   }
   const std::vector<int> before = group;
-  for (int j = 0; j < n; ++j) {  // the rest joins its strongest neighbour's
+  for (int j = 0; j < n; ++j) {  // other rows join their strongest neighbour's group
     if (group[j] != open) continue;
     double strongest = 0;
     forNeighbors(j, [&](int i, double weight) {
       if (before[i] >= 0 && weight > strongest) strongest = weight, group[j] = before[i];
     });
   }
-  for (int j = 0; j < n; ++j) {  // leftovers among themselves
+  for (int j = 0; j < n; ++j) {  // the remaining rows form groups among themselves
     if (group[j] != open) continue;
     group[j] = count;
     forNeighbors(j, [&](int i, double) {
@@ -78,7 +78,7 @@ std::vector<int> aggregate(const SparseMatrix& A, int& count) {
   return group;
 }
 
-/// Constants per group, smoothed by a step of Jacobi's: I - 4/3 / rho D^-1 A with Gershgorin's bound of rho.
+/// Constants per group, smoothed by a Jacobi step: I - 4/3 / rho D^-1 A with Gershgorin's bound of rho.
 SparseMatrix prolongation(const SparseMatrix& A, const std::vector<int>& group, int count) {
   SparseMatrix piecewise(A.rows(), count);
   std::vector<Eigen::Triplet<double>> ones;
@@ -93,7 +93,7 @@ SparseMatrix prolongation(const SparseMatrix& A, const std::vector<int>& group, 
     rho = std::max(rho, sum * inverse[j]);
   }
   SparseMatrix smoothed = A * piecewise;
-  // Not as a product with an expression's asDiagonal(), which copies that once per column.
+  // No product with an expression's asDiagonal(), which would copy the expression once per column.
   const VectorXd factor = inverse * (-4.0 / 3 / rho);
   for (int j = 0; j < smoothed.cols(); ++j)
     for (SparseMatrix::InnerIterator entry(smoothed, j); entry; ++entry) entry.valueRef() *= factor[entry.row()];
@@ -109,7 +109,7 @@ class Multigrid : public LinearBackend {
  public:
   Multigrid(const MultigridOptions& options) : options_(options) {}
 
-  /// False when a diagonal entry is not positive.
+  /// Builds the levels. False if a diagonal entry is not positive.
   bool build(SparseMatrix A, const Workers& workers) {
     while (true) {
       workers.report("coarsen", static_cast<double>(levels_.size()) / most_levels);
@@ -176,7 +176,8 @@ class Multigrid : public LinearBackend {
     throw NotConverged{options_.max_iterations, r.norm() / size};
   }
 
-  /// Gauss-Seidel forwards, the coarser levels, Gauss-Seidel backwards: symmetric, as conjugate gradients want it.
+  /// One V-cycle: Gauss-Seidel forwards, the coarser levels, Gauss-Seidel backwards. It is symmetric, as conjugate
+  /// gradients need it.
   VectorXd cycle(std::size_t at, const VectorXd& b) const {
     const SparseMatrix& A = levels_[at].A;
     if (at + 1 == levels_.size() && direct_) return coarsest_.solve(b);
@@ -192,7 +193,7 @@ class Multigrid : public LinearBackend {
     return x;
   }
 
-  /// Column j is row j.
+  /// Relaxes row j (Gauss-Seidel), which is read as column j of the symmetric matrix.
   static void relax(const SparseMatrix& A, int j, const VectorXd& b, VectorXd& x) {
     double sum = b[j], diagonal = 1;
     for (SparseMatrix::InnerIterator entry(A, j); entry; ++entry) {

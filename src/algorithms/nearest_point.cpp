@@ -11,7 +11,7 @@
 namespace tufted {
 namespace {
 
-/// For fewer positions than this a tree is not worth its making.
+/// For fewer positions than this, making a tree takes longer than it saves.
 constexpr Eigen::Index worth_a_tree = 16;
 
 /// The active points, ascending.
@@ -36,7 +36,7 @@ std::vector<int> activePoints(const std::string& function, const Laplacian& lapl
   return active;
 }
 
-/// The nearest point seen so far, the first one where several are.
+/// The nearest point seen so far, the first one if several are equally near.
 class Nearest {
  public:
   explicit Nearest(const Points& points, const Eigen::RowVector3d& position) : points_(points), position_(position) {}
@@ -89,7 +89,7 @@ std::vector<int> nearestPoints(const Laplacian& laplacian, const Points& points,
     search.nearestTo(position, candidates);
     Nearest nearest(points, position);
     for (const Neighbor& candidate : candidates) nearest.consider(active[candidate.index]);
-    // So far away that squares overflow, all are looked at.
+    // If a position is so far away that squares overflow, all points are searched.
     result.push_back(nearest.index() >= 0 ? nearest.index() : nearestOfAll(points, active, position));
   }
   return result;

@@ -9,17 +9,17 @@
 namespace tufted {
 namespace {
 
-/// Shares up to this are lost in the rounding of rows.
+/// Weights up to this share of the smaller diagonal are lost in the rounding of rows.
 constexpr double least_share = 1e-14;
 
 struct Link {
   int i, j;
   double weight;
-  double share;  ///< of the smaller diagonal
+  double share;  ///< weight over the smaller diagonal
 };
 
-/// The last link of a greatest spanning forest, which is the weakest that something depends on, and what it joins.
-/// @param points the caller's index by number; links may have the number behind them, which is no point
+/// The last link of a maximum spanning forest, which is the weakest one that is needed, and the parts that it joins.
+/// @param points the caller's index by number; links may also have the next number, which is not a point
 std::optional<WeakJoint> weakestOf(std::vector<Link>& links, const std::vector<int>& points) {
   const int count = static_cast<int>(points.size());
   const auto weak =
@@ -58,7 +58,7 @@ PartConstants::PartConstants(const SparseMatrix& L, const std::vector<int>& poin
   for (std::size_t part = 0; part < floating.size(); ++part)
     if (floating[part] != 0) number[part] = count++;
   for (const int i : parts.points) number_[i] = number[parts.of[i]];
-  // A constant on the part, and beside it what the weak weights around it make of that, which is small.
+  // A constant on the part; outside of it the small values that follow from the weak weights around it.
   extensions_ = Eigen::MatrixXd::Zero(L.cols(), count);
   for (const int i : parts.points)
     if (number_[i] >= 0) extensions_(i, number_[i]) = 1;

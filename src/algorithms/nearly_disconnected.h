@@ -12,13 +12,13 @@
 
 namespace tufted {
 
-/// The badly joined parts of a Laplacian. A factor of the whole finds what flows from part to part as a difference of
-/// strong weights, in which the weak ones between parts are lost; sums over parts hold nothing else. So one point of
-/// each part stays out of the factor, and its value is found here, by the Schur complement that sums of L over parts
-/// make.
+/// The constants on badly joined parts of a Laplacian. A factor of the whole matrix finds what flows from part to part
+/// as a difference of strong weights, in which the weak weights between parts are lost; sums over parts hold only the
+/// weak ones. So one point of each part stays out of the factor, and its value is found here, by the Schur complement
+/// that sums of L over parts make.
 class PartConstants {
  public:
-  /// A solve with the first point of each floating part, and whatever is pinned, held at 0: N x c to N x c.
+  /// A solve with the first point of each floating part, and all pinned points, held at 0: N x c to N x c.
   using Inner = std::function<Eigen::MatrixXd(const Eigen::MatrixXd&)>;
 
   /// @param L without weights between components
@@ -31,7 +31,7 @@ class PartConstants {
   /// Whether the complement is positive definite.
   bool isDefinite() const { return complement_.info() == Eigen::Success; }
 
-  /// x with L x = rest.
+  /// Solves L x = rest.
   /// @param rest N x c
   Eigen::MatrixXd solve(const SparseMatrix& L, const std::vector<int>& points, const Eigen::MatrixXd& rest,
                         const Inner& inner) const;
@@ -39,16 +39,17 @@ class PartConstants {
  private:
   Eigen::MatrixXd sums(const Eigen::MatrixXd& values) const;
 
-  std::vector<int> number_;     ///< N; of the floating part that a point lies in, or -1
+  std::vector<int> number_;     ///< N; number of the floating part that a point lies in, or -1
   Eigen::MatrixXd extensions_;  ///< N x floating parts; 1 at the first point of each, and L of it is 0 elsewhere
   Eigen::LLT<Eigen::MatrixXd> complement_;
 };
 
-/// Of a Laplacian: the two parts of a component that the weakest path between any points joins. Nothing where no part
-/// is joined by less than `weak_share`. To be asked where a residual stays above `large_residual`.
+/// The two parts of a Laplacian's component that the weakest link joins. Returns nullopt if no part is joined by less
+/// than `weak_share`. To be called if a residual stays above `large_residual`.
 std::optional<WeakJoint> weakestJoint(const SparseMatrix& L);
 
-/// The same of any positive definite matrix, where what the diagonal has beyond its row joins a point to a fixed value.
+/// The two parts of any positive definite matrix that the weakest link joins. The excess of a diagonal over its row
+/// joins a point to a fixed value. Returns nullopt if no part is joined by less than `weak_share`.
 /// @param lower triangle over `points`
 std::optional<WeakJoint> weakestJoint(const LongMatrix& lower, const std::vector<int>& points);
 

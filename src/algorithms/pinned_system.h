@@ -9,20 +9,21 @@
 
 namespace tufted {
 
-/// Pins brought to the active points, and what they leave free.
+/// Pins transferred to the active points, and the points that they leave free.
 struct PinnedSystem {
   Components components;
   std::vector<std::uint8_t> pinned;  ///< N; 1 at points with a value, also those that are not active
   std::vector<std::uint8_t> free;    ///< N; 1 at active points without one, in components that have pins
   Eigen::MatrixXd values;            ///< N x c; the pins, NaN elsewhere
-  Eigen::MatrixXd means;             ///< of the pins, by component
+  Eigen::MatrixXd means;             ///< mean of the pins, by component
 };
 
+/// Checks pins and transfers them to the active points.
 /// @param function to be named in errors
 /// @throws InvalidInput
 PinnedSystem pinnedSystem(const std::string& function, const Laplacian& laplacian, const Pins& pins);
 
-/// A u at point i, from differences of u alone: for matrices whose rows sum to 0 this loses no digits to a constant.
+/// The row of A u at point i, from differences of u alone: for matrices whose rows sum to 0 a constant costs no digits.
 inline Eigen::RowVectorXd rowOfDifferences(const SparseMatrix& A, const Eigen::MatrixXd& u, int i) {
   Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(u.cols());
   for (SparseMatrix::InnerIterator entry(A, i); entry; ++entry) {

@@ -12,10 +12,10 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// Of the smallest eigenvalue: up to there the inverse is exact to about 1e-12.
+/// Eigenvalues up to this many times the smallest one are refined by the inverse, which is exact to about 1e-12 there.
 constexpr double range_of_inverse = 1e4;
 
-/// How many pairs the inverse refines. Equal eigenvalues are not parted.
+/// How many pairs the inverse refines. Equal eigenvalues stay together.
 Index countLow(const VectorXd& values) {
   const double bound = range_of_inverse * values[0];
   Index low = 1;
@@ -30,7 +30,7 @@ bool orthonormalize(const VectorXd& mass, const Workers& workers, Eigen::Ref<Mat
   return true;
 }
 
-/// Of products that are symmetric but for rounding.
+/// Eigenpairs of a matrix of products that is symmetric but for rounding.
 Eigen::SelfAdjointEigenSolver<MatrixXd> decompose(const MatrixXd& products) {
   return Eigen::SelfAdjointEigenSolver<MatrixXd>((products + products.transpose()) / 2);
 }

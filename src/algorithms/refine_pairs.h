@@ -6,8 +6,8 @@
 namespace tufted {
 
 /// Makes eigenpairs, values and vectors, as exact as rounding lets them be. The inverse of L is exact to a part of its
-/// largest eigenvalue, L to a part of its own: so pairs are refined by the one where eigenvalues are small, by the
-/// other behind them.
+/// largest eigenvalue, L to a part of its own. So pairs of small eigenvalues are refined by the inverse, all others by
+/// L.
 /// @param mixed each vector may hold parts of the others, however far their eigenvalues are apart
 /// @return whether the vectors are independent, without which the pairs mean nothing
 bool refinePairs(const Eigenproblem& problem, const InverseTimes& inverse, bool mixed, const Workers& workers,

@@ -12,10 +12,10 @@
 namespace tufted {
 namespace {
 
-/// Solves are repeated for what is missing until it is next to nothing: rarely more than twice.
+/// The most solves for what is missing; rarely more than two are needed until that is negligible.
 constexpr int most_corrections = 6;
 constexpr double negligible = 1e-15;  // of the values' range
-/// To which conjugate gradients solve at least, so that corrections become small fast.
+/// The largest tolerance of conjugate gradients, so that corrections become small fast.
 constexpr double correction_tolerance = 1e-10;
 
 Eigen::RowVectorXd norms(const Eigen::MatrixXd& values) {

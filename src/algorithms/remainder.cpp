@@ -11,10 +11,11 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// Values of x below these, of the largest in their column and by themselves, are so near to underflow that they have
-/// lost digits.
+/// Values of x below these, relative to the largest in their column and absolute, are so near to underflow that they
+/// have lost digits.
 constexpr double least_part = 1e-290, least_value = 1e-300;
-/// Relaxation takes so many sweeps at most, and gives up where it would take so many rows and more than a tenth of all.
+/// Relaxation takes at most `most_sweeps` sweeps, and gives up if it would take `many_rows` rows and more than a tenth
+/// of all.
 constexpr int most_sweeps = 30;
 constexpr std::size_t many_rows = 100;
 
@@ -34,7 +35,7 @@ double normOf(const Column& values) {
   return norm > 0 && std::isfinite(norm) ? norm : values.stableNorm();
 }
 
-/// Fills in what a report says of column c.
+/// Fills in the residual and the backward error of column c.
 /// @param ratios by row
 void finish(const Column& b, const Column& ratios, Index c, Remainder& result) {
   result.backward_error[c] = ratios.size() > 0 ? ratios.maxCoeff<Eigen::PropagateNaN>() : 0;
@@ -42,7 +43,7 @@ void finish(const Column& b, const Column& ratios, Index c, Remainder& result) {
   if (right > 0) result.residual[c] = normOf(result.rest.col(c)) / right;
 }
 
-/// Rows that see a change at one of these, and these, ascending.
+/// The rows that a change at one of `rows` affects, `rows` included, ascending.
 std::vector<int> neighborsOf(const SparseMatrix& L, const std::vector<int>& rows) {
   std::vector<int> result;
   for (const int i : rows)
@@ -52,14 +53,14 @@ std::vector<int> neighborsOf(const SparseMatrix& L, const std::vector<int>& rows
   return result;
 }
 
-/// A column of a Laplacian's remainder, row by row.
+/// Computes a column of a Laplacian's remainder, row by row.
 class LaplacianColumn {
  public:
   LaplacianColumn(const SparseMatrix& L, const Column& b, const Column& size, const Column& x,
                   Eigen::Ref<VectorXd> rest)
       : L_(L), b_(b), size_(size), x_(x), rest_(rest), ratios_(VectorXd::Zero(b.size())), least_(leastOf(x)) {}
 
-  /// Row i; false where it is worse than `bound`.
+  /// Measures row i; false if it is worse than `bound`.
   bool measure(int i, double bound) {
     double missing = b_[i], size = size_[i];
     const double here = x_[i];

@@ -9,11 +9,11 @@
 
 namespace tufted {
 
-/// What a solution x of A x = b leaves, and how that compares with what rounding explains.
+/// The remainder b - A x of a solution x, and how it compares with what rounding explains.
 struct Remainder {
   Eigen::MatrixXd rest;         ///< b - A x
   Eigen::RowVectorXd residual;  ///< by column: |rest| / |size|, Euclidean norms
-  /// By column: the greatest |rest| / (|A| |x| + size) of any row; what is next to underflow counts as 0.
+  /// By column: the greatest |rest| / (|A| |x| + size) of any row; values close to underflow count as 0.
   Eigen::RowVectorXd backward_error;
 
   explicit Remainder(Eigen::MatrixXd begin)
@@ -22,25 +22,25 @@ struct Remainder {
         backward_error(Eigen::RowVectorXd::Zero(rest.cols())) {}
 };
 
-/// Of a Laplacian, whose rows sum to 0: from differences of x alone, so a constant costs no digits.
+/// The remainder for a Laplacian, whose rows sum to 0: from differences of x alone, so a constant costs no digits.
 /// @param points rows to be looked at; `rest` is 0 elsewhere
 /// @param size |b| by entry, as it was before something was taken out of it
 Remainder remainderOfLaplacian(const SparseMatrix& L, const std::vector<int>& points, const Eigen::MatrixXd& b,
                                const Eigen::MatrixXd& size, const Eigen::MatrixXd& x);
 
-/// The same, where single rows that are worse than `bound` are relaxed first (Gauss-Seidel), which takes no solve:
-/// where x is small beside its largest value, so that its last digits are wrong, and where it was pinned, so that all
-/// rows' rounding has gathered.
-/// @param x changes by next to nothing
+/// The remainder for a Laplacian after single rows that are worse than `bound` are relaxed (Gauss-Seidel), which takes
+/// no solve. Such rows are those where x is small beside its largest value, so that its last digits are wrong, and
+/// those where x was pinned, so that all rows' rounding has gathered.
+/// @param x changes by very little
 Remainder relaxLaplacian(const SparseMatrix& L, const std::vector<int>& points, const Eigen::MatrixXd& b,
                          const Eigen::MatrixXd& size, double bound, Eigen::MatrixXd& x);
 
-/// Of a symmetric matrix.
+/// The remainder for any symmetric matrix.
 Remainder remainderOf(const LongMatrix& lower, const Eigen::MatrixXd& b, const Eigen::MatrixXd& x);
 
-/// The backward error of what is missing, by whatever way that was found.
+/// The backward error of a given remainder, however that was found.
 /// @param A N x N, symmetric
-/// @param rest N x c; rows of zeros are not looked at
+/// @param rest N x c; rows of zeros are ignored
 /// @param x N x c; NaN counts as 0
 double backwardError(const SparseMatrix& A, const Eigen::MatrixXd& rest, const Eigen::MatrixXd& b,
                      const Eigen::MatrixXd& x);

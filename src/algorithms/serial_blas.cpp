@@ -9,7 +9,7 @@ namespace {
 
 /// OpenBLAS keeps one number of threads for the whole process; it is put back when the last user leaves.
 struct Setting {
-  // Looked up at run time: which BLAS there is gets decided when the program starts, by Debian's alternatives.
+  // Looked up at run time, as Debian's alternatives decide which BLAS is used when the program starts.
   int (*get)() = reinterpret_cast<int (*)()>(dlsym(RTLD_DEFAULT, "openblas_get_num_threads"));
   void (*set)(int) = reinterpret_cast<void (*)(int)>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads"));
   std::mutex mutex;

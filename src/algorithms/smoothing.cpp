@@ -1,3 +1,4 @@
+// Smoothing by implicit (backward Euler) steps of the heat equation.
 #include "tufted/smoothing.h"
 
 #include <algorithm>
@@ -55,7 +56,7 @@ std::vector<bool> freePoints(const Laplacian& laplacian, const std::vector<std::
   return is_free;
 }
 
-/// Lower triangle of M / t + L over the free points, t with its unit; rows of all others are empty.
+/// The lower triangle of M / t + L over the free points, t with its unit; rows of all others are empty.
 SparseMatrix systemMatrix(const Laplacian& laplacian, const std::vector<bool>& is_free, double time_step) {
   const double unit = laplacian.report.mean_squared_edge;
   const SparseMatrix& L = laplacian.L;
@@ -76,8 +77,8 @@ SparseMatrix systemMatrix(const Laplacian& laplacian, const std::vector<bool>& i
   return lower;
 }
 
-/// -L (x + moved) at the free points. From differences of neighbours alone, as the rows of L sum to 0, so distance from
-/// the origin costs no digits.
+/// The right side -L (x + moved) at the free points. It comes from differences of neighbours alone, as the rows of L
+/// sum to 0, so distance from the origin costs no digits.
 Eigen::MatrixXd pull(const Laplacian& laplacian, const std::vector<bool>& is_free, const Points& points,
                      const Eigen::MatrixXd& moved) {
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(points.rows(), 3);

@@ -1,3 +1,5 @@
+// Heat kernel signature (Sun, Ovsjanikov, Guibas 2009), wave kernel signature (Aubry, Schlickewei, Cremers 2011),
+// global point signature (Rustamov 2007), biharmonic distance (Lipman et al. 2010) and spectral filters.
 #include "tufted/spectral.h"
 
 #include <algorithm>
@@ -15,7 +17,7 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// Where positive eigenvalues begin.
+/// Index of the first positive eigenvalue.
 Index firstPositive(const Spectrum& spectrum, const char* function) {
   const double* const begin = spectrum.values.data();
   const Index first = std::upper_bound(begin, begin + spectrum.values.size(), 0.0) - begin;
@@ -24,7 +26,7 @@ Index firstPositive(const Spectrum& spectrum, const char* function) {
   return first;
 }
 
-/// phi_i(x)^2 summed with weights, one column of weights per result.
+/// Weighted sums of phi_i(x)^2, one column of weights per result.
 MatrixXd sumSquares(const Eigen::Ref<const MatrixXd>& vectors, const MatrixXd& weights) {
   constexpr Index rows_per_block = 1024;
   MatrixXd result(vectors.rows(), weights.cols());

@@ -1,3 +1,4 @@
+// Eigenpairs of L x = lambda M x (Sharp and Crane 2020, Section 5.3), by block_lanczos.h or dense_pairs.h.
 #include "tufted/spectrum.h"
 
 #include <algorithm>
@@ -32,8 +33,8 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// Measured on tori of 100 to 2,000 points, where dense matrices are faster: from a share of 0.15 at 200 points, 0.25
-/// at 500 and 0.35 at 2,000; always at 100.
+/// Up to so many points dense matrices are always used. Measured on tori of 100 to 2,000 points, they are faster from a
+/// share of wanted pairs of 0.15 at 200 points, 0.25 at 500 and 0.35 at 2,000; always at 100.
 constexpr Index small_space = 150;
 constexpr double large_share = 0.3;
 
@@ -63,8 +64,8 @@ void fixSign(Eigen::Ref<VectorXd> x) {
   }
 }
 
-/// Counts the eigenvalues below the last wide gap among those found (ascending): they must be as many. Values behind
-/// that gap are equal, so none between them can be missing. Nothing where it cannot be told.
+/// Whether no eigenvalue is missing: as many must lie below the last wide gap among those found (ascending) as were
+/// found there. Values behind that gap are equal, so none between them can be missing. Returns nullopt if unknown.
 std::optional<bool> isComplete(const Eigenproblem& problem, const VectorXd& values, std::size_t memory_limit) {
   Index below = values.size() - 1;
   while (below > 0 && values[below] - values[below - 1] <= 1e-6 * values[below]) --below;
@@ -85,7 +86,7 @@ bool isForDense(const Eigenproblem& problem, Index wanted, const SpectrumOptions
   return points <= small_space || static_cast<double>(wanted) > large_share * static_cast<double>(points);
 }
 
-/// By Lanczos' method.
+/// Finds pairs by Lanczos' method.
 /// @param is_complete may be empty
 /// @return whether the pairs have the accuracy that the inverse allows
 bool searchPairs(const Eigenproblem& problem, const InverseTimes& inverse, Index wanted,
@@ -111,8 +112,8 @@ bool searchPairs(const Eigenproblem& problem, const InverseTimes& inverse, Index
   return found.converged;
 }
 
-/// Whether joints are so weak that nothing but rounding is left of a solve. Steps of the inverse lead to the smallest
-/// eigenvalues, where that shows.
+/// Whether parts of L are joined so weakly that only rounding is left of a solve. Steps of the inverse lead to the
+/// smallest eigenvalues, where that shows.
 bool isWeak(const Eigenproblem& problem, const InverseTimes& inverse) {
   std::mt19937_64 random(1);
   VectorXd x(problem.mass.size()), before;
@@ -126,7 +127,7 @@ bool isWeak(const Eigenproblem& problem, const InverseTimes& inverse) {
   return !((problem.L * x - weighted).norm() <= large_residual * weighted.norm());
 }
 
-/// The pairs of positive eigenvalue, M-orthonormal.
+/// Finds the pairs of positive eigenvalues, M-orthonormal.
 void findVibrations(const Laplacian& laplacian, const Eigenproblem& problem, Index wanted,
                     const SpectrumOptions& options, Spectrum& spectrum) {
   const std::size_t limit = memoryLimit(options.memory_limit);
@@ -146,12 +147,12 @@ void findVibrations(const Laplacian& laplacian, const Eigenproblem& problem, Ind
   const Workers workers(options.threads, progress);
   const Progress silent;
   const Workers quiet(options.threads, silent);
-  // Nothing is judged solve by solve: vectors that are 0 on parts of the surface are rounding there, and what counts is
-  // the residual of each pair.
+  // Single solves are not judged: vectors that are 0 on parts of the surface are rounding there, and what counts is the
+  // residual of each pair.
   const InverseTimes inverse = [&](const Eigen::Ref<const MatrixXd>& x) {
     return system.solve("spectrum", problem.mass.asDiagonal() * x, nullptr, progress, Refine::never);
   };
-  // But where joints are weak, every solve needs corrections; where these fail, the residuals tell.
+  // But if parts are joined weakly, every solve needs corrections; if these fail, the residuals show it.
   const InverseTimes corrected = [&](const Eigen::Ref<const MatrixXd>& x) {
     try {
       return system.solve("spectrum", problem.mass.asDiagonal() * x, nullptr, progress, Refine::always);
@@ -189,7 +190,7 @@ void findVibrations(const Laplacian& laplacian, const Eigenproblem& problem, Ind
   spectrum.vectors.rightCols(wanted) = pairs->vectors;
 }
 
-/// x^T L x over x^T M x by differences, which is exact where L x is lost in rounding.
+/// The Rayleigh quotient x^T L x / x^T M x by differences, which is exact where L x is lost in rounding.
 double rayleighQuotient(const Eigenproblem& problem, const VectorXd& x) {
   double energy = 0;
   for (int j = 0; j < problem.L.outerSize(); ++j) {
@@ -199,8 +200,8 @@ double rayleighQuotient(const Eigenproblem& problem, const VectorXd& x) {
   return energy / problem.mass.cwiseProduct(x).dot(x);
 }
 
-/// What was reached, in units without unit.
-/// @throws SolverFailure for the first pair that is none
+/// Measures the accuracy of the pairs, without unit, and fills in the report.
+/// @throws SolverFailure for the first pair that is not accurate enough
 void measure(const Eigenproblem& problem, const SpectrumOptions& options, Spectrum& spectrum) {
   SpectrumReport& report = spectrum.report;
   const Progress silent;

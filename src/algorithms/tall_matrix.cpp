@@ -15,12 +15,12 @@ using Block = Eigen::Ref<MatrixXd>;
 using ConstBlock = Eigen::Ref<const MatrixXd>;
 
 #ifdef TUFTED_WITH_GPL
-// The BLAS that CHOLMOD brings with it; several times faster than Eigen, which has to do with the oldest instructions.
+// The BLAS that CHOLMOD brings with it; several times faster than Eigen, which is limited to the oldest instructions.
 extern "C" void dgemm_(const char* transpose_a, const char* transpose_b, const int* m, const int* n, const int* k,
                        const double* alpha, const double* a, const int* lda, const double* b, const int* ldb,
                        const double* beta, double* c, const int* ldc);
 
-/// C = beta C + alpha A^T B or alpha A B.
+/// Computes C = beta C + alpha A^T B if `transpose`, otherwise C = beta C + alpha A B.
 void multiply(bool transpose, double alpha, const ConstBlock& A, const ConstBlock& B, double beta, Block C) {
   const int m = static_cast<int>(C.rows()), n = static_cast<int>(C.cols());
   const int k = static_cast<int>(B.rows());
@@ -43,7 +43,7 @@ void multiply(bool transpose, double alpha, const ConstBlock& A, const ConstBloc
 }
 #endif
 
-/// As many as fit into a processor's own cache together with what they are multiplied by.
+/// Rows that fit into a processor's own cache together with the columns that they are multiplied by.
 constexpr std::int64_t rows_per_block = 1024;
 
 }  // namespace

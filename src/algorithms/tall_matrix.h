@@ -9,19 +9,19 @@ namespace tufted {
 // Products of tall, narrow matrices by blocks of rows, summed up in their order: the same bits for any number of
 // threads.
 
-/// X^T diag(weights) Y of X (n x a) and Y (n x b).
+/// The products X^T diag(weights) Y of X (n x a) and Y (n x b).
 Eigen::MatrixXd innerProducts(const Eigen::Ref<const Eigen::MatrixXd>& X, const Eigen::VectorXd& weights,
                               const Eigen::Ref<const Eigen::MatrixXd>& Y, const Workers& workers);
 
-/// Y -= X C.
+/// Computes Y -= X C.
 void subtractProduct(Eigen::Ref<Eigen::MatrixXd> Y, const Eigen::Ref<const Eigen::MatrixXd>& X,
                      const Eigen::MatrixXd& C, const Workers& workers);
 
-/// Y = X C; Y may be columns of X.
+/// Computes Y = X C; Y may be columns of X.
 void multiplyInto(const Eigen::Ref<const Eigen::MatrixXd>& X, const Eigen::MatrixXd& C, Eigen::Ref<Eigen::MatrixXd> Y,
                   const Workers& workers);
 
-/// X = X C, where C has no more columns than X; further columns of X are left as they are.
+/// Computes X = X C, where C has no more columns than X; further columns of X are left as they are.
 void multiplyInPlace(Eigen::Ref<Eigen::MatrixXd> X, const Eigen::MatrixXd& C, const Workers& workers);
 
 }  // namespace tufted

@@ -45,7 +45,7 @@ double valueOf(FieldType type, const std::byte* bytes);
 /// Parses a token and stores it at `bytes`. False if it is not a number of that type.
 bool parseInto(std::string_view token, FieldType type, std::byte* bytes);
 
-/// What a file holds per point, before x, y, z and the normals are told apart.
+/// The values of a file per point, before x, y, z and the normals are separated from other fields.
 struct Columns {
   std::vector<Field> fields;
   std::int64_t rows = 0;
@@ -54,16 +54,16 @@ struct Columns {
 /// Makes room for `rows` values in each field.
 void allocate(Columns& columns, std::int64_t rows);
 
-/// Asks for the fields x, y, z before their values are read. @throws IoError without them
+/// Checks that there are fields x, y, z, before their values are read. @throws IoError without them
 void requirePosition(const std::filesystem::path& path, std::int64_t line, const std::vector<Field>& fields);
 
 /// Moves x, y, z to `points`, a full set of normal_x, normal_y, normal_z or nx, ny, nz to `normals`, and all other
 /// fields to `fields`, except padding (named "_"). Width and height are those of an unorganized cloud.
-/// @param line of the header, where the fields are named
+/// @param line line of the header that names the fields
 /// @throws IoError without x, y, z
 Geometry toGeometry(const std::filesystem::path& path, std::int64_t line, Columns&& columns);
 
-/// Rows that fit: points are numbered by int. @throws IoError beyond
+/// Checks that a number of rows fits into int, which numbers the points. @throws IoError if it does not
 std::int64_t checkedRows(const std::filesystem::path& path, std::int64_t rows);
 
 }  // namespace tufted::io

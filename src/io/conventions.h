@@ -14,10 +14,10 @@ struct Convention {
   bool per_point = false;  ///< about the values per point, which files of points hold too
 };
 
-/// Names, sign, scale and dummy values of what is written with these options.
+/// States names, sign, scale and dummy values of what is written with these options.
 std::vector<Convention> conventions(const Laplacian& laplacian, const WriteOptions& options);
 
-/// A line "<prefix>name: text" for each of them, or only for those about the values per point.
+/// A line "<prefix>name: text" for each convention, or only for those about the values per point.
 std::string conventionLines(const std::vector<Convention>& conventions, const std::string& prefix,
                             bool per_point_only = false);
 

@@ -11,7 +11,7 @@ namespace tufted::io {
 void writeCover(const OutputPath& to, const IntrinsicTriangulation& cover);
 
 /// @param vertices number of points of the Laplacian
-/// @throws IoError for what is no closed oriented triangulation of them with the lengths of triangles
+/// @throws IoError for a file that is not a closed oriented triangulation of them with the lengths of triangles
 IntrinsicTriangulation readCover(const std::filesystem::path& path, int vertices);
 
 }  // namespace tufted::io

@@ -10,15 +10,17 @@
 
 namespace tufted::io {
 
-/// N x 9: of each point the x axis, the y axis and the normal.
+/// Frames as N x 9: the x axis, the y axis and the normal of each point.
 Eigen::Matrix<double, Eigen::Dynamic, 9, Eigen::RowMajor> axesOf(const Frames& frames);
 
-/// Writes them as N x 3 x 3, float64.
+/// Writes frames as N x 3 x 3, float64.
 void writeFrames(const OutputPath& to, const Frames& frames);
 
-/// @throws IoError unless there is a frame for each of so many points, or none at all
+/// Reads frames.
+/// @throws IoError unless there is a frame for each point, or none at all
 Frames readFrames(const std::filesystem::path& path, std::size_t points);
 
+/// Checks that the frames of active points are orthonormal.
 /// @param status of the points
 /// @throws IoError naming the first active point whose frame is not orthonormal
 void requireOrthonormal(const std::filesystem::path& path, const Frames& frames,

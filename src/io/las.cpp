@@ -7,8 +7,8 @@
 #include "io/formats.h"
 #include "io/las_header.h"
 
-// LAS is read here: Debian has no library for it but PDAL, which is larger than all else that we need together. The
-// points are those of ASPRS, LAS Specification 1.4 R15, Tables 10 to 22.
+// Reads the points of LAS files: ASPRS, LAS Specification 1.4 R15, Tables 10 to 22. Debian's only library for LAS is
+// PDAL, which is larger than all other dependencies together.
 namespace tufted::io {
 namespace {
 

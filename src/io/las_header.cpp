@@ -148,7 +148,7 @@ class LasHeaderParser {
     if (extra.count > 0) header_.extras.push_back(extra);
   }
 
-  /// Bytes that nobody described are a field as well.
+  /// Adds bytes without a description as a field.
   void describeTheRest() {
     std::size_t described = lasPointBytes(header_.point_format);
     for (const LasExtra& extra : header_.extras) described += sizeOf(extra.type) * extra.count;

@@ -20,18 +20,18 @@ struct LasExtra {
   std::array<double, 3> scale = {1, 1, 1}, offset = {0, 0, 0};
 };
 
-/// The public header block of a LAS file, versions 1.0 to 1.4, and what describes its point records.
+/// The public header block of a LAS file, versions 1.0 to 1.4, and the description of its point records.
 struct LasHeader {
   int minor = 2;                 ///< the version is 1.minor
   int point_format = 0;          ///< 0 to 10
-  std::size_t record_bytes = 0;  ///< per point
+  std::size_t record_bytes = 0;  ///< bytes per point
   std::int64_t points = 0;
   std::size_t body = 0;  ///< byte at which the points begin
   std::array<double, 3> scale = {}, offset = {};
   std::vector<LasExtra> extras;  ///< in the order of their bytes, all bytes behind the format's own
 };
 
-/// Bytes of a point of format 0 to 10 without extra bytes.
+/// Number of bytes of a point of format 0 to 10, without extra bytes.
 std::size_t lasPointBytes(int point_format);
 
 /// Parses a header and checks that the file is long enough for the points it counts.

@@ -16,7 +16,7 @@ class LineScanner {
     std::string_view separators = " \t\r\f\v";
     std::string_view delimiters = {};    ///< separators with a token before each and between any two
     char comment = '\0';                 ///< a token that begins with it ends the line
-    bool comment_anywhere = false;       ///< it does so within a token, too; `1.#INF` then is no number
+    bool comment_anywhere = false;       ///< `comment` ends the line within a token, too; `1.#INF` then is no number
     std::string_view line_comment = {};  ///< a line that begins with it holds no token
     bool continued = false;              ///< a line whose last token is a backslash goes on in the next
   };
@@ -57,7 +57,7 @@ class LineScanner {
   std::string_view text_;
   Syntax syntax_;
   std::size_t offset_ = 0;
-  std::size_t newline_ = 0;  ///< where it lies behind `offset_`, the first there
+  std::size_t newline_ = 0;  ///< position of the first newline behind `offset_`
   std::int64_t line_ = 0;
   char delimiter_ = '\0';
   std::vector<std::string_view> tokens_;

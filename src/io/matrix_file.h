@@ -7,16 +7,18 @@
 
 namespace tufted::io {
 
-/// A square matrix in a .npz file of scipy, by columns or rows. What it says of its size is known at once and to be
-/// compared with other files, before its entries are read.
+/// A square matrix in a .npz file of scipy, by columns or rows. Its size is known at once and must be compared with
+/// other files before its entries are read.
 class MatrixFile {
  public:
-  /// @throws IoError for what is no such file, and where the arrays do not fit each other
+  /// Opens the file.
+  /// @throws IoError for a file that is not such a matrix, or whose arrays do not fit each other
   explicit MatrixFile(const std::filesystem::path& path);
 
   int rows() const { return rows_; }
 
-  /// To be called once. Entries that stand several times, in any order within a column, are summed as scipy does.
+  /// Reads the entries; to be called once. Entries that occur several times, in any order within a column, are summed
+  /// as scipy does.
   /// @throws IoError
   SparseMatrix read();
 

@@ -8,16 +8,19 @@
 
 namespace tufted::io {
 
-/// Matrix Market: the lower triangle of a symmetric matrix (https://math.nist.gov/MatrixMarket/formats.html).
-/// @throws IoError, as do the others
+/// Writes the lower triangle of a symmetric matrix as Matrix Market (https://math.nist.gov/MatrixMarket/formats.html).
+/// @throws IoError
 void writeMtx(const OutputPath& to, const SparseMatrix& matrix, const std::vector<Convention>& conventions);
-/// Matrix Market: an N x 1 array.
+/// Writes an N x 1 array as Matrix Market.
+/// @throws IoError
 void writeMtx(const OutputPath& to, const VectorXd& values, const std::vector<Convention>& conventions);
 
-/// Triplets counted from 1, column by column, without a header, as the paper's program writes them. A matrix whose last
+/// Writes triplets counted from 1, column by column, without a header, as the paper's program does. A matrix whose last
 /// diagonal entry is not stored gets it as 0, because readers take the size from the largest indices.
+/// @throws IoError
 void writeSpmat(const OutputPath& to, const SparseMatrix& matrix);
-/// The same for the diagonal matrix of `values`, zeros included.
+/// Writes the diagonal matrix of `values`, zeros included, as triplets counted from 1 without a header.
+/// @throws IoError
 void writeSpmat(const OutputPath& to, const VectorXd& values);
 
 }  // namespace tufted::io

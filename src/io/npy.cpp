@@ -16,7 +16,7 @@ namespace {
 
 constexpr std::string_view magic = "\x93NUMPY";
 
-/// What follows `key` in the dictionary of a header, from the first character that is no space.
+/// The text after `key` in the dictionary of a header, from the first character that is not a space.
 std::string_view entry(std::string_view dictionary, const std::string& key, const std::filesystem::path& shown) {
   const std::size_t at = dictionary.find("'" + key + "':");
   if (at == std::string_view::npos) refuse(shown, "the header of the array has no " + quote(key));

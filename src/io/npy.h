@@ -17,39 +17,40 @@ namespace tufted::io {
 /// @param shape empty for a single value
 std::string npyHeader(std::string_view descr, const std::vector<std::int64_t>& shape);
 
-/// What a .npy file says of its values, which are in C order.
+/// The header of a .npy file, whose values are in C order.
 struct NpyHeader {
   std::string descr;                ///< numpy's name of the type
-  std::optional<FieldType> type;    ///< of floats and integers of little endian
+  std::optional<FieldType> type;    ///< type of little-endian floats and integers; nullopt for others
   std::vector<std::int64_t> shape;  ///< empty: a single value
-  std::size_t bytes = 0;            ///< of the header; the values begin there
+  std::size_t bytes = 0;            ///< size of the header; the values begin there
 
   std::int64_t size() const;
 };
 
-constexpr std::size_t npy_beginning = 12;  ///< bytes from which npyHeaderBytes() can tell
+constexpr std::size_t npy_beginning = 12;  ///< number of bytes that npyHeaderBytes() needs
 
-/// How long the header is. @throws IoError for what is no .npy file of version 1 to 3
+/// How many bytes the header has. @throws IoError for a file that is not a .npy file of version 1 to 3
 std::size_t npyHeaderBytes(std::string_view beginning, const std::filesystem::path& shown);
 
+/// Parses a header and checks that the file has as many bytes as its shape says.
 /// @param bytes at least the header
 /// @param all how many bytes the file has
 /// @param shown the path to name in errors
-/// @throws IoError for what is no .npy file of version 1 to 3 in C order, or has not as many bytes as its shape says
+/// @throws IoError for another number of bytes, or a file that is not a .npy file of version 1 to 3 in C order
 NpyHeader parseNpyHeader(std::string_view bytes, std::uint64_t all, const std::filesystem::path& shown);
 
 /// A .npy file in memory.
 struct NpyArray : NpyHeader {
-  std::string_view values;  ///< of the bytes that were parsed
+  std::string_view values;  ///< a part of the bytes that were parsed
 };
 
-/// @throws IoError as parseNpyHeader()
+/// Parses a whole file. Errors are those of parseNpyHeader().
 NpyArray parseNpy(std::string_view bytes, const std::filesystem::path& shown);
 
 /// The type of an array of numbers. @throws IoError for other arrays
 FieldType numberType(const NpyHeader& header, const std::filesystem::path& shown);
 
-/// The numbers as doubles, in C order. @throws IoError for what is no array of numbers
+/// The numbers as doubles, in C order. @throws IoError for an array that does not hold numbers
 std::vector<double> numbersOf(const NpyArray& array, const std::filesystem::path& shown);
 
 }  // namespace tufted::io

@@ -11,17 +11,17 @@
 
 namespace tufted::io {
 
-/// An array in a .npz file. Its header is read at once, its numbers in pieces: deflate makes a thousand bytes of one,
-/// so what they fill is to be judged before and while they come.
+/// An array in a .npz file. Its header is read at once, its numbers in pieces: one deflated byte can become a thousand
+/// bytes, so callers must check the memory that they fill before and while numbers are read.
 class NpzArray {
  public:
   const NpyHeader& header() const { return header_; }
   std::int64_t size() const { return header_.size(); }
 
-  /// The next number, in C order; to be called size() times. @throws IoError for what is damaged or no array of numbers
+  /// The next number, in C order; to be called size() times. @throws IoError if damaged or not an array of numbers
   double next();
   /// The next number, which must be an integer in [least, most].
-  /// @throws IoError naming the value that is not; and as next()
+  /// @throws IoError naming the value that is not one, or if damaged or not an array of numbers
   int nextInteger(double least, double most);
 
  private:
@@ -31,7 +31,7 @@ class NpzArray {
   };
 
   NpzArray(std::filesystem::path path, std::string name) : path_(std::move(path)), name_(std::move(name)) {}
-  /// Exactly so many bytes.
+  /// Reads exactly this many bytes.
   std::string take(std::size_t bytes);
   void takeHeader(std::uint64_t all);
   void readPiece();
@@ -41,23 +41,24 @@ class NpzArray {
   std::string name_;
   std::unique_ptr<zip_file_t, Close> file_;
   NpyHeader header_;
-  std::uint64_t value_bytes_ = 0;  ///< behind the header
+  std::uint64_t value_bytes_ = 0;  ///< number of bytes behind the header
   std::vector<double> piece_;
-  std::size_t place_ = 0;   ///< in the piece
+  std::size_t place_ = 0;   ///< place of the next number in the piece
   std::int64_t taken_ = 0;  ///< numbers in this piece and those before
 };
 
 /// The arrays of a .npz file.
 class NpzReader {
  public:
-  /// @throws IoError for what is no archive
+  /// Opens the archive.
+  /// @throws IoError for a file that is not an archive
   explicit NpzReader(const std::filesystem::path& path);
 
-  /// The array `name`, whose numbers can be read while this lives. @throws IoError where it is missing or none
+  /// The array `name`, whose numbers can be read while this lives. @throws IoError if missing or not an array
   NpzArray open(const std::string& name) const;
-  /// A few numbers. @throws IoError also for another number of them
+  /// The numbers of a small array. @throws IoError also if there are not `count` numbers
   std::vector<double> numbers(const std::string& name, std::int64_t count) const;
-  /// A short text. @throws IoError for what is longer than a few letters, too
+  /// The text in an array, of a few letters at most. @throws IoError also if it is longer
   std::string text(const std::string& name) const;
 
  private:
@@ -69,7 +70,7 @@ class NpzReader {
   std::unique_ptr<zip_t, Discard> archive_;
 };
 
-/// The numbers as integers in [least, most]. @throws IoError naming the first that is none
+/// The numbers as integers in [least, most]. @throws IoError naming the first that is not one
 std::vector<int> integersOf(const std::vector<double>& numbers, double least, double most,
                             const std::filesystem::path& shown);
 

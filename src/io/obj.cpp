@@ -71,7 +71,7 @@ class ObjReader {
       const std::string_view corner = scanner_.tokens()[t];
       const std::string_view number_text = corner.substr(0, corner.find('/'));
       const std::size_t last = corner.rfind('/');
-      // Of a corner with a normal, the normal must have the vertex's number to be that of the vertex.
+      // A normal belongs to the vertex only if a corner names both by the same number.
       if (last != corner.find('/') && corner.substr(last + 1) != number_text) normals_are_of_vertices_ = false;
     }
   }

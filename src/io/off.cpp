@@ -55,7 +55,7 @@ class AsciiOff {
   }
 
  private:
-  /// Behind the keyword or in the next line.
+  /// Reads the counts, which stand behind the keyword or in the next line.
   void readCounts() {
     std::size_t first = 1;
     if (scanner_.tokens().size() == 1) {

@@ -8,8 +8,8 @@
 #include "io/errors.h"
 #include "io/polygon_soup.h"
 
-// Decoded here: CGAL 5.5, which reads this form too, turns counts into floats and those into integers beyond their
-// range. The form is that of Geomview's manual, OFF, "binary format".
+// Decodes the binary form of OFF (Geomview's manual, OFF, "binary format"). CGAL 5.5, which reads this form too, turns
+// counts into floats and those into integers beyond their range.
 namespace tufted::io {
 namespace {
 
@@ -21,7 +21,7 @@ class BinaryOff {
 
   Geometry read() {
     const std::int64_t vertices = integer(), faces = integer();
-    integer();  // edges, which nobody needs
+    integer();  // number of edges, which is not needed
     const std::size_t vertex_values = layout_.behindNormal() + (layout_.colors ? 4 : 0) + (layout_.texture ? 2 : 0);
     constexpr std::int64_t least_face = 8;  // no corner, no colour
     // Both counts are below 2^31.

@@ -14,7 +14,7 @@ class OpenPath {
   OpenPath(const OpenPath&) = delete;
   OpenPath& operator=(const OpenPath&) = delete;
 
-  /// Returns when what was written is on the disk; for a directory that is which names it has.
+  /// Returns when what was written is on the disk; for a directory, the names that it has.
   void sync() const;
   /// Waits until no other process has the lock, which then is ours until this object ends. Does nothing where the
   /// file system has no locks.

@@ -17,7 +17,7 @@ class OutputBuffer {
   void append(const void* bytes, std::size_t size);
   void append(std::string_view text) { append(text.data(), text.size()); }
   void appendInteger(std::int64_t value);
-  /// 17 significant digits, which are enough to read the same double again, without trailing zeros.
+  /// Adds a number with 17 significant digits, enough to read the same double again, without trailing zeros.
   void appendNumber(double value);
   /// Passes everything on to the file.
   void flush();

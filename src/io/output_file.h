@@ -13,7 +13,7 @@ struct OutputPath {
   std::filesystem::path shown;  ///< the path to name in errors, that of the finished file
 };
 
-/// A new file being written; there must be none of its path, nor a link. Every error of the system (no space, no
+/// A new file being written; there must be no file or link of its path. Every error of the system (no space, no
 /// permission) throws IoError naming the path.
 class OutputFile {
  public:

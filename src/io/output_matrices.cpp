@@ -7,7 +7,7 @@
 namespace tufted::io {
 namespace {
 
-/// `diagonal` for each point that is not active.
+/// A diagonal matrix with `diagonal` for each point that is not active.
 SparseMatrix dummyDiagonal(const Laplacian& laplacian, double diagonal) {
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t i = 0; i < laplacian.status.size(); ++i)
@@ -22,7 +22,7 @@ SparseMatrix dummyDiagonal(const Laplacian& laplacian, double diagonal) {
 
 OutputMatrices::OutputMatrices(const Laplacian& laplacian, const WriteOptions& options) : laplacian_(laplacian) {
   if (options.dummy) {
-    // Their rows and columns are empty: the sum adds no two numbers.
+    // The rows and columns of these points are empty, so the sum adds no two numbers.
     L_ = laplacian.L + dummyDiagonal(laplacian, 1);
     M_ = laplacian.M;
     const double mass = dummyMass(laplacian);

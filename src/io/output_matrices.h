@@ -7,8 +7,8 @@
 
 namespace tufted::io {
 
-/// L and M as the files have them: of the sign that is asked for, with dummy values where they are asked for, and
-/// compressed. Copies only what is changed; the rest is borrowed.
+/// L and M as they are written to files: with the sign and the dummy values that the options ask for, and compressed.
+/// Copies only what is changed; the rest is borrowed.
 class OutputMatrices {
  public:
   OutputMatrices(const Laplacian& laplacian, const WriteOptions& options);

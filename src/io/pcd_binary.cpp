@@ -27,7 +27,8 @@ void readPcdBinary(const std::filesystem::path& path, std::string_view bytes, Pc
   }
 }
 
-/// Two sizes, compressed and not, then the compressed columns, one field after another without padding.
+/// Reads the compressed form: two sizes, compressed and not, then the compressed columns, one field after another
+/// without padding.
 void readPcdCompressed(const std::filesystem::path& path, std::string_view bytes, PcdHeader& header) {
   const std::size_t rest = bytes.size() - std::min(header.body, bytes.size());
   std::uint32_t sizes[2];

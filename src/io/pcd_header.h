@@ -25,7 +25,7 @@ struct PcdHeader {
   std::int64_t row_values = 0;
 };
 
-/// Whether a field is padding, which nobody keeps.
+/// Whether a field is padding, which is not kept.
 inline bool isPadding(const Field& field) {
   return field.name == "_";
 }

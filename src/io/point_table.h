@@ -23,17 +23,17 @@ struct PointColumn {
   std::size_t stride;  ///< bytes from one point to the next
 };
 
-/// What a file of points holds per point, each name once: the second to come is
-/// called name_2. Values are borrowed.
+/// The columns of a file of points. Every name occurs once: a second column of that name is called name_2. Values are
+/// borrowed.
 class PointTable {
  public:
   explicit PointTable(std::int64_t rows) : rows_(rows) {}
 
   void add(PointColumn column);
-  /// Three columns, as float32 where that loses nothing or where `narrow`.
+  /// Adds three columns, as float32 if that loses nothing or if `narrow`.
   void addTriple(const std::array<const char*, 3>& names, const Points& values, bool narrow = false);
 
-  /// Room for values that are made for the table.
+  /// Makes room for values that are made for the table.
   std::byte* allocate(std::size_t bytes) { return made_.emplace_back(bytes).data(); }
 
   std::int64_t rows() const { return rows_; }
@@ -47,8 +47,8 @@ class PointTable {
   std::deque<std::vector<std::byte>> made_;
 };
 
-/// What points.ply and points.pcd have in common: x y z, normals, the fields of the input, then mass, boundary, status
-/// and representative, which replace fields of these names.
+/// The columns that points.ply and points.pcd have in common: x y z, normals, the fields of the input, then mass,
+/// boundary, status and representative, which replace fields of these names.
 /// @param M the masses to write
 /// @param normal_names what the format calls normals
 /// @param add_field adds a field of the input in the way of the format

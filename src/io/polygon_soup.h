@@ -14,7 +14,7 @@ struct PolygonSoup {
   std::vector<std::int64_t> places;  ///< line or byte per polygon
   const char* place_name = "line";
 
-  /// Room for so many more, which the file was found to be long enough for.
+  /// Makes room for more polygons, for which the file was found to be long enough.
   void reserve(std::int64_t count) {
     polygons.reserve(polygons.size() + static_cast<std::size_t>(count));
     places.reserve(places.size() + static_cast<std::size_t>(count));

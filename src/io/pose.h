@@ -6,7 +6,7 @@
 
 namespace tufted::io {
 
-/// Why seven numbers are no pose of a sensor as Geometry::viewpoint has it; null where they are one.
+/// Why seven numbers are not a valid pose of a sensor, see Geometry::viewpoint; null if they are.
 inline const char* poseFault(const std::array<double, 7>& pose) {
   if (!std::all_of(pose.begin(), pose.end(), [](double value) { return std::isfinite(value); }))
     return "a viewpoint that is not finite";

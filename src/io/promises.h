@@ -6,7 +6,7 @@
 
 namespace tufted::io {
 
-/// Refuses what is no Laplacian, by the rules of validate() but for those that take a factorisation or the cover. O(N).
+/// Checks the rules of validate() for a Laplacian, except those that take a factorisation or the cover. O(N).
 /// @param dir the folder it was read from, whose files are named
 /// @param laplacian its arrays fit each other, and the rows of L ascend in each column
 /// @throws IoError naming the file, the entry and the rule

@@ -34,8 +34,8 @@ class StagedFiles {
  private:
   struct File {
     OutputPath path;
-    bool has_old = false;    ///< what had its name is kept
-    bool is_placed = false;  ///< it has its name
+    bool has_old = false;    ///< whether a former file of that name is kept
+    bool is_placed = false;  ///< whether the new file has its name
   };
 
   /// Makes `dir_` with its parents.
@@ -56,7 +56,7 @@ class StagedFiles {
 
   std::filesystem::path dir_;
   std::filesystem::path hidden_;
-  std::filesystem::path old_;                ///< the folder of what had the names of the files, in the hidden one
+  std::filesystem::path old_;                ///< folder in the hidden one for the former files of these names
   std::vector<std::filesystem::path> made_;  ///< directories, the outermost first
   std::vector<File> files_;
 };

@@ -14,8 +14,8 @@ class VertexColors {
  public:
   /// Takes the tokens of the next vertex's line from number `first` on. @throws IoError naming the line
   void add(const LineScanner& scanner, std::size_t first);
-  /// Appends the fields; none where a vertex has no colour. Integers up to 255 become uint8, others float32.
-  /// @param ones_are_bytes whether integers of which none exceeds 1 are bytes (OFF) or parts of 1 (OBJ)
+  /// Appends the fields, or no field if a vertex has no colour. Integers up to 255 become uint8, others float32.
+  /// @param ones_are_bytes whether integers that are all at most 1 are bytes (OFF) or parts of 1 (OBJ)
   void moveTo(std::vector<Field>& fields, bool ones_are_bytes);
 
  private:

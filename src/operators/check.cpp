@@ -23,7 +23,7 @@ bool isActive(const Laplacian& laplacian, Index i) {
   return laplacian.status[i] == PointStatus::active;
 }
 
-/// Whether the columns lie one after the other in what is stored; else they cannot be walked along.
+/// Whether the stored columns lie one after the other; otherwise they cannot be iterated.
 void checkColumns(const SparseMatrix& L, Promise& storage) {
   if (!L.isCompressed()) return storage.brokenBy("L is not compressed");
   const int* start = L.outerIndexPtr();
@@ -35,7 +35,7 @@ void checkColumns(const SparseMatrix& L, Promise& storage) {
   if (start[L.cols()] != stored) storage.brokenBy("the columns end at ", start[L.cols()], " of ", stored, " entries");
 }
 
-/// Sizes, indices and codes. False where the rest cannot be looked at.
+/// Checks sizes, indices and codes. False if the rest cannot be checked.
 bool checkShape(const Laplacian& laplacian, std::vector<std::string>& faults) {
   Promise size("size"), storage("storage"), status("status"), boundary("boundary");
   const SparseMatrix& L = laplacian.L;
@@ -75,7 +75,7 @@ bool checkShape(const Laplacian& laplacian, std::vector<std::string>& faults) {
   return faults.empty();
 }
 
-/// Entry by entry: sign, and zeros where a point takes no part.
+/// Checks entry by entry: signs, and zeros at points that take no part.
 void checkEntries(const Laplacian& laplacian, const VectorXd& diagonal, LaplacianCheck& check) {
   const SparseMatrix& L = laplacian.L;
   Promise finite("finite"), sign("off-diagonal sign"), positive("positive diagonal");
@@ -106,7 +106,7 @@ void checkEntries(const Laplacian& laplacian, const VectorXd& diagonal, Laplacia
   for (const Promise* promise : {&finite, &sign, &positive, &mass, &inactive}) promise->addTo(check.faults);
 }
 
-/// Rows against columns. Entries that are stored on one side only count as zero on the other.
+/// Compares rows with columns. An entry that is stored on one side only counts as zero on the other.
 void checkRows(const Laplacian& laplacian, const VectorXd& diagonal, LaplacianCheck& check) {
   const SparseMatrix& L = laplacian.L;
   const SparseMatrix transposed = L.transpose();
@@ -198,7 +198,8 @@ void checkCover(const Laplacian& laplacian, LaplacianCheck& check) {
   }
 }
 
-/// Equal points name the lowest of them, all others themselves; frames of active points are orthonormal.
+/// Checks that equal points name the lowest of them, all others themselves, and that frames of active points are
+/// orthonormal.
 void checkPoints(const Laplacian& laplacian, LaplacianCheck& check) {
   Promise representative("representative"), frame("frame");
   const Frames& frames = laplacian.frames;
@@ -217,7 +218,7 @@ void checkPoints(const Laplacian& laplacian, LaplacianCheck& check) {
   frame.addTo(check.faults);
 }
 
-/// What only the report knows, and whether it counted right.
+/// Checks what only the report knows, and whether its counts are right.
 void checkReport(const Laplacian& laplacian, LaplacianCheck& check) {
   const Report& report = laplacian.report;
   Promise failures("failures"), counts("counts");

@@ -1,3 +1,4 @@
+// Recomputes L and M from the cover (Sharp and Crane 2020, Algorithm 3) and compares them with those of a Laplacian.
 #include "operators/check_surface.h"
 
 #include <algorithm>
@@ -30,7 +31,7 @@ struct Edge {
   double weight;
 };
 
-/// Algorithm 3, lines 6 to 15, face by face.
+/// Assembles weights and areas face by face (Sharp and Crane 2020, Algorithm 3, lines 6 to 15).
 class Assembly {
  public:
   Assembly(const SparseMatrix& L, const IntrinsicTriangulation& cover, double scale)
@@ -50,7 +51,7 @@ class Assembly {
     for (const Edge& edge : others_) visit(edge.high, edge.low, edge.weight, 0.0);
   }
 
-  /// Of points, in the caller's unit.
+  /// Areas of the points, in the caller's unit.
   const VectorXd& area() const { return area_; }
   /// Whether a length at point i has fewer digits than others.
   bool isCoarse(Index i) const { return is_coarse_[i] != 0; }
@@ -122,8 +123,8 @@ void compareWeights(const SparseMatrix& L, const Assembly& assembly, SurfaceChec
   surface.addTo(faults);
 }
 
-/// Area by area.
-/// @param expected of active points; others have none
+/// Compares the areas of all points with those expected.
+/// @param expected areas of active points; others have none
 /// @returns the greatest relative error
 double compareAreas(const char* name, const char* array, const Laplacian& laplacian, const Assembly& assembly,
                     const VectorXd& found, const VectorXd& expected, std::vector<std::string>& faults) {
@@ -150,7 +151,7 @@ void compareMasses(const Laplacian& laplacian, const Assembly& assembly, Surface
     if (own.size() != M.size()) {
       double sum = 0;
       for (Index i = 0; i < M.size(); ++i) sum += laplacian.status[i] == PointStatus::active ? expected[i] : 0;
-      // Next to nothing may be left of the sum without what mollification added: its rounding must not count.
+      // The sum without the area that mollification added may be nearly 0: its rounding must not count.
       const double least = least_star_share * (sum * (1 - 1e-9) - laplacian.report.mollify_area);
       const double most = most_star_share * sum * (1 + 1e-9);
       if (!(M.sum() >= least - smallest_area && M.sum() <= most + smallest_area)) {

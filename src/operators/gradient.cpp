@@ -1,3 +1,4 @@
+// Gradients at points by least squares in tangent planes (DiffusionNet; Sharp et al. 2022, Section 3.4).
 #include "tufted/gradient.h"
 
 #include <Eigen/Eigenvalues>
@@ -15,9 +16,10 @@
 namespace tufted {
 namespace {
 
-/// Of two spreads of a neighbourhood in its tangent plane, the smaller counts as none below this part of the larger.
+/// A neighbourhood has two spreads in its tangent plane; the smaller counts as 0 below this part of the larger.
 constexpr double flat = 1e-10;
-/// Below this part the neighbours hardly tell the slope across, and theirs are asked as well.
+/// If the smaller spread is below this part of the larger, the neighbours of the neighbours are used as well, as the
+/// neighbours alone hardly determine the slope across.
 constexpr double narrow = 1e-4;
 
 void checkArguments(const Laplacian& laplacian, const Points& points, const Frames& frames) {

@@ -8,17 +8,17 @@
 
 namespace tufted {
 
-/// What is factorised. The factor of a large cloud may have more than 2^31 entries.
+/// The matrix type of factorisations. The factor of a large cloud may have more than 2^31 entries.
 using LongMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, std::int64_t>;
 
 /// Numbers some of the points in the caller's order.
 struct Selection {
   static constexpr std::int64_t left_out = -1;
   std::vector<std::int64_t> number;  ///< N; `left_out` for all others
-  std::vector<int> point;            ///< by number
+  std::vector<int> point;            ///< index of the point, by number
 
   explicit Selection(std::size_t size) : number(size, left_out) {}
-  /// To be called in ascending order.
+  /// Adds a point; to be called in ascending order.
   void add(int i) {
     number[i] = static_cast<std::int64_t>(point.size());
     point.push_back(i);
@@ -36,7 +36,7 @@ LongMatrix lowerTriangle(const SparseMatrix& L, const Selection& selection, cons
     lower.startVec(k);
     for (SparseMatrix::InnerIterator entry(L, j); entry; ++entry) {
       const auto i = static_cast<int>(entry.row());
-      // In the caller's order: what is left out has the lowest number of all.
+      // Numbers are in the caller's order, and `left_out` is lower than all of them.
       if (selection.number[i] >= k) lower.insertBack(selection.number[i], k) = value(i, j, entry.value());
     }
   }

@@ -1,3 +1,4 @@
+// Gradients and divergences on faces for the heat method (Crane, Weischedel, Wardetzky 2013, 2017).
 #include "operators/surface_faces.h"
 
 #include <algorithm>
@@ -30,7 +31,7 @@ Key keyOf(const IntrinsicTriangulation& cover, std::int64_t face) {
   return {{parts[0].first, parts[1].first, parts[2].first}, {parts[0].second, parts[1].second, parts[2].second}};
 }
 
-/// The face's numbers, those of a smallest corner together.
+/// The numbers of the faces, grouped by their smallest corner.
 std::vector<int> facesByCorner(const IntrinsicTriangulation& cover, std::vector<int>& offset) {
   const auto owner = [&](std::int64_t face) {
     return *std::min_element(cover.faces[face].begin(), cover.faces[face].end());

@@ -20,20 +20,21 @@ struct SurfaceFace {
   double weight;  ///< how much of the surface this face stands for: copies in the cover times the scale of L
 };
 
-/// What gradient and divergence need of a cover: faces with the same corners and lengths (front and back, the copies
-/// that clouds find of each triangle) are one, faces without area are left out. The order does not depend on the number
-/// of threads.
+/// The faces of a cover for gradients and divergences. Faces with the same corners and lengths (front and back, the
+/// copies that clouds find of each triangle) are one, faces without area are left out. The order does not depend on the
+/// number of threads.
 struct SurfaceFaces {
   std::vector<SurfaceFace> faces;  ///< sorted by corners
   int exponent = 0;                ///< lengths are in units of 2^exponent of the cover's
   double mean_square = 0;          ///< mean squared side, in that unit squared
-  double area_mean_square = 0;     ///< the same, each face weighted by its area
+  double area_mean_square = 0;     ///< mean squared side, each face weighted by its area
 };
 
+/// Collects the faces of a cover.
 /// @param scale of L: 1/2 for meshes, 1/6 for clouds
 SurfaceFaces distinctFaces(const IntrinsicTriangulation& cover, double scale, const Workers& workers);
 
-/// A third of the area per corner, in units of 2^(2 exponent). N values.
+/// Areas of the N points, a third of each face per corner, in units of 2^(2 exponent).
 VectorXd lumpedAreas(const SurfaceFaces& surface, int size);
 
 /// Direction of the gradient of the linear function with these values at the corners; zero where they are equal.
@@ -47,7 +48,7 @@ inline Eigen::Vector2d gradientDirection(const SurfaceFace& face, double v0, dou
   return length > 0 ? Eigen::Vector2d(gradient / length) : Eigen::Vector2d::Zero();
 }
 
-/// Integral over the face of X times the gradient of each corner's hat function, for a constant field X. They sum to 0.
+/// Integrals over the face of X times the gradient of each corner's hat function, for a constant X; they sum to 0.
 inline std::array<double, 3> divergence(const SurfaceFace& face, const Eigen::Vector2d& X) {
   const double half = face.weight / 2;
   const double second = half * face.base * X.y();

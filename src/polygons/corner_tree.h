@@ -18,7 +18,7 @@ struct Capsule {
   double radius;
 };
 
-/// A triangle that turns left, and what lies in it: all points on no edge's right, but those equal to a corner.
+/// A triangle that turns left. It holds all points that lie to the right of no edge, except those equal to a corner.
 class PlanarTriangle {
  public:
   /// @param area turn(a, b, c) > 0
@@ -27,7 +27,7 @@ class PlanarTriangle {
                  double squared_edges);
 
   bool holds(const Eigen::Vector2d& point) const;
-  /// True only if it holds no point of the box from `low` to `high`.
+  /// True only if the triangle holds no point of the box from `low` to `high`.
   bool holdsNoneOf(const Eigen::Vector2d& low, const Eigen::Vector2d& high) const;
   bool holdsNoneOf(const Capsule& capsule) const;
 
@@ -37,7 +37,7 @@ class PlanarTriangle {
   }
 
   std::array<Eigen::Vector2d, 3> corner_;
-  Eigen::Vector2d low_, high_;  ///< around all that it holds
+  Eigen::Vector2d low_, high_;  ///< a box around all points that the triangle holds
 };
 
 /// The corners of a polygon in a k-d tree that forgets those that are clipped.
@@ -47,13 +47,13 @@ class CornerTree {
   void build(const std::vector<Eigen::Vector2d>& points);
   void remove(int corner);
 
-  /// A remaining corner that the triangle holds, -1 if there is none: of several the first in a fixed random order.
-  /// That one changes H_n < 1 + ln n times on average until all n are removed, whatever order they are removed in.
+  /// The first remaining corner, in a fixed random order, that the triangle holds; -1 if there is none. It changes
+  /// H_n < 1 + ln n times on average until all n are removed, whatever order they are removed in.
   int firstIn(const PlanarTriangle& triangle) const;
 
  private:
   struct Node {
-    Eigen::Vector2d low, high;  ///< around the remaining corners
+    Eigen::Vector2d low, high;  ///< box around the remaining corners
     std::uint64_t first;        ///< the least place of a remaining corner in the random order
   };
   /// A node and the slots below it.
@@ -75,10 +75,10 @@ class CornerTree {
 
   const std::vector<Eigen::Vector2d>* points_ = nullptr;
   std::vector<int> corner_;  ///< slot by slot, those of a leaf side by side; -1 once it is removed
-  std::vector<int> slot_;    ///< of each corner; -1 of those that are not finite
+  std::vector<int> slot_;    ///< slot of each corner; -1 if it is not finite
   std::vector<Node> nodes_;  ///< the children of node i are 2 i + 1 and 2 i + 2
-  /// Around the corners of each node that is no leaf. A row of corners may run aslant, where boxes overlap thin
-  /// triangles along it that hold none of them.
+  /// Bounds around the corners of each node that is not a leaf. A row of corners may be oblique, where boxes overlap
+  /// thin triangles along it that hold none of them.
   std::vector<Capsule> capsules_;
 };
 

@@ -11,12 +11,12 @@ namespace tufted {
 /// Clips the ears of one polygon after another, each in the plane of its Newell normal.
 ///
 /// The quality of a corner is the turn of its triangle over the sum of its squared edges, which is below 1/2; 1 is
-/// taken off where the turn is not positive or the triangle holds another corner. The next ear is the corner of the
-/// greatest quality, of equal ones the first. So the best shaped ear comes first and, where none is left because the
-/// polygon is degenerate or crosses itself, the most convex corner: clipping always ends. Polygons of a thousand
-/// corners and more make one exception: 1 is also taken off a quality up to 2^-40, as the corner is straight. Where
-/// thousands of corners lie on one line but for rounding, such triangles reach along all of them, and each would have
-/// to be looked at.
+/// subtracted if the turn is not positive or the triangle holds another corner. The next ear is the corner of the
+/// greatest quality, the first one if several are equal. So the best shaped ear comes first and, if no ear is left
+/// because the polygon is degenerate or crosses itself, the most convex corner: clipping always ends. Polygons of a
+/// thousand corners and more are an exception: 1 is also subtracted from a quality up to 2^-40, as the corner is
+/// straight. Where thousands of corners lie on one line but for rounding, such triangles reach along all of them, and
+/// each corner would have to be tested.
 ///
 /// The choice does not depend on how it is found. Nothing comes into a triangle while corners are clipped, so one that
 /// is empty stays so, and a corner whose triangle holds another waits until that is clipped. On average it waits for
@@ -31,12 +31,12 @@ class EarClipper {
   std::array<int, 3> next();
 
  private:
-  /// A corner of the polygon. Those that wait for the same one are a list.
+  /// A corner of the polygon. Corners that wait for the same one form a list.
   struct Corner {
     int before, after;
     int holds = unknown;           ///< a corner in its triangle, for which this one waits, or `unknown` or `nothing`
-    int first_waiting = none;      ///< for this one
-    int last = none, next = none;  ///< in the list that this one is in
+    int first_waiting = none;      ///< first corner that waits for this one
+    int last = none, next = none;  ///< neighbours in the list that this corner is in
   };
   static constexpr int none = -1, unknown = -1, nothing = -2;
 

@@ -23,7 +23,7 @@ TEST(NearestPoint, IsTheFirstActiveOne) {
   EXPECT_THROW(nearestPoint(pointCloudLaplacian(Points(0, 3)), Points(0, 3), {0, 0, 0}), InvalidInput);
 }
 
-/// Each by itself, all points looked at.
+/// Expects for every position the nearest of all points, found by a linear scan.
 void expectThoseOfALinearScan(const Laplacian& laplacian, const Points& points, const Points& positions) {
   const std::vector<int> found = nearestPoints(laplacian, points, positions);
   ASSERT_EQ(std::ssize(found), positions.rows());

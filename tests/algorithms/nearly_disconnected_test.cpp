@@ -1,4 +1,4 @@
-// Parts that next to nothing joins: what flows from one to the other is right, and reports name them.
+// Parts that are nearly disconnected: what flows from one to the other is right, and reports name them.
 #include "algorithms/nearly_disconnected.h"
 
 #include <gtest/gtest.h>

@@ -34,7 +34,7 @@ SparseMatrix heatMatrix(const Laplacian& laplacian) {
   return A;
 }
 
-/// The same on every machine.
+/// Some values, the same on every machine.
 MatrixXd someValues(Eigen::Index rows, Eigen::Index columns) {
   return MatrixXd::NullaryExpr(rows, columns, [](Eigen::Index i, Eigen::Index c) {
     return std::sin(1.7 * static_cast<double>(i) + 0.9 * static_cast<double>(c * c));
@@ -171,7 +171,7 @@ TEST(Solver, TakesNestedDissectionWhereItSavesWhatIsMissing) {
 #endif
 
 TEST(Solver, KeepsUnknownsOfAnyScaleApartByCholesky) {
-  // Of diagonal entries from 1e-200 to 1e200 none disturbs the others.
+  // Diagonal entries from 1e-200 to 1e200 do not disturb each other.
   SparseMatrix A(5, 5);
   const VectorXd scale{{1e-200, 1, 0, 1e9, 1e200}};
   for (int i = 0; i < 5; ++i)
@@ -272,7 +272,7 @@ TEST(Solver, FailsTypedWhereTheSolutionOverflows) {
 }
 
 TEST(Solver, TakesRightSidesThatVanishOnPartsOfASurface) {
-  // High eigenvectors are next to nothing but around a few points.
+  // High eigenvectors are nearly 0 except around a few points.
   for (const auto& [n, seed] : {std::pair(300, 101), std::pair(300, 102), std::pair(500, 108)}) {
     const Laplacian laplacian =
         pointCloudLaplacian(shapes::sphere(n, shapes::Sampling::uniform, seed).points, cloudOptions(Preset::clean));

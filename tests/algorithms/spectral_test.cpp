@@ -94,7 +94,7 @@ TEST(FilterSignals, KeepsLowFrequenciesAndTakesOutHighOnes) {
   const Points points = shapes::sphere(8000).points;
   const Laplacian laplacian = pointCloudLaplacian(points);
   const Spectrum found = spectrum(laplacian, 16);
-  // Of the first pairs' own combinations nothing is lost, and twice is once.
+  // Combinations of the first pairs lose nothing, and filtering twice is as filtering once.
   const MatrixXd low = found.vectors * MatrixXd{{1, -2}}.replicate(16, 1);
   EXPECT_LE((filterSignals(laplacian, found, low) - low).cwiseAbs().maxCoeff(), 1e-11);
   // z is of degree 1 and z^2 - 1/3 of degree 2; degree 8 lies beyond.

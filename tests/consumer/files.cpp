@@ -8,7 +8,7 @@
 
 namespace {
 
-/// As from a scanner: two surfaces, and a point that it missed.
+/// A cloud as from a scanner: two surfaces, and a point that it missed.
 tufted::Geometry scan() {
   tufted::Geometry cloud;
   cloud.points.resize(501, 3);

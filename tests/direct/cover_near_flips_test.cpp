@@ -16,7 +16,7 @@ namespace {
 
 const Progress silent;
 
-/// A sphere on which nearly all stars agree, so that next to no room is kept, but lengths are those of a sheared one:
+/// A sphere on which nearly all stars agree, so that hardly any room is kept, but lengths are those of a sheared one:
 /// once an edge is flipped, those around it are to be flipped, too.
 class ShearedSphere : public testing::Test {
  protected:

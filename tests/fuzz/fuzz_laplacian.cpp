@@ -49,7 +49,7 @@ std::filesystem::path makeFolder() {
 void addTo(const std::filesystem::path& archive, const char* name, std::string_view content) {
   int error = 0;
   zip_t* const zip = zip_open(archive.c_str(), ZIP_CREATE, &error);
-  if (zip == nullptr) return;  // a piece before was the archive itself, and is none
+  if (zip == nullptr) return;  // a piece before was the archive itself, and is not a valid one
   zip_source_t* const source = zip_source_buffer(zip, content.data(), content.size(), 0);
   zip_int64_t index = zip_file_add(zip, name, source, ZIP_FL_OVERWRITE);
   if (index < 0) zip_source_free(source);

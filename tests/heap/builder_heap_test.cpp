@@ -11,7 +11,7 @@
 namespace tufted {
 namespace {
 
-/// What `frame()` takes from the heap.
+/// The memory that `frame()` takes from the heap.
 template <class Frame>
 heap::Count countDuring(const Frame& frame) {
   const heap::Count before = heap::countSoFar();

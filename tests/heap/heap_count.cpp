@@ -42,7 +42,7 @@ void count() {
 
 }  // namespace
 
-// In place of the C library's, which has them under these names too.
+// These replace the functions of the C library, which has them under the names below too.
 extern "C" {
 void* __libc_malloc(std::size_t size);
 void* __libc_calloc(std::size_t count, std::size_t size);

@@ -4,7 +4,7 @@
 
 namespace tufted::heap {
 
-/// What this process has asked of malloc(), and operator new by way of it, so far.
+/// The memory that this process has requested so far from malloc(), also by operator new.
 struct Count {
   std::int64_t blocks = 0;          ///< our own
   std::int64_t foreign_blocks = 0;  ///< those that FLANN and CGAL asked for

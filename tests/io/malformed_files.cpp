@@ -44,7 +44,7 @@ std::string plySeenFrom(const std::string& pose) {
          "\nelement vertex 1\nproperty float x\nproperty float y\nproperty float z\nend_header\n1 2 3\n";
 }
 
-/// As PCL writes the sensor: where it is and its axes.
+/// A PLY file with the sensor as PCL writes it: where it is and its axes.
 std::string plyWithCamera(const std::string& values) {
   std::string text = "ply\nformat ascii 1.0\nelement vertex 1\n";
   for (const char* name : {"x", "y", "z"}) text += std::string("property float ") + name + "\n";

@@ -185,7 +185,7 @@ const char* const square =
     "solid square\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 1 1 0\nendloop\nendfacet\n"
     "facet normal 0 0 1\nouter loop\nvertex -0 0 0\nvertex 1 1 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid square\n";
 
-/// The same two triangles, behind a header that looks like ascii.
+/// The two triangles of `square` in binary, behind a header that looks like ascii.
 std::string binarySquare() {
   std::string bytes = "solid square";
   bytes.resize(80, ' ');

@@ -102,7 +102,7 @@ TEST(LaplacianEstimation, ByPixelsIsTheCoresByTheImage) {
   const CloudOptions options{.structure = &whole};
   EXPECT_TRUE(sameBits(computed(estimation).L, pointCloudLaplacian(points, options).L));
 
-  // Of indices the pixels that they name.
+  // With indices, the structure holds the pixels that they name.
   std::vector<int> some;
   ScanStructure structure;
   Points chosen(64 * 48 / 2, 3);

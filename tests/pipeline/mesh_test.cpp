@@ -48,7 +48,7 @@ TEST_P(FlatSolid, HasOneLaplacianHoweverItsFacesAreTriangulated) {
 }
 
 TEST_P(FlatSolid, NeedsItsFlips) {
-  // The same pipeline without Algorithm 2 leaves large negative weights and another matrix.
+  // The pipeline without Algorithm 2 leaves large negative weights and another matrix.
   const shapes::Mesh bad = solid(shapes::Quality::bad);
   const int n = static_cast<int>(bad.points.rows());
   const Progress silent;

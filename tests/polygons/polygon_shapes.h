@@ -141,7 +141,7 @@ inline std::vector<PolygonKind> polygonKinds() {
   };
 }
 
-/// In the plane z = 0, turned there by an angle.
+/// The corners of a polygon in the plane z = 0, turned there by an angle.
 inline Points placed(const PlanarPolygon& corners, double angle) {
   Points points(corners.size(), 3);
   for (std::size_t i = 0; i < corners.size(); ++i) {

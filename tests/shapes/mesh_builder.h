@@ -23,9 +23,9 @@ class MeshBuilder {
   void grid(int columns, int rows, const std::function<int(int, int)>& vertex);
   /// Triangles between two rows of points that run the same way, the second one to the left of the first.
   void strip(const std::vector<int>& right, const std::vector<int>& left, Quality quality);
-  /// The same as quadrilaterals, and a triangle where the left row is shorter.
+  /// Quadrilaterals between two rows of points as in strip(), and a triangle where the left row is shorter.
   void stripPolygons(const std::vector<int>& right, const std::vector<int>& left);
-  /// Another mesh, moved.
+  /// Adds another mesh, moved by `offset`.
   void append(const Mesh& mesh, const Eigen::Vector3d& offset);
 
   /// Points, triangles and polygons; the caller fills in the truth.

@@ -12,7 +12,7 @@
 namespace tufted::shapes {
 
 inline constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-/// So many eigenvalues are listed where they are known.
+/// The number of eigenvalues that are listed where they are known.
 inline constexpr int known_eigenvalues = 100;
 
 struct Cloud {
@@ -104,14 +104,14 @@ VectorXd sphereDistances(const Points& points, int from);
 
 /// Isotropic Gaussian noise of standard deviation sigma; 0.01 is 1 % of the radius of the unit shapes.
 Cloud withNoise(Cloud cloud, double sigma, std::uint64_t seed = 1);
-/// Where points go that do not belong to the surface.
+/// Where outliers lie, points that do not belong to the surface.
 enum class Outliers {
   near,  ///< 2 to 6 spacings off the surface along its normal, on either side; a spacing is sqrt(area / points)
   far,   ///< anywhere in the surface's bounding box, enlarged by half about its centre; their normals are zero
 };
 /// Adds `share` times as many outliers as there are points, as last points.
 Cloud withOutliers(Cloud cloud, Outliers where, double share, std::uint64_t seed = 1);
-/// The same points in random order.
+/// The points of a cloud in random order.
 Cloud shuffled(Cloud cloud, std::uint64_t seed = 1);
 /// n points, uniform per area; labels are triangle indices.
 Cloud sampleMesh(const Mesh& mesh, int n, std::uint64_t seed = 1);

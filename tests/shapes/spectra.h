@@ -17,7 +17,7 @@ VectorXd cubeSpectrum(int count);
 /// `pages` rectangles, each `width` wide, that meet at one spine of length `height`: functions agree along the spine
 /// and their derivatives sum to 0 there. So one copy is free at the spine, pages - 1 copies vanish there.
 VectorXd bookSpectrum(int pages, double width, double height, int count);
-/// The same surface `copies` times, apart.
+/// The spectrum of `copies` separate surfaces, each with the given spectrum.
 VectorXd repeatedSpectrum(const VectorXd& spectrum, int copies);
 
 struct PoissonProblem {

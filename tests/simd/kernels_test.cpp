@@ -164,7 +164,7 @@ TEST(Kernels, FitHeightsOfEachAsIfItWereAlone) {
   }
 }
 
-/// By sorting: from 0 upwards, as long as the next height is at most `gap` away.
+/// Climbs from 0 upwards, by sorting, as long as the next height is at most `gap` away.
 double climb(std::vector<double> heights, double gap) {
   std::sort(heights.begin(), heights.end());
   double reached = 0;

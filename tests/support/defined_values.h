@@ -6,11 +6,11 @@
 
 #include "tufted/laplacian.h"
 
-// What every algorithm promises of points that coincide or take no part.
+// Checks of what every algorithm promises for points that coincide or take no part.
 
 namespace tufted::support {
 
-/// By itself or through its representative.
+/// Whether a point takes part, by itself or through its representative.
 inline bool takesPart(const Laplacian& laplacian, Eigen::Index i) {
   return laplacian.status[laplacian.representative[i]] == PointStatus::active;
 }

@@ -43,7 +43,7 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-/// Of distances, where the exact ones are finite; infinite where one of these has no finite distance.
+/// Errors of distances, where the exact distance is finite; infinite if one of these distances is not finite.
 struct Error {
   double mean = 0;      ///< mean |d - exact| over mean exact
   double greatest = 0;  ///< greatest |d - exact| over greatest exact

@@ -55,7 +55,7 @@ RankedCloud ranked(const Points& points) {
   return rankPoints(points, status, representative);
 }
 
-/// Frame after frame, each built on its own and in the memory of a builder by turns: `builder_frames_per_second` and
+/// Builds frame after frame, alternately on its own and in the memory of a builder: `builder_frames_per_second` and
 /// `builder_per_whole`.
 void runFrames(benchmark::State& state, const Points& points, const CloudOptions& options, Costs& costs) {
   constexpr int frames = 7;

@@ -14,7 +14,7 @@
 
 namespace tufted::bench {
 
-/// Seconds that this process has computed for, so that others on the machine count little. For one thread.
+/// Seconds for which this process has computed on one thread, so that others on the machine count little.
 class CpuStopwatch {
  public:
   double seconds() const { return static_cast<double>(std::clock() - start_) / CLOCKS_PER_SEC; }

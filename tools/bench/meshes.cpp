@@ -46,7 +46,7 @@ std::vector<int> randomOrder(Eigen::Index size) {
   return order;
 }
 
-/// The same mesh with vertices and triangles in random order: every access to memory misses the cache.
+/// A mesh with vertices and triangles in random order: every access to memory misses the cache.
 TriangleMesh shuffled(const TriangleMesh& mesh) {
   const std::vector<int> vertex = randomOrder(mesh.points.rows()), triangle = randomOrder(mesh.triangles.rows());
   TriangleMesh result{Points(mesh.points.rows(), 3), Triangles(mesh.triangles.rows(), 3)};

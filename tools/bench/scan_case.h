@@ -46,9 +46,9 @@ class Build {
   const Laplacian& laplacian() const { return laplacian_; }
   const Build& core() const { return core_ == nullptr ? *this : *core_; }
   double seconds() const { return seconds_; }
-  /// Of all up to the neighbours of each point, its plane not included.
+  /// Seconds of all steps up to the neighbours of each point, without its plane.
   double searchSeconds() const;
-  /// See unionOfStars(); found when first asked for.
+  /// The union of stars, see unionOfStars(); computed when first asked for.
   const Triangles& stars() const;
 
  private:

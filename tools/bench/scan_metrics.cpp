@@ -26,7 +26,7 @@ VectorXd withoutMean(const VectorXd& f, const VectorXd& M) {
   return f.array() - M.dot(f) / M.sum();
 }
 
-/// Where M is zero, nothing is asked and nothing counts.
+/// The error of poissonError(build) for any L and M. Points where M is zero do not count.
 double poissonError(const SparseMatrix& L, const VectorXd& M, const Points& points) {
   const auto x = points.col(0).array(), y = points.col(1).array(), z = points.col(2).array();
   constexpr double eigenvalue = 3 * 4;
@@ -100,9 +100,9 @@ Tags countTags(const Build& build) {
 /// Pixels of a depth image, by whether they are tagged and where they ought to be.
 struct ImageTags {
   int truth = 0;   ///< beside an edge of the kind
-  int found = 0;   ///< of these, tagged or beside a pixel that is
-  int tagged = 0;  ///< as of the kind
-  int right = 0;   ///< of these, at most two pixels from where the kind may be
+  int found = 0;   ///< pixels of `truth` that are tagged or beside a tagged pixel
+  int tagged = 0;  ///< tagged as of the kind
+  int right = 0;   ///< pixels of `tagged` at most two pixels from where the kind may be
 };
 
 /// @param edges where the kind has to be found

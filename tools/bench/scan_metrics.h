@@ -6,7 +6,8 @@ namespace tufted::bench {
 
 /// Mean relative error of the first `count` eigenvalues after the first zero, of L x = lambda M x with the product's M.
 double spectrumError(const Build& build, int count);
-/// The same of the cotan Laplacian of the convex hull of the sample's points.
+/// Mean relative error of the first `count` eigenvalues after the first zero, of the cotan Laplacian of the convex hull
+/// of the sample's points.
 double hullSpectrumError(const Sample& sample, int count);
 
 /// |u - f / 12| / |f / 12| in the norm of M, for L u = M f on the unit sphere with the spherical harmonic f = x y z of
@@ -39,16 +40,17 @@ double trianglesAcrossJumps(const Build& build);
 double boundaryRecall(const Build& build);     ///< share of rim points that are tagged
 double boundaryPrecision(const Build& build);  ///< share of tagged points that are rim points
 
-/// The same for one kind of tag in a depth image. A pixel beside an edge is found where it or one around it has the
-/// tag: between the steps of a slanted edge the surface's triangles go on. A tag is right up to two pixels from an
-/// edge.
+/// Share of the pixels beside an edge of a depth image that are found by one kind of tag. A pixel is found where it or
+/// one around it has the tag: between the steps of a slanted edge the surface's triangles go on.
 /// @param kind rim or jump
 double imageRecall(const Build& build, Boundary kind);
+/// Share of the tags of one kind in a depth image that are right: at most two pixels from an edge.
+/// @param kind rim or jump
 double imagePrecision(const Build& build, Boundary kind);
 
 /// Share of the points active in the core's build whose row of L is the same up to 1e-6 of its diagonal.
 double equalRows(const Build& build);
-/// The same where only the columns of a row's entries are compared.
+/// Share of the points active in the core's build whose row of L has the same columns.
 double equalColumns(const Build& build);
 
 /// Broken guarantees, lines of brokenGuarantees().

@@ -49,7 +49,7 @@ std::vector<Metric> roomMetrics(const LidarOptions& options) {
           {"wrong, across jumps", Format::percent, areaAcrossJumps, wrong, {}}};
 }
 
-/// What image neighbours are for, beside the core's search.
+/// The metrics that image neighbours are meant to improve, beside the core's search.
 std::vector<Metric> imageMetrics() {
   const auto time = [](const Build& build) { return build.seconds() / build.core().seconds(); };
   const auto search = [](const Build& build) { return build.searchSeconds() / build.core().searchSeconds(); };

@@ -14,7 +14,7 @@ using shapes::Sampling;
 using Rule = Mark::Rule;
 using Reference = Mark::Reference;
 
-/// As many eigenvalues as the marks were found with.
+/// Numbers of eigenvalues with which the marks were found.
 constexpr int few_eigenvalues = 29, scan_line_eigenvalues = 32, sphere_eigenvalues = 48, square_eigenvalues = 49;
 
 Metric spectrum(int count, Mark mark, Yardstick yardstick = {}) {
@@ -34,12 +34,12 @@ Mark atMost(double value, double stretch = shapes::unknown) {
   return {.rule = Rule::at_most, .value = value, .stretch = stretch};
 }
 
-/// At most so many times what the core has.
+/// The mark "at most `factor` times the core's figure".
 Mark timesCore(double factor) {
   return {.rule = Rule::at_most, .reference = Reference::core, .factor = factor};
 }
 
-/// Collects cases of a quarter of the points when quick.
+/// Collects cases, with a quarter of the points if quick.
 class ShapeCases {
  public:
   ShapeCases(bool is_quick, std::vector<Case>& cases) : is_quick_(is_quick), cases_(cases) {}

@@ -12,7 +12,7 @@ namespace tufted::bench {
 /// The figures of one metric, by seed.
 struct Figures {
   std::vector<double> values;
-  double seconds = 0;  ///< that measuring them took, without the builds
+  double seconds = 0;  ///< time to measure them, without the builds
 
   double mean() const;
   double low() const;
@@ -30,7 +30,7 @@ struct Row {
 
 enum class Verdict { unmarked, missed, held, stretched };
 
-/// Whether a variant holds the mark of a row, asked of variants the mark is not for, too.
+/// Whether a variant holds the mark of a row, also for variants that the mark is not meant for.
 Verdict judge(const Row& row, std::size_t variant);
 /// The mark in words, with the variant it is for; "" without one.
 std::string markText(const Row& row);
@@ -38,7 +38,7 @@ std::string markText(const Row& row);
 void printHeader();
 /// One line per variant and one for the yardstick.
 void printRow(const Row& row, const std::vector<Variant>& variants);
-/// Of every variant the marks meant for it; of the first one all marks.
+/// Prints for every variant the marks meant for it, and for the first variant all marks.
 void printSummary(const std::vector<Row>& rows, const std::vector<Variant>& variants);
 nlohmann::ordered_json asJson(const Row& row, const std::vector<Variant>& variants);
 

@@ -12,14 +12,14 @@
 #include "tufted/io/read.h"
 #include "tufted/laplacian.h"
 
-/// How a Laplacian is built, as the options of a command say.
+/// How a Laplacian is built, as the options of a command state it.
 struct Build {
-  bool normals = false;  ///< use those of the file
+  bool normals = false;  ///< whether to use the normals of the file
   tufted::Preset preset = tufted::Preset::scan;
   Structure structure = Structure::none;
-  std::optional<double> mollify;  ///< the default of clouds or of meshes
+  std::optional<double> mollify;  ///< if empty, the default of clouds or of meshes
 
-  /// What was used in the end; borrows from the members below and from the geometry.
+  /// The options that were used in the end; they borrow from the members below and from the geometry.
   tufted::CloudOptions cloud;
   tufted::MeshOptions mesh;
   std::optional<tufted::ScanStructure> scan;
@@ -31,7 +31,7 @@ struct Build {
 /// Adds --neighbors, --preset, --structure, --normals and --threads; they set `build`, which must outlive the command.
 void addBuildOptions(CLI::App& command, Build& build);
 
-/// Adds the rest of what is known of building: --gluing, --delaunay, --order, --seed, --mollify.
+/// Adds the other options of building: --gluing, --delaunay, --order, --seed, --mollify.
 void addRareBuildOptions(CLI::App& command, Build& build);
 
 /// Builds the Laplacian of what was read, with the options as `build` has them; fills in its members.
@@ -40,5 +40,5 @@ void addRareBuildOptions(CLI::App& command, Build& build);
 tufted::Laplacian buildLaplacian(const tufted::Geometry& geometry, const Input& input, Build& build, bool keep_cover,
                                  const tufted::Progress& progress);
 
-/// Says how many neighbours were used where the cloud has fewer than were asked for.
+/// Tells how many neighbours were used, if the cloud has fewer than were asked for.
 void addNeighbors(const tufted::Report& report, const Build& build, Summary& summary);

@@ -62,9 +62,9 @@ void check(Settings& settings, const Operator& source) {
     throw tufted::InvalidInput("no source is given, must be at least one by --source, --near, --sources or --face");
 }
 
-/// Refuses a time step in which heat spreads over everything, or next to nowhere. In a time t it goes as far as the
-/// root of t. Distances are 5 % too short where that is a sixth of an edge (--time-step 0.03), 13 % at a thirtieth, 20
-/// % at a thousandth, and in the end they say nothing.
+/// Refuses a time step in which heat spreads over everything, or hardly at all. In a time t it goes as far as the root
+/// of t. Distances are 5 % too short if that is a sixth of an edge (--time-step 0.03), 13 % at a thirtieth, 20 % at a
+/// thousandth, and finally they are meaningless.
 void checkTimeStep(double time_step, double time, const Operator& source) {
   constexpr double shortest = 0.01;  // of the spacing
   const Extent extent = extentOf(source);

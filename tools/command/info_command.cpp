@@ -75,7 +75,7 @@ Json describeFile(const Settings& settings, const tufted::Geometry& geometry) {
   return file;
 }
 
-/// What is the same for the points of a cloud and the vertices of a mesh.
+/// Lines that the points of a cloud and the vertices of a mesh have in common.
 void addExtent(const tufted::CloudDescription& points, Json& info) {
   info["lowest"] = array(points.lowest);
   info["highest"] = array(points.highest);
@@ -189,8 +189,7 @@ void print(const Json& info) {
   std::printf("%-15s %.2g s, %.0f MB\n", "to expect", real("expected_seconds"), real("expected_bytes") / 1e6);
 }
 
-/// Says why no point is active, as far as that can be told: clouds are built only where it may be so, which they are
-/// not otherwise.
+/// Explains why no point is active, if that is known. Clouds are built only if no point may be active.
 std::string findNothing(const Settings& settings, const tufted::Geometry& geometry,
                         const tufted::CloudDescription& cloud) {
   const std::int64_t usable = cloud.points - cloud.not_finite - cloud.coincident;

@@ -6,14 +6,14 @@
 
 #include "tufted/io/read.h"
 
-/// What a command reads, as its options say.
+/// The input of a command, as its options state it.
 struct Input {
   std::filesystem::path file;  ///< `-` is standard input; may be a pipe, as the shell makes them for <(command)
   tufted::ReadAs as = tufted::ReadAs::automatic;
   bool weld = false;
 
   bool isStandardInput() const { return file == "-"; }
-  /// As messages call it.
+  /// Name of the input in messages.
   std::string name() const { return isStandardInput() ? "standard input" : file.string(); }
 };
 

@@ -1,11 +1,11 @@
 #pragma once
 
-/// From here on the first Ctrl-C, SIGTERM or SIGHUP only sets a flag; a second of its kind ends the process. Those that
-/// are ignored stay so, as SIGHUP under nohup.
+/// From here on the first Ctrl-C, SIGTERM or SIGHUP only sets a flag; a second of its kind ends the process. Signals
+/// that are ignored stay ignored, such as SIGHUP under nohup.
 void catchInterrupt();
 
-/// From here on each of them ends the process again.
+/// From here on every Ctrl-C, SIGTERM and SIGHUP ends the process again.
 void releaseInterrupt();
 
-/// Whether one of them came.
+/// Whether Ctrl-C, SIGTERM or SIGHUP has been received.
 bool interrupted();

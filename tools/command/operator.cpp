@@ -25,7 +25,7 @@ const std::map<std::string, tufted::SolverMethod> methods = {{"automatic", tufte
                                                              {"cholesky", tufted::SolverMethod::cholesky},
                                                              {"multigrid", tufted::SolverMethod::multigrid}};
 
-/// CLI11's own takes -1 for the largest number.
+/// Reads a size in bytes; CLI11's own conversion takes -1 for the largest number.
 std::optional<std::size_t> parseBytes(const std::string& text) {
   static const std::map<std::string, double> units = {{"", 1},         {"B", 1},       {"kB", 1e3},     {"MB", 1e6},
                                                       {"GB", 1e9},     {"TB", 1e12},   {"KiB", 0x1p10}, {"MiB", 0x1p20},
@@ -53,8 +53,8 @@ void addSolvingOptions(CLI::App& command, Solving& solving) {
       ->type_name("SIZE");
 }
 
-/// The points that a former `tufted laplacian` wrote into its folder; none where it was told not to, whatever an
-/// earlier one left there.
+/// The points that a former `tufted laplacian` wrote into its folder. There are none if it was told not to write them,
+/// even if an earlier run left some there.
 tufted::Geometry pointsOf(const std::filesystem::path& folder, const tufted::Progress& progress) {
   std::ifstream report(folder / "report.json");
   const nlohmann::json json = nlohmann::json::parse(report, nullptr, false);
@@ -98,14 +98,14 @@ void write(const OperatorSettings& settings, const Operator& source, const Resul
     tufted::writeResults(settings.out, source.laplacian, source.geometry, results.arrays, options);
 }
 
-/// Why nothing can be computed, where that is known: no point is active. Otherwise an empty string.
+/// Why nothing can be computed, if no point is active; otherwise an empty string.
 std::string whyNothing(const Operator& source) {
   const bool is_built = !source.laplacian.status.empty() || source.points() == 0;
   return is_built ? nothingActive(source.laplacian) : "";
 }
 
-/// Takes a step of a command. What it refuses because no point is active is the data's fault and not the command
-/// line's, which is right for other files.
+/// Takes a step of a command. If it throws because no point is active, the data is at fault and not the command line,
+/// which is right for other files.
 template <class Step>
 auto blameData(const Operator& source, const Step& step) {
   try {

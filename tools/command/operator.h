@@ -18,7 +18,7 @@
 #include "tufted/solver.h"
 #include "tufted/spectrum.h"
 
-// What the commands that use a Laplacian have in common: where it comes from and where results go.
+// Options and steps that the commands which use a Laplacian have in common: its source, and where results go.
 
 /// How systems are solved.
 struct Solving {
@@ -26,18 +26,18 @@ struct Solving {
   std::size_t memory_limit = 0;  ///< bytes; 0: as the library chooses
 };
 
-/// The options of such a command.
+/// The options of a command that uses a Laplacian.
 struct OperatorSettings {
-  std::string command;           ///< its name
+  std::string command;           ///< name of the command
   Input input;                   ///< FILE; empty with --operator
-  std::filesystem::path folder;  ///< of --operator
+  std::filesystem::path folder;  ///< folder given by --operator
   std::filesystem::path out;
   Build build;
   Solving solving;
   std::vector<tufted::Format> copies = {tufted::Format::ply};
-  bool needs_cover = false;  ///< not only L and M
+  bool needs_cover = false;  ///< whether the command needs the cover, not only L and M
 
-  /// As messages call the source.
+  /// Name of the source in messages.
   std::string name() const { return folder.empty() ? input.name() : folder.string(); }
 };
 
@@ -46,7 +46,7 @@ void addOperatorOptions(CLI::App& command, OperatorSettings& settings);
 
 /// A Laplacian, and the points it belongs to.
 struct Operator {
-  std::string name;           ///< as messages call it
+  std::string name;           ///< name of the source in messages
   tufted::Geometry geometry;  ///< 0 points: a folder without points.ply and points.pcd
   tufted::Laplacian laplacian;
   Solving solving;
@@ -71,20 +71,20 @@ void checkCount(const char* option, int count, const Operator& source);
 tufted::Spectrum spectrumFor(const char* option, int count, const Operator& source,
                              const tufted::SpectrumOptions& options);
 
-/// What a command found.
+/// The results of a command.
 struct Results {
   std::vector<tufted::ResultArray> arrays;
   nlohmann::ordered_json report;  ///< members of report.json beside "tufted", "command" and "source"
   Summary summary;
-  std::vector<std::string> warnings = {};  ///< a line each
-  /// Writes them in place of writeResults.
+  std::vector<std::string> warnings = {};  ///< one line for each warning
+  /// Writes the results in place of writeResults, if set.
   std::function<void(const std::filesystem::path& dir, const tufted::ResultOptions& options)> write = {};
 };
 
-/// Refuses what can be refused before the Laplacian is built, which may take long: the points are there, and with
-/// --operator the whole of it.
+/// Checks options before the Laplacian is built, which may take long. The points are known by then, and with --operator
+/// the whole Laplacian.
 using Check = std::function<void(const Operator& source)>;
-/// May change the points, of which copies are written.
+/// Computes the results. It may change the points, of which copies are written.
 using Compute = std::function<Results(Operator& source)>;
 
 /// Loads the Laplacian, computes, writes the results and then the summary.

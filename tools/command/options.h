@@ -29,13 +29,14 @@ inline std::string numberText(double number) {
   return text.str();
 }
 
-/// The names in `values`, and the same in one word.
+/// The names in `values`.
 template <class T>
 std::vector<std::string> namesIn(const std::map<std::string, T>& values) {
   std::vector<std::string> names;
   for (const auto& [name, value] : values) names.push_back(name);
   return names;
 }
+/// The names in `values` in one word, separated by "|".
 template <class T>
 std::string choiceOf(const std::map<std::string, T>& values) {
   std::string all;
@@ -43,7 +44,7 @@ std::string choiceOf(const std::map<std::string, T>& values) {
   return all;
 }
 
-/// Why a word is none of the names in `values`; an empty string where it is one.
+/// The message for a word that is not one of the names in `values`; an empty string if it is one.
 template <class T>
 std::string refuseName(const std::string& word, const std::map<std::string, T>& values) {
   if (values.count(word) > 0) return "";

@@ -7,7 +7,7 @@
 
 namespace {
 
-/// Where, what, and how messages call it.
+/// A pin: its place, its values and its name in messages.
 struct Pin {
   std::vector<double> place, values;
   std::string name;

@@ -10,7 +10,7 @@
 #include "point_options.h"
 #include "tufted/interpolation.h"
 
-/// Pins as the user gives them.
+/// The pins as the user gives them.
 struct PinOptions {
   std::vector<std::string> pins;
   std::filesystem::path by_index, by_position;
@@ -26,9 +26,9 @@ struct PlacedPins {
   std::vector<Place> places;
   Eigen::MatrixXd values;
 
-  /// Says in `results` which points were nearest.
+  /// Notes in `results` which points were nearest.
   tufted::Pins locate(const Operator& source, Results& results) const;
 };
 
-/// @throws InvalidInput for no pin, pins that are none, or numbers of values that differ; IoError as readRows()
+/// @throws InvalidInput for no pin, pins that are not valid, or numbers of values that differ; IoError as readRows()
 PlacedPins placePins(const PinOptions& options, int points);

@@ -11,13 +11,13 @@
 /// Numbers separated by commas. @throws InvalidInput naming the option
 std::vector<double> parseNumbers(const std::string& text, const std::string& option);
 
-/// A line of a text file.
+/// Numbers in a line of a text file.
 struct Row {
   std::string name;  ///< "path: line 12", for messages
   std::vector<double> numbers;
 };
 
-/// Numbers with blanks or commas between them; lines without any and what follows a # are skipped.
+/// Reads lines of numbers with blanks or commas between them; empty lines and text after a # are skipped.
 /// @throws IoError for a file that cannot be read or other words
 std::vector<Row> readRows(const std::filesystem::path& path);
 
@@ -25,16 +25,18 @@ std::vector<Row> readRows(const std::filesystem::path& path);
 struct Place {
   int index = -1;                                      ///< -1: by position
   Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< finite
-  std::string name;                                    ///< of what gives it, for messages
+  std::string name;                                    ///< name of the option or line that gives it, for messages
 };
 
+/// The point that numbers name.
 /// @param numbers an index or x, y, z
-/// @param name of what gives them, for messages
+/// @param name of the option or line that gives them, for messages
 /// @throws InvalidInput unless it is an index of one of so many points, or a finite position
 Place placeOf(const std::vector<double>& numbers, int points, const std::string& name);
 
-/// The points themselves. Says in the summary and the report of `results` which are nearest to positions and how far
-/// away they are, and warns of those that are farther from the position than from all their neighbours.
+/// Finds the points that the user names. Notes in the summary and the report of `results` which are nearest to
+/// positions and how far away they are, and warns of those that are farther from the position than from all their
+/// neighbours.
 /// @throws InvalidInput for a position where the source has no points
 std::vector<int> locate(const std::vector<Place>& places, const Operator& source, Results& results);
 
@@ -43,7 +45,7 @@ struct NamedPoints {
   std::vector<std::string> indices, positions;
   std::filesystem::path file;
 
-  /// @returns all of them, those by index first
+  /// @returns all points, those by index first
   /// @throws as placeOf() and readRows()
   std::vector<Place> places(int points) const;
 };

@@ -5,8 +5,9 @@
 #include "tufted/solver.h"
 #include "tufted/spectrum.h"
 
-// Each puts what was done into report.json, as its member "report", and into the summary.
-
+/// Adds the report of a solve to report.json, as its member "report", and to the summary.
 void addReport(const tufted::SolveReport& report, Results& results);
+/// Adds the report of a spectrum to report.json, as its member "report", and to the summary.
 void addReport(const tufted::SpectrumReport& report, Results& results);
+/// Adds the report of distances to report.json, as its member "report", and to the summary.
 void addReport(const tufted::DistanceReport& report, const tufted::SolverReport& solver, Results& results);

@@ -14,12 +14,12 @@ namespace {
 using Eigen::MatrixXd;
 using tufted::Field;
 
-/// What readers take out of the fields: a column of the points or of the normals.
+/// Columns of the points and of the normals by the names of their fields, which readers take out of the others.
 const std::map<std::string, int> axes = {{"x", 0}, {"y", 1}, {"z", 2}};
 const std::map<std::string, int> normal_axes = {{"nx", 0},       {"ny", 1},       {"nz", 2},
                                                 {"normal_x", 0}, {"normal_y", 1}, {"normal_z", 2}};
 
-/// The red, green and blue that PCD packs into four bytes, which are no number.
+/// The red, green and blue of the points, which PCD packs into four bytes that are not a number.
 MatrixXd unpack(const Field& field, Eigen::Index n) {
   MatrixXd colors(n, 3);
   for (Eigen::Index i = 0; i < n; ++i) {
@@ -41,7 +41,7 @@ MatrixXd valuesOf(const Field& field, Eigen::Index n) {
   return values;
 }
 
-/// A field, or those that a field of several values is in PLY: NAME_0, NAME_1, ...
+/// A field, or the fields NAME_0, NAME_1, ... that PLY has for a field of several values.
 std::vector<MatrixXd> columnsOf(const std::string& name, const tufted::Geometry& geometry) {
   const Eigen::Index n = geometry.points.rows();
   if (const auto axis = axes.find(name); axis != axes.end()) return {geometry.points.col(axis->second)};

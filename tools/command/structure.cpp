@@ -19,15 +19,15 @@ const tufted::Field* fieldNamed(const tufted::Geometry& geometry, const char* na
   return field == geometry.fields.end() ? nullptr : &*field;
 }
 
-/// Negative where the value is no number of a ring.
+/// The number of a ring; negative if the value is not one.
 int ringAt(const tufted::Field& field, std::size_t i) {
   const double value = tufted::valueOf(field, i);
   return value >= 0 && value < (1 << 30) ? static_cast<int>(value) : -1;
 }
 
-/// In radians. No unit is written down; drivers use radians, degrees and hundredths of degrees, and the first of these
-/// whose turn holds all values is the one. A narrow sector may pass for a finer unit; its points keep their order
-/// around the axis, which is all that is asked of them, and so with any zero and sense of turning.
+/// Azimuths in radians. Files do not state the unit; drivers use radians, degrees and hundredths of degrees, and the
+/// first of these whose full turn covers all values is taken. A narrow sector may be taken for another unit; its points
+/// keep their order around the axis, which suffices, and so with any zero and sense of turning.
 std::vector<double> azimuthsOf(const tufted::Field& field, const tufted::Points& points, const std::string& name) {
   std::vector<double> azimuth(static_cast<std::size_t>(points.rows()));
   double largest = 0;
@@ -51,7 +51,7 @@ tufted::ScanStructure ringsOf(const tufted::Geometry& geometry, const std::strin
   const Eigen::Vector3d origin(pose[0], pose[1], pose[2]);
   Eigen::Quaterniond turn(pose[3], pose[4], pose[5], pose[6]);
   turn.coeffs() /= turn.coeffs().cwiseAbs().maxCoeff();  // the square of its length neither over- nor underflows
-  // In the scanner's frame, whose z axis it turns around.
+  // The scanner's frame, whose z axis it turns around.
   const tufted::Points seen = (geometry.points.rowwise() - origin.transpose()) * turn.normalized().toRotationMatrix();
   const auto byElevation = [&] {
     try {

@@ -7,7 +7,7 @@
 #include "tufted/io/read.h"
 #include "tufted/scan_structure.h"
 
-/// What finds the neighbours of a cloud, as --structure says.
+/// How the neighbours of a cloud are found, as --structure states it.
 enum class Structure { none, image, rings };
 
 /// The values of --structure.

@@ -29,7 +29,7 @@ std::size_t editDistance(const std::string& a, const std::string& b) {
   return row[b.size()];
 }
 
-/// How far a word is from a known one. What begins or goes on like it is as near as one mistake.
+/// How far a word is from a known one. A word that begins with the other one counts as one mistake.
 std::size_t distanceOf(const std::string& word, const std::string& known) {
   const std::size_t shorter = std::min(word.size(), known.size());
   const bool is_part = shorter > 2 && word.compare(0, shorter, known, 0, shorter) == 0;

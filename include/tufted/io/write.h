@@ -35,7 +35,7 @@ struct WriteOptions {
   bool dummy = false;
   std::string source = {};              ///< the file the points are from, recorded in report.json
   const CloudOptions* cloud = nullptr;  ///< the options of the build, recorded in report.json; borrowed
-  const MeshOptions* mesh = nullptr;    ///< the options of a mesh's build, likewise; borrowed
+  const MeshOptions* mesh = nullptr;    ///< the options of a mesh's build, recorded in report.json; borrowed
   Progress progress = {};               ///< called between files; returning false leaves no file
 };
 
