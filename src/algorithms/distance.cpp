@@ -145,12 +145,14 @@ DistanceSolver::DistanceSolver(const Laplacian& laplacian, const DistanceOptions
   if (unit > 0) state->time = options.time_step * unit;
 
   const Eigen::Index n = laplacian.L.rows();
-  VectorXd interior = VectorXd::Ones(n);
-  for (Eigen::Index i = 0; i < n && options.open_boundary; ++i) {
-    if (laplacian.boundary[i] != Boundary::none) interior[i] = 0;
+  VectorXd interior;
+  const auto isInner = [](Boundary boundary) { return boundary == Boundary::none; };
+  if (options.open_boundary && !std::all_of(laplacian.boundary.begin(), laplacian.boundary.end(), isInner)) {
+    interior.resize(n);
+    for (Eigen::Index i = 0; i < n; ++i) interior[i] = isInner(laplacian.boundary[i]) ? 1 : 0;
   }
   // All factors are held at once, and are about as large.
-  const int factors = n > 0 && interior.minCoeff() == 0 ? 3 : 2;
+  const int factors = interior.size() > 0 ? 3 : 2;
   SolverOptions one = options.solver;
   one.memory_limit = std::max<std::size_t>(memoryLimit(options.solver.memory_limit) / factors, 1);
   state->heat = makeHeatSystem(constructor, heatMatrix(laplacian, surface, state->time), std::move(interior), one);

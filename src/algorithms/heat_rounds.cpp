@@ -25,8 +25,8 @@ constexpr double heat_tolerance = 1e-12;
 /// A factor, or null where it takes more memory than the options allow.
 std::unique_ptr<const LinearSystem> factorise(const std::string& function, const SparseMatrix& matrix,
                                               const SolverOptions& options) {
-  auto system = std::make_unique<const LinearSystem>(
-      LinearSystem::positiveDefinite({.function = function, .matrix = "M + t L"}, matrix, options));
+  auto system = std::make_unique<const LinearSystem>(LinearSystem::positiveDefinite(
+      {.function = function, .matrix = "M + t L", .if_too_large = IfTooLarge::nothing}, matrix, options));
   if (system->report().iterative) return nullptr;
   return system;
 }
@@ -51,7 +51,7 @@ class RoundsByFactor : public HeatRounds {
     problem_.components.normalise(heat_);
     const HeatSystem& system = problem_.system;
     u_ = solve(*system.closed, heat_);
-    if (system.ends) u_ = (u_ + solve(*system.open, heat_.cwiseProduct(system.interior))) / 2;
+    if (system.ends()) u_ = (u_ + solve(*system.open, heat_.cwiseProduct(system.interior))) / 2;
     problem_.components.normalise(u_);
     log_heat_ = u_.array().max(0).log();  // -infinity where nothing is
     return true;
@@ -101,11 +101,10 @@ class RoundsByFactor : public HeatRounds {
 HeatSystem makeHeatSystem(const std::string& function, SparseMatrix matrix, VectorXd interior,
                           const SolverOptions& options) {
   HeatSystem system;
-  system.ends = interior.size() > 0 && interior.minCoeff() == 0;
   system.window = options;
   system.interior = std::move(interior);
   if (options.method != SolverMethod::multigrid) system.closed = factorise(function, matrix, options);
-  if (system.closed && system.ends) {
+  if (system.closed && system.ends()) {
     SparseMatrix inner = matrix;
     inner.prune(
         [&](Eigen::Index i, Eigen::Index j, double) { return system.interior[i] != 0 && system.interior[j] != 0; });

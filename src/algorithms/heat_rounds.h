@@ -16,13 +16,16 @@ struct HeatSystem {
   std::unique_ptr<const LinearSystem> closed;  ///< the factor; null: rounds are solved in windows
   std::unique_ptr<const LinearSystem> open;    ///< the factor without the points where the surface ends, if it does
   SparseMatrix matrix;                         ///< M / t + L where there is no factor, otherwise empty
-  VectorXd interior;                           ///< N; 0 where the surface ends, 1 elsewhere
-  bool ends = false;                           ///< whether `interior` has zeros; heat is then the mean of two solutions
+  VectorXd interior;                           ///< N, 0 where the surface ends and 1 elsewhere; size 0: it ends nowhere
   SolverOptions window;                        ///< how windows are solved
+
+  /// Whether the surface ends somewhere. Heat is then the mean of two solutions.
+  bool ends() const { return interior.size() > 0; }
 };
 
 /// @param function the public function to name in errors
 /// @param matrix M / t + L
+/// @param interior see HeatSystem
 /// @param options with the memory that one factor may take; multigrid asks for windows
 HeatSystem makeHeatSystem(const std::string& function, SparseMatrix matrix, VectorXd interior,
                           const SolverOptions& options);

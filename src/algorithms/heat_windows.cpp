@@ -130,7 +130,7 @@ void HeatWindows::solveSystem(bool open) {
   report_.iterations = std::max(report_.iterations, solved.iterations);
   report_.residual = greater(report_.residual, solved.residual);
   report_.backward_error = greater(report_.backward_error, solved.backward_error);
-  for (int k = 0; k < n; ++k) u_[points[k]] += (problem_.system.ends ? 0.5 : 1) * u[k];
+  for (int k = 0; k < n; ++k) u_[points[k]] += (problem_.system.ends() ? 0.5 : 1) * u[k];
 }
 
 /// Finds the window's heat, with a largest value of 1 per component.
@@ -139,7 +139,7 @@ VectorXd HeatWindows::solve() {
   u_.setZero();
   by_factor_ = true;
   solveSystem(false);
-  if (problem_.system.ends) solveSystem(true);
+  if (problem_.system.ends()) solveSystem(true);
   u_ = u_.cwiseMax(0);
   return problem_.components.normalise(u_);
 }

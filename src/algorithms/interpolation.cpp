@@ -112,8 +112,10 @@ Eigen::MatrixXd harmonic(const Laplacian& laplacian, const Pins& pins, const Sol
 Eigen::MatrixXd biharmonic(const Laplacian& laplacian, const Pins& pins, const SolverOptions& options,
                            SolveReport* report) {
   const Stopwatch watch;
-  const SystemNames names = {
-      .function = "biharmonic", .matrix = "L M^-1 L", .if_large = "take fewer points", .factor_only = true};
+  const SystemNames names = {.function = "biharmonic",
+                             .matrix = "L M^-1 L",
+                             .if_large = "take fewer points",
+                             .if_too_large = IfTooLarge::refuse};
   const PinnedSystem pinned = pinnedSystem(names.function, laplacian, pins);
   const auto points = static_cast<double>(std::max<std::size_t>(pinned.components.points.size(), 1));
   const double mean = laplacian.M.sum() / points;

@@ -49,7 +49,7 @@ void LinearSystem::prepare(const SolverOptions& options, const Workers& workers)
   report_.unknowns = lower_.rows();
   if (report_.unknowns == 0) return;
   const std::string& function = names_.function;
-  if (options.method == SolverMethod::multigrid && names_.factor_only)
+  if (options.method == SolverMethod::multigrid && names_.if_too_large == IfTooLarge::refuse)
     throw SolverFailure(function + ": multigrid is not fit for " + names_.matrix +
                         "; set method to SolverMethod::cholesky");
   bool fits = options.method == SolverMethod::cholesky;
@@ -60,12 +60,16 @@ void LinearSystem::prepare(const SolverOptions& options, const Workers& workers)
       Cholesky cholesky(lower_, limit);
       report_.factor_bytes = report_.bytes = cholesky.bytes();
       fits = fits || report_.factor_bytes <= limit;
-      if (!fits && names_.factor_only)
+      if (!fits && names_.if_too_large == IfTooLarge::refuse)
         throw SolverFailure(function + ": a factor of " + names_.matrix + " takes " + bytesText(report_.factor_bytes) +
                             ", above memory_limit (" + bytesText(limit) + "), and multigrid is not fit for it; raise " +
                             "memory_limit or set method to SolverMethod::cholesky");
       workers.report("factor", 0);
       if (fits) backend_ = cholesky.factor();
+    }
+    if (!fits && names_.if_too_large == IfTooLarge::nothing) {
+      report_.iterative = true;
+      return;
     }
     if (!fits) {
       backend_ = makeMultigrid(lower_, {options.tolerance, options.max_iterations}, workers);

@@ -13,6 +13,13 @@
 
 namespace tufted {
 
+/// How a system is solved whose factor takes more memory than it may.
+enum class IfTooLarge {
+  multigrid,  ///< by multigrid
+  refuse,     ///< not at all, with SolverFailure: multigrid is not fit for the matrix
+  nothing,    ///< not at all: report().iterative says so, and solve() must not be called
+};
+
 /// Names for a system's errors: the function that was called, and what its caller can change.
 struct SystemNames {
   std::string function;
@@ -20,7 +27,7 @@ struct SystemNames {
   std::string if_indefinite = "validate() names what is wrong with the Laplacian";
   std::string if_slow = "raise max_iterations or tolerance, or set method to SolverMethod::cholesky";
   std::string if_large = "set method to SolverMethod::multigrid";
-  bool factor_only = false;  ///< true if multigrid is not fit for the matrix
+  IfTooLarge if_too_large = IfTooLarge::multigrid;
 };
 
 /// Solves by a factor end with a backward error of at most this, or in SolverFailure.

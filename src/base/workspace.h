@@ -23,9 +23,8 @@ class Workspace {
   /// Gives the blocks that nobody uses back to the heap.
   void release();
 
-  /// As release(), but only if they are more than what was in use at one time since the last call. Frames of changing
-  /// size leave
-  /// blocks of sizes that none asks for again.
+  /// Gives the blocks that nobody uses back to the heap if they are more than what was in use at one time since the
+  /// last call. Builds of changing size leave blocks of sizes that none asks for again.
   void trim();
 
   /// Bytes taken from the heap, in use or not.

@@ -32,7 +32,7 @@ class StarAssembler {
         mass_[p] = mixed_[p] == 0 ? 2 * scale_ * metric_.area[p] : 0;  // front and back, 3 stars, a third
       }
     });
-    mixed_rows_ = summedRows(glued, mixed_, keep_cover, scale_, mass_, workers, report);
+    summed_rows_ = summedRows(glued, mixed_, keep_cover, scale_, mass_, workers, report);
   }
 
   double mass(int p) const { return mass_[p]; }
@@ -40,7 +40,7 @@ class StarAssembler {
   /// At least the number of edges of p.
   int mostInRow(int p) const {
     const int own = stars_.offset[p + 1] - stars_.offset[p];
-    return mixed_[p] == 0 ? own : own + mixed_rows_.offset[p + 1] - mixed_rows_.offset[p];
+    return mixed_[p] == 0 ? own : own + summed_rows_.offset[p + 1] - summed_rows_.offset[p];
   }
 
   /// Calls visit(q, weight) for every edge of p. Where both ends are unmixed, their stars have the same two triangles
@@ -57,8 +57,8 @@ class StarAssembler {
       }
     }
     if (!is_mixed) return;
-    for (int i = mixed_rows_.offset[p]; i < mixed_rows_.offset[p + 1]; ++i)
-      visit(mixed_rows_.entries[i].column, mixed_rows_.entries[i].weight);
+    for (int i = summed_rows_.offset[p]; i < summed_rows_.offset[p + 1]; ++i)
+      visit(summed_rows_.entries[i].column, summed_rows_.entries[i].weight);
   }
 
   /// The sum of all weights of p, the negative ones too.
@@ -77,7 +77,7 @@ class StarAssembler {
   const double scale_;
   Buffer<std::uint8_t> mixed_;  ///< n, 1 for points whose edges among each other are summed over faces
   RawBuffer<double> mass_;
-  Rows mixed_rows_;  ///< edges between mixed points, from both ends
+  Rows summed_rows_;  ///< edges between mixed points, from both ends
 };
 
 constexpr int ahead = 16;  // columns

@@ -15,10 +15,10 @@
 #include "stars/stars.h"
 #include "tufted/laplacian.h"
 
-// The entrance of this room. src/cover is the reference: Algorithms 1 to 3 of the paper on a whole cover. Here the same
-// L and M are made straight from the stars, which halves time and memory, because nearly all stars agree: around them
-// the cover is as the stars say, no edge flips, and weights can be read off. Only where stars disagree or edges flip do
-// parts of the cover exist. Whoever changes one of the two rooms must change the other: CloudBuild.* in
+// Read this file of the folder first. src/cover is the reference: Algorithms 1 to 3 of the paper on a whole cover. Here
+// the same L and M are made straight from the stars, which halves time and memory, because nearly all stars agree:
+// around them the cover is as the stars say, no edge flips, and weights can be read off. Only where stars disagree or
+// edges flip do parts of the cover exist. Whoever changes one of the two folders must change the other: CloudBuild.* in
 // tests/pipeline/cloud_build_test.cpp builds clouds both ways and compares L, M and the cover.
 namespace tufted {
 

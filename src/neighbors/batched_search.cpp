@@ -11,19 +11,19 @@
 namespace tufted {
 namespace {
 
-constexpr int least_group = 4, most_group = 32;
-constexpr double widest_group = 2.5;  // diagonal of its box, in radii of a neighbourhood
+constexpr int least_batch = 4, most_batch = 32;
+constexpr double widest_batch = 2.5;  // diagonal of its box, in radii of a neighbourhood
 constexpr double likely = 1.08;       // times the squared radius of the point before: holds the k nearest most often
-constexpr double first_around = 1.2;  // radii of a neighbourhood nearby: what is searched around a group to begin with
+constexpr double first_around = 1.2;  // radii of a neighbourhood nearby: what is searched around a batch to begin with
 constexpr double next_around = 1.6, last_around = 4;  // times as far, where that is not enough, and how far at most
 constexpr double spare_around = 1.05;                 // times what may hold more neighbours of one point
 constexpr double nowhere = std::numeric_limits<double>::infinity();
 
-/// Puts what was searched last to the candidates that are known, for this group.
-void keepSearched(SearchedBatch& group, BatchScratch& scratch) {
-  group.begin = scratch.known.size();
+/// Puts what was searched last to the candidates that are known, for this batch.
+void keepSearched(SearchedBatch& batch, BatchScratch& scratch) {
+  batch.begin = scratch.known.size();
   scratch.known.insert(scratch.known.end(), scratch.searched.begin(), scratch.searched.end());
-  group.end = scratch.known.size();
+  batch.end = scratch.known.size();
 }
 
 /// How far from `point` everything is in the ball.
@@ -31,15 +31,15 @@ double roomAround(const Eigen::RowVector3d& point, const SearchedBall& ball) {
   return ball.radius - (point - ball.center).norm();
 }
 
-/// The candidates of a group, from which its points take their neighbours.
-class GroupCandidates {
+/// The candidates of a batch, from which its points take their neighbours.
+class BatchCandidates {
  public:
-  GroupCandidates(const PointsView& points, const Kernels& kernels, BatchScratch& scratch)
+  BatchCandidates(const PointsView& points, const Kernels& kernels, BatchScratch& scratch)
       : points_(points), kernels_(kernels), scratch_(scratch) {}
 
-  void gather(const SearchedBatch& group) {
-    const auto ranks = std::span<const int>(scratch_.known).subspan(group.begin, group.end - group.begin);
-    scratch_.gathered = group.first;
+  void gather(const SearchedBatch& batch) {
+    const auto ranks = std::span<const int>(scratch_.known).subspan(batch.begin, batch.end - batch.begin);
+    scratch_.gathered = batch.first;
     const int size = static_cast<int>(ranks.size()), room = toPackets(size);
     scratch_.candidate.resize(room);
     for (auto* axis : {&scratch_.x, &scratch_.y, &scratch_.z}) axis->resize(room);
@@ -111,39 +111,39 @@ class GroupCandidates {
   BatchScratch& scratch_;
 };
 
-class GroupSearch {
+class BatchSearch {
  public:
-  GroupSearch(const NeighborSearch& search, const PointsView& points, int k, const Kernels& kernels,
+  BatchSearch(const NeighborSearch& search, const PointsView& points, int k, const Kernels& kernels,
               BatchScratch& scratch)
       : search_(search), points_(points), k_(k), candidates_(points, kernels, scratch), scratch_(scratch) {
-    scratch_.groups.clear();
+    scratch_.batches.clear();
     scratch_.known.clear();
   }
 
   /// How many points from `first` on, of `count`, lie close enough together.
-  int groupAt(int first, int count, double radius) const {
+  int batchAt(int first, int count, double radius) const {
     Eigen::RowVector3d lowest = points_.row(first), highest = lowest;
     int size = 1;
-    for (; size < std::min(count, most_group); ++size) {
+    for (; size < std::min(count, most_batch); ++size) {
       lowest = lowest.cwiseMin(points_.row(first + size));
       highest = highest.cwiseMax(points_.row(first + size));
-      if (size >= least_group && (highest - lowest).norm() > widest_group * radius) break;
+      if (size >= least_batch && (highest - lowest).norm() > widest_batch * radius) break;
     }
     return size;
   }
 
-  /// Looks a little farther around the group than the radius of a neighbourhood nearby, where nearly always all are.
+  /// Looks a little farther around the batch than the radius of a neighbourhood nearby, where nearly always all are.
   void find(int first, int count, double radius, Neighbor* found) {
     int done = 0;
     if (count > 1 && radius < nowhere) {
       for (double around = first_around; around < last_around; around *= next_around) {
-        SearchedBatch group{first, count, {}, 0, 0};
-        if (!search_.candidatesWithin(first, count, around * radius, scratch_.searched, group.ball)) break;
-        keep(group);
-        while (done < count && selectKnown(first, done, group.ball, radius, found)) ++done;
+        SearchedBatch batch{first, count, {}, 0, 0};
+        if (!search_.candidatesWithin(first, count, around * radius, scratch_.searched, batch.ball)) break;
+        keep(batch);
+        while (done < count && selectKnown(first, done, batch.ball, radius, found)) ++done;
         if (done == count) return;
-        scratch_.known.resize(group.begin);
-        scratch_.groups.pop_back();
+        scratch_.known.resize(batch.begin);
+        scratch_.batches.pop_back();
       }
     }
     findSurely(first, done, count, found);
@@ -153,29 +153,30 @@ class GroupSearch {
   double radiusOf(const Neighbor* row) const { return std::sqrt(row[k_ - 1].squared_distance); }
 
  private:
-  /// Those of the group from `done` on, as far away as they are.
+  /// Finds the neighbours of the points of the batch from `done` on, however far away they are.
   void findSurely(int first, int done, int count, Neighbor* found) {
-    SearchedBatch group{first, count, {}, 0, 0};
+    SearchedBatch batch{first, count, {}, 0, 0};
     if (count == 1) {
       search_.nearest(first, k_, scratch_.sorted);
       std::copy(scratch_.sorted.begin(), scratch_.sorted.end(), found);
-    } else if (!search_.candidates(first, count, k_, scratch_.searched, scratch_.bounds, group.ball)) {
+    } else if (!search_.candidates(first, count, k_, scratch_.searched, scratch_.bounds, batch.ball)) {
       findSurely(first, 0, count / 2, found);
       findSurely(first + count / 2, 0, count - count / 2, rowOf(found, count / 2));
     } else {
-      keep(group);
-      for (int i = done; i < count; ++i) select(first, i, group.ball, found);
+      keep(batch);
+      for (int i = done; i < count; ++i) select(first, i, batch.ball, found);
     }
   }
 
-  /// Makes what was searched last the candidates of the group.
-  void keep(SearchedBatch& group) {
-    keepSearched(group, scratch_);
-    scratch_.groups.push_back(group);
-    candidates_.gather(group);
+  /// Makes what was searched last the candidates of the batch.
+  void keep(SearchedBatch& batch) {
+    keepSearched(batch, scratch_);
+    scratch_.batches.push_back(batch);
+    candidates_.gather(batch);
   }
 
-  /// As select(), but returns false where the candidates are too few to be sure.
+  /// Finds the k nearest of point i of the batch among its candidates. Returns false where these are too few to be
+  /// sure.
   bool selectKnown(int first, int i, const SearchedBall& ball, double radius, Neighbor* found) {
     const double before = i > 0 ? radiusOf(rowOf(found, i - 1)) : radius;
     const int count = candidates_.takeKnown(first + i, k_, likely * before * before, ball);
@@ -183,7 +184,7 @@ class GroupSearch {
     return count > 0;
   }
 
-  /// The k nearest of point i of the group, whose earlier points are done.
+  /// The k nearest of point i of the batch, whose earlier points are done.
   void select(int first, int i, const SearchedBall& ball, Neighbor* found) {
     const int p = first + i;
     // By the neighbours of the centre or, most often nearer, by those of the point before.
@@ -204,7 +205,7 @@ class GroupSearch {
   const NeighborSearch& search_;
   PointsView points_;
   const int k_;
-  GroupCandidates candidates_;
+  BatchCandidates candidates_;
   BatchScratch& scratch_;
 };
 
@@ -215,13 +216,13 @@ void nearestOfEach(const NeighborSearch& search, const PointsView& points, int f
   k = std::max(0, std::min(k, static_cast<int>(points.rows()) - 1));
   if (k == 0) return found.clear();
   found.resize(static_cast<std::size_t>(count) * static_cast<std::size_t>(k) + NeighborSearch::most_candidates);
-  GroupSearch search_group(search, points, k, kernels, scratch);
+  BatchSearch search_batch(search, points, k, kernels, scratch);
   double radius = nowhere;
   for (int i = 0; i < count;) {
-    Neighbor* rows = search_group.rowOf(found.data(), i);
-    const int size = search_group.groupAt(first + i, count - i, radius);
-    search_group.find(first + i, size, radius, rows);
-    radius = search_group.radiusOf(search_group.rowOf(rows, size - 1));
+    Neighbor* rows = search_batch.rowOf(found.data(), i);
+    const int size = search_batch.batchAt(first + i, count - i, radius);
+    search_batch.find(first + i, size, radius, rows);
+    radius = search_batch.radiusOf(search_batch.rowOf(rows, size - 1));
     i += size;
   }
   found.resize(found.size() - NeighborSearch::most_candidates);
@@ -229,22 +230,22 @@ void nearestOfEach(const NeighborSearch& search, const PointsView& points, int f
 
 bool nearestOfKnown(const NeighborSearch& search, const PointsView& points, int p, int k, double likely,
                     const Kernels& kernels, BatchScratch& scratch, Buffer<Neighbor>& found) {
-  const auto after = std::partition_point(scratch.groups.begin(), scratch.groups.end(),
-                                          [p](const SearchedBatch& group) { return group.first <= p; });
-  if (after == scratch.groups.begin()) return false;
-  SearchedBatch& group = *(after - 1);
-  if (p >= group.first + group.count) return false;
-  GroupCandidates candidates(points, kernels, scratch);
-  if (scratch.gathered != group.first) candidates.gather(group);
-  int count = candidates.takeKnown(p, k, likely, group.ball);
+  const auto after = std::partition_point(scratch.batches.begin(), scratch.batches.end(),
+                                          [p](const SearchedBatch& batch) { return batch.first <= p; });
+  if (after == scratch.batches.begin()) return false;
+  SearchedBatch& batch = *(after - 1);
+  if (p >= batch.first + batch.count) return false;
+  BatchCandidates candidates(points, kernels, scratch);
+  if (scratch.gathered != batch.first) candidates.gather(batch);
+  int count = candidates.takeKnown(p, k, likely, batch.ball);
   if (count == 0) {
     const double radius = std::sqrt(likely);
     SearchedBall ball;
-    if (roomAround(points.row(p), group.ball) > radius) return false;
-    if (!search.candidatesWithin(group.first, group.count, spare_around * radius, scratch.searched, ball)) return false;
-    group.ball = ball;
-    keepSearched(group, scratch);
-    candidates.gather(group);
+    if (roomAround(points.row(p), batch.ball) > radius) return false;
+    if (!search.candidatesWithin(batch.first, batch.count, spare_around * radius, scratch.searched, ball)) return false;
+    batch.ball = ball;
+    keepSearched(batch, scratch);
+    candidates.gather(batch);
     count = candidates.takeKnown(p, k, likely, ball);
   }
   if (count == 0) return false;

@@ -15,17 +15,17 @@ struct SearchedBatch {
   std::size_t begin, end;  ///< of its candidates in BatchScratch::known
 };
 
-/// Memory that one worker reuses from group to group, and the groups of its last call of nearestOfEach().
+/// Memory that one worker reuses from batch to batch, and the batches of its last call of nearestOfEach().
 struct BatchScratch {
-  Buffer<SearchedBatch> groups;  ///< in the order of their points
-  Buffer<int> known;             ///< ranks of the candidates of each
-  Buffer<int> searched;          ///< those of the last search, of use or not
-  int gathered = -1;             ///< the first point of the group whose candidates stand below
-  Buffer<int> candidate;         ///< ranks of those of one group, filled up to whole packets
-  Buffer<double> x, y, z;        ///< where they are
-  Buffer<double> bounds;         ///< see NeighborSearch::candidates
-  Buffer<double> squared;        ///< squared distances of those near one point
-  Buffer<int> index;             ///< their ranks
+  Buffer<SearchedBatch> batches;  ///< in the order of their points
+  Buffer<int> known;              ///< ranks of the candidates of each
+  Buffer<int> searched;           ///< those of the last search, of use or not
+  int gathered = -1;              ///< the first point of the batch whose candidates stand below
+  Buffer<int> candidate;          ///< ranks of those of one batch, filled up to whole packets
+  Buffer<double> x, y, z;         ///< where they are
+  Buffer<double> bounds;          ///< see NeighborSearch::candidates
+  Buffer<double> squared;         ///< squared distances of those near one point
+  Buffer<int> index;              ///< their ranks
   Buffer<float> rounded;
   Buffer<int> place, taken;
   Buffer<Neighbor> sorted;
@@ -41,8 +41,8 @@ struct BatchScratch {
 void nearestOfEach(const NeighborSearch& search, const PointsView& points, int first, int count, int k,
                    const Kernels& kernels, BatchScratch& scratch, Buffer<Neighbor>& found);
 
-/// The k nearest of p, one of the points that nearestOfEach() was called for last, among the candidates of its group;
-/// these become more where that helps, for others of the group as well. False, and nothing of use, where it does not.
+/// The k nearest of p, one of the points that nearestOfEach() was called for last, among the candidates of its batch;
+/// these become more where that helps, for others of the batch as well. False, and nothing of use, where it does not.
 /// @param k less than n
 /// @param likely a squared distance that there are most often k points within, and few more
 /// @param found as by NeighborSearch::nearest

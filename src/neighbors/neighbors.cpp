@@ -1,7 +1,6 @@
 #include "neighbors/neighbors.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 

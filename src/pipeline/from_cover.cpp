@@ -9,11 +9,11 @@
 
 namespace tufted {
 
-void finishFromCover(std::shared_ptr<IntrinsicTriangulation> cover, const CoverVertices& vertices, double mollify,
+void finishFromCover(std::shared_ptr<IntrinsicTriangulation> cover, const CoverVertices& vertices, double delta,
                      bool keep_cover, const Workers& workers, StageClock& clock, Laplacian& result) {
   const double scale = faceScale(result.kind);
   BuildFigures figures{.mean = measureLengths(*cover, vertices.points, vertices.displacement, workers)};
-  const Mollification mollified = tufted::mollify(*cover, mollify * figures.mean.length, workers);
+  const Mollification mollified = mollify(*cover, delta * figures.mean.length, workers);
   figures.mollify_length = mollified.length;
   figures.mollify_area = scale * mollified.area;
   figures.triangles = cover->size() / 2;

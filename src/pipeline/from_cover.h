@@ -21,9 +21,9 @@ struct CoverVertices {
 
 /// Algorithm 3 of the paper from the glued cover on: lengths, mollification (Section 4.5), flips (Algorithm 2), L and
 /// M.
-/// @param mollify delta of Section 4.5 in mean edge lengths
+/// @param delta of Section 4.5, in mean edge lengths
 /// @param keep_cover whether the result keeps the cover, in the caller's numbering and unit
-void finishFromCover(std::shared_ptr<IntrinsicTriangulation> cover, const CoverVertices& vertices, double mollify,
+void finishFromCover(std::shared_ptr<IntrinsicTriangulation> cover, const CoverVertices& vertices, double delta,
                      bool keep_cover, const Workers& workers, StageClock& clock, Laplacian& result);
 
 }  // namespace tufted

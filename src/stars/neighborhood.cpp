@@ -97,7 +97,7 @@ bool NeighborhoodFinder::query(int p, int k, Neighborhood& neighborhood, OffsetB
   if (source_.isFixed() || k <= neighborhood.k) return false;
   const double likely = more_likely * k / neighborhood.k * neighborhood.radius * neighborhood.radius;
   if (source_.search != nullptr &&
-      nearestOfKnown(*source_.search, points_, p, k, likely, kernels(), scratch.group, neighborhood.neighbors)) {
+      nearestOfKnown(*source_.search, points_, p, k, likely, kernels(), scratch.batch, neighborhood.neighbors)) {
     const double radius = std::sqrt(neighborhood.neighbors.back().squared_distance);
     scratch.before = {p, k, radius};
     take(k, {radius, 0}, neighborhood);
@@ -116,7 +116,7 @@ void NeighborhoodFinder::take(int k, const ScanSearch::Searched& searched, Neigh
 }
 
 void NeighborhoodFinder::find(int first, int count, NeighborhoodScratch& scratch, Neighborhood* neighborhoods) const {
-  if (source_.search != nullptr) source_.nearestOfEach(points_, first, count, scratch.group, scratch.found);
+  if (source_.search != nullptr) source_.nearestOfEach(points_, first, count, scratch.batch, scratch.found);
   for (int i = 0; i < count; ++i) {
     Neighborhood& neighborhood = neighborhoods[i];
     neighborhood.grown = neighborhood.split = neighborhood.restored = neighborhood.isolated = false;

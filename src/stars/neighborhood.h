@@ -33,7 +33,7 @@ struct Neighborhood {
 
 /// Memory that one worker reuses from point to point.
 struct NeighborhoodScratch {
-  BatchScratch group;
+  BatchScratch batch;
   Buffer<Neighbor> found;
   OffsetBuffer offsets_of_all;
   Buffer<double> heights;

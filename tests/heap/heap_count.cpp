@@ -27,9 +27,9 @@ bool isForeign(const void* address) {
 
 /// Whether a library is asking, by the functions that are being run.
 bool isAskedByLibrary() {
-  std::array<void*, 64> caller;
-  const int count = backtrace(caller.data(), static_cast<int>(caller.size()));
-  return std::any_of(caller.begin(), caller.begin() + count, isForeign);
+  std::array<void*, 64> frames;
+  const int count = backtrace(frames.data(), static_cast<int>(frames.size()));
+  return std::any_of(frames.begin(), frames.begin() + count, isForeign);
 }
 
 void count() {

@@ -186,7 +186,7 @@ TEST(Neighbors, OfKnownCandidatesOutliveASearchThatFailed) {
   Buffer<Neighbor> each, known, expected;
   const int n = static_cast<int>(lattice.rows());
   nearestOfEach(search, points, 0, n + 32, 8, kernels(), scratch, each);
-  ASSERT_LT(scratch.groups.back().first, n);
+  ASSERT_LT(scratch.batches.back().first, n);
   int found = 0;
   for (int p = n - 1; p >= 0; --p) {
     if (!nearestOfKnown(search, points, p, 12, 1e9, kernels(), scratch, known)) continue;
