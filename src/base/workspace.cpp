@@ -1,9 +1,11 @@
 #include "base/workspace.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
-#include <cstdint>
+#include <cstddef>
+#include <limits>
+#include <map>
+#include <memory>
 #include <mutex>
 #include <new>
 #include <utility>
@@ -11,68 +13,53 @@
 namespace tufted {
 namespace {
 
-constexpr int steps = 4;  // classes of sizes per power of two
-constexpr int least_exponent = 6;
-constexpr int classes = steps * (48 - least_exponent);
-
 thread_local Workspace* current_workspace = nullptr;
 
-/// The bytes that blocks of a class hold; in the least class 2^least_exponent.
-std::size_t sizeOf(int size_class) {
-  const int exponent = least_exponent + size_class / steps;
-  return (std::size_t{1} << exponent) / steps * static_cast<std::size_t>(steps + size_class % steps);
-}
-
-/// The least class whose blocks hold so many bytes.
-int classOf(std::size_t bytes) {
-  if (bytes <= sizeOf(0)) return 0;
-  const int exponent = std::bit_width(bytes - 1) - 1;
-  const std::size_t step = (std::size_t{1} << exponent) / steps;
-  const auto above = static_cast<int>((bytes - (std::size_t{1} << exponent) + step - 1) / step);
-  return steps * (exponent - least_exponent) + above;
-}
-
-using Owner = Workspace::Store*;
-
-/// Stands in front of every block of a workspace. Blocks of the heap have a null owner alone in front: with one word in
-/// front malloc gives an array of n numbers the room that it gives Eigen's, so that each fits where the other was.
-struct Header {
-  std::int64_t size_class;
-  Owner owner;
+/// Stands in front of every block, whose bytes follow.
+struct alignas(std::max_align_t) Header {
+  std::shared_ptr<Workspace::Store> owner;  ///< null: the heap
+  std::size_t bytes;                        ///< of the block, without the header
+  Header* next;                             ///< the next of its size that waits
 };
+
+Header* fromHeap(std::size_t bytes, std::shared_ptr<Workspace::Store> owner) {
+  if (bytes > std::numeric_limits<std::size_t>::max() - sizeof(Header)) throw std::bad_alloc();
+  return new (::operator new(sizeof(Header) + bytes)) Header{std::move(owner), bytes, nullptr};
+}
+
+void toHeap(Header* header) {
+  header->~Header();
+  ::operator delete(header);
+}
+
+/// Sizes within a quarter of a power of two are one, so that the next build, which needs about as much, finds blocks.
+std::size_t roundedUp(std::size_t bytes) {
+  const std::size_t step = std::max<std::size_t>(64, std::bit_floor(bytes) / 4);
+  return (bytes + step - 1) / step * step;
+}
 
 }  // namespace
 
-/// Lists of blocks that wait, by class. Lives as long as the workspace or any block of it.
-class Workspace::Store {
+/// The blocks that wait, by their bytes. Lives as long as the workspace or any block of it.
+class Workspace::Store : public std::enable_shared_from_this<Store> {
  public:
   Header* take(std::size_t bytes) {
-    const int size_class = classOf(bytes);
+    bytes = roundedUp(bytes);
     const std::lock_guard lock(mutex_);
-    if (Waiting* const block = waiting_[size_class]; block != nullptr) {
-      waiting_[size_class] = block->next;
-      use(size_class);
-      return &block->header;
-    }
-    auto* const header = new (fromHeap(sizeof(Header) + sizeOf(size_class))) Header{size_class, this};
-    bytes_ += sizeOf(size_class);
-    use(size_class);
-    return header;
+    Header*& waiting = waiting_[bytes];
+    Header* const block = waiting != nullptr ? std::exchange(waiting, waiting->next) : make(bytes);
+    bytes_in_use_ += bytes;
+    most_bytes_in_use_ = std::max(most_bytes_in_use_, bytes_in_use_);
+    return block;
   }
 
-  void give(Header* header) {
-    bool is_last = false;
-    {
-      const std::lock_guard lock(mutex_);
-      const auto size_class = static_cast<std::size_t>(header->size_class);
-      auto* const block = reinterpret_cast<Waiting*>(header);
-      block->next = std::exchange(waiting_[size_class], block);
-      --in_use_;
-      bytes_in_use_ -= sizeOf(static_cast<int>(size_class));
-      if (is_abandoned_) releaseWaiting();
-      is_last = is_abandoned_ && in_use_ == 0;
-    }
-    if (is_last) delete this;
+  void give(Header* block) {
+    const std::shared_ptr<Store> last = block->owner;  // until the lock is free again
+    const std::lock_guard lock(mutex_);
+    bytes_in_use_ -= block->bytes;
+    Header*& waiting = waiting_.find(block->bytes)->second;
+    block->next = std::exchange(waiting, block);
+    if (is_abandoned_) releaseWaiting();
   }
 
   void release() {
@@ -86,14 +73,9 @@ class Workspace::Store {
   }
 
   void abandon() {
-    bool is_last = false;
-    {
-      const std::lock_guard lock(mutex_);
-      releaseWaiting();
-      is_abandoned_ = true;
-      is_last = in_use_ == 0;
-    }
-    if (is_last) delete this;
+    const std::lock_guard lock(mutex_);
+    releaseWaiting();
+    is_abandoned_ = true;
   }
 
   std::size_t bytes() const {
@@ -102,43 +84,35 @@ class Workspace::Store {
   }
 
  private:
-  struct Waiting {
-    Header header;
-    Waiting* next;  ///< where the block's content was
-  };
-
-  void use(int size_class) {
-    ++in_use_;
-    bytes_in_use_ += sizeOf(size_class);
-    most_bytes_in_use_ = std::max(most_bytes_in_use_, bytes_in_use_);
-  }
-
-  /// Before there is no memory left, what waits for others is given back.
-  void* fromHeap(std::size_t bytes) {
-    void* const memory = ::operator new(bytes, std::nothrow);
-    if (memory != nullptr) return memory;
-    releaseWaiting();
-    return ::operator new(bytes);
+  /// Before there is no memory left, what waits for requests of other sizes is given back.
+  Header* make(std::size_t bytes) {
+    Header* block = nullptr;
+    try {
+      block = fromHeap(bytes, shared_from_this());
+    } catch (const std::bad_alloc&) {
+      releaseWaiting();
+      block = fromHeap(bytes, shared_from_this());
+    }
+    bytes_ += bytes;
+    return block;
   }
 
   void releaseWaiting() {
-    for (int c = 0; c < std::ssize(waiting_); ++c) {
-      while (waiting_[c] != nullptr) {
-        Waiting* const block = std::exchange(waiting_[c], waiting_[c]->next);
-        bytes_ -= sizeOf(c);
-        ::operator delete(block);
+    for (auto& [bytes, waiting] : waiting_) {
+      while (waiting != nullptr) {
+        toHeap(std::exchange(waiting, waiting->next));
+        bytes_ -= bytes;
       }
     }
   }
 
   mutable std::mutex mutex_;
-  std::array<Waiting*, classes> waiting_ = {};
+  std::map<std::size_t, Header*> waiting_;
   std::size_t bytes_ = 0, bytes_in_use_ = 0, most_bytes_in_use_ = 0;
-  std::int64_t in_use_ = 0;  ///< blocks
   bool is_abandoned_ = false;
 };
 
-Workspace::Workspace() : store_(new Store) {}
+Workspace::Workspace() : store_(std::make_shared<Store>()) {}
 
 Workspace::~Workspace() {
   store_->abandon();
@@ -168,19 +142,18 @@ Workspace::Scope::~Scope() {
 
 void* takeBlock(std::size_t bytes) {
   Workspace* const workspace = current_workspace;
-  // What is larger than any class is no request that could succeed, and the heap says so.
-  const bool is_huge = bytes > sizeOf(classes - 1);
-  if (workspace != nullptr && !is_huge) return workspace->store_->take(bytes) + 1;
-  return new (::operator new(sizeof(Owner) + bytes)) Owner(nullptr) + 1;
+  // What could not be rounded up is no request that could succeed, and the heap says so.
+  const bool is_huge = bytes > std::numeric_limits<std::size_t>::max() / 2;
+  return (workspace != nullptr && !is_huge ? workspace->store_->take(bytes) : fromHeap(bytes, nullptr)) + 1;
 }
 
 void giveBlock(void* memory) noexcept {
   if (memory == nullptr) return;
-  Owner* const owner = static_cast<Owner*>(memory) - 1;
-  if (*owner == nullptr)
-    ::operator delete(owner);
+  Header* const block = static_cast<Header*>(memory) - 1;
+  if (block->owner == nullptr)
+    toHeap(block);
   else
-    (*owner)->give(static_cast<Header*>(memory) - 1);
+    block->owner->give(block);
 }
 
 }  // namespace tufted

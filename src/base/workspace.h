@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <memory>
 
 namespace tufted {
 
@@ -50,7 +51,7 @@ class Workspace {
 
  private:
   friend void* takeBlock(std::size_t bytes);
-  Store* const store_;
+  const std::shared_ptr<Store> store_;
 };
 
 /// Memory from the current workspace, or else from the heap; aligned for pointers. Any thread may give it back.
