@@ -46,35 +46,33 @@ class Workspace::Store : public std::enable_shared_from_this<Store> {
   Header* take(std::size_t bytes) {
     bytes = roundedUp(bytes);
     const std::lock_guard lock(mutex_);
-    Header*& waiting = waiting_[bytes];
-    Header* const block = waiting != nullptr ? std::exchange(waiting, waiting->next) : make(bytes);
-    bytes_in_use_ += bytes;
-    most_bytes_in_use_ = std::max(most_bytes_in_use_, bytes_in_use_);
-    return block;
+    Waiting& waiting = waiting_[bytes];
+    return waiting.first != nullptr ? waiting.take() : make(bytes);
   }
 
   void give(Header* block) {
     const std::shared_ptr<Store> last = block->owner;  // until the lock is free again
     const std::lock_guard lock(mutex_);
-    bytes_in_use_ -= block->bytes;
-    Header*& waiting = waiting_.find(block->bytes)->second;
-    block->next = std::exchange(waiting, block);
-    if (is_abandoned_) releaseWaiting();
+    waiting_.find(block->bytes)->second.give(block);
+    if (is_abandoned_) releaseAll();
   }
 
   void release() {
     const std::lock_guard lock(mutex_);
-    releaseWaiting();
+    releaseAll();
   }
 
   void trim() {
     const std::lock_guard lock(mutex_);
-    if (bytes_ > 2 * std::exchange(most_bytes_in_use_, bytes_in_use_)) releaseWaiting();
+    for (auto& [bytes, waiting] : waiting_) {
+      release(waiting, waiting.least);
+      waiting.least = waiting.count;
+    }
   }
 
   void abandon() {
     const std::lock_guard lock(mutex_);
-    releaseWaiting();
+    releaseAll();
     is_abandoned_ = true;
   }
 
@@ -84,31 +82,48 @@ class Workspace::Store : public std::enable_shared_from_this<Store> {
   }
 
  private:
+  /// Blocks of one size.
+  struct Waiting {
+    Header* first = nullptr;
+    std::size_t count = 0, least = 0;  ///< now, and at any time since the last trim
+
+    Header* take() {
+      least = std::min(least, --count);
+      return std::exchange(first, first->next);
+    }
+    void give(Header* block) {
+      ++count;
+      block->next = std::exchange(first, block);
+    }
+  };
+
   /// Before there is no memory left, what waits for requests of other sizes is given back.
   Header* make(std::size_t bytes) {
     Header* block = nullptr;
     try {
       block = fromHeap(bytes, shared_from_this());
     } catch (const std::bad_alloc&) {
-      releaseWaiting();
+      releaseAll();
       block = fromHeap(bytes, shared_from_this());
     }
     bytes_ += bytes;
     return block;
   }
 
-  void releaseWaiting() {
-    for (auto& [bytes, waiting] : waiting_) {
-      while (waiting != nullptr) {
-        toHeap(std::exchange(waiting, waiting->next));
-        bytes_ -= bytes;
-      }
+  void release(Waiting& waiting, std::size_t count) {
+    for (; count > 0; --count) {
+      bytes_ -= waiting.first->bytes;
+      toHeap(waiting.take());
     }
   }
 
+  void releaseAll() {
+    for (auto& [bytes, waiting] : waiting_) release(waiting, waiting.count);
+  }
+
   mutable std::mutex mutex_;
-  std::map<std::size_t, Header*> waiting_;
-  std::size_t bytes_ = 0, bytes_in_use_ = 0, most_bytes_in_use_ = 0;
+  std::map<std::size_t, Waiting> waiting_;
+  std::size_t bytes_ = 0;
   bool is_abandoned_ = false;
 };
 

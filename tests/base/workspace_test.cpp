@@ -91,6 +91,22 @@ TEST(Workspace, ReleaseKeepsWhatIsInUse) {
   EXPECT_EQ(used.back(), 7);
 }
 
+TEST(Workspace, TrimGivesBackWhatNobodyHasUsedSince) {
+  Workspace workspace;
+  const Workspace::Scope scope(&workspace);
+  Buffer<int>(1000);
+  const std::size_t small = workspace.bytes();
+  Buffer<int>(3000);
+  const std::size_t both = workspace.bytes();
+  workspace.trim();
+  EXPECT_EQ(workspace.bytes(), both) << "both have been used";
+  Buffer<int>(1000);
+  workspace.trim();
+  EXPECT_EQ(workspace.bytes(), small);
+  workspace.trim();
+  EXPECT_EQ(workspace.bytes(), 0);
+}
+
 TEST(Workspace, AllThreadsOfABuildTakeFromIt) {
   Workspace workspace;
   const Workspace::Scope scope(&workspace);
