@@ -125,6 +125,103 @@ TUFTED_INLINE void removeReflex(Ring& first, Ring& second, Ring*& hull) {
 
 enum class Verdict { certain, tied, incomplete, open, doubtful };
 
+/// The edges of a hull. The line through one is dual . x = 1, and inside of it dual . x < 1.
+struct Edges {
+  int count;
+  alignas(64) double dual_x[InvertedStar::most], dual_y[InvertedStar::most];
+  bool is_open;       ///< the origin is not inside of all
+  bool has_ties;      ///< the hull turns by less than `distinct` somewhere
+  bool is_ambiguous;  ///< and there by more than `surely_tied`
+  double ratio;       ///< the distance of the farthest vertex over that of the nearest edge
+  double limit;       ///< of dual . x, from which on a point is too near to an edge
+};
+
+/// @param[out] radius of each edge's circle, before inversion
+TUFTED_INLINE void measureEdges(Ring& hull, Edges& edges, double* radius) {
+  hull.close(toPackets(hull.size) - hull.size + 2);
+  edges.count = hull.size;
+  Mask is_open = none(), is_tied = none(), is_ambiguous = none();
+  Packet inner_square = broadcast(most_square), least_cross = broadcast(most_square), most_size = broadcast(0);
+  for (int i = 0; i < hull.size; i += packet_size) {
+    const Packet ax = load(hull.x + i + 1), ay = load(hull.y + i + 1);
+    const Packet bx = load(hull.x + i + 2), by = load(hull.y + i + 2);
+    const Packet cx = load(hull.x + i + 3), cy = load(hull.y + i + 3);
+    const Packet ux = bx - ax, uy = by - ay, vx = cx - bx, vy = cy - by;
+    const Packet u = absolute(ux) + absolute(uy), v = absolute(vx) + absolute(vy);
+    const Packet a = absolute(ax) + absolute(ay), b = absolute(bx) + absolute(by), c = absolute(cx) + absolute(cy);
+    // A difference is off by the rounding of its ends, and counts times the length of the other.
+    const Packet doubt = broadcast(distinct) * u * v + broadcast(rounding) * ((a + b) * v + (b + c) * u);
+    const Packet cross = ax * by - ay * bx, turn = ux * vy - uy * vx;
+    const Mask turns_little = isAtMost(turn, doubt);
+    is_open = logicalOr(is_open, isAtMost(cross, broadcast(0)));
+    is_tied = logicalOr(is_tied, turns_little);
+    is_ambiguous = logicalOr(is_ambiguous, logicalAnd(turns_little, isLess(broadcast(surely_tied) * u * v, turn)));
+    store(uy / cross, edges.dual_x + i);
+    store(-ux / cross, edges.dual_y + i);
+    const Packet square = cross * cross / (ux * ux + uy * uy);  // of the distance from the origin to the edge
+    inner_square = min(inner_square, square);
+    least_cross = min(least_cross, cross);
+    most_size = max(most_size, a);
+    store(broadcast(0.5) / squareRoot(square), radius + i);
+  }
+  const double size = reduceMax(most_size);
+  edges.is_open = any(is_open);
+  edges.has_ties = any(is_tied);
+  edges.is_ambiguous = any(is_ambiguous);
+  edges.ratio = size / __builtin_sqrt(reduceMin(inner_square));
+  edges.limit = 1 - 2 * inside * edges.ratio - rounding * size * size / reduceMin(least_cross);
+}
+
+/// The gauge of each point in the hull, max dual . x: less than 1 inside, more outside; 0 for the hull's own vertices.
+/// Returns the largest.
+TUFTED_INLINE double gaugePoints(const Inverted& points, const Ring& hull, const Edges& edges, double* gauge) {
+  for (int i = 0; i < points.count; i += packet_size) {
+    const Packet x = load(points.x + i), y = load(points.y + i);
+    Packet largest = broadcast(0);
+    for (int e = 0; e < edges.count; ++e)
+      largest = max(largest, x * broadcast(edges.dual_x[e]) + y * broadcast(edges.dual_y[e]));
+    store(largest, gauge + i);
+  }
+  for (int i = 1; i <= hull.size; ++i) gauge[hull.of[i]] = 0;
+  Packet outermost = broadcast(0);
+  for (int i = 0; i < points.count; i += packet_size) outermost = max(outermost, load(gauge + i));
+  return reduceMax(outermost);
+}
+
+/// Whether a point is so near to an edge that it may or may not be tied with its ends.
+TUFTED_INLINE bool isAmbiguous(const Inverted& points, const double* gauge, double ratio) {
+  const Packet from = broadcast(1 - distinct * ratio), to = broadcast(1 - surely_tied * ratio);
+  Mask is_ambiguous = none();
+  for (int i = 0; i < points.count; i += packet_size) {
+    const Packet value = load(gauge + i);
+    is_ambiguous = logicalOr(is_ambiguous, logicalAnd(isLess(from, value), isLess(value, to)));
+  }
+  return any(is_ambiguous);
+}
+
+TUFTED_INLINE void takeVertices(const Ring& hull, InvertedStar& star) {
+  star.size = hull.size;
+  for (int i = 0; i < hull.size; ++i) star.link[i] = hull.of[i + 1];
+}
+
+/// Makes `given` the vertices of the hull and all points outside of it or too near, by ascending distance. Returns
+/// whether all of them were given before.
+TUFTED_INLINE bool takeCandidates(const Inverted& points, const double* gauge, double limit, const bool* is_vertex,
+                                  Subset& given) {
+  bool was_given[most_given] = {};
+  for (int i = 0; i < given.size; ++i) was_given[given.of[i]] = true;
+  bool is_complete = true;
+  given.size = 0;
+  for (int i = 0; i < points.count; ++i) {
+    if (gauge[i] < limit && !is_vertex[i]) continue;
+    is_complete &= was_given[i];
+    given.x[given.size] = points.x[i];
+    given.y[given.size] = points.y[i];
+    given.of[given.size++] = i;
+  }
+  return is_complete;
+}
+
 /// Whether the hull is beyond doubt that of all points, with the origin inside and no tie among the circles. Where
 /// points that were not `given` are outside of it or too near, it is incomplete and `given` becomes what the hull must
 /// be made of. Where only points that were given are too near, the star is tied and has as `link` all that may be in
@@ -138,80 +235,25 @@ enum class Verdict { certain, tied, incomplete, open, doubtful };
 TUFTED_INLINE Verdict judge(const Inverted& points, Ring& hull, Subset& given, InvertedStar& star) {
   if (hull.size < 3) return Verdict::open;
   if (hull.size > InvertedStar::most) return Verdict::doubtful;
-  hull.close(toPackets(hull.size) - hull.size + 2);
-  // A point is left of the edge from a to b where across . point < 1.
-  alignas(64) double across_x[InvertedStar::most], across_y[InvertedStar::most];
-  Mask is_open = none(), is_tied = none(), is_ambiguous = none();
-  Packet inner_square = broadcast(most_square), least_cross = broadcast(most_square), most_size = broadcast(0);
-  for (int i = 0; i < hull.size; i += packet_size) {
-    const Packet ax = load(hull.x + i + 1), ay = load(hull.y + i + 1);
-    const Packet bx = load(hull.x + i + 2), by = load(hull.y + i + 2);
-    const Packet cx = load(hull.x + i + 3), cy = load(hull.y + i + 3);
-    const Packet ux = bx - ax, uy = by - ay, vx = cx - bx, vy = cy - by;
-    const Packet u = absolute(ux) + absolute(uy), v = absolute(vx) + absolute(vy);
-    const Packet a = absolute(ax) + absolute(ay), b = absolute(bx) + absolute(by), c = absolute(cx) + absolute(cy);
-    // A difference is off by the rounding of its ends, and counts times the length of the other.
-    const Packet doubt = broadcast(distinct) * u * v + broadcast(rounding) * ((a + b) * v + (b + c) * u);
-    const Packet cross = ax * by - ay * bx, edge_square = ux * ux + uy * uy;
-    is_open = logicalOr(is_open, isAtMost(cross, broadcast(0)));
-    const Packet turn = ux * vy - uy * vx;
-    is_tied = logicalOr(is_tied, isAtMost(turn, doubt));
-    is_ambiguous =
-        logicalOr(is_ambiguous, logicalAnd(isAtMost(turn, doubt), isLess(broadcast(surely_tied) * u * v, turn)));
-    store(uy / cross, across_x + i);
-    store(-ux / cross, across_y + i);
-    const Packet square = cross * cross / edge_square;  // of the distance from the origin to the edge
-    inner_square = min(inner_square, square);
-    least_cross = min(least_cross, cross);
-    most_size = max(most_size, a);
-    store(broadcast(0.5) / squareRoot(square), star.radius + i);
-  }
-  if (any(is_open)) return Verdict::open;
-  const double size = reduceMax(most_size), ratio = size / __builtin_sqrt(reduceMin(inner_square));
-  const double limit = 1 - 2 * inside * ratio - rounding * size * size / reduceMin(least_cross);
-  if (!(limit > 0)) return Verdict::open;
+  Edges edges;
+  measureEdges(hull, edges, star.radius);
+  if (edges.is_open || !(edges.limit > 0)) return Verdict::open;
 
-  alignas(64) double gauge[most_given];  // the largest across . point
-  for (int i = 0; i < points.count; i += packet_size) {
-    const Packet x = load(points.x + i), y = load(points.y + i);
-    Packet largest = broadcast(0);
-    for (int e = 0; e < hull.size; ++e) largest = max(largest, x * broadcast(across_x[e]) + y * broadcast(across_y[e]));
-    store(largest, gauge + i);
-  }
-  for (int i = 1; i <= hull.size; ++i) gauge[hull.of[i]] = 0;
-  Packet outermost = broadcast(0);
-  for (int i = 0; i < points.count; i += packet_size) outermost = max(outermost, load(gauge + i));
-  if (reduceMax(outermost) < limit && !any(is_tied)) {
-    star.size = hull.size;
-    for (int i = 0; i < hull.size; ++i) star.link[i] = hull.of[i + 1];
+  alignas(64) double gauge[most_given];
+  const double outermost = gaugePoints(points, hull, edges, gauge);
+  if (outermost < edges.limit && !edges.has_ties) {
+    takeVertices(hull, star);
     return Verdict::certain;
   }
-  const Packet from = broadcast(1 - distinct * ratio), to = broadcast(1 - surely_tied * ratio);
-  for (int i = 0; i < points.count; i += packet_size) {
-    const Packet value = load(gauge + i);
-    is_ambiguous = logicalOr(is_ambiguous, logicalAnd(isLess(from, value), isLess(value, to)));
-  }
-  if (any(is_ambiguous)) return Verdict::doubtful;
-  // All that lie on the hull or too near to it, by ascending distance.
-  for (int i = 1; i <= hull.size; ++i) gauge[hull.of[i]] = 1;
-  bool is_given[most_given] = {};
-  for (int i = 0; i < given.size; ++i) is_given[given.of[i]] = true;
-  bool is_complete = true;
-  given.size = 0;
-  for (int i = 0; i < points.count; ++i) {
-    if (gauge[i] < limit) continue;
-    is_complete &= is_given[i];
-    given.x[given.size] = points.x[i];
-    given.y[given.size] = points.y[i];
-    given.of[given.size++] = i;
-  }
-  if (!is_complete) return Verdict::incomplete;
+  if (edges.is_ambiguous || isAmbiguous(points, gauge, edges.ratio)) return Verdict::doubtful;
+
+  bool is_vertex[most_given] = {};
+  for (int i = 1; i <= hull.size; ++i) is_vertex[hull.of[i]] = true;
+  if (!takeCandidates(points, gauge, edges.limit, is_vertex, given)) return Verdict::incomplete;
   if (given.size > InvertedStar::most) return Verdict::doubtful;
-  star.size = hull.size;
-  for (int i = 0; i < hull.size; ++i) star.link[i] = hull.of[i + 1];
-  for (int i = 1; i <= hull.size; ++i) gauge[hull.of[i]] = 0;
+  takeVertices(hull, star);
   for (int i = 0; i < given.size; ++i)
-    if (gauge[given.of[i]] > 0) star.link[star.size++] = given.of[i];
+    if (!is_vertex[given.of[i]]) star.link[star.size++] = given.of[i];
   return Verdict::tied;
 }
 
