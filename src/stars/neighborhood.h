@@ -8,6 +8,7 @@
 #include "base/point_buffer.h"
 #include "neighbors/neighbor_source.h"
 #include "stars/offsets.h"
+#include "stars/sheets.h"
 #include "stars/tangent_frame.h"
 #include "tufted/options.h"
 
@@ -35,13 +36,7 @@ struct Neighborhood {
 struct NeighborhoodScratch {
   BatchScratch batch;
   Buffer<Neighbor> found;
-  OffsetBuffer offsets_of_all;
-  Buffer<double> heights;
-  Buffer<double> heights_along;                ///< see Kernels::connectedHeightsAlong
-  HeightRange sheet;                           ///< see isOneSheet()
-  Buffer<Neighbor> all;                        ///< of splitSheets(): before any were left out; empty while none were
-  static constexpr int most_tried = 6;         ///< planes through p and two of four others
-  std::array<OffsetBuffer, most_tried> tried;  ///< see findSheet()
+  SheetScratch sheets;
   SearchBefore before;
 };
 
@@ -81,16 +76,6 @@ class NeighborhoodFinder {
   /// Rings, and the far side of a small cloud, would be taken for sheets.
   bool splitsSheets() const;
   bool isUneven(const Neighborhood& neighborhood) const;
-  /// Keeps the neighbours whose heights along `normal` are reached from p over gaps of at most a quarter of the fit
-  /// radius. True if some were left out.
-  /// @param saves_all keep all as they are aside before the first are left out
-  bool keepSheet(const Eigen::Vector3d& normal, Neighborhood& neighborhood, OffsetBuffer& offsets,
-                 NeighborhoodScratch& scratch, bool saves_all = false) const;
-  void splitSheets(Neighborhood& neighborhood, OffsetBuffer& offsets, NeighborhoodScratch& scratch) const;
-  /// For where the planes of several neighbours stand across two sheets: the largest sheet along a plane through p and
-  /// two of the nearest four. False, and the neighbourhood as it was before any were left out, if there is none.
-  bool findSheet(const PrincipalAxes& before, Neighborhood& neighborhood, OffsetBuffer& offsets,
-                 NeighborhoodScratch& scratch) const;
 
   PointsView points_;
   const NeighborSource& source_;

@@ -26,6 +26,7 @@ namespace {
 constexpr std::int64_t block_size = 1024;  // points per block: its neighbour lists stay in the second-level cache
 constexpr int group_size = NeighborhoodFinder::most_planes;  // frames come first, then stars from the same offsets
 constexpr std::size_t usual_degree = 7;                      // on average over a block
+constexpr int most_doublings = 2;                            // of the neighbours of an open star
 constexpr double flat_share = 0.02;  // of the second variance, below which a neighbourhood is a plane
 
 /// Memory, counts and times of one worker.
@@ -41,7 +42,7 @@ struct WorkerState {
   DelaunayStar star;
   BlockOfStars block;
   std::int64_t cut_neighbors = 0, grown_neighborhoods = 0, split_neighborhoods = 0, isolated = 0, grown_stars = 0,
-               reopened_stars = 0, open_stars = 0, unusable_triangles = 0;
+               closed_stars = 0, open_stars = 0, unusable_triangles = 0;
   std::array<double, 3> seconds = {};  // neighbours, frames, stars
 };
 
@@ -155,43 +156,51 @@ class StarBuilder {
     return leaveGap(state.planar, gap);
   }
 
-  /// Wraps the star and looks further where what was found is no proof that the star is right: a circle of a closed
+  /// Wraps the star, and looks further where what was found is no proof that the star is right: a circle of a closed
   /// star leaves the ball that was searched, or the star is open and might not be among more neighbours.
   void wrapUntilCertain(int p, Neighborhood& neighborhood, double unit, OffsetBuffer& offsets,
                         WorkerState& state) const {
-    const bool thorough = options_.steps.star_search == StarSearch::thorough;
-    DelaunayStar& star = state.star;
-    int most = 2 * neighborhood.k;
-    if (thorough) most = neighborhood.k >= finder_.mostNeighbors() ? neighborhood.k : std::max(2 * source_.k, most);
-    int open_tries = thorough && !source_.isGraded() ? 2 : 0;  // graded neighbours reach past the star as it is
+    const bool is_thorough = options_.steps.star_search == StarSearch::thorough;
+    const bool has_grown_most = is_thorough && neighborhood.k >= finder_.mostNeighbors();
+    const int most = has_grown_most ? neighborhood.k : 2 * neighborhood.k;
     wrap(p, neighborhood, unit, offsets.view(), state);
-    for (;;) {
-      if (star.closed) {
-        if (2 * star.largestCircumradius() <= neighborhood.radius * unit ||
-            !finder_.grow(p, most, neighborhood, offsets, state.neighborhood))
-          return;
-        ++state.grown_stars;
-        wrap(p, neighborhood, unit, offsets.view(), state);
-        if (!thorough) return;
-        continue;
-      }
-      if (open_tries == 0) return;
-      state.saved_star = star;
-      state.saved_neighborhood = neighborhood;
-      const Eigen::Vector2d gap = middleOfGap(star);
-      while (!star.closed && open_tries-- > 0 &&
-             finder_.grow(p, 2 * neighborhood.k, neighborhood, offsets, state.neighborhood))
-        if (!staysOpen(gap, neighborhood, unit, offsets.view(), state))
-          wrap(p, neighborhood, unit, offsets.view(), state);
-      open_tries = 0;
-      if (!star.closed) {
-        star = state.saved_star;
-        neighborhood = state.saved_neighborhood;
-        return;
-      }
-      ++state.reopened_stars;
-      most = std::max(most, 2 * neighborhood.k);
+    coverCircles(p, most, neighborhood, unit, offsets, state);
+    // Graded neighbours reach past the star as it is.
+    if (state.star.closed || !is_thorough || source_.isGraded()) return;
+    if (closesAmongMore(p, neighborhood, unit, offsets, state))
+      coverCircles(p, std::max(most, 2 * neighborhood.k), neighborhood, unit, offsets, state);
+  }
+
+  /// Asks for more neighbours, at most `most`, while a circle of the closed star leaves the ball that was searched: a
+  /// point in the circle, but outside of the ball, would change the star.
+  void coverCircles(int p, int most, Neighborhood& neighborhood, double unit, OffsetBuffer& offsets,
+                    WorkerState& state) const {
+    const DelaunayStar& star = state.star;
+    while (star.closed && !(2 * star.largestCircumradius() <= neighborhood.radius * unit) &&
+           finder_.grow(p, most, neighborhood, offsets, state.neighborhood)) {
+      ++state.grown_stars;
+      wrap(p, neighborhood, unit, offsets.view(), state);
     }
+  }
+
+  /// Whether the open star closes among twice or four times as many neighbours. If not, it is left as it was.
+  bool closesAmongMore(int p, Neighborhood& neighborhood, double unit, OffsetBuffer& offsets,
+                       WorkerState& state) const {
+    state.saved_star = state.star;
+    state.saved_neighborhood = neighborhood;
+    const Eigen::Vector2d gap = middleOfGap(state.star);
+    for (int i = 0; i < most_doublings; ++i) {
+      if (!finder_.grow(p, 2 * neighborhood.k, neighborhood, offsets, state.neighborhood)) break;
+      if (staysOpen(gap, neighborhood, unit, offsets.view(), state)) continue;
+      wrap(p, neighborhood, unit, offsets.view(), state);
+      if (state.star.closed) {
+        ++state.closed_stars;
+        return true;
+      }
+    }
+    state.star = state.saved_star;
+    neighborhood = state.saved_neighborhood;
+    return false;
   }
 
   void wrapStar(int p, Neighborhood& neighborhood, OffsetBuffer& offsets, WorkerState& state) const {
@@ -294,7 +303,7 @@ BuiltStars buildStars(const RankedCloud& cloud, const NeighborSource& source, co
     report.split_neighborhoods += state.split_neighborhoods;
     report.isolated_by_sheets += state.isolated;
     report.grown_stars += state.grown_stars;
-    report.closed_stars += state.reopened_stars;
+    report.closed_stars += state.closed_stars;
     report.open_stars += state.open_stars;
     report.dropped_triangles += state.unusable_triangles;
     for (int i = 0; i < 3; ++i) seconds[i] += state.seconds[i];

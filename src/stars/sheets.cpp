@@ -1,0 +1,207 @@
+#include "stars/sheets.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <span>
+
+#include "stars/neighborhood.h"
+
+namespace tufted {
+namespace {
+
+constexpr double sheet_gap = 0.25;  // of the fit radius, between the heights of two sheets
+constexpr std::array<double, few_neighbors.size()> flatter = {0.1, 0.5};  // than all, planes of few
+constexpr double plane_of_few = 0.05;                                     // of the second variance
+constexpr int most_splits = 3;
+constexpr int least_sheet = 3, least_plane = 9;      // points, p included
+constexpr double flat_sheet = 0.1, flat_few = 0.05;  // of the second variance; found by many, by two neighbours
+constexpr double far_flatter = 0.25;                 // than before
+constexpr int most_corners = 4;                      // of the triangles at p whose planes a sheet is sought along
+constexpr double least_sine = 0.3;                   // of their angles at p
+
+double flatness(const PrincipalAxes& axes) {
+  return axes.variance[1] > 0 ? axes.variance[0] / axes.variance[1] : 0;
+}
+
+/// Whether what is left of a neighbourhood is a plane, as flat as asked and far flatter than it was.
+bool isSheet(int neighbors, const PrincipalAxes& axes, const PrincipalAxes& before, double flat) {
+  return neighbors + 1 >= least_plane && !liesOnOneLine(axes) && flatness(axes) < flat &&
+         flatness(axes) < far_flatter * flatness(before);
+}
+
+bool isWhole(const HeightRange& range) {
+  return range.lowest <= range.bottom && range.highest >= range.top;
+}
+
+/// Whether all are reached from p along `normal`. Leaves their heights and the range of those that are.
+bool isOneSheet(const Offsets& neighbors, const Eigen::Vector3d& normal, double fit_radius, SheetScratch& scratch) {
+  scratch.heights.resize(static_cast<std::size_t>(toPackets(neighbors.count)));
+  scratch.range = kernels().connectedHeights(neighbors, normal.data(), sheet_gap * fit_radius, scratch.heights.data());
+  return isWhole(scratch.range);
+}
+
+/// Keeps the neighbours that isOneSheet() has found within reach of p.
+void takeReached(Neighborhood& neighborhood, OffsetBuffer& offsets, const SheetScratch& scratch) {
+  Buffer<Neighbor>& neighbors = neighborhood.neighbors;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < neighbors.size(); ++i) {
+    neighbors[kept] = neighbors[i];
+    kept += scratch.heights[i] >= scratch.range.lowest && scratch.heights[i] <= scratch.range.highest ? 1 : 0;
+  }
+  neighbors.resize(kept);
+  offsets.takeConnected(offsets, scratch.heights.data(), scratch.range);
+}
+
+/// As keepSheet(), and saves all neighbours before the first are left out.
+bool keepSheetOfAll(const Eigen::Vector3d& normal, Neighborhood& neighborhood, OffsetBuffer& offsets,
+                    SheetScratch& scratch) {
+  if (neighborhood.neighbors.empty() || isOneSheet(offsets.view(), normal, neighborhood.fit_radius, scratch))
+    return false;
+  if (scratch.all.empty()) {
+    scratch.all = neighborhood.neighbors;
+    scratch.offsets_of_all = offsets;
+  }
+  takeReached(neighborhood, offsets, scratch);
+  return true;
+}
+
+/// The planes through p and two of the nearest four others, but for those that are nearly in line with p.
+int planesThroughNearest(const Offsets& neighbors, Normals& planes) {
+  const auto offset = [&](int i) { return Eigen::Vector3d(neighbors.x[i], neighbors.y[i], neighbors.z[i]); };
+  int count = 0;
+  for (int i = 1; i < std::min(neighbors.count, most_corners); ++i) {
+    for (int j = 0; j < i; ++j) {
+      const Eigen::Vector3d u = offset(i), v = offset(j), normal = u.cross(v);
+      const double length = normal.norm();
+      if (!(length > least_sine * u.norm() * v.norm())) continue;
+      planes.x[count] = normal.x() / length;
+      planes.y[count] = normal.y() / length;
+      planes.z[count++] = normal.z() / length;
+    }
+  }
+  return count;
+}
+
+/// Takes what is reached from p along each of these planes, where that is a part of all, and large enough.
+std::span<TriedSheet> trySheets(const OffsetBuffer& all, double fit_radius, SheetScratch& scratch) {
+  Normals planes{};
+  const int plane_count = planesThroughNearest(all.view(), planes);
+  std::array<HeightRange, kernel_packet> range;
+  scratch.heights.resize(static_cast<std::size_t>(toPackets(all.count())));
+  scratch.heights_along.resize(static_cast<std::size_t>(kernel_packet * all.count()));
+  kernels().connectedHeightsAlong(all.view(), planes, sheet_gap * fit_radius, scratch.heights_along.data(),
+                                  range.data());
+  std::size_t count = 0;
+  for (int i = 0; i < plane_count; ++i) {
+    if (isWhole(range[i])) continue;
+    for (int j = 0; j < all.count(); ++j) scratch.heights[j] = scratch.heights_along[kernel_packet * j + i];
+    TriedSheet& sheet = scratch.tried[count];
+    sheet.offsets.takeConnected(all, scratch.heights.data(), range[i]);
+    if (sheet.offsets.count() + 1 < least_plane) continue;
+    sheet.first_normal = {planes.x[i], planes.y[i], planes.z[i]};
+    ++count;
+  }
+  return std::span(scratch.tried).first(count);
+}
+
+/// Fits a plane to each, of several at once.
+void fitPlanes(std::span<TriedSheet* const> sheets, double radius) {
+  std::array<Covariance, SheetScratch::most_tried> covariances;
+  std::array<PrincipalAxes, SheetScratch::most_tried> axes;
+  for (std::size_t i = 0; i < sheets.size(); ++i) covariances[i] = covarianceOf(sheets[i]->offsets.view(), radius);
+  principalAxes(std::span(covariances).first(sheets.size()), axes);
+  for (std::size_t i = 0; i < sheets.size(); ++i) sheets[i]->axes = axes[i];
+}
+
+/// Cuts each sheet once more, along its own plane, and fits planes to what is left.
+void cutAlongOwnPlanes(std::span<TriedSheet> sheets, const Neighborhood& neighborhood, SheetScratch& scratch) {
+  std::array<TriedSheet*, SheetScratch::most_tried> listed;
+  std::size_t count = 0;
+  for (TriedSheet& sheet : sheets) listed[count++] = &sheet;
+  fitPlanes(std::span(listed).first(count), neighborhood.radius);
+  count = 0;
+  for (TriedSheet& sheet : sheets) {
+    sheet.second_normal = sheet.axes.normal;
+    if (isOneSheet(sheet.offsets.view(), sheet.second_normal, neighborhood.fit_radius, scratch)) continue;
+    sheet.offsets.takeConnected(sheet.offsets, scratch.heights.data(), scratch.range);
+    listed[count++] = &sheet;
+  }
+  fitPlanes(std::span(listed).first(count), neighborhood.radius);
+}
+
+/// The sheet with the most points, the first of several; null if none is one.
+const TriedSheet* largestSheet(std::span<const TriedSheet> tried, const PrincipalAxes& before) {
+  const TriedSheet* largest = nullptr;
+  for (const TriedSheet& sheet : tried) {
+    if (!isSheet(sheet.offsets.count(), sheet.axes, before, flat_few)) continue;
+    if (largest == nullptr || sheet.offsets.count() > largest->offsets.count()) largest = &sheet;
+  }
+  return largest;
+}
+
+/// For where the planes of several neighbours stand across two sheets: keeps the largest sheet along a plane through p
+/// and two of the nearest four. False, and the neighbourhood as it was before any were left out, if there is none.
+bool findSheet(const PrincipalAxes& before, Neighborhood& neighborhood, OffsetBuffer& offsets, SheetScratch& scratch) {
+  if (!scratch.all.empty()) {
+    neighborhood.neighbors = scratch.all;
+    offsets = scratch.offsets_of_all;
+    neighborhood.axes = before;
+  }
+  const std::span<TriedSheet> tried = trySheets(offsets, neighborhood.fit_radius, scratch);
+  cutAlongOwnPlanes(tried, neighborhood, scratch);
+  const TriedSheet* const sheet = largestSheet(tried, before);
+  if (sheet == nullptr) return false;
+  keepSheet(sheet->first_normal, neighborhood, offsets, scratch);
+  keepSheet(sheet->second_normal, neighborhood, offsets, scratch);
+  neighborhood.axes = sheet->axes;
+  return true;
+}
+
+/// Leaves out what is not reached from p along the plane of the nearest few, where that is far flatter than the plane
+/// of all, and then along the plane of those that are left.
+void cutAlongPlanes(const PrincipalAxes& before, Neighborhood& neighborhood, OffsetBuffer& offsets,
+                    SheetScratch& scratch) {
+  for (std::size_t j = 0; j < few_neighbors.size(); ++j) {
+    if (std::ssize(neighborhood.neighbors) <= few_neighbors[j]) break;
+    const PrincipalAxes& axes = neighborhood.axes_of_few[j];
+    if (!(flatness(axes) < flatter[j] * flatness(before) && axes.variance[0] < plane_of_few * axes.variance[1]))
+      continue;
+    if (!keepSheetOfAll(axes.normal, neighborhood, offsets, scratch)) continue;
+    neighborhood.axes = principalAxes(offsets.view());
+    break;
+  }
+  for (int i = 0; i < most_splits; ++i) {
+    if (!keepSheetOfAll(neighborhood.axes.normal, neighborhood, offsets, scratch)) break;
+    neighborhood.axes = principalAxes(offsets.view());
+  }
+}
+
+}  // namespace
+
+bool keepSheet(const Eigen::Vector3d& normal, Neighborhood& neighborhood, OffsetBuffer& offsets,
+               SheetScratch& scratch) {
+  if (neighborhood.neighbors.empty() || isOneSheet(offsets.view(), normal, neighborhood.fit_radius, scratch))
+    return false;
+  takeReached(neighborhood, offsets, scratch);
+  return true;
+}
+
+void splitSheets(Neighborhood& neighborhood, OffsetBuffer& offsets, SheetScratch& scratch) {
+  if (neighborhood.neighbors.empty()) return;
+  const PrincipalAxes before = neighborhood.axes;
+  scratch.all.clear();
+  cutAlongPlanes(before, neighborhood, offsets, scratch);
+  const auto left = static_cast<int>(neighborhood.neighbors.size());
+  if (scratch.all.empty()) {
+    neighborhood.split = flatness(before) > flat_sheet && findSheet(before, neighborhood, offsets, scratch);
+  } else if (left + 1 <= least_sheet) {
+    neighborhood.isolated = true;
+  } else if (isSheet(left, neighborhood.axes, before, flat_sheet) ||
+             findSheet(before, neighborhood, offsets, scratch)) {
+    neighborhood.split = true;
+  } else {
+    neighborhood.restored = true;
+  }
+}
+
+}  // namespace tufted
