@@ -55,15 +55,15 @@ class BatchCandidates {
     scratch_.index.resize(room + kernel_packet);
   }
 
-  /// Within `guess` where that is less than `bound` and holds k, else within `bound`. Returns how many.
+  /// Takes those within `guess` where that is less than `bound` and holds k, else those within `bound`. Returns how
+  /// many.
   int takeWithin(int p, int k, double guess, double bound) {
     const int count = guess < bound ? takeWithin(p, guess) : 0;
     return count < k ? takeWithin(p, bound) : count;
   }
 
-  /// Within `guess`, or as far as the ball that was searched reaches. Returns how many, or 0 where they are too few to
-  /// be sure of the k nearest.
-  int takeKnown(int p, int k, double guess, const SearchedBall& ball) {
+  /// As takeWithin(), bounded by how far around p the ball reaches. Returns 0 where there are not k.
+  int takeWithinBall(int p, int k, double guess, const SearchedBall& ball) {
     const double room = roomAround(points_.row(p), ball), bound = room * room * (1 - 1e-12);
     if (!(room > 0 && bound > least_square)) return 0;
     const int count = takeWithin(p, k, guess, bound);
@@ -111,6 +111,11 @@ class BatchCandidates {
   BatchScratch& scratch_;
 };
 
+/// Finds the k nearest of each point of a batch, in one of three ways:
+/// - among what lies around the batch a little farther than the radius of a neighbourhood nearby, or twice as far: this
+///   holds nearly always, and is certain for each point whose k nearest lie within the ball that was searched;
+/// - among all that can be among the k nearest of any point of the batch, by the k nearest of its centre;
+/// - where these are too many, in halves, and at last for one point alone.
 class BatchSearch {
  public:
   BatchSearch(const NeighborSearch& search, const PointsView& points, int k, const Kernels& kernels,
@@ -132,40 +137,64 @@ class BatchSearch {
     return size;
   }
 
-  /// Looks a little farther around the batch than the radius of a neighbourhood nearby, where nearly always all are.
+  /// @param radius of a neighbourhood nearby, or infinity
   void find(int first, int count, double radius, Neighbor* found) {
-    int done = 0;
-    if (count > 1 && radius < nowhere) {
-      for (double around = first_around; around < last_around; around *= next_around) {
-        SearchedBatch batch{first, count, {}, 0, 0};
-        if (!search_.candidatesWithin(first, count, around * radius, scratch_.searched, batch.ball)) break;
-        keep(batch);
-        while (done < count && selectKnown(first, done, batch.ball, radius, found)) ++done;
-        if (done == count) return;
-        scratch_.known.resize(batch.begin);
-        scratch_.batches.pop_back();
-      }
-    }
-    findSurely(first, done, count, found);
+    const int done = count > 1 && radius < nowhere ? findAround(first, count, radius, found) : 0;
+    if (done < count) findByCentre(first, done, count, found);
   }
 
   Neighbor* rowOf(Neighbor* found, int i) const { return found + static_cast<std::ptrdiff_t>(i) * k_; }
   double radiusOf(const Neighbor* row) const { return std::sqrt(row[k_ - 1].squared_distance); }
 
  private:
-  /// Finds the neighbours of the points of the batch from `done` on, however far away they are.
-  void findSurely(int first, int done, int count, Neighbor* found) {
-    SearchedBatch batch{first, count, {}, 0, 0};
-    if (count == 1) {
-      search_.nearest(first, k_, scratch_.sorted);
-      std::copy(scratch_.sorted.begin(), scratch_.sorted.end(), found);
-    } else if (!search_.candidates(first, count, k_, scratch_.searched, scratch_.bounds, batch.ball)) {
-      findSurely(first, 0, count / 2, found);
-      findSurely(first + count / 2, 0, count - count / 2, rowOf(found, count / 2));
-    } else {
+  /// The first way. Returns how many points of the batch, from the first on, are done.
+  int findAround(int first, int count, double radius, Neighbor* found) {
+    int done = 0;
+    for (double around = first_around; around < last_around; around *= next_around) {
+      SearchedBatch batch{first, count, {}, 0, 0};
+      if (!search_.candidatesWithin(first, count, around * radius, scratch_.searched, batch.ball)) break;
       keep(batch);
-      for (int i = done; i < count; ++i) select(first, i, batch.ball, found);
+      for (; done < count; ++done) {
+        const double before = done > 0 ? radiusOf(rowOf(found, done - 1)) : radius;
+        const int taken = candidates_.takeWithinBall(first + done, k_, likely * before * before, batch.ball);
+        if (taken == 0) break;
+        candidates_.takeNearest(taken, k_, rowOf(found, done));
+      }
+      if (done == count) break;
+      forget(batch);
     }
+    return done;
+  }
+
+  /// The second way, for the points of the batch from `done` on, or else the third.
+  void findByCentre(int first, int done, int count, Neighbor* found) {
+    SearchedBatch batch{first, count, {}, 0, 0};
+    if (count == 1) return findAlone(first, found);
+    if (!search_.candidates(first, count, k_, scratch_.searched, scratch_.bounds, batch.ball)) {
+      findByCentre(first, 0, count / 2, found);
+      return findByCentre(first + count / 2, 0, count - count / 2, rowOf(found, count / 2));
+    }
+    keep(batch);
+    for (int i = done; i < count; ++i) {
+      const int p = first + i;
+      // Around p lie the k nearest of the centre, and most often nearer those of the point before.
+      double bound = batch.ball.k_radius + (points_.row(p) - batch.ball.center).norm(), guess = nowhere;
+      if (i > 0) {
+        const double before = radiusOf(rowOf(found, i - 1));
+        bound = std::min(bound, before + (points_.row(p) - points_.row(p - 1)).norm());
+        guess = likely * before * before;
+      }
+      const int taken = candidates_.takeWithin(p, k_, guess, widened(bound * bound));
+      if (taken >= k_)
+        candidates_.takeNearest(taken, k_, rowOf(found, i));
+      else  // the squares of its distances underflow, and no bound on them holds
+        findAlone(p, rowOf(found, i));
+    }
+  }
+
+  void findAlone(int p, Neighbor* row) {
+    search_.nearest(p, k_, scratch_.sorted);
+    std::copy(scratch_.sorted.begin(), scratch_.sorted.end(), row);
   }
 
   /// Makes what was searched last the candidates of the batch.
@@ -175,31 +204,9 @@ class BatchSearch {
     candidates_.gather(batch);
   }
 
-  /// Finds the k nearest of point i of the batch among its candidates. Returns false where these are too few to be
-  /// sure.
-  bool selectKnown(int first, int i, const SearchedBall& ball, double radius, Neighbor* found) {
-    const double before = i > 0 ? radiusOf(rowOf(found, i - 1)) : radius;
-    const int count = candidates_.takeKnown(first + i, k_, likely * before * before, ball);
-    if (count > 0) candidates_.takeNearest(count, k_, rowOf(found, i));
-    return count > 0;
-  }
-
-  /// The k nearest of point i of the batch, whose earlier points are done.
-  void select(int first, int i, const SearchedBall& ball, Neighbor* found) {
-    const int p = first + i;
-    // By the neighbours of the centre or, most often nearer, by those of the point before.
-    double bound = ball.k_radius + (points_.row(p) - ball.center).norm(), guess = nowhere;
-    if (i > 0) {
-      const double before = radiusOf(rowOf(found, i - 1));
-      bound = std::min(bound, before + (points_.row(p) - points_.row(p - 1)).norm());
-      guess = likely * before * before;
-    }
-    bound = widened(bound * bound);
-    const int count = candidates_.takeWithin(p, k_, guess, bound);
-    if (count >= k_)
-      candidates_.takeNearest(count, k_, rowOf(found, i));
-    else
-      findSurely(p, 0, 1, rowOf(found, i));  // the squares of its distances underflow, and no bound on them holds
+  void forget(const SearchedBatch& last) {
+    scratch_.known.resize(last.begin);
+    scratch_.batches.pop_back();
   }
 
   const NeighborSearch& search_;
@@ -228,7 +235,7 @@ void nearestOfEach(const NeighborSearch& search, const PointsView& points, int f
   found.resize(found.size() - NeighborSearch::most_candidates);
 }
 
-bool nearestOfKnown(const NeighborSearch& search, const PointsView& points, int p, int k, double likely,
+bool nearestOfKnown(const NeighborSearch& search, const PointsView& points, int p, int k, double likely_square,
                     const Kernels& kernels, BatchScratch& scratch, Buffer<Neighbor>& found) {
   const auto after = std::partition_point(scratch.batches.begin(), scratch.batches.end(),
                                           [p](const SearchedBatch& batch) { return batch.first <= p; });
@@ -237,16 +244,16 @@ bool nearestOfKnown(const NeighborSearch& search, const PointsView& points, int 
   if (p >= batch.first + batch.count) return false;
   BatchCandidates candidates(points, kernels, scratch);
   if (scratch.gathered != batch.first) candidates.gather(batch);
-  int count = candidates.takeKnown(p, k, likely, batch.ball);
+  int count = candidates.takeWithinBall(p, k, likely_square, batch.ball);
   if (count == 0) {
-    const double radius = std::sqrt(likely);
+    const double radius = std::sqrt(likely_square);
     SearchedBall ball;
     if (roomAround(points.row(p), batch.ball) > radius) return false;
     if (!search.candidatesWithin(batch.first, batch.count, spare_around * radius, scratch.searched, ball)) return false;
     batch.ball = ball;
     keepSearched(batch, scratch);
     candidates.gather(batch);
-    count = candidates.takeKnown(p, k, likely, ball);
+    count = candidates.takeWithinBall(p, k, likely_square, ball);
   }
   if (count == 0) return false;
   found.resize(static_cast<std::size_t>(count));

@@ -44,9 +44,9 @@ void nearestOfEach(const NeighborSearch& search, const PointsView& points, int f
 /// The k nearest of p, one of the points that nearestOfEach() was called for last, among the candidates of its batch;
 /// these become more where that helps, for others of the batch as well. False, and nothing of use, where it does not.
 /// @param k less than n
-/// @param likely a squared distance that there are most often k points within, and few more
+/// @param likely_square a squared distance that there are most often k points within, and few more
 /// @param found as by NeighborSearch::nearest
-bool nearestOfKnown(const NeighborSearch& search, const PointsView& points, int p, int k, double likely,
+bool nearestOfKnown(const NeighborSearch& search, const PointsView& points, int p, int k, double likely_square,
                     const Kernels& kernels, BatchScratch& scratch, Buffer<Neighbor>& found);
 
 }  // namespace tufted

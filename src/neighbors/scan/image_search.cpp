@@ -83,35 +83,23 @@ class ImageSearch final : public ScanSearch {
     found.clear();
     Searched searched;
     if (place_[p] < 0 || k <= 0) return searched;
-    const double half = std::sqrt((k + 1) / std::numbers::pi);  // of a disc of so many pixels
-    const auto least = static_cast<std::int64_t>(std::ceil(half - 0.5));
-    Window window{least, least};
-    for (int windows = 1;; ++windows) {
-      const Borders border = collect(place_[p], window, searched, found);
-      const bool is_full = static_cast<int>(found.size()) >= k;
-      if (static_cast<int>(found.size()) + searched.cut < k) {  // pixels without a point
-        const bool is_whole = window.columns >= columns_ && window.rows >= rows_;
-        window = {2 * window.columns, 2 * window.rows};
-        if (is_whole || window.pixels() > pixels_per_point * most_pixels_per_neighbor * k) break;
-        windows = 0;
-        continue;
-      }
-      const double last = is_full ? takeNearest(k, found) : std::numeric_limits<double>::infinity();
-      // A border one pixel further out is that much further away where the surface is smooth.
-      const double column_step = border.columns / static_cast<double>(window.columns);
-      const double row_step = border.rows / static_cast<double>(window.rows);
-      const bool wider = column_step * static_cast<double>(window.columns + 1) < last && window.columns < columns_;
-      const bool higher = row_step * static_cast<double>(window.rows + 1) < last && window.rows < rows_;
-      if ((!wider && !higher) || windows == most_windows) break;
-      const Window before = window;
-      if (is_full && std::isfinite(column_step * row_step) && column_step * row_step > 0) {
-        const double radius = std::min(last, half * std::sqrt(column_step * row_step));
-        window = {std::max(window.columns, toPixels(radius / column_step)),
-                  std::max(window.rows, toPixels(radius / row_step))};
-      }
-      if (window == before) window = {window.columns + (wider ? 1 : 0), window.rows + (higher ? 1 : 0)};
-      if (window.pixels() > static_cast<std::int64_t>(most_pixels_per_neighbor) * k) break;
+    const std::int64_t most = most_pixels_per_neighbor * static_cast<std::int64_t>(k);
+    const auto side = static_cast<std::int64_t>(std::ceil(radiusOfDisc(k) - 0.5));
+    Window window{side, side};
+    Borders borders = collect(place_[p], window, searched, found);
+    const auto holdsEnough = [&] { return std::ssize(found) + searched.cut >= k; };
+    while (!holdsEnough() && !isWhole(window)) {  // pixels without a point
+      window = {2 * window.columns, 2 * window.rows};
+      if (window.pixels() > pixels_per_point * most) break;
+      borders = collect(place_[p], window, searched, found);
     }
+    for (int windows = 1; windows < most_windows && holdsEnough(); ++windows) {
+      const Window next = enlarged(window, borders, keepNearest(k, found), k);
+      if (next == window || next.pixels() > most) break;
+      window = next;
+      borders = collect(place_[p], window, searched, found);
+    }
+    keepNearest(k, found);
     std::sort(found.begin(), found.end());
     if (!found.empty()) searched.radius = std::sqrt(found.back().squared_distance);
     return searched;
@@ -145,11 +133,36 @@ class ImageSearch final : public ScanSearch {
 
   static std::int64_t toPixels(double steps) { return static_cast<std::int64_t>(std::min(std::ceil(steps), 1e6)); }
 
-  /// Keeps the k nearest; the distance of the last.
-  static double takeNearest(int k, Buffer<Neighbor>& found) {
+  /// Of a disc of p's and k other pixels, in pixels.
+  static double radiusOfDisc(int k) { return std::sqrt((k + 1) / std::numbers::pi); }
+
+  bool isWhole(const Window& window) const { return window.columns >= columns_ && window.rows >= rows_; }
+
+  /// Keeps the k nearest if there are so many. Returns the distance of the last of these, or else infinity.
+  static double keepNearest(int k, Buffer<Neighbor>& found) {
+    if (std::ssize(found) < k) return std::numeric_limits<double>::infinity();
     std::nth_element(found.begin(), found.begin() + (k - 1), found.end());
     found.resize(k);
     return std::sqrt(found.back().squared_distance);
+  }
+
+  /// The window that should hold all within `last`, or the same one where it does. On a smooth surface a border one
+  /// pixel further out is one step further away.
+  Window enlarged(const Window& window, const Borders& borders, double last, int k) const {
+    const double column_step = borders.columns / static_cast<double>(window.columns);
+    const double row_step = borders.rows / static_cast<double>(window.rows);
+    const bool wider = column_step * static_cast<double>(window.columns + 1) < last && window.columns < columns_;
+    const bool higher = row_step * static_cast<double>(window.rows + 1) < last && window.rows < rows_;
+    if (!wider && !higher) return window;
+    Window next = window;
+    const double pixel = column_step * row_step;  // its area
+    if (std::isfinite(last) && std::isfinite(pixel) && pixel > 0) {
+      const double radius = std::min(last, radiusOfDisc(k) * std::sqrt(pixel));
+      next = {std::max(window.columns, toPixels(radius / column_step)),
+              std::max(window.rows, toPixels(radius / row_step))};
+    }
+    if (next == window) next = {window.columns + (wider ? 1 : 0), window.rows + (higher ? 1 : 0)};
+    return next;
   }
 
   Borders collect(int self, const Window& window, Searched& searched, Buffer<Neighbor>& found) const {
