@@ -2,21 +2,11 @@
 
 #include "base/buffer.h"
 #include "base/parallel.h"
-#include "base/workspace.h"
 #include "tufted/intrinsic_triangulation.h"
 #include "tufted/laplacian.h"
 #include "tufted/types.h"
 
 namespace tufted {
-
-/// Negative weights up to this share of the larger diagonal are rounding.
-constexpr double weight_rounding = 1e-9;
-
-/// Room for so many entries, in memory that L has or new one; in a workspace with some to spare, since the next frame
-/// may have a few more.
-inline void resizeEntries(SparseMatrix& L, std::int64_t entries) {
-  L.data().resize(entries, Workspace::current() != nullptr ? 0.125 : 0);
-}
 
 /// Cotan Laplacian and lumped areas of a cover (Algorithm 3, lines 6 to 15), times `scale`.
 ///

@@ -4,6 +4,7 @@
 #include "base/buffer.h"
 #include "base/point_buffer.h"
 #include "base/power_of_two.h"
+#include "cover/edge_lengths.h"
 
 namespace tufted {
 namespace {
@@ -22,6 +23,7 @@ void resizeCover(IntrinsicTriangulation& cover, int vertices, std::int64_t trian
 MeanLengths measureLengths(IntrinsicTriangulation& cover, const PointsView& points, const PointsView& displacement,
                            const Workers& workers) {
   const std::int64_t triangles = cover.size() / 2;
+  const EdgeLengths lengthOf{points, displacement};
   // Per block, so that the means have the same bits always.
   Buffer<MeanLengths> sums((triangles + block_size - 1) / block_size);
   workers.forBlocks("lengths", triangles, block_size, [&](std::int64_t begin, std::int64_t end, int) {
@@ -29,10 +31,7 @@ MeanLengths measureLengths(IntrinsicTriangulation& cover, const PointsView& poin
     for (int t = static_cast<int>(begin); t < end; ++t) {
       const auto& corner = cover.faces[2 * t];
       for (int s = 0; s < 3; ++s) {
-        const int a = corner[s], b = corner[(s + 1) % 3];
-        Eigen::RowVector3d edge = points.row(a) - points.row(b);
-        if (displacement.rows() > 0) edge += displacement.row(a) - displacement.row(b);
-        const double length = edge.norm();
+        const double length = lengthOf(corner[s], corner[(s + 1) % 3]);
         cover.length[frontSide(t, s)] = cover.length[backSide(t, s)] = length;
         sum.length += length;
         sum.square += length * length;

@@ -2,9 +2,13 @@
 
 // The circular order of Algorithm 1 (Section 4.2; Section 5.4 compares it with others).
 #include <Eigen/Geometry>
+#include <span>
+#include <utility>
 
+#include "base/buffer.h"
 #include "base/point_buffer.h"
 #include "base/pseudo_angle.h"
+#include "base/stable_sort.h"
 #include "tufted/types.h"
 
 namespace tufted {
@@ -32,5 +36,33 @@ class DihedralOrder {
   int low_;
   Eigen::Vector3d x_, y_;
 };
+
+/// Sorts items by keys. Equal keys keep their order.
+template <class Item>
+class KeySort {
+ public:
+  /// @param key a number for each item
+  template <class Key>
+  void sort(std::span<Item> items, const Key& key) {
+    keyed_.clear();
+    for (const Item& item : items) keyed_.emplace_back(static_cast<double>(key(item)), item);
+    stableSort(keyed_.data(), keyed_.data() + keyed_.size(), scratch_,
+               [](const auto& a, const auto& b) { return a.first < b.first; });
+    for (std::size_t i = 0; i < items.size(); ++i) items[i] = keyed_[i].second;
+  }
+
+ private:
+  Buffer<std::pair<double, Item>> keyed_, scratch_;
+};
+
+/// Sorts the faces around the edge (low, high) by their dihedral angle. Any order of two is the same one.
+/// @param apex the third corner of the face of an item
+template <class Item, class Apex>
+void sortAroundEdge(const PointsView& points, int low, int high, std::span<Item> items, const Apex& apex,
+                    KeySort<Item>& key_sort) {
+  if (items.size() <= 2) return;
+  const DihedralOrder order(points, low, high);
+  key_sort.sort(items, [&](const Item& item) { return order.key(apex(item)); });
+}
 
 }  // namespace tufted

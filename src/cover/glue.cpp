@@ -6,6 +6,8 @@
 #include <atomic>
 #include <cmath>
 #include <numeric>
+#include <span>
+#include <utility>
 #include <vector>
 
 #include "base/buffer.h"
@@ -39,62 +41,48 @@ class EdgeCycle {
   EdgeCycle(const IntrinsicTriangulation& cover, const PointsView& points, const EdgeOrder& order)
       : cover_(cover), points_(points), order_(order) {}
 
-  /// Sorts the `count` sides of the edge (low, high) circularly; ties by face. Any order of two is the same one.
-  void sort(int low, int high, UngluedSide* sides, std::size_t count) {
-    keys_.clear();
-    for (std::size_t i = 0; i < count; ++i) keys_.push_back({0, sides[i].side});
-    if (count > 2) {
-      switch (order_.order) {
-        case FaceOrder::angle:
-          setAngles(low, high);
-          break;
-        case FaceOrder::area:
-          setAreas();
-          break;
-        case FaceOrder::random:
-          setRandom();
-          break;
-      }
-      std::sort(keys_.begin(), keys_.end());
+  /// Sorts the sides of the edge (low, high) circularly. Ties keep their order, which is that of the triangles.
+  void sort(int low, int high, std::span<UngluedSide> sides) {
+    switch (order_.order) {
+      case FaceOrder::angle:
+        sortAroundEdge(
+            points_, low, high, sides, [this](const UngluedSide& s) { return cornersOf(s)[(s.side + 2) % 3]; }, sort_);
+        break;
+      case FaceOrder::area:
+        sort_.sort(sides, [this](const UngluedSide& s) { return areaOf(s); });
+        break;
+      case FaceOrder::random:
+        sort_.sort(sides, [this](const UngluedSide& s) { return mix(order_.seed, s.side) >> 11; });
+        break;
     }
-    for (std::size_t i = 0; i < count; ++i) sides[i].side = keys_[i].second;
   }
 
  private:
-  void setAngles(int low, int high) {
-    const DihedralOrder dihedral(points_, low, high);
-    for (auto& [key, side] : keys_) key = dihedral.key(cover_.faces[2 * (side / 3)][(side + 2) % 3]);
-  }
+  const std::array<int, 3>& cornersOf(const UngluedSide& s) const { return cover_.faces[2 * (s.side / 3)]; }
 
-  void setAreas() {
-    for (auto& [key, side] : keys_) {
-      const auto& corner = cover_.faces[2 * (side / 3)];
-      const Eigen::Vector3d u = points_.row(corner[1]) - points_.row(corner[0]);
-      const Eigen::Vector3d v = points_.row(corner[2]) - points_.row(corner[0]);
-      key = u.cross(v).norm();
-    }
-  }
-
-  void setRandom() {
-    for (auto& [key, side] : keys_) key = static_cast<double>(mix(order_.seed, side) >> 11);
+  double areaOf(const UngluedSide& s) const {  // twice
+    const auto& corner = cornersOf(s);
+    const Eigen::Vector3d u = points_.row(corner[1]) - points_.row(corner[0]);
+    const Eigen::Vector3d v = points_.row(corner[2]) - points_.row(corner[0]);
+    return u.cross(v).norm();
   }
 
   const IntrinsicTriangulation& cover_;
   PointsView points_;
   const EdgeOrder& order_;
-  Buffer<std::pair<double, int>> keys_;
+  KeySort<UngluedSide> sort_;
 };
 
 /// Front to back around the edge: the side that runs from the smaller to the larger vertex ("plus") faces the next
 /// triangle of the circular order, so it is glued to the minus side of that one. A single face is glued to itself.
-void glueAround(IntrinsicTriangulation& cover, const UngluedSide* sides, std::size_t count) {
+void glueAround(IntrinsicTriangulation& cover, std::span<const UngluedSide> sides) {
   const auto plusAndMinus = [&](int side) {
     const int t = side / 3, s = side % 3;
     const int front = frontSide(t, s), back = backSide(t, s);
     return tail(cover, front) < head(cover, front) ? std::pair(front, back) : std::pair(back, front);
   };
-  for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t next = i + 1 == count ? 0 : i + 1;
+  for (std::size_t i = 0; i < sides.size(); ++i) {
+    const std::size_t next = i + 1 == sides.size() ? 0 : i + 1;
     glueSides(cover, plusAndMinus(sides[i].side).first, plusAndMinus(sides[next].side).second);
   }
 }
@@ -136,10 +124,10 @@ EdgeCounts glueEdges(IntrinsicTriangulation& cover, const PointsView& points, co
       });
       while (at != last) {
         UngluedSide* const stop = std::find_if(at, last, [&](const UngluedSide& s) { return s.other != at->other; });
-        const auto faces = static_cast<std::size_t>(stop - at);
-        cycle.sort(low, at->other, at, faces);
-        glueAround(cover, at, faces);
-        ++count[std::min<std::size_t>(faces, 3) - 1];
+        const std::span around(at, stop);
+        cycle.sort(low, at->other, around);
+        glueAround(cover, around);
+        ++count[std::min<std::size_t>(around.size(), 3) - 1];
         at = stop;
       }
     }

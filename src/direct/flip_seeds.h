@@ -4,7 +4,7 @@
 
 #include "base/buffer.h"
 #include "base/parallel.h"
-#include "direct/edge_lengths.h"
+#include "cover/edge_lengths.h"
 #include "direct/radial_cycles.h"
 #include "direct/star_metric.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "cover/edge_lengths.h"
 #include "direct/cover_near_flips.h"
-#include "direct/edge_lengths.h"
 #include "direct/star_metric.h"
 #include "stars/stars.h"
 

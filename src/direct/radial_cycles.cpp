@@ -3,7 +3,7 @@
 
 #include <algorithm>
 #include <numeric>
-#include <utility>
+#include <span>
 
 #include "base/buffer.h"
 #include "base/point_buffer.h"
@@ -60,22 +60,16 @@ void RadialCycles::collect(const Workers& workers) {
 void RadialCycles::sort(const PointsView& points, const Workers& workers) {
   workers.forBlocks("glue", stars_.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
     Buffer<CycleSide> sides;
-    Buffer<std::pair<double, CycleSide>> keys, sorted;
+    KeySort<CycleSide> key_sort;
     for (int low = static_cast<int>(begin); low < end; ++low) {
       // They came in the order of stars and entries, which decides ties.
       stableSort(sides_.data() + offset_[low], sides_.data() + offset_[low + 1], sides,
                  [](const CycleSide& a, const CycleSide& b) { return a.high < b.high; });
-      for (int i = offset_[low]; i < offset_[low + 1];) {
-        const int stop = endOfCycle(i);
-        if (stop - i > 2) {  // any order of two is the same one
-          const DihedralOrder order(points, low, sides_[i].high);
-          keys.clear();
-          for (int j = i; j < stop; ++j) keys.emplace_back(order.key(apex(stars_, sides_[j].side)), sides_[j]);
-          stableSort(keys.data(), keys.data() + keys.size(), sorted,
-                     [](const auto& a, const auto& b) { return a.first < b.first; });
-          for (int j = i; j < stop; ++j) sides_[j] = keys[j - i].second;
-        }
-        i = stop;
+      for (int i = offset_[low], stop = 0; i < offset_[low + 1]; i = stop) {
+        stop = endOfCycle(i);
+        sortAroundEdge(
+            points, low, sides_[i].high, std::span(sides_.data() + i, sides_.data() + stop),
+            [this](const CycleSide& s) { return apex(stars_, s.side); }, key_sort);
       }
     }
   });

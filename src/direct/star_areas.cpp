@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "base/point_buffer.h"
+#include "cover/edge_lengths.h"
 #include "cover/geometry.h"
-#include "direct/edge_lengths.h"
 #include "direct/triangle_fans.h"
 
 namespace tufted {

@@ -5,7 +5,7 @@
 #include "base/buffer.h"
 #include "base/parallel.h"
 #include "cover/cover.h"
-#include "direct/edge_lengths.h"
+#include "cover/edge_lengths.h"
 #include "direct/star_areas.h"
 #include "stars/stars.h"
 

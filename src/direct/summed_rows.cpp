@@ -93,16 +93,16 @@ class TermReader {
   }
 
  private:
-  /// A triangle does not count where a flip has touched it, and three times in all where a corner is not mixed, whose
-  /// agreement says that each of the three stars has a copy.
+  /// How often each triangle of the star counts: not at all where a flip has touched it. Each of its three corners has
+  /// a copy, but only the stars of mixed points are read, so these copies count for those of the others.
   void weighTriangles(int p) {
-    constexpr std::array<double, 3> share = {3, 1.5, 1};  // among the mixed corners
     const int begin = stars_.offset[p], end = stars_.offset[p + 1];
     state_.count.resize(end - begin);
     int t = cover_.isPresent(p) ? cover_.firstTriangle(p) : -1;
     for (int i = begin; i < end; ++i) {
       const bool is_triangle = stars_.hasTriangle(i), is_whole = is_triangle && (t < 0 || !cover_.isMoved(t));
-      state_.count[i - begin] = is_whole ? share[mixed_[stars_.link[i]] + mixed_[stars_.link[stars_.after(p, i)]]] : 0;
+      const int mixed_corners = 1 + mixed_[stars_.link[i]] + mixed_[stars_.link[stars_.after(p, i)]];
+      state_.count[i - begin] = is_whole ? 3.0 / mixed_corners : 0;
       if (t >= 0) t += is_triangle ? 1 : 0;
     }
   }

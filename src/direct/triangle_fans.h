@@ -5,7 +5,7 @@
 #include <iterator>
 
 #include "base/buffer.h"
-#include "direct/edge_lengths.h"
+#include "cover/edge_lengths.h"
 #include "simd/kernels.h"
 #include "stars/stars.h"
 

@@ -7,7 +7,7 @@
 #include <limits>
 #include <tuple>
 
-#include "cover/assemble.h"
+#include "cover/clamped_weights.h"
 #include "cover/face_scale.h"
 #include "cover/geometry.h"
 #include "operators/promise.h"

@@ -1,0 +1,24 @@
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+namespace tufted {
+
+/// Negative weights up to this share of the larger diagonal are rounding.
+constexpr double weight_rounding = 1e-9;
+
+/// Counts the negative weights that are left out of L.
+struct ClampedWeights {
+  std::int64_t small = 0, large = 0;  ///< within rounding, beyond
+  double largest = 0;                 ///< share of the larger diagonal
+
+  void add(double weight, double larger_diagonal) {
+    const double share = larger_diagonal > 0 ? -weight / larger_diagonal : INFINITY;
+    ++(share <= weight_rounding ? small : large);
+    largest = std::max(largest, share);
+  }
+};
+
+}  // namespace tufted
