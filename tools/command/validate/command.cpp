@@ -66,7 +66,6 @@ each other, is REFUSED.)";
 struct Settings {
   std::vector<std::filesystem::path> paths, operators;
   FileSettings file;
-  double seconds = 600;
   int jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
   bool json = false;
 };
@@ -74,8 +73,9 @@ struct Settings {
 /// How a process ended that gave no result.
 std::string describeEnd(const ChildEnd& end, const Settings& settings) {
   std::ostringstream reason;
-  if (WIFSIGNALED(end.status) && end.timed_out) {
-    reason << "took longer than --time " << settings.seconds;
+  const bool timed_out = WIFSIGNALED(end.status) && WTERMSIG(end.status) == SIGALRM;
+  if (timed_out) {
+    reason << "took longer than --time " << settings.file.seconds;
   } else if (WIFSIGNALED(end.status)) {
     const int signal = WTERMSIG(end.status);
     reason << "its process was ended by signal " << signal << " (" << strsignal(signal) << ")";
@@ -83,7 +83,7 @@ std::string describeEnd(const ChildEnd& end, const Settings& settings) {
   } else {
     reason << "its process ended with code " << WEXITSTATUS(end.status) << " and no result";
   }
-  if (settings.file.memory && !end.timed_out) reason << " under --memory " << *settings.file.memory;
+  if (settings.file.memory && !timed_out) reason << " under --memory " << *settings.file.memory;
   const std::size_t first = end.err.find_first_not_of('\n'), last = end.err.find_last_not_of('\n');
   if (first != std::string::npos) reason << ": " << end.err.substr(first, last + 1 - first);
   return reason.str();
@@ -204,7 +204,7 @@ int runValidate(Settings settings) {
     bar.show("validate, " + std::to_string(results.known()) + " of " + std::to_string(files.size()),
              static_cast<double>(results.known()) / static_cast<double>(files.size()));
   };
-  runChildren(arguments, jobs, settings.seconds, ended, wait);
+  runChildren(arguments, jobs, ended, wait);
   bar.clear();
   results.printSummary(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   const std::string of = " of " + std::to_string(files.size()) + " ";
@@ -237,7 +237,7 @@ void addValidate(CLI::App& app, Run& run) {
       ->transform(CLI::Validator(withoutProtection, ""))
       ->type_name("DIR");
   addNumber(command, "--jobs", settings->jobs, 1, 1024, "At most this many files at once (processors)")->type_name("N");
-  addNumber(command, "--time", settings->seconds, 0.0, 1e9, "Limit per file in seconds, 0 for none (600)")
+  addNumber(command, "--time", settings->file.seconds, 0.0, most_seconds, "Limit per file in seconds, 0 for none (600)")
       ->type_name("S");
   addNumber(command, "--memory", settings->file.memory, 1, std::numeric_limits<int>::max(),
             "Limit per file in MB: what one thread allocates for it (none)")

@@ -1,10 +1,11 @@
 #include "worker.h"
 
-#include <poll.h>
 #include <sys/prctl.h>
 #include <sys/resource.h>
+#include <sys/time.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -31,11 +32,16 @@ using Json = nlohmann::ordered_json;
 constexpr const char* name = "validate-file";
 
 /// Never outlives the command that asked, however that ends.
-void dieWithTheCommand() {
+void dieWithTheCommand(int command) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);
-  // It may have ended before; then nobody is left to read what is written here.
-  pollfd out = {STDOUT_FILENO, 0, 0};
-  if (poll(&out, 1, 0) > 0 && (out.revents & POLLERR) != 0) throw tufted::Cancelled("cancelled");
+  if (getppid() != command) throw tufted::Cancelled("cancelled");  // it has ended before
+}
+
+/// After so many seconds the process ends by SIGALRM.
+void limitTime(double seconds) {
+  const auto whole = static_cast<time_t>(seconds);
+  const itimerval timer = {{0, 0}, {whole, static_cast<suseconds_t>(1e6 * (seconds - static_cast<double>(whole)))}};
+  setitimer(ITIMER_REAL, &timer, nullptr);
 }
 
 void limitMemory(int megabytes) {
@@ -155,9 +161,10 @@ void validateFile(const Found& file, const FileSettings& settings, Json& row, st
   if (!nothing.empty()) row["reasons"].push_back(nothing);
 }
 
-int runValidateFile(const Found& file, const FileSettings& settings) {
-  dieWithTheCommand();
+int runValidateFile(const Found& file, const FileSettings& settings, int command) {
+  dieWithTheCommand(command);
   releaseInterrupt();  // nothing is left behind, and the command tells how this process ended
+  limitTime(settings.seconds);
   if (settings.memory) limitMemory(*settings.memory);
   Json row;
   std::string stage;
@@ -189,7 +196,9 @@ int runValidateFile(const Found& file, const FileSettings& settings) {
 }  // namespace
 
 std::vector<std::string> fileArguments(const Found& file, const FileSettings& settings) {
-  std::vector<std::string> arguments = {name, "--threads", std::to_string(settings.threads)};
+  const double seconds = settings.seconds > 0 ? std::max(1e-6, settings.seconds) : 0;  // to_string has six digits
+  std::vector<std::string> arguments = {
+      name, std::to_string(getpid()), "--threads", std::to_string(settings.threads), "--time", std::to_string(seconds)};
   if (settings.memory) arguments.insert(arguments.end(), {"--memory", std::to_string(*settings.memory)});
   for (const auto& [key, value] : kinds)
     if (value == settings.as) arguments.insert(arguments.end(), {"--as", key});
@@ -203,10 +212,14 @@ void addValidateFile(CLI::App& app, Run& run) {
   command.group("");  // not in the help
   const auto file = std::make_shared<Found>();
   const auto settings = std::make_shared<FileSettings>();
+  const auto parent = std::make_shared<int>(0);
+  command.add_option("COMMAND", *parent)->required();
   command.add_option("FILE", file->path)->required();
   command.add_flag("--operator", file->is_operator);
   addNumber(command, "--threads", settings->threads, 1, 1 << 16, "");
+  addNumber(command, "--time", settings->seconds, 0.0, most_seconds, "");
   addNumber(command, "--memory", settings->memory, 1, std::numeric_limits<int>::max(), "");
   addChoice(command, "--as", settings->as, kinds, "");
-  command.callback([&run, file, settings] { run = [=] { return runValidateFile(*file, *settings); }; });
+  command.callback(
+      [&run, file, settings, parent] { run = [=] { return runValidateFile(*file, *settings, *parent); }; });
 }

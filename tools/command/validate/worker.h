@@ -10,10 +10,13 @@
 #include "files.h"
 #include "tufted/io/read.h"
 
+constexpr double most_seconds = 1e9;  // that a limit may have
+
 /// What the process of one file is told.
 struct FileSettings {
   tufted::ReadAs as = tufted::ReadAs::automatic;
   int threads = 1;
+  double seconds = 600;       ///< limit, 0 for none
   std::optional<int> memory;  ///< limit in MB
 };
 
