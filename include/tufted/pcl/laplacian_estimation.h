@@ -1,11 +1,11 @@
 #pragma once
 
 #include <pcl/pcl_base.h>
-#include <pcl/search/search.h>
 
 #include <string>
 
 #include "tufted/laplacian.h"
+#include "tufted/pcl/laplacian_settings.h"
 
 namespace tufted {
 
@@ -18,32 +18,13 @@ namespace tufted {
 ///
 /// Instantiated for PCL_XYZ_POINT_TYPES; for other types include impl/laplacian_estimation.hpp.
 template <typename PointT>
-class LaplacianEstimation : public pcl::PCLBase<PointT> {
+class LaplacianEstimation : public pcl::PCLBase<PointT>, public LaplacianSettings<PointT> {
  public:
   using Ptr = pcl::shared_ptr<LaplacianEstimation<PointT>>;
   using ConstPtr = pcl::shared_ptr<const LaplacianEstimation<PointT>>;
-  using SearchPtr = typename pcl::search::Search<PointT>::Ptr;
 
   /// Builds the Laplacian of the input cloud; `result` is overwritten, with 0 rows if that failed.
   void compute(Laplacian& result);
-
-  /// Neighbours per point, at least 3; 30 unless set.
-  void setKSearch(int k) { options_.neighbors = k; }
-  int getKSearch() const { return options_.neighbors; }
-
-  /// At most this many threads; 0 (default): one per processor.
-  void setNumberOfThreads(unsigned int threads = 0) { options_.threads = static_cast<int>(threads); }
-  unsigned int getNumberOfThreads() const { return static_cast<unsigned int>(options_.threads); }
-
-  /// The search that finds the neighbours; null (default): the core, which also looks further if k are too few.
-  /// compute() gives it the cloud and the finite ones of its indices.
-  void setSearchMethod(const SearchPtr& search) { search_ = search; }
-  SearchPtr getSearchMethod() const { return search_; }
-
-  /// Whether the core finds neighbours by the pixels of an organized input and cuts at depth jumps seen from its
-  /// sensor_origin_; false unless set. A search method wins over it.
-  void setOrganizedSearch(bool organized) { organized_ = organized; }
-  bool getOrganizedSearch() const { return organized_; }
 
   /// All options of the core, k and threads included. What they borrow (normals, neighborhoods, structure: one row per
   /// index) must live until compute() is done; a search method or an organized search wins over neighborhoods and
@@ -56,12 +37,12 @@ class LaplacianEstimation : public pcl::PCLBase<PointT> {
  protected:
   using pcl::PCLBase<PointT>::input_;
   using pcl::PCLBase<PointT>::indices_;
+  using LaplacianSettings<PointT>::options_;
+  using LaplacianSettings<PointT>::search_;
+  using LaplacianSettings<PointT>::organized_;
 
  private:
   std::string class_name_ = "LaplacianEstimation";
-  CloudOptions options_;
-  SearchPtr search_;
-  bool organized_ = false;
 };
 
 }  // namespace tufted

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <pcl/search/search.h>
+
+#include "tufted/laplacian.h"
+
+namespace tufted {
+
+/// How the classes for users of PCL build the Laplacian of their input.
+template <typename PointT>
+class LaplacianSettings {
+ public:
+  using SearchPtr = typename pcl::search::Search<PointT>::Ptr;
+
+  /// Neighbours per point, at least 3; 30 unless set.
+  void setKSearch(int k) { options_.neighbors = k; }
+  int getKSearch() const { return options_.neighbors; }
+
+  /// At most this many threads; 0 (default): one per processor.
+  void setNumberOfThreads(unsigned int threads = 0) { options_.threads = static_cast<int>(threads); }
+  unsigned int getNumberOfThreads() const { return static_cast<unsigned int>(options_.threads); }
+
+  /// The search that finds the neighbours; null (default): the core, which also looks further if k are too few. It is
+  /// given the cloud and the indices of its finite points.
+  void setSearchMethod(const SearchPtr& search) { search_ = search; }
+  SearchPtr getSearchMethod() const { return search_; }
+
+  /// Whether the core finds neighbours by the pixels of an organized input and cuts at depth jumps seen from its
+  /// sensor_origin_; false unless set. A search method wins over it.
+  void setOrganizedSearch(bool organized) { organized_ = organized; }
+  bool getOrganizedSearch() const { return organized_; }
+
+ protected:
+  LaplacianSettings() = default;
+  ~LaplacianSettings() = default;
+
+  CloudOptions options_;
+  SearchPtr search_;
+  bool organized_ = false;
+};
+
+}  // namespace tufted
