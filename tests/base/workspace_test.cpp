@@ -4,12 +4,10 @@
 
 #include <cstdint>
 #include <optional>
-#include <random>
 #include <thread>
 
 #include "base/buffer.h"
 #include "base/parallel.h"
-#include "base/stable_sort.h"
 
 namespace tufted {
 namespace {
@@ -113,19 +111,6 @@ TEST(Workspace, AllThreadsOfABuildTakeFromIt) {
   const Progress silent;
   Workers(4, silent).forBlocks("test", 64, 1,
                                [&](std::int64_t, std::int64_t, int) { EXPECT_EQ(Workspace::current(), &workspace); });
-}
-
-TEST(StableSort, AgreesWithTheStandardLibrary) {
-  std::mt19937_64 random(1);
-  for (const int size : {0, 1, 31, 32, 33, 64, 65, 1000, 4097}) {
-    Buffer<std::pair<int, int>> values, scratch;
-    for (int i = 0; i < size; ++i) values.emplace_back(static_cast<int>(random() % 20), i);
-    Buffer<std::pair<int, int>> expected = values;
-    const auto less = [](const auto& a, const auto& b) { return a.first < b.first; };
-    std::stable_sort(expected.begin(), expected.end(), less);
-    stableSort(values.data(), values.data() + values.size(), scratch, less);
-    EXPECT_EQ(values, expected) << size;
-  }
 }
 
 }  // namespace

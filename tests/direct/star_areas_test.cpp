@@ -1,3 +1,4 @@
+// The bound on the area that a point has in its own star.
 #include "direct/star_areas.h"
 
 #include <gtest/gtest.h>

@@ -16,7 +16,7 @@ namespace {
 
 using testing::IsEmpty;
 
-class OddInput : public testing::TestWithParam<int> {
+class RandomInput : public testing::TestWithParam<int> {
  protected:
   int below(int n) { return static_cast<int>(random_() % static_cast<std::uint64_t>(n)); }
   double unit() { return static_cast<double>(random_() >> 11) * 0x1p-53; }
@@ -85,7 +85,7 @@ class OddInput : public testing::TestWithParam<int> {
   std::mt19937_64 random_{static_cast<std::uint64_t>(GetParam())};
 };
 
-TEST_P(OddInput, Cloud) {
+TEST_P(RandomInput, Cloud) {
   for (int round = 0; round < 50; ++round) {
     const int n = 1 + below(round % 2 == 0 ? 12 : 400);
     const Points points = oddPoints(n);
@@ -100,7 +100,7 @@ TEST_P(OddInput, Cloud) {
   }
 }
 
-TEST_P(OddInput, Mesh) {
+TEST_P(RandomInput, Mesh) {
   for (int round = 0; round < 50; ++round) {
     const int n = 1 + below(round % 2 == 0 ? 12 : 200);
     const Points points = oddPoints(n);
@@ -113,7 +113,7 @@ TEST_P(OddInput, Mesh) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, OddInput, testing::Range(100, 130));
+INSTANTIATE_TEST_SUITE_P(Seeds, RandomInput, testing::Range(100, 130));
 
 }  // namespace
 }  // namespace tufted::guarantees
