@@ -21,6 +21,7 @@ struct Frames {
 class CoverSource {
  public:
   virtual ~CoverSource() = default;
+  /// The tufted cover, which is built by the first call. Any number of threads may call.
   virtual const IntrinsicTriangulation& cover() const = 0;
   /// The area of each point in its own star, N values in length^2, which Mass::star takes for M wherever it is
   /// positive; size 0 with Mass::cover. Measured again with each call, by all threads of the build.
@@ -54,6 +55,7 @@ struct Laplacian {
   /// number of threads may call.
   /// @throws InvalidInput after `keep_cover = false`
   const IntrinsicTriangulation& cover() const;
+  /// Whether cover() has one to give.
   bool hasCover() const { return stored_cover != nullptr || cover_source != nullptr; }
 
   std::shared_ptr<const IntrinsicTriangulation> stored_cover;  ///< the cover, if it is stored; use cover()

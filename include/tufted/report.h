@@ -24,10 +24,9 @@ struct Report {
   std::int64_t coincident = 0;  ///< merged with an earlier equal point (clouds)
   std::int64_t isolated = 0;    ///< points without a triangle
 
-  // Where the surface ends, active points by Boundary
-  std::int64_t rim_points = 0;
-  std::int64_t jump_points = 0;
-  std::int64_t lost_points = 0;
+  std::int64_t rim_points = 0;   ///< active points of Boundary::rim
+  std::int64_t jump_points = 0;  ///< active points of Boundary::jump
+  std::int64_t lost_points = 0;  ///< active points of Boundary::lost
 
   // Clouds
   int neighbors = 0;                       ///< k in use, after clamping to N - 1; with the caller's lists, the longest

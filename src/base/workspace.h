@@ -24,8 +24,8 @@ class Workspace {
   /// Gives the blocks that nobody uses back to the heap.
   void release();
 
-  /// Gives back to the heap the blocks that nobody has used since the last call. Builds of changing size leave blocks of
-  /// sizes that none asks for again.
+  /// Gives back to the heap the blocks that nobody has used since the last call. Builds of changing size leave blocks
+  /// of sizes that none asks for again.
   void trim();
 
   /// Bytes taken from the heap, in use or not.
