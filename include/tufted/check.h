@@ -33,10 +33,10 @@ struct LaplacianCheck {
   std::int64_t components = 0;              ///< connected components among points with a row
   double nonzeros_per_row = 0;              ///< stored entries of L over the number of active points
 
-  std::int64_t positive_off_diagonals = 0;
+  std::int64_t positive_off_diagonals = 0;  ///< entries of L
   std::int64_t not_finite = 0;              ///< entries of L and of M that are not finite
   std::int64_t not_positive_diagonals = 0;  ///< active points whose diagonal in L is not positive
-  std::int64_t negative_masses = 0;
+  std::int64_t negative_masses = 0;         ///< entries of M
   std::int64_t zero_masses = 0;        ///< active points of mass 0; no fault: areas of lengths below 1e-154 underflow
   std::int64_t inactive_not_zero = 0;  ///< entries of L and of M that belong to a point that is not active
   double symmetry_error = 0;           ///< greatest |L_ij - L_ji| over the larger diagonal of i and j
@@ -51,6 +51,7 @@ struct LaplacianCheck {
   /// One sentence for each broken promise: which, how often, and where first. Empty if all hold.
   std::vector<std::string> faults;
 
+  /// Whether all promises hold.
   bool ok() const { return faults.empty(); }
 };
 

@@ -41,13 +41,13 @@ enum class Mass {
 /// the caller's neighborhoods nothing is grown, split or searched again and outliers stay. With a structure outliers
 /// stay; on rings, moreover, no sheets are split, only lines are grown, and open stars are not searched again.
 struct CloudSteps {
-  Growth growth = Growth::line;
+  Growth growth = Growth::line;  ///< when neighbourhoods grow
   bool split_sheets = true;  ///< neighbours beyond a gap along the normal belong to another surface and are left out
-  StarSearch star_search = StarSearch::thorough;
-  bool isolate_outliers = true;  ///< points that hover over a surface that does not reach to them lose their stars
-  Filter filter = Filter::votes;
-  Lengths lengths = Lengths::denoised;
-  Mass mass = Mass::star;
+  StarSearch star_search = StarSearch::thorough;  ///< when stars are wrapped again
+  bool isolate_outliers = true;   ///< points that hover over a surface that does not reach to them lose their stars
+  Filter filter = Filter::votes;  ///< which triangles are dropped
+  Lengths lengths = Lengths::denoised;  ///< between which positions lengths are measured
+  Mass mass = Mass::star;               ///< what M holds
 };
 
 }  // namespace tufted

@@ -10,13 +10,13 @@ namespace tufted {
 /// What a cloud is like, from its points and their nearest neighbours alone. Lengths are in the points' unit; they are
 /// zero where fewer than two distinct points are finite.
 struct CloudDescription {
-  std::int64_t points = 0;
-  std::int64_t not_finite = 0;  ///< points that are PointStatus::not_finite
-  std::int64_t coincident = 0;  ///< points that are PointStatus::coincident
-  /// Corners of the bounding box of the finite points.
-  Eigen::RowVector3d lowest = Eigen::RowVector3d::Zero(), highest = Eigen::RowVector3d::Zero();
-  double spacing = 0;         ///< median distance to the nearest neighbour
-  double spacing_low = 0;     ///< 5th percentile of the distance to the nearest neighbour
+  std::int64_t points = 0;                                  ///< N
+  std::int64_t not_finite = 0;                              ///< points that are PointStatus::not_finite
+  std::int64_t coincident = 0;                              ///< points that are PointStatus::coincident
+  Eigen::RowVector3d lowest = Eigen::RowVector3d::Zero();   ///< least coordinates of the finite points
+  Eigen::RowVector3d highest = Eigen::RowVector3d::Zero();  ///< greatest coordinates of the finite points
+  double spacing = 0;                                       ///< median distance to the nearest neighbour
+  double spacing_low = 0;                                   ///< 5th percentile of the distance to the nearest neighbour
   double spacing_high = 0;    ///< 95th percentile of the distance to the nearest neighbour
   double float_step = 0;      ///< distance of neighbouring floats at the farthest coordinate; infinite if there are
                               ///< none; not zero for a single point

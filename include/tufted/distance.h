@@ -18,8 +18,11 @@ struct SurfacePoint {
   std::array<double, 3> weights;    ///< barycentric coordinates, >= 0, sum 1; a vertex has 1, 0, 0
   std::array<double, 3> distances;  ///< distances of the point from the corners, along the triangle
 
+  /// The point of that index.
   static SurfacePoint vertex(int index) { return {{index, index, index}, {1, 0, 0}, {0, 0, 0}}; }
 
+  /// A point inside a triangle.
+  /// @param points N x 3, of the mesh that the Laplacian was built from
   /// @param triangles F x 3, of the mesh that the Laplacian was built from
   /// @param face row of `triangles`
   /// @param barycentric coordinates by corner, each >= 0, not all 0; they are divided by their sum
@@ -35,11 +38,12 @@ enum class TimeUnit {
                  ///< density, where many short edges say nothing about the gaps that heat has to cross elsewhere
 };
 
+/// Options of DistanceSolver.
 struct DistanceOptions {
   /// Time step t > 0, in `unit`. Larger values smooth the distance and round off its creases. The mean error is least
   /// at 1/4 to 1/2 on CGAL's meshes and near 1 for two sources on a sphere; for one source it falls up to t = 8.
   double time_step = 0.5;
-  TimeUnit unit = TimeUnit::mean_edge;
+  TimeUnit unit = TimeUnit::mean_edge;  ///< of `time_step`
   /// If true, heat at boundaries is the mean of heat that cannot leave (Neumann) and heat that is lost (Dirichlet), as
   /// if the surface went on (Section 3.2 of the paper on the heat method). If false, heat cannot leave, which takes one
   /// factorisation less.
@@ -105,7 +109,9 @@ class DistanceSolver {
   /// `method` names both ways.
   const SolverReport& report() const;
 
+  /// What is moved from may be assigned to or destroyed, and nothing else.
   DistanceSolver(DistanceSolver&&) noexcept;
+  /// What is moved from may be assigned to or destroyed, and nothing else.
   DistanceSolver& operator=(DistanceSolver&&) noexcept;
   ~DistanceSolver();
 

@@ -8,8 +8,9 @@ namespace tufted {
 /// Gradients of functions at points, in the tangent frame of each point: (X u)_i is the slope of u along
 /// frames.tangents and (Y u)_i the slope along cross(normal, tangent).
 struct Gradients {
-  SparseMatrix X, Y;  ///< N x N, compressed; 1 / length; rows sum to 0
-  Frames frames;      ///< frames of the N points; arbitrary at points that belong to no surface
+  SparseMatrix X;  ///< slopes along the tangents; N x N, compressed; 1 / length; rows sum to 0
+  SparseMatrix Y;  ///< slopes along cross(normal, tangent), as X
+  Frames frames;   ///< frames of the N points; arbitrary at points that belong to no surface
 };
 
 /// Tangent frames of a mesh's vertices. A normal is the direction that the normals of the triangles around, weighted by

@@ -22,6 +22,7 @@ struct IntrinsicTriangulation {
   std::vector<int> glue;                  ///< 3 F; for each side the one it is glued to
   std::vector<double> length;             ///< 3 F lengths, equal on both sides of an edge
 
+  /// The number of faces, F.
   std::int64_t size() const { return static_cast<std::int64_t>(faces.size()); }
 };
 
@@ -46,6 +47,7 @@ struct CoverCheck {
   std::int64_t not_delaunay = 0;
   double smallest_cotan_sum = 0;  ///< the least cot + cot, at most 0
 
+  /// Whether nothing is violated.
   bool ok() const {
     return not_closed + not_edge_manifold + not_oriented + unequal_lengths + triangle_inequality + not_delaunay == 0;
   }

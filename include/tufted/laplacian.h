@@ -48,7 +48,7 @@ struct Laplacian {
   std::vector<int> representative;  ///< N; the point itself unless coincident, then the lowest equal index
   std::vector<Boundary> boundary;   ///< N; why the surface ends at a point, if it does
   Frames frames;                    ///< set on clouds; 0 x 3 on meshes, where those of meshFrames() may be stored
-  Report report;
+  Report report;                    ///< what happened in the build
 
   /// The tufted cover after flips to intrinsic Delaunay, vertices numbered as the caller's points. On clouds the first
   /// call builds it, which takes at most half as long as the build of L and M, but as long for five million points. Any

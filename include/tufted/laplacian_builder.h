@@ -22,7 +22,9 @@ class LaplacianBuilder {
  public:
   LaplacianBuilder();
   ~LaplacianBuilder();
+  /// What is moved from may be assigned to or destroyed, and nothing else.
   LaplacianBuilder(LaplacianBuilder&&) noexcept;
+  /// What is moved from may be assigned to or destroyed, and nothing else.
   LaplacianBuilder& operator=(LaplacianBuilder&&) noexcept;
 
   /// Builds the Laplacian of a cloud; arguments and errors are those of pointCloudLaplacian().

@@ -45,13 +45,14 @@ enum class Preset {
 /// The steps for a kind of cloud, to change single ones of (see cloud_steps.h).
 CloudSteps cloudSteps(Preset preset);
 
+/// Options of pointCloudLaplacian().
 struct CloudOptions {
-  int neighbors = 30;     ///< k >= 3, far fewer than N; larger than N - 1 is clamped and reported
-  CloudSteps steps = {};  ///< most users set none of these and take cloudOptions(preset)
-  Gluing gluing = Gluing::star;
-  FaceOrder order = FaceOrder::angle;
-  std::uint64_t seed = 0;  ///< for FaceOrder::random
-  Delaunay delaunay = Delaunay::star;
+  int neighbors = 30;                  ///< k >= 3, far fewer than N; larger than N - 1 is clamped and reported
+  CloudSteps steps = {};               ///< most users set none of these and take cloudOptions(preset)
+  Gluing gluing = Gluing::star;        ///< which edges of the stars count as one
+  FaceOrder order = FaceOrder::angle;  ///< of the faces around an edge
+  std::uint64_t seed = 0;              ///< for FaceOrder::random
+  Delaunay delaunay = Delaunay::star;  ///< how the stars are found
   double mollify = 1e-5;   ///< delta (Sharp and Crane 2020, Section 4.5) in mean edge lengths, 0 to 1; 0 leaves flat
                            ///< triangles flat, and then rounding may break the guarantees
   int threads = 0;         ///< at most this many; 0: one per processor
@@ -62,21 +63,22 @@ struct CloudOptions {
   /// Where the sensor stood, in the points' unit; distinguishes Boundary::jump from rim however far the surfaces lie
   /// apart along the line of sight. Null: the origin of `structure`, if there is one. Borrowed.
   const Eigen::Vector3d* viewpoint = nullptr;
-  Progress progress = {};
+  Progress progress = {};  ///< called during the build
 };
 
 /// CloudOptions with the steps for a kind of cloud and defaults otherwise.
 CloudOptions cloudOptions(Preset preset);
 
+/// Options of meshLaplacian().
 struct MeshOptions {
-  FaceOrder order = FaceOrder::angle;
-  std::uint64_t seed = 0;  ///< for FaceOrder::random
+  FaceOrder order = FaceOrder::angle;  ///< of the faces around an edge
+  std::uint64_t seed = 0;              ///< for FaceOrder::random
   double mollify = 1e-6;   ///< delta (Sharp and Crane 2020, Section 4.5) in mean edge lengths; see CloudOptions. Below
                            ///< 3e-7 rounding may break the guarantees on needles, above it needles gain area, see
                            ///< Report::mollify_area
   int threads = 0;         ///< at most this many; 0: one per processor
   bool keep_cover = true;  ///< false frees the cover (96 bytes per triangle)
-  Progress progress = {};
+  Progress progress = {};  ///< called during the build
 };
 
 }  // namespace tufted

@@ -10,7 +10,7 @@ namespace tufted {
 
 /// Cost of one stage of a build.
 struct StageCost {
-  std::string name;
+  std::string name;       ///< "neighbors", "stars", ...
   double seconds = 0;     ///< wall-clock; stages that share a parallel loop split its time by their CPU shares
   std::size_t bytes = 0;  ///< memory held by what the stage leaves behind
 };
@@ -76,8 +76,8 @@ struct Report {
       0;  ///< larger negative weights set to 0, a failure of the flips; 0 unless something is wrong
   double largest_clamped = 0;  ///< largest clamped |weight| over the larger diagonal of its row and column
 
-  int threads = 1;
-  std::vector<StageCost> stages;
+  int threads = 1;                ///< that the build had
+  std::vector<StageCost> stages;  ///< in the order of the build
 };
 
 }  // namespace tufted

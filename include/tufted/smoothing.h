@@ -9,6 +9,7 @@
 
 namespace tufted {
 
+/// Options of smooth().
 struct SmoothingOptions {
   /// Time step t >= 0 in units of the mean squared edge length, report.mean_squared_edge. A wave of length 2 pi sqrt(t)
   /// times the root of that unit loses half its height in a step, shorter ones more.
@@ -16,7 +17,7 @@ struct SmoothingOptions {
   int iterations = 1;                                ///< steps >= 1, all with the Laplacian given
   const std::vector<std::uint8_t>* fixed = nullptr;  ///< N; points with an entry other than 0 stay in place; borrowed
   int threads = 0;                                   ///< at most this many; 0: one per processor
-  Progress progress = {};
+  Progress progress = {};                            ///< called while it smooths
 };
 
 /// Smooths positions by implicit steps of the heat equation, (M + t L) x' = M x for each coordinate; the matrix is

@@ -19,8 +19,9 @@ enum class SolverMethod {
   multigrid,  ///< conjugate gradients preconditioned by algebraic multigrid: memory in proportion to the matrix
 };
 
+/// Options of Solver.
 struct SolverOptions {
-  SolverMethod method = SolverMethod::automatic;
+  SolverMethod method = SolverMethod::automatic;  ///< factor or multigrid
   /// Bytes that a factor may take, for `automatic`; if a function holds several factors, all of them together. 0: half
   /// of the available memory, of the system or of the process's control group, whichever is less.
   std::size_t memory_limit = 0;
@@ -101,9 +102,12 @@ class Solver {
   Eigen::MatrixXd solve(const Eigen::Ref<const Eigen::MatrixXd>& b, SolveReport* report = nullptr,
                         const Progress& progress = {}) const;
 
+  /// What making the solver did.
   const SolverReport& report() const;
 
+  /// What is moved from may be assigned to or destroyed, and nothing else.
   Solver(Solver&&) noexcept;
+  /// What is moved from may be assigned to or destroyed, and nothing else.
   Solver& operator=(Solver&&) noexcept;
   ~Solver();
 

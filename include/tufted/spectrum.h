@@ -11,6 +11,7 @@
 
 namespace tufted {
 
+/// Options of spectrum().
 struct SpectrumOptions {
   /// Tolerance in (0, 1) on |A x - theta x| / theta in the norm of M, where A is the inverse of L applied after M and
   /// theta = 1 / lambda. The error of an eigenvalue is about its square. spectrum() returns no pair whose residual, as
@@ -28,7 +29,7 @@ struct SpectrumOptions {
   SolverMethod method = SolverMethod::automatic;  ///< how systems with L are solved
   std::size_t memory_limit = 0;                   ///< bytes that a factor may take, as in SolverOptions
   int threads = 0;                                ///< at most this many; 0: one per processor
-  Progress progress = {};
+  Progress progress = {};                         ///< called while pairs are found
 };
 
 /// What finding a spectrum did.
@@ -45,14 +46,14 @@ struct SpectrumReport {
   int weak_pair = -1;
   double orthogonality = 0;  ///< greatest |entry| of the Gram matrix X^T M X minus the identity
   double seconds = 0;        ///< wall-clock, including the time to make the solver
-  SolverReport solver;
+  SolverReport solver;       ///< the solver of the systems with L
 };
 
 /// The k smallest eigenvalues of L x = lambda M x, which have the unit of 1 / area.
 struct Spectrum {
   VectorXd values;          ///< k, ascending; 1 / length^2
   Eigen::MatrixXd vectors;  ///< N x k, X^T M X = I; 1 / length
-  SpectrumReport report;
+  SpectrumReport report;    ///< how they were found
 };
 
 /// Finds the first k eigenpairs of L x = lambda M x (Sharp and Crane 2020, Section 5.3), by Lanczos' method on the

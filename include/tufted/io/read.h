@@ -19,10 +19,10 @@ enum class FieldType : std::uint8_t { int8, uint8, int16, uint16, int32, uint32,
 
 /// A further value per point that the file carries (colour, intensity, label, ...), kept as it was stored.
 struct Field {
-  std::string name;
-  FieldType type = FieldType::float32;
-  int count = 1;                 ///< values per point
-  std::vector<std::byte> bytes;  ///< N * count values, native byte order
+  std::string name;                     ///< as in the file
+  FieldType type = FieldType::float32;  ///< of one value
+  int count = 1;                        ///< values per point
+  std::vector<std::byte> bytes;         ///< N * count values, native byte order
 };
 
 /// Value i of the N * count values of a field. 64-bit integers beyond 2^53 are rounded.
@@ -39,7 +39,7 @@ struct Geometry {
   /// Pose of the sensor as PCD states it: translation x y z, then the quaternion w x y z, of any length but 0. All
   /// seven numbers are finite: readers refuse other files, writers other poses.
   std::array<double, 7> viewpoint = {0, 0, 0, 1, 0, 0, 0};
-  bool is_mesh = false;
+  bool is_mesh = false;              ///< false: a cloud
   Triangles triangles;               ///< F x 3; polygons are triangulated, in order
   std::int64_t polygons = 0;         ///< faces of more than three corners that were triangulated
   std::int64_t merged_vertices = 0;  ///< vertices merged with an equal earlier one: the corners of an STL, or by weld()

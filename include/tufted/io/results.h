@@ -18,6 +18,7 @@ struct ResultArray {
   bool per_point = true;   ///< whether the values are also a field of the copies of the points
 };
 
+/// Options of writeResults().
 struct ResultOptions {
   std::vector<Format> copies = {Format::ply};  ///< copies of the points with the results as fields: ply, pcd, or none
   std::string report = "{}\n";                 ///< the text of report.json

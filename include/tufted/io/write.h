@@ -27,9 +27,10 @@ enum class Sign : std::uint8_t {
   igl,  ///< negated, as libigl and PMP have it: negative semidefinite, off-diagonals >= 0
 };
 
+/// Options of writeLaplacian().
 struct WriteOptions {
-  std::vector<Format> formats = {Format::npz, Format::ply};
-  Sign sign = Sign::psd;
+  std::vector<Format> formats = {Format::npz, Format::ply};  ///< what to write beside report.json
+  Sign sign = Sign::psd;                                     ///< sign of L in the files
   /// Gives every point that is not active 1 (-1 with Sign::igl) on the diagonal of L and a thousandth of the smallest
   /// positive mass in M (1 if there is none), for programs that expect full rank. The paper's program writes the same.
   bool dummy = false;

@@ -20,7 +20,9 @@ namespace tufted {
 template <typename PointT>
 class LaplacianEstimation : public pcl::PCLBase<PointT>, public LaplacianSettings<PointT> {
  public:
+  /// As PCL has it.
   using Ptr = pcl::shared_ptr<LaplacianEstimation<PointT>>;
+  /// As PCL has it.
   using ConstPtr = pcl::shared_ptr<const LaplacianEstimation<PointT>>;
 
   /// Builds the Laplacian of the input cloud; `result` is overwritten, with 0 rows if that failed.
@@ -30,8 +32,10 @@ class LaplacianEstimation : public pcl::PCLBase<PointT>, public LaplacianSetting
   /// index) must live until compute() is done; a search method or an organized search wins over neighborhoods and
   /// structure.
   void setOptions(const CloudOptions& options) { options_ = options; }
+  /// See setOptions().
   const CloudOptions& getOptions() const { return options_; }
 
+  /// "LaplacianEstimation".
   const std::string& getClassName() const { return class_name_; }
 
  protected:

@@ -22,8 +22,11 @@ namespace tufted {
 template <typename PointT>
 class LaplacianSmoothing : public pcl::Filter<PointT>, public LaplacianSettings<PointT> {
  public:
+  /// As PCL has it.
   using Ptr = pcl::shared_ptr<LaplacianSmoothing<PointT>>;
+  /// As PCL has it.
   using ConstPtr = pcl::shared_ptr<const LaplacianSmoothing<PointT>>;
+  /// As PCL has it.
   using PointCloud = typename pcl::Filter<PointT>::PointCloud;
 
   LaplacianSmoothing() {
@@ -33,10 +36,12 @@ class LaplacianSmoothing : public pcl::Filter<PointT>, public LaplacianSettings<
 
   /// Time step t >= 0 in units of the mean squared edge length, 1 unless set; see SmoothingOptions::time_step.
   void setTimeStep(double time_step) { time_step_ = time_step; }
+  /// See setTimeStep().
   double getTimeStep() const { return time_step_; }
 
   /// Number of steps, at least 1, all with the Laplacian of the input; 1 unless set.
   void setIterations(int iterations) { iterations_ = iterations; }
+  /// See setIterations().
   int getIterations() const { return iterations_; }
 
   /// What happened in the last filter(): odd points, edge lengths, costs.
@@ -51,6 +56,7 @@ class LaplacianSmoothing : public pcl::Filter<PointT>, public LaplacianSettings<
   using LaplacianSettings<PointT>::search_;
   using LaplacianSettings<PointT>::organized_;
 
+  /// Called by filter().
   void applyFilter(PointCloud& output) override;
 
  private:
