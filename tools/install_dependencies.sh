@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # Installs what tufted, its tests and its benchmark need, on Debian 12 and Ubuntu 22.04 and 24.04. Does nothing, and
 # asks for no rights, where all of it is there already.
-#   --fuzz   also clang with its sanitizers, for the preset `fuzz`
+#   --tests  also what the checks of tools/test.sh need: clang with its sanitizers, clang-format
+#   --all    that, and clang-tidy
 #
 # The names are the same on all three. What differs: Ubuntu keeps most of them in `universe` (on by default); 22.04 has
 # GCC 11, CMake 3.22, PCL 1.12 and CGAL 5.4, which suffice.
@@ -16,15 +17,16 @@ packages=(
   libgtest-dev libspectra-dev libbenchmark-dev libnanoflann-dev python3 python3-scipy  # tests and benchmark
 )
 
-fuzz=false
+sanitizers=false
 case "${1-}" in
   '') ;;
-  --fuzz)
-    fuzz=true
-    packages+=(clang)
+  --tests | --all)
+    sanitizers=true
+    packages+=(clang clang-format-14)
+    [[ $1 == --tests ]] || packages+=(clang-tidy)
     ;;
   *)
-    echo "usage: tools/install_dependencies.sh [--fuzz]" >&2
+    echo "usage: tools/install_dependencies.sh [--tests | --all]" >&2
     exit 2
     ;;
 esac
@@ -52,14 +54,14 @@ install() {
     fail "apt-get could not install: ${missing[*]}"
 }
 
-# can_fuzz: whether clang has the runtime of its sanitizers, which some releases keep in a package of its own.
-can_fuzz() {
+# can_sanitize: whether clang has the runtime of its sanitizers, which some releases keep in a package of its own.
+can_sanitize() {
   echo 'extern "C" int LLVMFuzzerTestOneInput(const char*, unsigned long) { return 0; }' |
     clang++ -fsanitize=fuzzer,address,undefined -x c++ -o /dev/null - 2>/dev/null
 }
 
 command -v dpkg-query >/dev/null || fail "knows Debian and Ubuntu only; please install: ${packages[*]}"
 install "${packages[@]}"
-if $fuzz && ! can_fuzz; then
+if $sanitizers && ! can_sanitize; then
   install libclang-rt-dev
 fi

@@ -1,24 +1,26 @@
 #!/usr/bin/env bash
 # Installs what is missing, builds everything and runs all tests. The last line counts them: N passed, N failed.
-#   --quick   the release build alone
+#   --quick  the release build alone
+#   --all    also the GPL parts under sanitizers, the parallel stages under ThreadSanitizer, the core alone as a package,
+#            and clang-tidy
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-quick=false
+extent=usual
 case "${1-}" in
   '') ;;
-  --quick) quick=true ;;
+  --quick | --all) extent=${1#--} ;;
   *)
-    echo "usage: tools/test.sh [--quick]" >&2
+    echo "usage: tools/test.sh [--quick | --all]" >&2
     exit 2
     ;;
 esac
 
-if $quick; then
-  tools/install_dependencies.sh
-else
-  tools/install_dependencies.sh --fuzz
-fi
+case $extent in
+  quick) tools/install_dependencies.sh ;;
+  usual) tools/install_dependencies.sh --tests ;;
+  all) tools/install_dependencies.sh --all ;;
+esac
 # shellcheck source=tools/build_settings.sh
 source tools/build_settings.sh
 # Real meshes and scans of others; their tests skip where the package cannot be had.
@@ -35,7 +37,7 @@ scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 passed=0 failed=0 skipped=0
 
-# step NAME COMMAND...: runs a step of the build; its output is shown when it fails, which counts as a failed test.
+# step NAME COMMAND...: runs a step; its output is shown when it fails, which counts as a failed test.
 step() {
   local name=$1 seconds=$SECONDS
   shift
@@ -49,11 +51,23 @@ step() {
   fi
 }
 
-# tests NAME DIR: runs the tests built in DIR and adds them up. ctest counts a test that it cannot start as failed and
-# one that skips itself as passed, so the latter are taken off.
+# build PRESET: builds it. Warnings fail. To be called by step, whose log it reads.
+build() {
+  local warnings
+  cmake --build "build/$1" || return
+  warnings=$(grep -E 'warning: |warning #' "$scratch/log" || true)
+  [[ -z $warnings ]] && return
+  echo "$warnings"
+  rm -f "build/$1/.ninja_log"  # or the next run would not see them again
+  return 1
+}
+
+# tests NAME COMMAND...: runs tests by ctest and adds them up. ctest counts a test that it cannot start as failed and one
+# that skips itself as passed, so the latter are taken off.
 tests() {
-  local name=$1 dir=$2 seconds=$SECONDS summary bad total odd
-  ctest --test-dir "$dir" --output-on-failure --no-tests=error >"$scratch/log" 2>&1 || true
+  local name=$1 seconds=$SECONDS summary bad total odd
+  shift
+  ctest "$@" >"$scratch/log" 2>&1 || true
   summary=$(grep -Eo '[0-9]+ tests? failed out of [0-9]+' "$scratch/log" | tail -n 1 || true)
   if [[ ! $summary =~ ^([0-9]+)\ tests?\ failed\ out\ of\ ([0-9]+)$ ]]; then
     cat "$scratch/log"
@@ -71,8 +85,8 @@ tests() {
 # preset NAME: configures, builds and tests one of CMakePresets.json.
 preset() {
   step "$1: configure" cmake --preset "$1" "${configure_arguments[@]}" &&
-    step "$1: build" cmake --build "build/$1" &&
-    tests "$1: tests" "build/$1"
+    step "$1: build" build "$1" &&
+    tests "$1: tests" --preset "$1"
 }
 
 # consumer NAME BUILD ARGUMENTS...: installs BUILD and builds a project of a user's against what is installed.
@@ -83,18 +97,32 @@ consumer() {
     step "$name: configure" cmake -S tests/consumer -B "$dir/build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
       -DCMAKE_PREFIX_PATH="$dir/prefix" "$@" &&
     step "$name: build" cmake --build "$dir/build" &&
-    tests "$name: tests" "$dir/build"
+    tests "$name: tests" --test-dir "$dir/build" --output-on-failure --no-tests=error
+}
+
+# formatted: whether all files are as Debian's clang-format 14 leaves them.
+formatted() {
+  find src include tools tests \( -name '*.h' -o -name '*.hpp' -o -name '*.cpp' \) -print0 |
+    xargs -0 clang-format-14 --dry-run -Werror
 }
 
 # A failed step is counted already and must not keep the rest from running.
+if [[ $extent != quick ]]; then
+  step "format" formatted || true
+fi
 preset release || true
-if ! $quick; then
+if [[ $extent != quick ]]; then
   consumer installed build/release -DCONSUMER_IO=ON -DCONSUMER_PCL=ON || true
-  preset dev || true
-  preset no-gpl || true
-  preset fuzz || true
+  preset sanitized || true
+fi
+if [[ $extent == all ]]; then
+  preset sanitized-gpl || true
+  preset threads || true
   # Without tufted::io and tufted::pcl the package may not ask for PCL or libzip.
-  consumer installed-core build/no-gpl -DCMAKE_DISABLE_FIND_PACKAGE_PclParts=ON || true
+  step "core: configure" cmake --preset core "${configure_arguments[@]}" &&
+    step "core: build" build core &&
+    consumer installed-core build/core -DCMAKE_DISABLE_FIND_PACKAGE_PclParts=ON || true
+  step "tidy: configure" cmake --preset tidy "${configure_arguments[@]}" && step "tidy: build" build tidy || true
 fi
 
 total="$passed passed, $failed failed"

@@ -11,8 +11,30 @@
 #include "base/workspace.h"
 #include "tufted/errors.h"
 
+// ThreadSanitizer is told how work goes from thread to thread: TBB, which is not compiled for it, does not say so.
+#ifdef __has_feature
+#define TUFTED_HAS_TSAN __has_feature(thread_sanitizer)
+#else
+#define TUFTED_HAS_TSAN 0
+#endif
+#if TUFTED_HAS_TSAN
+#include <sanitizer/tsan_interface.h>
+#endif
+
 namespace tufted {
 namespace {
+
+/// Whoever takes over sees what was written before it was handed over.
+void handOver([[maybe_unused]] void* work) {
+#if TUFTED_HAS_TSAN
+  __tsan_release(work);
+#endif
+}
+void takeOver([[maybe_unused]] void* work) {
+#if TUFTED_HAS_TSAN
+  __tsan_acquire(work);
+#endif
+}
 
 /// One per processor that this process may use, or fewer where the program has limited TBB.
 int offeredThreads() {
@@ -31,9 +53,17 @@ void runOnThreads(int team, const Run& run) {
   tbb::task_arena arena(std::min(team, offeredThreads()));  // TBB warns on stderr of more
   arena.execute([&] {
     tbb::task_group others;
-    for (int worker = 1; worker < team; ++worker) others.run([&run, worker] { run(worker); });
+    handOver(&others);
+    for (int worker = 1; worker < team; ++worker) {
+      others.run([&run, &others, worker] {
+        takeOver(&others);
+        run(worker);
+        handOver(&others);
+      });
+    }
     run(0);
     others.wait();
+    takeOver(&others);
   });
 }
 

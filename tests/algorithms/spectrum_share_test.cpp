@@ -102,7 +102,7 @@ TEST(SpectrumOfMost, IsThatOfDenseMatricesByBothMethods) {
   for (const int n : {50, 300, 400}) {
     for (const Kind kind : kinds) {
       for (const int parts : {1, 3}) {
-        for (const std::uint64_t seed : {1, 2, 3, 4, 5})
+        for (const std::uint64_t seed : {1, 2})
           expectMostOf(spheres(kind, parts, n, seed), {by_default, 0},
                        std::to_string(n) + " points, " + std::to_string(parts) + " parts, kind " +
                            std::to_string(static_cast<int>(kind)) + ", seed " + std::to_string(seed));
@@ -112,11 +112,9 @@ TEST(SpectrumOfMost, IsThatOfDenseMatricesByBothMethods) {
 }
 
 TEST(SpectrumOfMost, IsThatOfDenseMatricesOn1000Points) {
-  for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
-    const Kind kind = kinds[seed % 3];
-    for (const int parts : {1, 3})
-      expectMostOf(spheres(kind, parts, 1000, seed), {by_default},
-                   std::to_string(parts) + " parts, seed " + std::to_string(seed));
+  for (const std::uint64_t seed : {1, 2, 3}) {
+    const int parts = seed == 2 ? 3 : 1;
+    expectMostOf(spheres(kinds[seed % 3], parts, 1000, seed), {by_default}, "seed " + std::to_string(seed));
   }
   expectMostOf(spheres(Kind::cloud, 1, 1000, 1), {0}, "1000 points searched");
 }
