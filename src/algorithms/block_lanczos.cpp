@@ -26,6 +26,11 @@ constexpr double least_part = 1e-15;
 constexpr double rounding = 1e-13;
 /// An eigenvalue this many times the next one is found at once, and spoils the digits of the others.
 constexpr double dominance = 1e4;
+/// The change of an eigenvalue, as a part of it, below which a random block shows nothing new.
+constexpr double settled = 1e-8;
+/// What orthogonalisation must leave of a column: for the Cholesky factor of the Gram matrix to be used at all, and for
+/// one pass to be enough. Rounding grows by the inverse of its square.
+constexpr double least_left = 1e-5, mostly_left = 0.1;
 
 class BlockLanczos {
  public:
@@ -90,7 +95,7 @@ class BlockLanczos {
   bool isComplete(int iteration) {
     const VectorXd now = values_.head(problem_.wanted);
     const bool searching = before_.size() > 0;
-    const bool changed = !searching || ((now - before_).cwiseAbs().array() > 1e-8 * before_.array()).any();
+    const bool changed = !searching || ((now - before_).cwiseAbs().array() > settled * before_.array()).any();
     if (!changed) return iteration - search_from_ >= (is_missing_ ? longest_search : search_steps);
     const std::optional<bool> complete = problem_.is_complete ? problem_.is_complete(now) : std::nullopt;
     if (complete == true) return true;
@@ -166,13 +171,13 @@ class BlockLanczos {
       if (gram.info() != Eigen::Success) return false;
       const VectorXd left = gram.matrixLLT().diagonal();
       const double least_share = (left.array() / own.diagonal().array().sqrt()).minCoeff();
-      if (!(left.minCoeff() > least) || !(least_share > 1e-5)) return false;
+      if (!(left.minCoeff() > least) || !(least_share > least_left)) return false;
       least = 0;  // the columns have length 1 from now on
       MatrixXd combination(size_ + count, count);
       combination.bottomRows(count) = gram.matrixU().solve(MatrixXd::Identity(count, count));
       combination.topRows(size_) = -known * combination.bottomRows(count);
       multiplyInto(all, combination, all.rightCols(count), quiet_);
-      if (least_share > 0.1) return true;  // rounding grew by the inverse of its square
+      if (least_share > mostly_left) return true;
     }
     return false;
   }

@@ -17,6 +17,9 @@ constexpr int coarsest_size = 500;
 constexpr int most_levels = 25;
 /// Neighbours are strong if their weight exceeds this part of the mean of the two diagonals; halved per level.
 constexpr double strong = 0.08;
+constexpr double least_lumped = 0.1;                // of a diagonal that weak neighbours were added to
+constexpr double least_shrinking = 0.9;             // of the rows, which the next level must have fewer than
+constexpr int largest_direct = 20 * coarsest_size;  // rows of the last level that is factorised
 constexpr int alone = -1;
 
 /// The matrix without weak off-diagonals, which are added to the diagonal: constants keep their image.
@@ -34,7 +37,7 @@ SparseMatrix filtered(const SparseMatrix& A, double threshold) {
       if (keep || i == j) result.insertBack(i, j) = entry.value();
     }
     // A row that weak neighbours dominate would turn negative: it keeps its own diagonal.
-    result.coeffRef(j, j) = lumped > 0.1 * diagonal[j] ? lumped : diagonal[j];
+    result.coeffRef(j, j) = lumped > least_lumped * diagonal[j] ? lumped : diagonal[j];
   }
   result.finalize();
   return result;
@@ -120,13 +123,13 @@ class Multigrid : public LinearBackend {
       const SparseMatrix strong_part = filtered(level.A, strong * std::pow(0.5, double(levels_.size() - 1)));
       int count = 0;
       const std::vector<int> group = aggregate(strong_part, count);
-      if (count == 0 || count > 0.9 * static_cast<double>(level.A.rows())) break;
+      if (count == 0 || count > least_shrinking * static_cast<double>(level.A.rows())) break;
       level.P = prolongation(strong_part, group, count);
       const SparseMatrix image = level.A * level.P, restriction = level.P.transpose();
       A = restriction * image;
     }
     const SparseMatrix& last = levels_.back().A;
-    direct_ = last.rows() <= 20 * coarsest_size;
+    direct_ = last.rows() <= largest_direct;
     if (direct_) coarsest_.compute(last);
     if (direct_ && coarsest_.info() != Eigen::Success) return false;
     for (const Level& level : levels_) {

@@ -14,12 +14,14 @@ using Eigen::MatrixXd;
 
 /// Eigenvalues up to this many times the smallest one are refined by the inverse, which is exact to about 1e-12 there.
 constexpr double range_of_inverse = 1e4;
+constexpr double equal_values = 1e-6;  // parts of an eigenvalue, between it and the next
 
 /// How many pairs the inverse refines. Equal eigenvalues stay together.
 Index countLow(const VectorXd& values) {
   const double bound = range_of_inverse * values[0];
   Index low = 1;
-  while (low < values.size() && (values[low] <= bound || values[low] - values[low - 1] <= 1e-6 * values[low])) ++low;
+  while (low < values.size() && (values[low] <= bound || values[low] - values[low - 1] <= equal_values * values[low]))
+    ++low;
   return low;
 }
 

@@ -10,6 +10,8 @@
 namespace tufted {
 namespace {
 
+constexpr double sure_squared_sine = 1e-4;  // of an angle whose cotangent by vectors is right to 1e-11
+
 class SeedFinder {
  public:
   SeedFinder(const Stars& stars, const EdgeLengths& length, const RadialCycles& cycles, const StarMetric& metric)
@@ -59,7 +61,7 @@ class SeedFinder {
     const double x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;
     const double sine = x * x + y * y + z * z;  // times both lengths, squared
     const double longer = std::max(ux * ux + uy * uy + uz * uz, vx * vx + vy * vy + vz * vz);
-    return sine > 1e-4 * longer * longer ? (ux * vx + uy * vy + uz * vz) / std::sqrt(sine) : cotanAt(side);
+    return sine > sure_squared_sine * longer * longer ? (ux * vx + uy * vy + uz * vz) / std::sqrt(sine) : cotanAt(side);
   }
 
   const Stars& stars_;

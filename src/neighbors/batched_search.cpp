@@ -64,7 +64,7 @@ class BatchCandidates {
 
   /// As takeWithin(), bounded by how far around p the ball reaches. Returns 0 where there are not k.
   int takeWithinBall(int p, int k, double guess, const SearchedBall& ball) {
-    const double room = roomAround(points_.row(p), ball), bound = room * room * (1 - 1e-12);
+    const double room = roomAround(points_.row(p), ball), bound = room * room * (1 - distance_rounding);
     if (!(room > 0 && bound > least_square)) return 0;
     const int count = takeWithin(p, k, guess, bound);
     return count < k ? 0 : count;

@@ -13,6 +13,7 @@ namespace {
 using Index = flann::KDTreeSingleIndex<flann::L2_Simple<double>>;
 
 constexpr int least_points = 8192;  // of a tree, where there are several
+constexpr int leaf_size = 16;       // points
 const flann::SearchParams all_checks{flann::FLANN_CHECKS_UNLIMITED};
 
 }  // namespace
@@ -29,7 +30,7 @@ struct KdForest::Tree {
     Eigen::Map<Eigen::RowVector3d>(highest.data()) = rows.colwise().maxCoeff();
     // The points are in Morton order already, so FLANN's reordered copy would only cost memory.
     index.emplace(flann::Matrix<double>(const_cast<double*>(rows.data()), static_cast<std::size_t>(end - begin), 3),
-                  flann::KDTreeSingleIndexParams(16, false));
+                  flann::KDTreeSingleIndexParams(leaf_size, false));
     index->buildIndex();
   }
 

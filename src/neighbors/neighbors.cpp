@@ -91,7 +91,8 @@ class NearestTies final : public RankSet {
   void addPoint(double squared_distance, size_t index) override {
     if (!(squared_distance < worst_)) return;
     found_.push_back({squared_distance, rankOf(index)});
-    worst_ = std::min(worst_, squared_distance * (1 + 1e-12) + 16 * std::numeric_limits<double>::denorm_min());
+    worst_ =
+        std::min(worst_, squared_distance * (1 + distance_rounding) + 16 * std::numeric_limits<double>::denorm_min());
   }
 
   void finish() {

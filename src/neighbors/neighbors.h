@@ -21,9 +21,12 @@ struct Neighbor {
   }
 };
 
+/// Squared distances of FLANN and ours differ by less than this part.
+constexpr double distance_rounding = 1e-12;
+
 /// A bound on squared distances that holds however they were rounded.
 inline double widened(double squared_distance) {
-  return squared_distance * (1 + 1e-12) + std::numeric_limits<double>::denorm_min();
+  return squared_distance * (1 + distance_rounding) + std::numeric_limits<double>::denorm_min();
 }
 
 /// The least squared distance that bounds others; smaller ones have no digits left.

@@ -12,7 +12,9 @@
 namespace tufted {
 namespace {
 
-constexpr std::size_t near_part = 12;  // most stars are settled by so many nearest candidates
+constexpr std::size_t near_part = 12;   // most stars are settled by so many nearest candidates
+constexpr double key_rounding = 1e-14;  // of pseudo-angles, which rounding moves by a few 1e-16
+constexpr double reach_slack = 1.001;   // times the square of the widest circle's diameter; covers the tie band
 
 double squaredNorm(const PlanarPoint& q) {
   return q.u * q.u + q.v * q.v;
@@ -25,8 +27,7 @@ bool isNearer(const PlanarPoint& a, const PlanarPoint& b) {
 
 bool comesBefore(const Directed& a, const Directed& b) {
   const double difference = b.key - a.key;
-  // Rounding moves the pseudo-angle by a few 1e-16; closer calls are decided exactly.
-  return std::abs(difference) > 1e-14 ? difference > 0 : orientation(a.point, b.point) > 0;
+  return std::abs(difference) > key_rounding ? difference > 0 : orientation(a.point, b.point) > 0;
 }
 
 /// Sorts by direction and keeps the nearest in each; of those at one place the first.
@@ -134,7 +135,7 @@ void delaunayStar(const Buffer<PlanarPoint>& candidates, int p, StarScratch& scr
   // Circles through p reach no further than twice their radius, so only candidates within that can change a closed
   // star. The slack covers the tie band.
   double reach = std::numeric_limits<double>::infinity();
-  if (star.closed) reach = std::pow(2 * star.largestCircumradius(), 2) * 1.001;
+  if (star.closed) reach = std::pow(2 * star.largestCircumradius(), 2) * reach_slack;
   chosen.clear();
   std::copy_if(candidates.begin(), candidates.begin() + near, std::back_inserter(chosen), hasDirection);
   std::copy_if(candidates.begin() + near, candidates.end(), std::back_inserter(chosen),

@@ -11,6 +11,10 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
 constexpr double tie_angle = 1e-9;  // rad
 constexpr double flat_sine = 1e-6;
+constexpr double determinant_rounding = 4e-16;  // of both products: three roundings of at most half an ulp each
+constexpr double least_bound = 1e-290;          // below, products may have underflowed
+constexpr double least_exact = 1e-270;          // above, the rounding of a product is exact by fused multiply-add
+constexpr double least_sides = 1e-280, most_sides = 1e280;  // products of squared sides in range
 
 Kernel::Point_2 toCgal(const PlanarPoint& p) {
   return {p.u, p.v};
@@ -29,10 +33,9 @@ int orientation(const PlanarPoint& a, const PlanarPoint& b) {
   const double left = a.u * b.v;
   const double right = a.v * b.u;
   const double determinant = left - right;
-  // Three roundings of at most half an ulp each; the second bound keeps clear of underflow.
-  const double bound = 4e-16 * (std::abs(left) + std::abs(right));
-  if (std::abs(determinant) > bound && bound > 1e-290) return determinant > 0 ? 1 : -1;
-  if (bound > 1e-270) {
+  const double bound = determinant_rounding * (std::abs(left) + std::abs(right));
+  if (std::abs(determinant) > bound && bound > least_bound) return determinant > 0 ? 1 : -1;
+  if (bound > least_exact) {
     // So nearly equal, the products have an exact difference, and what is left are their own roundings.
     const double rest = std::fma(a.v, b.u, -right) - std::fma(a.u, b.v, -left);
     if (determinant != rest) return determinant > rest ? 1 : -1;
@@ -51,7 +54,7 @@ CircleSide sideOfCircle(const PlanarPoint& a, const PlanarPoint& b, const Planar
   const double cosine = dot_p * dot_b - cross_p * cross_b;
   const double sides =
       dot(a.u, a.v, a.u, a.v) * dot(c.u, c.v, c.u, c.v) * dot(abu, abv, abu, abv) * dot(cbu, cbv, cbu, cbv);
-  const bool in_range = sides > 1e-280 && sides < 1e280;
+  const bool in_range = sides > least_sides && sides < most_sides;
   if (in_range && sine * sine > tie_angle * tie_angle * sides) {
     return sine > 0 ? CircleSide::inside : CircleSide::outside;
   }

@@ -17,6 +17,9 @@ namespace {
 constexpr std::int64_t block_size = 8192;
 /// Less takes triangles from steps of density, more leaves bridges from the last ring of a scan.
 constexpr double further = 2.75;
+constexpr double far_larger = 3;        // than its own neighbourhood, is no triangle of a surface
+constexpr double doubtful_squared = 4;  // of two radii of the smallest neighbourhood, for triangles of one star alone
+constexpr double bridge = 4;            // radii of the smallest neighbourhood, for Filter::radius
 
 /// Whether the star of `a` contains the triangle (a, b, c), either way round.
 bool contains(const Stars& stars, int a, int b, int c) {
@@ -63,13 +66,13 @@ struct SquaredRadius {
   bool isAtMost(double square) const { return denominator > 0 && numerator <= square * denominator; }
 };
 
-/// Filter::radius: circumradius R > r_k(p), which are slivers along a rim, or R > 4 times the smallest r_k of the three
-/// corners, which are bridges to outliers.
+/// Filter::radius: circumradius R > r_k(p), which are slivers along a rim, or R > 4 times the smallest r_k of
+/// the three corners, which are bridges to outliers.
 bool isTooLarge(const BuiltStars& built, int p, int i) {
   const auto& [stars, support] = built;
   const int a = stars.link[i], b = stars.link[stars.after(p, i)];
   const double smallest = std::min({support.fit_radius[p], support.fit_radius[a], support.fit_radius[b]});
-  return support.radius[i] > support.fit_radius[p] || support.radius[i] > 4 * smallest;
+  return support.radius[i] > support.fit_radius[p] || support.radius[i] > bridge * smallest;
 }
 
 /// Filter::votes: far larger than the neighbourhood; or of one star alone and, in space, large for its corners: for
@@ -77,12 +80,12 @@ bool isTooLarge(const BuiltStars& built, int p, int i) {
 bool isImplausible(const BuiltStars& built, const PointsView& points, int p, int i) {
   const auto& [stars, support] = built;
   const int a = stars.link[i], b = stars.link[stars.after(p, i)];
-  if (support.radius[i] > 3 * support.fit_radius[p]) return true;
+  if (support.radius[i] > far_larger * support.fit_radius[p]) return true;
   const double smallest = std::min({support.fit_radius[p], support.fit_radius[a], support.fit_radius[b]});
   const SquaredRadius radius(points, p, a, b, smallest);
   if (radius.isAtMost(1)) return false;
   const bool sees_further = support.fit_radius[p] > further * std::max(support.fit_radius[a], support.fit_radius[b]);
-  if (radius.isAtMost(4) && !sees_further) return false;
+  if (radius.isAtMost(doubtful_squared) && !sees_further) return false;
   return otherVotes(stars, p, i) == 0;
 }
 

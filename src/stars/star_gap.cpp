@@ -5,6 +5,11 @@
 #include <limits>
 
 namespace tufted {
+namespace {
+
+constexpr double opposite = 1e-3;  // length of the sum of two unit vectors that are next to opposite
+
+}  // namespace
 
 Eigen::Vector2d middleOfGap(const DelaunayStar& star) {
   if (star.link.empty()) return Eigen::Vector2d::Zero();
@@ -12,7 +17,7 @@ Eigen::Vector2d middleOfGap(const DelaunayStar& star) {
   const Eigen::Vector2d a = Eigen::Vector2d(first.u, first.v).normalized();
   const Eigen::Vector2d b = Eigen::Vector2d(last.u, last.v).normalized();
   // Across the gap from its ends; where these are next to opposite, to the left of its beginning.
-  return (a + b).norm() > 1e-3 ? Eigen::Vector2d(-a - b) : Eigen::Vector2d(-b.y(), b.x());
+  return (a + b).norm() > opposite ? Eigen::Vector2d(-a - b) : Eigen::Vector2d(-b.y(), b.x());
 }
 
 bool leaveGap(const Buffer<PlanarPoint>& points, const Eigen::Vector2d& middle) {

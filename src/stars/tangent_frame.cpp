@@ -14,6 +14,8 @@ namespace tufted {
 
 namespace {
 
+constexpr double line_share = 0.1;  // of the largest variance; the second is less on one scan line
+
 /// The axes by Eigen's iteration, for matrices with two eigenvalues close together.
 PrincipalAxes carefulAxes(const Covariance& a) {
   Eigen::Matrix3d matrix;
@@ -100,7 +102,7 @@ PrincipalAxes principalAxes(const PointsView& points, int p, std::span<const Nei
 }
 
 bool liesOnOneLine(const PrincipalAxes& axes) {
-  return axes.variance[1] < 0.1 * axes.variance[2];
+  return axes.variance[1] < line_share * axes.variance[2];
 }
 
 Eigen::Vector3d tangentOf(const Eigen::Vector3d& normal) {
