@@ -97,7 +97,7 @@ TEST(Neighborhood, LeavesTheOtherSheetOut) {
   const Points points = together(sheet(n, 0, 1), sheet(n, 4 * spacing, 2));
   const Neighborhood mixed = Hoods(points, {.neighbors = 60, .steps = cloudSteps(Preset::clean)}).at(0);
   const Neighborhood own = Hoods(points, {.neighbors = 60, .steps = cloudSteps(Preset::scan)}).at(0);
-  const auto isOther = [n](const Neighbor& q) { return q.index >= n; };
+  const auto isOther = [&](const Neighbor& q) { return q.index >= n; };
   EXPECT_TRUE(std::any_of(mixed.neighbors.begin(), mixed.neighbors.end(), isOther));
   EXPECT_TRUE(std::none_of(own.neighbors.begin(), own.neighbors.end(), isOther));
   EXPECT_TRUE(own.split);
