@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Draws tools/figures/spectrum.svg, the figure of the README, from what tufted_accuracy prints.
+"""Draws docs/figures/spectrum.svg, the figure of README.md and docs/accuracy.md, from what tufted_accuracy prints.
 
-    build/release/tufted_accuracy > tools/figures/spectrum.csv
-    tools/plot_spectrum.py tools/figures/spectrum.csv tools/figures/spectrum.svg
+    build/release/tufted_accuracy > docs/figures/spectrum.csv
+    tools/plot_spectrum.py docs/figures/spectrum.csv docs/figures/spectrum.svg
 
 The same numbers give the same bytes (with one version of matplotlib). Needs python3-matplotlib.
 """

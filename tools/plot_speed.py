@@ -5,7 +5,7 @@
     for case in $(build/release/tufted_bench --benchmark_list_tests --benchmark_filter='/sphere/.*/(clean|scan)/threads:1/'); do
       build/release/tufted_bench --benchmark_filter="$case" --benchmark_out="out/speed/$(echo "$case" | tr / _).json"
     done
-    tools/plot_speed.py out/speed/*.json tools/figures/speed.svg
+    tools/plot_speed.py out/speed/*.json docs/figures/speed.svg
 
 Each case has a process of its own here, as what others leave behind counts in its peak. The same numbers give the same bytes (with
 one version of matplotlib). Needs python3-matplotlib.
