@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Installs what tufted, its tests and its benchmark need, on Debian 12 and Ubuntu 22.04 and 24.04. Does nothing, and
 # asks for no rights, where all of it is there already.
-#   --tests  also what the checks of tools/test.sh need: clang with its sanitizers, clang-format
+#   --tests  also what the checks of tools/test.sh need: clang with its sanitizers, clang-format, doxygen
 #   --all    that, and clang-tidy
 #
 # The names are the same on all three. What differs: Ubuntu keeps most of them in `universe` (on by default); 22.04 has
@@ -22,7 +22,7 @@ case "${1-}" in
   '') ;;
   --tests | --all)
     sanitizers=true
-    packages+=(clang clang-format-14)
+    packages+=(clang clang-format-14 doxygen)
     [[ $1 == --tests ]] || packages+=(clang-tidy)
     ;;
   *)

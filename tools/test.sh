@@ -112,6 +112,7 @@ if [[ $extent != quick ]]; then
 fi
 preset release || true
 if [[ $extent != quick ]]; then
+  step "reference of the headers" cmake --build build/release --target docs || true
   consumer installed build/release -DCONSUMER_IO=ON -DCONSUMER_PCL=ON || true
   preset sanitized || true
 fi
