@@ -76,6 +76,7 @@ Eigen::MatrixXd Refinement::run(const SparseMatrix& A, SolveReport& made) {
   const LinearSystem system = LinearSystem::positiveDefinite(names_, within, options_);
   is_iterative_ = system.report().iterative;
   const PartConstants::Inner inner = [&](Eigen::MatrixXd rest) {
+    if (rest.cols() == 0) return rest;  // no part floats
     for (const int i : pinned_.components.points)
       if (in_factor_[i] == 0) rest.row(i).setZero();
     const Eigen::MatrixXd scale = pinned_.components.normalise(rest);

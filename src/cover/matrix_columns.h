@@ -138,8 +138,9 @@ class MatrixColumns {
 
   void writeBlock(int begin, int end, Block& block, DisjointSets& sets) {
     Column column;
+    const int last_ahead = L_.nonZeros() > 0 ? rows_.size() - 2 * ahead : 0;
     for (int p = begin; p < end; ++p) {
-      if (p + 2 * ahead < rows_.size()) prefetch(input_index_[p + 2 * ahead], input_index_[p + ahead]);
+      if (p < last_ahead) prefetch(input_index_[p + 2 * ahead], input_index_[p + ahead]);
       column.start(rows_.mostInRow(p) + 1);
       double sum = 0;
       rows_.forEachInRow(p, [&](int q, double weight) {
