@@ -322,7 +322,7 @@ TEST_F(Command, IsInterruptedWhileAFaceOfManyCornersIsTriangulated) {
     text += "v " + std::to_string(r * std::cos(angle)) + " " + std::to_string(r * std::sin(angle)) + " 0\n";
   }
   text += "f";
-  for (int i = 1; i <= corners; ++i) text += " " + std::to_string(i);
+  for (int i = 1; i <= corners; ++i) text.append(" ").append(std::to_string(i));  // GCC 12 warns of + by mistake
   const auto file = dir_.write("face.obj", text + "\n");
   for (const std::string command : {"laplacian", "info"}) {
     std::vector<std::string> arguments = {command, file};

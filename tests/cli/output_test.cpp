@@ -2,7 +2,9 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <chrono>
+#include <iterator>
 #include <thread>
 
 #include "../io/folder_content.h"
@@ -198,8 +200,8 @@ TEST_F(OutputOfCommands, IsWhollyOldOrWhollyNewWhicheverStepFailsOrIsInterrupted
       int ended = 0;  // by the fault
       for (int n = 1; n <= 11; ++n) {
         fs::copy(dir_ / "before", dir_ / "out", fs::copy_options::recursive);
-        std::vector<std::string> words = build(12);
-        words.insert(words.begin(), TUFTED_COMMAND);
+        std::vector<std::string> words = {TUFTED_COMMAND};
+        std::ranges::copy(build(12), std::back_inserter(words));
         const int code = runWith(call, fault, n, words);
         if (fault == "signal=SIGKILL")
           EXPECT_TRUE(contentAfterKill() == results.at(code == 0 ? 12 : 30)) << call << ' ' << n << ": " << code;
