@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 """Plants one fault at a time in a small sound project and expects check_constants.py to name exactly that one."""
 import pathlib
-import subprocess
 import sys
-import tempfile
+
+sys.path.append(str(pathlib.Path(__file__).parents[1] / "support"))
+from planted import run_checker  # noqa: E402
 
 CHECKER = pathlib.Path(__file__).with_name("check_constants.py")
 
@@ -36,13 +37,7 @@ FAULTS = [
 
 def run(tree):
     """Exit code and lines of the checker on a project of these files."""
-    with tempfile.TemporaryDirectory() as folder:
-        for name, text in tree.items():
-            path = pathlib.Path(folder, name)
-            path.parent.mkdir(parents=True, exist_ok=True)
-            path.write_text(text, encoding="utf-8")
-        done = subprocess.run([sys.executable, CHECKER, folder], capture_output=True, text=True, check=False)
-        return done.returncode, done.stdout.splitlines()
+    return run_checker(CHECKER, tree)
 
 
 problems = []
