@@ -5,6 +5,10 @@
 export CMAKE_C_COMPILER_LAUNCHER=${CMAKE_C_COMPILER_LAUNCHER-ccache}
 export CMAKE_CXX_COMPILER_LAUNCHER=${CMAKE_CXX_COMPILER_LAUNCHER-ccache}
 
+# A second clone finds what the first has compiled: paths count from the project's folder on.
+CCACHE_BASEDIR=${CCACHE_BASEDIR-$(cd "$(dirname "${BASH_SOURCE[0]}")/.." && pwd)}
+export CCACHE_BASEDIR CCACHE_NOHASHDIR=${CCACHE_NOHASHDIR-1}
+
 # Files that include a precompiled header are cached only so.
 export CCACHE_SLOPPINESS=${CCACHE_SLOPPINESS-pch_defines,time_macros}
 
