@@ -41,7 +41,7 @@ pid_t spawn(std::vector<std::string> words, int in, int out, int err) {
 }
 
 std::vector<std::string> withCommand(const std::vector<std::string>& arguments) {
-  std::vector<std::string> words = {TUFTED_COMMAND};
+  std::vector<std::string> words = {tuftedCommand()};
   words.insert(words.end(), arguments.begin(), arguments.end());
   return words;
 }
@@ -88,6 +88,10 @@ Result Process::finish() {
   close(err_);
   result.code = wait(pid_);
   return result;
+}
+
+std::string tuftedCommand() {
+  return TUFTED_COMMAND;
 }
 
 Process startTufted(const std::vector<std::string>& arguments, const std::string& input) {

@@ -34,7 +34,10 @@ Process startTufted(const std::vector<std::string>& arguments, const std::string
 /// Runs the command `tufted` with these arguments and waits for it.
 Result runTufted(const std::vector<std::string>& arguments, const std::string& input = "/dev/null");
 
-/// Runs any program; its arguments may name TUFTED_COMMAND.
+/// Path of the command `tufted`.
+std::string tuftedCommand();
+
+/// Runs any program; its arguments may name tuftedCommand().
 Result runProgram(const std::vector<std::string>& words);
 
 /// Runs the command with a terminal as stderr, and sends a signal as soon as a text appears there.

@@ -65,9 +65,9 @@ TEST_F(Files, ThatMayNotBeReadAreRefused) {
   const std::string path = dir_.write("secret.xyz", "1 2 3\n");
   std::filesystem::permissions(path, std::filesystem::perms::none);
   std::filesystem::permissions(dir_.path(), std::filesystem::perms::all);  // so that --out is not at fault
-  std::vector<std::string> words = {TUFTED_COMMAND, "laplacian", path, "--out", out()};
+  std::vector<std::string> words = {tuftedCommand(), "laplacian", path, "--out", out()};
   if (geteuid() == 0) {  // root may read anything
-    if (runProgram({"setpriv", "--reuid", "65534", "--clear-groups", TUFTED_COMMAND, "--version"}).code != 0)
+    if (runProgram({"setpriv", "--reuid", "65534", "--clear-groups", tuftedCommand(), "--version"}).code != 0)
       GTEST_SKIP() << "cannot run the command as another user";
     const std::vector<std::string> other = {"setpriv", "--reuid", "65534", "--clear-groups"};
     words.insert(words.begin(), other.begin(), other.end());

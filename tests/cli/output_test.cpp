@@ -110,10 +110,10 @@ TEST_F(OutputOfCommands, ThatMayNotBeWrittenIsRefusedBeforeTheBuild) {
   fs::create_directory(closed);
   fs::permissions(closed,
                   fs::perms::owner_read | fs::perms::owner_exec | fs::perms::others_read | fs::perms::others_exec);
-  std::vector<std::string> other = {TUFTED_COMMAND};
+  std::vector<std::string> other = {tuftedCommand()};
   if (geteuid() == 0) {  // root may write anywhere
-    other = {"setpriv", "--reuid", "65534", "--clear-groups", TUFTED_COMMAND};
-    if (runProgram({"setpriv", "--reuid", "65534", "--clear-groups", TUFTED_COMMAND, "--version"}).code != 0)
+    other = {"setpriv", "--reuid", "65534", "--clear-groups", tuftedCommand()};
+    if (runProgram({"setpriv", "--reuid", "65534", "--clear-groups", tuftedCommand(), "--version"}).code != 0)
       GTEST_SKIP() << "cannot run the command as another user";
   }
   for (const std::string& out : {closed.string(), (closed / "below").string()}) {
@@ -200,7 +200,7 @@ TEST_F(OutputOfCommands, IsWhollyOldOrWhollyNewWhicheverStepFailsOrIsInterrupted
       int ended = 0;  // by the fault
       for (int n = 1; n <= 11; ++n) {
         fs::copy(dir_ / "before", dir_ / "out", fs::copy_options::recursive);
-        std::vector<std::string> words = {TUFTED_COMMAND};
+        std::vector<std::string> words = {tuftedCommand()};
         std::ranges::copy(build(12), std::back_inserter(words));
         const int code = runWith(call, fault, n, words);
         if (fault == "signal=SIGKILL")

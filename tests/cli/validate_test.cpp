@@ -99,7 +99,7 @@ TEST_F(Validate, AFolderThatCannotBeListedIsRefusedAndTheOthersGoOn) {
   fs::create_directory(dir_ / "b");
   const std::string first = writeTetrahedron("a.off"), last = writeTetrahedron("c.off");
   fs::permissions(dir_ / "b", fs::perms::none);
-  std::vector<std::string> words = {TUFTED_COMMAND, "validate", "--json", dir_.path()};
+  std::vector<std::string> words = {tuftedCommand(), "validate", "--json", dir_.path()};
   if (geteuid() == 0)  // whom no permissions stop
     words.insert(words.begin(), {"setpriv", "--inh-caps", "-all", "--bounding-set", "-all", "--"});
   const Result result = runProgram(words);
@@ -132,7 +132,7 @@ TEST_F(Validate, TakesPathsInBracketsAsTheyAreTyped) {
   }
   writeTetrahedron("[c]");
   const Result result = runProgram(
-      {"sh", "-c", R"(cd "$1" && exec "$0" validate --json '[a]' '[a,b]' '[c]' 'a')", TUFTED_COMMAND, dir_.path()});
+      {"sh", "-c", R"(cd "$1" && exec "$0" validate --json '[a]' '[a,b]' '[c]' 'a')", tuftedCommand(), dir_.path()});
   EXPECT_EQ(result.code, 0) << result.err;
   const json document = json::parse(result.out);
   EXPECT_EQ(filesOf(document), (std::vector<std::string>{"[a]/x.off", "[a,b]/x.off", "[c]", "a/x.off"}));
@@ -178,7 +178,7 @@ TEST_F(Validate, TheMemoryOfAFileIsNotThatOfTheCommand) {
   fs::create_directory(dir_ / "many");
   for (int i = 0; i < 300; ++i) dir_.write("many/" + std::to_string(i) + ".off", "");
   const auto memoryOfFirst = [&](int times) {  // in the table, with so many files to come
-    std::vector<std::string> words = {"sh", "-c", R"("$0" validate "$@" | head -n 2 | tail -n 1)", TUFTED_COMMAND,
+    std::vector<std::string> words = {"sh", "-c", R"("$0" validate "$@" | head -n 2 | tail -n 1)", tuftedCommand(),
                                       first};
     words.insert(words.end(), times, (dir_ / "many").string());
     std::istringstream line(runProgram(words).out);

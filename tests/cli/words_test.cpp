@@ -121,13 +121,13 @@ TEST_F(Words, APipeIsReadAsStandardInput) {
   const std::string mesh = dir_.write("tetrahedron.off", tetrahedron);
   for (const std::string& file : {cloud_, mesh}) {
     run({"laplacian", file, "--out", in("file")});
-    const std::string command = std::string(TUFTED_COMMAND) + " laplacian <(cat " + file + ") --out " + in("pipe");
+    const std::string command = tuftedCommand() + " laplacian <(cat " + file + ") --out " + in("pipe");
     const Result result = runProgram({"bash", "-c", command});
     EXPECT_EQ(result.code, 0) << result.err;
     EXPECT_TRUE(readAll(dir_ / "pipe/L.npz") == readAll(dir_ / "file/L.npz")) << file;
   }
   const std::string bad = "cat " + dir_.write("bad.xyz", "1 2 3\n1 two 3\n").string();
-  const Result result = runProgram({"bash", "-c", std::string(TUFTED_COMMAND) + " info <(" + bad + ")"});
+  const Result result = runProgram({"bash", "-c", tuftedCommand() + " info <(" + bad + ")"});
   EXPECT_EQ(result.code, 1);
   EXPECT_NE(result.err.find("line 2: 'two' is not a number"), std::string::npos) << result.err;
 }
