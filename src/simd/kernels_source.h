@@ -11,34 +11,16 @@ static_assert(packet_size == kernel_packet, "arrays are filled up to the packets
 int takeWithin(const Candidates& candidates, const double* point, int p, double bound, double* squared_distance,
                int* index) {
   const Candidates given = candidates;  // a copy, which what is written below cannot change
-  const Part x = broadcastPart(point[0]), y = broadcastPart(point[1]), z = broadcastPart(point[2]);
-  const auto squares = [&](int i) {
-    const Part dx = x - loadPart(given.x + i), dy = y - loadPart(given.y + i), dz = z - loadPart(given.z + i);
-    return dx * dx + dy * dy + dz * dz;
-  };
+  const Packet x = broadcast(point[0]), y = broadcast(point[1]), z = broadcast(point[2]), limit = broadcast(bound);
   int found = 0;
-#ifdef TUFTED_WIDE_PACKETS
-  const Packet limit = broadcast(bound);
   for (int i = 0; i < given.count; i += packet_size) {
-    const Packet square = squares(i);
+    const Packet dx = x - load(given.x + i), dy = y - load(given.y + i), dz = z - load(given.z + i);
+    const Packet square = dx * dx + dy * dy + dz * dz;
     const Mask taken = logicalAnd(isAtMost(square, limit), differ(given.index + i, p));
     compress(taken, square, squared_distance + found);
     compress(taken, given.index + i, index + found);
     found += countOf(taken);
   }
-#else
-  constexpr int some = 8 * packet_size;  // distances at a time
-  alignas(64) double square[some];
-  for (int first = 0; first < given.count; first += some) {
-    const int end = given.count - first < some ? given.count - first : some;
-    for (int i = 0; i < end; i += part_size) store(squares(first + i), square + i);
-    for (int i = 0; i < end; ++i) {  // without a branch: which are within cannot be foreseen
-      squared_distance[found] = square[i];
-      index[found] = given.index[first + i];
-      found += (square[i] <= bound ? 1 : 0) & (given.index[first + i] != p ? 1 : 0);
-    }
-  }
-#endif
   return found;
 }
 

@@ -286,6 +286,12 @@ TUFTED_INLINE Mask firstOf(int count) {
   for (int i = 0; i < pairs; ++i) mask.of[i] = PairMask{2 * i, 2 * i + 1} < PairMask{count, count};
   return mask;
 }
+TUFTED_INLINE Mask differ(const int* values, int value) {
+  const auto differs = [&](int i) { return values[i] != value ? std::int64_t{-1} : std::int64_t{0}; };
+  Mask mask;
+  for (int i = 0; i < pairs; ++i) mask.of[i] = PairMask{differs(2 * i), differs(2 * i + 1)};
+  return mask;
+}
 TUFTED_INLINE int countOf(const Mask& mask) {
   PairMask count = {};
   for (const PairMask& pair : mask.of) count -= pair;
