@@ -1,6 +1,7 @@
 // Algorithm 3 of the paper, lines 6 to 15: cotan weights and lumped areas (Section 3.3) of a cover.
 #include "cover/assemble.h"
 
+#include <algorithm>
 #include <numeric>
 
 #include "base/buffer.h"
@@ -22,14 +23,13 @@ class CoverRows {
     lumpAreas(cover, areas, scale, report);
   }
 
-  int size() const { return static_cast<int>(edges_.size()); }
-  int mostInRow(int v) const { return edges_[v]; }
+  int size() const { return static_cast<int>(mass_.size()); }
+  int mostInRow(int v) const { return rows_.offset[v + 1] - rows_.offset[v]; }
   double mass(int v) const { return mass_[v]; }
 
   template <class Visit>
   void forEachInRow(int v, const Visit& visit) const {
-    const Entry* const row = rows_.entries.data() + rows_.offset[v];
-    for (int i = 0; i < edges_[v]; ++i) visit(row[i].column, row[i].weight);
+    for (int i = rows_.offset[v]; i < rows_.offset[v + 1]; ++i) visit(rows_.entries[i].column, rows_.entries[i].weight);
   }
 
  private:
@@ -42,28 +42,48 @@ class CoverRows {
         const auto& corner = cover.faces[f];
         for (int s = 0; s < 3; ++s) {
           const int side = 3 * f + s, from = corner[s], to = corner[(s + 1) % 3];
-          if (side < cover.glue[side] && from != to) visit(from, to, f, s);
+          if (side < cover.glue[side] && from != to) visit(std::min(from, to), std::max(from, to), f, s);
         }
       }
     };
-    rows_.offset.assign(static_cast<std::size_t>(cover.vertices) + 1, 0);
-    forEachEdge([&](int from, int to, int, int) {
-      ++rows_.offset[from + 1];
-      ++rows_.offset[to + 1];
-    });
-    std::partial_sum(rows_.offset.begin(), rows_.offset.end(), rows_.offset.begin());
-    rows_.entries.resize(static_cast<std::size_t>(rows_.offset.back()));
-    Buffer<int> fill(rows_.offset.begin(), rows_.offset.end() - 1);
-    forEachEdge([&](int from, int to, int f, int s) {
+    // First in the row of the lower vertex alone, where an edge of the front and one of the back become one.
+    Rows upper;
+    upper.offset.assign(static_cast<std::size_t>(cover.vertices) + 1, 0);
+    forEachEdge([&](int low, int, int, int) { ++upper.offset[low + 1]; });
+    std::partial_sum(upper.offset.begin(), upper.offset.end(), upper.offset.begin());
+    upper.entries.resize(static_cast<std::size_t>(upper.offset.back()));
+    Buffer<int> fill(upper.offset.begin(), upper.offset.end() - 1);
+    forEachEdge([&](int low, int high, int f, int s) {
       const double* const length = cover.length.data() + 3 * std::ptrdiff_t{f};
       const double cotan =
           finiteCotan(cotanNumerator(length[s], length[(s + 1) % 3], length[(s + 2) % 3]) / (4 * areas[f]));
       const double opposite = finiteCotan(cover, areas, cover.glue[3 * f + s]);
-      const double weight = scale * (cotan + opposite) / 2;  // Section 3.3
-      rows_.entries[fill[from]++] = {to, weight};
-      rows_.entries[fill[to]++] = {from, weight};
+      upper.entries[fill[low]++] = {high, scale * (cotan + opposite) / 2};  // Section 3.3
     });
-    edges_ = mergeRows(rows_, workers);
+    setRows(upper, mergeRows(upper, workers));
+  }
+
+  /// Both ends of each edge, ascending: of a row, those to lower vertices come first, in the order of these.
+  void setRows(const Rows& upper, const Buffer<int>& edges) {
+    const int n = static_cast<int>(edges.size());
+    const auto forEachEdge = [&](const auto& visit) {
+      for (int low = 0; low < n; ++low) {
+        const Entry* const row = upper.entries.data() + upper.offset[low];
+        for (int i = 0; i < edges[low]; ++i) visit(low, row[i]);
+      }
+    };
+    rows_.offset.assign(edges.size() + 1, 0);
+    forEachEdge([&](int low, const Entry& entry) {
+      ++rows_.offset[low + 1];
+      ++rows_.offset[entry.column + 1];
+    });
+    std::partial_sum(rows_.offset.begin(), rows_.offset.end(), rows_.offset.begin());
+    rows_.entries.resize(static_cast<std::size_t>(rows_.offset.back()));
+    Buffer<int> fill(rows_.offset.begin(), rows_.offset.end() - 1);
+    forEachEdge([&](int low, const Entry& entry) {
+      rows_.entries[fill[low]++] = entry;
+      rows_.entries[fill[entry.column]++] = {low, entry.weight};
+    });
   }
 
   /// A third of each face's area to each corner (Section 3.3), summed in the order of the faces.
@@ -76,7 +96,6 @@ class CoverRows {
   }
 
   Rows rows_;
-  Buffer<int> edges_;  ///< of each row, which may end before the next begins
   Buffer<double> mass_;
 };
 
