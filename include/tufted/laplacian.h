@@ -48,7 +48,11 @@ struct Laplacian {
   std::vector<int> representative;  ///< N; the point itself unless coincident, then the lowest equal index
   std::vector<Boundary> boundary;   ///< N; why the surface ends at a point, if it does
   Frames frames;                    ///< set on clouds; 0 x 3 on meshes, where those of meshFrames() may be stored
-  Report report;                    ///< what happened in the build
+  /// N x 3, in the caller's unit: where the lengths of edges are measured. The caller's points, bit for bit, but for
+  /// noisy ones of a cloud, which are put back onto the surface (Lengths::denoised). A point that coincides with
+  /// another lies where that one does. 0 x 3 where nobody has stored them.
+  Points positions;
+  Report report;  ///< what happened in the build
 
   /// The tufted cover after flips to intrinsic Delaunay, vertices numbered as the caller's points. On clouds the first
   /// call builds it, which takes at most half as long as the build of L and M, but as long for five million points. Any

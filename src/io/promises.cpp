@@ -8,6 +8,7 @@
 #include "io/errors.h"
 #include "io/frames_file.h"
 #include "io/number.h"
+#include "io/positions_file.h"
 
 namespace tufted::io {
 namespace {
@@ -127,6 +128,7 @@ void requirePromises(const std::filesystem::path& dir, const Laplacian& laplacia
   checkMasses(dir / "M.npy", laplacian);
   checkPoints(dir, laplacian);
   requireOrthonormal(dir / "frames.npy", laplacian.frames, laplacian.status);
+  requireFinite(dir / positions_name, laplacian.positions, laplacian.status);
 }
 
 }  // namespace tufted::io

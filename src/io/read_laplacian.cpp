@@ -12,6 +12,7 @@
 #include "io/matrix_file.h"
 #include "io/npy.h"
 #include "io/npz_reader.h"
+#include "io/positions_file.h"
 #include "io/promises.h"
 #include "tufted/io/results.h"
 
@@ -138,6 +139,9 @@ Laplacian readUncheckedLaplacian(const std::filesystem::path& dir, bool with_cov
   for (const int code : io::integersOf(readArray(dir / "boundary.npy", n), 0, 3, dir / "boundary.npy"))
     laplacian.boundary.push_back(static_cast<Boundary>(code));
   laplacian.frames = io::readFrames(dir / "frames.npy", n);
+  // Older versions did not write it.
+  const Path positions = dir / io::positions_name;
+  if (hasWritten(written, io::positions_name)) laplacian.positions = io::readPositions(positions, n);
   laplacian.L = matrix.read();
   if (takes_cover)
     laplacian.stored_cover =

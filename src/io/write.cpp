@@ -17,6 +17,7 @@
 #include "io/pcd_writer.h"
 #include "io/ply_writer.h"
 #include "io/pose.h"
+#include "io/positions_file.h"
 #include "io/report_json.h"
 #include "io/staged_files.h"
 #include "tufted/errors.h"
@@ -95,6 +96,8 @@ const ResultFile result_files[] = {
      [](const OutputPath& to, const Results& r) {
        io::writePcd(to, r.laplacian, r.geometry, r.matrices.masses(), r.conventions);
      }},
+    {std::nullopt, io::positions_name,
+     [](const OutputPath& to, const Results& r) { io::writePositions(to, r.laplacian.positions); }},
     {std::nullopt, "report.json", writeReport},
 };
 
@@ -118,6 +121,7 @@ void check(const Laplacian& laplacian, const Geometry& geometry) {
   require("status", laplacian.status.size(), points);
   require("representative", laplacian.representative.size(), points);
   require("boundary", laplacian.boundary.size(), points);
+  if (laplacian.positions.rows() > 0) require("positions", laplacian.positions.rows(), points);
   if (geometry.normals.rows() > 0) require("normals", geometry.normals.rows(), points);
   if (geometry.height > 1)
     require("the grid of width times height", static_cast<std::size_t>(geometry.width) * geometry.height, points);

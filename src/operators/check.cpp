@@ -52,6 +52,7 @@ bool checkShape(const Laplacian& laplacian, std::vector<std::string>& faults) {
     expect("normals", laplacian.frames.normals.rows());
     expect("tangents", laplacian.frames.tangents.rows());
   }
+  if (laplacian.positions.rows() > 0) expect("positions", laplacian.positions.rows());
   checkColumns(L, storage);
   for (Index j = 0; j < L.cols() && storage.count() == 0; ++j) {
     Index previous = -1;
@@ -198,17 +199,20 @@ void checkCover(const Laplacian& laplacian, LaplacianCheck& check) {
   }
 }
 
-/// Checks that equal points name the lowest of them, all others themselves, and that frames of active points are
-/// orthonormal.
+/// Checks that equal points name the lowest of them, all others themselves, that frames of active points are
+/// orthonormal, and that active points lie somewhere.
 void checkPoints(const Laplacian& laplacian, LaplacianCheck& check) {
-  Promise representative("representative"), frame("frame");
+  Promise representative("representative"), frame("frame"), position("position");
   const Frames& frames = laplacian.frames;
   for (Index i = 0; i < std::ssize(laplacian.status); ++i) {
     const int same = laplacian.representative[i];
     const bool coincident = laplacian.status[i] == PointStatus::coincident;
     if (coincident ? !(same >= 0 && same < i && laplacian.representative[same] == same) : same != i)
       representative.brokenBy("point ", i, coincident ? " coincides with " : " is no copy but names ", same);
-    if (frames.normals.rows() == 0 || !isActive(laplacian, i)) continue;
+    if (!isActive(laplacian, i)) continue;
+    if (laplacian.positions.rows() > 0 && !laplacian.positions.row(i).allFinite())
+      position.brokenBy("that of point ", i, " is not finite");
+    if (frames.normals.rows() == 0) continue;
     const auto normal = frames.normals.row(i), tangent = frames.tangents.row(i);
     const double error =
         std::max({std::abs(normal.norm() - 1), std::abs(tangent.norm() - 1), std::abs(normal.dot(tangent))});
@@ -216,6 +220,7 @@ void checkPoints(const Laplacian& laplacian, LaplacianCheck& check) {
   }
   representative.addTo(check.faults);
   frame.addTo(check.faults);
+  position.addTo(check.faults);
 }
 
 /// Checks what only the report knows, and whether its counts are right.

@@ -20,6 +20,7 @@ void checkSizes(const std::string& function, const Laplacian& laplacian) {
   expect("size of cover_areas =", laplacian.cover_areas.size(), true);
   expect("rows of frames.normals =", laplacian.frames.normals.rows(), true);
   expect("rows of frames.tangents =", laplacian.frames.tangents.rows(), true);
+  expect("rows of positions =", laplacian.positions.rows(), true);
   if (laplacian.stored_cover) expect("vertices of the cover =", laplacian.stored_cover->vertices, false);
   const auto& representative = laplacian.representative;
   for (Eigen::Index i = 0; i < n; ++i) {

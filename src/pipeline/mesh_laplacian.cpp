@@ -75,6 +75,7 @@ void buildMeshLaplacian(const Points& points, const Triangles& triangles, const 
   std::iota(result.representative.begin(), result.representative.end(), 0);
   result.boundary.assign(n, Boundary::none);
   result.frames = {};
+  result.positions = points;
   const Buffer<int> usable = usableTriangles(points, triangles, result.status, report);
   clock.finish("scale", static_cast<std::size_t>(n) * 3 * sizeof(double) + bytesOf(usable));
 

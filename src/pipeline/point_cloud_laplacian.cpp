@@ -84,11 +84,12 @@ void buildCloudLaplacian(const Points& points, const CloudOptions& options, Clou
   if (std::ssize(built.stars.link) > most_entries) tooMany(cloud.size(), std::ssize(built.stars.link));
   clock.restart();
 
-  // Where the surface ends, and which way it faces.
+  // Where the surface ends, which way it faces, and where lengths are measured.
   const Eigen::Vector3d* viewpoint = options.viewpoint;
   if (viewpoint == nullptr && options.structure != nullptr) viewpoint = &options.structure->origin;
   setBoundaryAndNormals(findBoundary(built, cloud, source, viewpoint, workers), built.support.normals, cloud, workers,
                         result);
+  setPositions(points, built.stars.displacement, cloud, workers, result);
   source = {};
   built.support.normals = {};
   release(built.support.fit_radius);

@@ -33,6 +33,28 @@ void setBoundaryAndNormals(const Buffer<Boundary>& boundary, const PointsView& n
   }
 }
 
+void setPositions(const Points& points, const PointBuffer& displacement, const RankedCloud& cloud,
+                  const Workers& workers, Laplacian& result) {
+  result.positions.resize(points.rows(), 3);
+  workers.forBlocks("boundary", points.rows(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    result.positions.middleRows(begin, end - begin) = points.middleRows(begin, end - begin);
+  });
+  if (displacement.rows() == 0) return;
+  const PowerOfTwo unit(cloud.exponent);
+  workers.forBlocks("boundary", cloud.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    for (std::int64_t p = begin; p < end; ++p) {
+      auto position = result.positions.row(cloud.input_index[p]);
+      for (int axis = 0; axis < 3; ++axis) {
+        const double moved = unit.times(displacement.row(p)[axis]);
+        if (moved != 0) position[axis] += moved;  // or -0 would become 0
+      }
+    }
+  });
+  for (Eigen::Index i = 0; i < points.rows(); ++i)
+    if (result.status[i] == PointStatus::coincident)
+      result.positions.row(i) = result.positions.row(result.representative[i]);
+}
+
 void setTangents(const Workers& workers, Laplacian& result) {
   Frames& frames = result.frames;
   frames.tangents.resize(frames.normals.rows(), 3);

@@ -17,6 +17,11 @@ namespace tufted {
 void setBoundaryAndNormals(const Buffer<Boundary>& boundary, const PointsView& normals, const RankedCloud& cloud,
                            const Workers& workers, Laplacian& result);
 
+/// Sets where lengths are measured: the caller's points, of which noisy ones are displaced.
+/// @param displacement n x 3, by rank, in units of 2^exponent of the caller's; 0 x 3: nothing moves
+void setPositions(const Points& points, const PointBuffer& displacement, const RankedCloud& cloud,
+                  const Workers& workers, Laplacian& result);
+
 /// Sets the tangents, which are zero where the normal is.
 void setTangents(const Workers& workers, Laplacian& result);
 

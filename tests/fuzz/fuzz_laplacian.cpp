@@ -24,11 +24,23 @@ struct Piece {
   const char* archive;  ///< null: a file of its own
   const char* name;
 };
-constexpr Piece pieces[] = {
-    {nullptr, "report.json"},  {nullptr, "M.npy"},         {nullptr, "status.npy"},   {nullptr, "representative.npy"},
-    {nullptr, "boundary.npy"}, {nullptr, "frames.npy"},    {nullptr, "L.npz"},        {nullptr, "cover.npz"},
-    {"L.npz", "format.npy"},   {"L.npz", "shape.npy"},     {"L.npz", "indptr.npy"},   {"L.npz", "indices.npy"},
-    {"L.npz", "data.npy"},     {"cover.npz", "faces.npy"}, {"cover.npz", "glue.npy"}, {"cover.npz", "length.npy"}};
+constexpr Piece pieces[] = {{nullptr, "report.json"},
+                            {nullptr, "M.npy"},
+                            {nullptr, "status.npy"},
+                            {nullptr, "representative.npy"},
+                            {nullptr, "boundary.npy"},
+                            {nullptr, "frames.npy"},
+                            {nullptr, "L.npz"},
+                            {nullptr, "cover.npz"},
+                            {"L.npz", "format.npy"},
+                            {"L.npz", "shape.npy"},
+                            {"L.npz", "indptr.npy"},
+                            {"L.npz", "indices.npy"},
+                            {"L.npz", "data.npy"},
+                            {"cover.npz", "faces.npy"},
+                            {"cover.npz", "glue.npy"},
+                            {"cover.npz", "length.npy"},
+                            {nullptr, "measured_positions.npy"}};
 
 void require(bool condition) {
   if (!condition) std::abort();
@@ -77,10 +89,11 @@ void checkLaplacian(const tufted::Laplacian& laplacian) {
   require(std::ssize(laplacian.representative) == n && std::ssize(laplacian.boundary) == n);
   for (const int i : laplacian.representative) require(i >= 0 && i < n);
   require(laplacian.frames.normals.rows() == 0 || laplacian.frames.normals.rows() == n);
+  require(laplacian.positions.rows() == 0 || laplacian.positions.rows() == n);
   // What the reader judges by itself, validate() finds kept.
   for (const std::string& fault : tufted::validate(laplacian).faults)
     for (const char* promise : {"storage", "status", "boundary", "finite", "off-diagonal sign", "positive diagonal",
-                                "mass", "inactive is zero", "symmetry", "row sum", "representative"})
+                                "mass", "inactive is zero", "symmetry", "row sum", "representative", "position"})
       require(!fault.starts_with(std::string(promise) + ": "));
   if (!laplacian.hasCover()) return;
   const tufted::IntrinsicTriangulation& cover = laplacian.cover();

@@ -114,7 +114,8 @@ def folder(pieces):
 
 def laplacian():
     """A right triangle and a point that is nowhere."""
-    names = ["L.npz", "M.npy", "status.npy", "representative.npy", "boundary.npy", "frames.npy", "cover.npz"]
+    names = ["L.npz", "M.npy", "status.npy", "representative.npy", "boundary.npy", "frames.npy",
+             "cover.npz", "measured_positions.npy"]
     files = ", ".join(f'"{name}"' for name in names)
     frames = [1, 0, 0, 0, 1, 0, 0, 0, 1] * 4
     legs = [1, 2 ** 0.5, 1, 1, 2 ** 0.5, 1]
@@ -128,7 +129,8 @@ def laplacian():
             (11, npy(INT, [7], [0, 1, 2, 0, 1, 0, 2])),
             (12, npy(FLOAT, [7], [flip * x for x in (1, -0.5, -0.5, -0.5, 0.5, -0.5, 0.5)])),
             (13, npy(INT, [2, 3], [0, 1, 2, 0, 2, 1])), (14, npy(INT, [2, 3], [5, 4, 3, 2, 1, 0])),
-            (15, npy(FLOAT, [2, 3], legs))])
+            (15, npy(FLOAT, [2, 3], legs)),
+            (16, npy(FLOAT, [4, 3], [0, 0, 0, 1, 0, 0, 0, 1, 0, 9, 9, 9]))])
 
 
 SEEDS = {

@@ -192,6 +192,10 @@ std::vector<Plant> plants() {
        [](Laplacian& l) { l.boundary[9] = tufted::Boundary::rim; },
        {"boundary.npy: point 9 has 1, must have 0"},
        "boundary"},
+      {"PositionNowhere",
+       [](Laplacian& l) { l.positions(5, 1) = nan; },
+       {"measured_positions.npy: the position of point 5 is not finite"},
+       "position"},
   };
 }
 

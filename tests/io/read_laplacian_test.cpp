@@ -62,11 +62,21 @@ TEST_F(ReadLaplacian, GivesBackWhatWasWrittenBitForBit) {
   EXPECT_EQ(read.representative, laplacian_.representative);
   EXPECT_TRUE(sameBits(read.frames.normals, laplacian_.frames.normals));
   EXPECT_TRUE(sameBits(read.frames.tangents, laplacian_.frames.tangents));
+  EXPECT_TRUE(sameBits(read.positions, laplacian_.positions));
   EXPECT_EQ(read.cover().vertices, 200);
   EXPECT_EQ(read.cover().faces, laplacian_.cover().faces);
   EXPECT_EQ(read.cover().glue, laplacian_.cover().glue);
   EXPECT_EQ(read.cover().length, laplacian_.cover().length);
   EXPECT_FALSE(tufted::readLaplacian(dir_.path(), false).hasCover());
+}
+
+TEST_F(ReadLaplacian, PositionsMayBeMissingButMustFit) {
+  laplacian_.positions.resize(0, 3);
+  write();
+  EXPECT_EQ(tufted::readLaplacian(dir_.path()).positions.rows(), 0);
+  std::filesystem::copy_file(dir_ / "frames.npy", dir_ / "measured_positions.npy",
+                             std::filesystem::copy_options::overwrite_existing);
+  expectRefusal("measured_positions.npy", "is not an array of 200 x 3 values");
 }
 
 TEST_F(ReadLaplacian, ACoverOfAnEarlierRunIsNotTaken) {

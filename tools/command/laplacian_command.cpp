@@ -61,6 +61,8 @@ points.pcd pass them on.
 
 Writes into DIR, renamed one after the other when all are complete; files of other formats there stay:
   report.json         what happened, with options, sign and scale
+  measured_positions.npy
+                      N x 3: where lengths are measured, noisy points of a cloud put back onto the surface
   --format npz
   L.npz               sparse matrix, scipy.sparse.load_npz
   M.npy               areas

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <vector>
+
+#include "io/output_file.h"
+#include "tufted/laplacian.h"
+
+namespace tufted::io {
+
+inline constexpr const char* positions_name = "measured_positions.npy";
+
+/// Writes the positions that lengths are measured between as N x 3, float64.
+void writePositions(const OutputPath& to, const Points& positions);
+
+/// Reads positions.
+/// @throws IoError unless there is one for each point, or none at all
+Points readPositions(const std::filesystem::path& path, std::size_t points);
+
+/// Checks that active points have finite positions.
+/// @param positions N x 3 or 0 x 3
+/// @throws IoError naming the first active point whose position is not finite
+void requireFinite(const std::filesystem::path& path, const Points& positions, const std::vector<PointStatus>& status);
+
+}  // namespace tufted::io
