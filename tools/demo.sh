@@ -28,6 +28,8 @@ The results are in $PWD/out/demo:
   status.npy          why a point does not take part: 0 active, 1 not finite, 2 coincident, 3 isolated
   representative.npy  the point that stands for a coincident one
   boundary.npy        0, or why the surface ends: 1 rim, 2 jump, 3 missing triangles
+  measured_positions.npy
+                      where lengths are measured: noisy points are put back onto the surface
   points.ply          the points with all of this as fields, for CloudCompare, MeshLab or pcl_viewer
   report.json         what happened, with the options, the sign and the scale
 END
