@@ -23,13 +23,16 @@ class CoverRows {
     lumpAreas(cover, areas, scale, report);
   }
 
-  int size() const { return static_cast<int>(mass_.size()); }
-  int mostInRow(int v) const { return rows_.offset[v + 1] - rows_.offset[v]; }
+  int size() const { return static_cast<int>(edges_.size()); }
+  int mostInRow(int v) const { return lower_.offset[v + 1] - lower_.offset[v] + edges_[v]; }
   double mass(int v) const { return mass_[v]; }
 
+  /// Visits the neighbours in ascending order.
   template <class Visit>
   void forEachInRow(int v, const Visit& visit) const {
-    for (int i = rows_.offset[v]; i < rows_.offset[v + 1]; ++i) visit(rows_.entries[i].column, rows_.entries[i].weight);
+    for (int i = lower_.offset[v]; i < lower_.offset[v + 1]; ++i)
+      visit(lower_.entries[i].column, lower_.entries[i].weight);
+    forEachAbove(v, visit);
   }
 
  private:
@@ -47,43 +50,38 @@ class CoverRows {
       }
     };
     // First in the row of the lower vertex alone, where an edge of the front and one of the back become one.
-    Rows upper;
-    upper.offset.assign(static_cast<std::size_t>(cover.vertices) + 1, 0);
-    forEachEdge([&](int low, int, int, int) { ++upper.offset[low + 1]; });
-    std::partial_sum(upper.offset.begin(), upper.offset.end(), upper.offset.begin());
-    upper.entries.resize(static_cast<std::size_t>(upper.offset.back()));
-    Buffer<int> fill(upper.offset.begin(), upper.offset.end() - 1);
+    upper_.offset.assign(static_cast<std::size_t>(cover.vertices) + 1, 0);
+    forEachEdge([&](int low, int, int, int) { ++upper_.offset[low + 1]; });
+    std::partial_sum(upper_.offset.begin(), upper_.offset.end(), upper_.offset.begin());
+    upper_.entries.resize(static_cast<std::size_t>(upper_.offset.back()));
+    Buffer<int> fill(upper_.offset.begin(), upper_.offset.end() - 1);
     forEachEdge([&](int low, int high, int f, int s) {
       const double* const length = cover.length.data() + 3 * std::ptrdiff_t{f};
       const double cotan =
           finiteCotan(cotanNumerator(length[s], length[(s + 1) % 3], length[(s + 2) % 3]) / (4 * areas[f]));
       const double opposite = finiteCotan(cover, areas, cover.glue[3 * f + s]);
-      upper.entries[fill[low]++] = {high, scale * (cotan + opposite) / 2};  // Section 3.3
+      upper_.entries[fill[low]++] = {high, scale * (cotan + opposite) / 2};  // Section 3.3
     });
-    setRows(upper, mergeRows(upper, workers));
+    edges_ = mergeRows(upper_, workers);
+    setLowerRows();
   }
 
-  /// Both ends of each edge, ascending: of a row, those to lower vertices come first, in the order of these.
-  void setRows(const Rows& upper, const Buffer<int>& edges) {
-    const int n = static_cast<int>(edges.size());
-    const auto forEachEdge = [&](const auto& visit) {
-      for (int low = 0; low < n; ++low) {
-        const Entry* const row = upper.entries.data() + upper.offset[low];
-        for (int i = 0; i < edges[low]; ++i) visit(low, row[i]);
-      }
-    };
-    rows_.offset.assign(edges.size() + 1, 0);
-    forEachEdge([&](int low, const Entry& entry) {
-      ++rows_.offset[low + 1];
-      ++rows_.offset[entry.column + 1];
-    });
-    std::partial_sum(rows_.offset.begin(), rows_.offset.end(), rows_.offset.begin());
-    rows_.entries.resize(static_cast<std::size_t>(rows_.offset.back()));
-    Buffer<int> fill(rows_.offset.begin(), rows_.offset.end() - 1);
-    forEachEdge([&](int low, const Entry& entry) {
-      rows_.entries[fill[low]++] = entry;
-      rows_.entries[fill[entry.column]++] = {low, entry.weight};
-    });
+  /// Of the edges above each vertex, the other ends.
+  void setLowerRows() {
+    const int n = size();
+    lower_.offset.assign(upper_.offset.size(), 0);
+    for (int v = 0; v < n; ++v) forEachAbove(v, [&](int high, double) { ++lower_.offset[high + 1]; });
+    std::partial_sum(lower_.offset.begin(), lower_.offset.end(), lower_.offset.begin());
+    lower_.entries.resize(static_cast<std::size_t>(lower_.offset.back()));
+    Buffer<int> fill(lower_.offset.begin(), lower_.offset.end() - 1);
+    for (int v = 0; v < n; ++v)
+      forEachAbove(v, [&](int high, double weight) { lower_.entries[fill[high]++] = {v, weight}; });
+  }
+
+  template <class Visit>
+  void forEachAbove(int v, const Visit& visit) const {
+    const Entry* const row = upper_.entries.data() + upper_.offset[v];
+    for (int i = 0; i < edges_[v]; ++i) visit(row[i].column, row[i].weight);
   }
 
   /// A third of each face's area to each corner (Section 3.3), summed in the order of the faces.
@@ -95,7 +93,8 @@ class CoverRows {
     }
   }
 
-  Rows rows_;
+  Rows upper_, lower_;  ///< the edges to vertices above and below
+  Buffer<int> edges_;   ///< in each row of upper_
   Buffer<double> mass_;
 };
 

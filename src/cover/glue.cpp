@@ -125,7 +125,7 @@ EdgeCounts glueEdges(IntrinsicTriangulation& cover, const PointsView& points, co
       while (at != last) {
         UngluedSide* const stop = std::find_if(at, last, [&](const UngluedSide& s) { return s.other != at->other; });
         const std::span around(at, stop);
-        cycle.sort(low, at->other, around);
+        if (around.size() > 2) cycle.sort(low, at->other, around);  // any order of two is the same one
         glueAround(cover, around);
         ++count[std::min<std::size_t>(around.size(), 3) - 1];
         at = stop;
