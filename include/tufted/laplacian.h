@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <vector>
 
@@ -10,11 +11,20 @@
 
 namespace tufted {
 
-/// Tangent frame of every point. Rows of points that are not active may be zero. The sign of a normal is
-/// arbitrary on clouds; the second tangent is cross(normal, tangent).
+/// How the signs of normals were chosen.
+enum class Orientation : std::uint8_t {
+  arbitrary,   ///< each by itself, as a fitted plane has no front: neighbours may disagree
+  given,       ///< by the caller: those of CloudOptions::normals, or of a mesh's triangles
+  viewpoint,   ///< towards the sensor
+  consistent,  ///< as their neighbours', and outwards, see orientedFrames()
+};
+
+/// Tangent frame of every point. Rows of points that are not active may be zero. The second tangent is
+/// cross(normal, tangent).
 struct Frames {
-  Points normals;   ///< N x 3, unit length
-  Points tangents;  ///< N x 3, unit length
+  Points normals;                                    ///< N x 3, unit length
+  Points tangents;                                   ///< N x 3, unit length
+  Orientation orientation = Orientation::arbitrary;  ///< of the normals
 };
 
 /// Builds a cover when it is asked for.

@@ -57,11 +57,11 @@ struct CloudOptions {
                            ///< triangles flat, and then rounding may break the guarantees
   int threads = 0;         ///< at most this many; 0: one per processor
   bool keep_cover = true;  ///< false frees what the cover is built from (about 100 bytes per point, up to 700 on noise)
-  const Points* normals = nullptr;               ///< N x 3, any length and sign, used instead of the PCA's; borrowed
+  const Points* normals = nullptr;               ///< N x 3, any length, instead of the PCA's; keep their sign; borrowed
   const Neighborhoods* neighborhoods = nullptr;  ///< N x k indices used as they are, never grown; borrowed
   const ScanStructure* structure = nullptr;      ///< finds neighbours by rows and columns, not by a tree; borrowed
-  /// Where the sensor stood, in the points' unit; distinguishes Boundary::jump from rim however far the surfaces lie
-  /// apart along the line of sight. Null: the origin of `structure`, if there is one. Borrowed.
+  /// Where the sensor stood, in the points' unit; normals face it, and it distinguishes Boundary::jump from rim however
+  /// far the surfaces lie apart along the line of sight. Null: the origin of `structure`, if there is one. Borrowed.
   const Eigen::Vector3d* viewpoint = nullptr;
   Progress progress = {};  ///< called during the build
 };

@@ -11,6 +11,7 @@
 #include "tufted/laplacian.h"
 #include "tufted/laplacian_builder.h"
 #include "tufted/nearest_point.h"
+#include "tufted/normals.h"
 #include "tufted/options.h"
 #include "tufted/polygons.h"
 #include "tufted/report.h"

@@ -48,7 +48,7 @@ Frames readFrames(const std::filesystem::path& path, std::size_t points) {
   if (numbers.empty()) return {};  // of a mesh; a part of an array without data has no address
   const Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, 9, Eigen::RowMajor>> axes(numbers.data(), array.shape[0],
                                                                                          9);
-  return {axes.rightCols<3>(), axes.leftCols<3>()};
+  return {axes.rightCols<3>(), axes.leftCols<3>(), Orientation::arbitrary};
 }
 
 void requireOrthonormal(const std::filesystem::path& path, const Frames& frames,

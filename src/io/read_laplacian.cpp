@@ -97,6 +97,16 @@ Kind readKind(const Json& json, bool needed, const Path& path) {
   return of_cloud ? Kind::cloud : Laplacian().kind;
 }
 
+/// Versions before there was `orientation` did not know any.
+Orientation readOrientation(const Json& json, const Path& path) {
+  const Json orientation = json.value("orientation", Json());
+  if (orientation.is_null()) return Orientation::arbitrary;
+  for (std::size_t k = 0; k < io::orientation_names.size(); ++k)
+    if (orientation == io::orientation_names[k]) return static_cast<Orientation>(k);
+  io::refuse(path, "has the orientation " + io::quote(orientation.dump()) +
+                       ", must be arbitrary, given, viewpoint or consistent");
+}
+
 /// Undoes WriteOptions::dummy. Whatever else points that are not active have stays, to be found by those who check.
 void removeDummies(Laplacian& laplacian) {
   laplacian.L.prune(
@@ -139,6 +149,7 @@ Laplacian readUncheckedLaplacian(const std::filesystem::path& dir, bool with_cov
   for (const int code : io::integersOf(readArray(dir / "boundary.npy", n), 0, 3, dir / "boundary.npy"))
     laplacian.boundary.push_back(static_cast<Boundary>(code));
   laplacian.frames = io::readFrames(dir / "frames.npy", n);
+  laplacian.frames.orientation = readOrientation(json, report_path);
   // Older versions did not write it.
   const Path positions = dir / io::positions_name;
   if (hasWritten(written, io::positions_name)) laplacian.positions = io::readPositions(positions, n);

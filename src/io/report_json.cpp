@@ -2,6 +2,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "io/frames_file.h"
+
 namespace tufted {
 namespace {
 
@@ -133,6 +135,8 @@ std::string io::reportJson(const Laplacian& laplacian, const Geometry& geometry,
   Json json = {{"tufted", TUFTED_VERSION}};
   if (!options.source.empty()) json["source"] = options.source;
   json["kind"] = laplacian.kind == Kind::cloud ? "cloud" : "mesh";
+  if (laplacian.frames.normals.rows() > 0)
+    json["orientation"] = orientation_names.at(static_cast<std::size_t>(laplacian.frames.orientation));
   json["input"] = {{"polygons", geometry.polygons}, {"merged_vertices", geometry.merged_vertices}};
   if (options.cloud) json["cloud_options"] = optionsObject(*options.cloud);
   if (options.mesh) json["mesh_options"] = commonOptions(*options.mesh);

@@ -110,7 +110,7 @@ Frames meshFrames(const Points& points, const Triangles& triangles) {
       sums.row(triangles(f, k)) += normal;
     }
   }
-  Frames frames{Points(points.rows(), 3), Points(points.rows(), 3)};
+  Frames frames{Points(points.rows(), 3), Points(points.rows(), 3), Orientation::given};
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
     Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
     const double scale = moments[i].trace();

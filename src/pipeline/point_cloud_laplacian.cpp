@@ -90,6 +90,8 @@ void buildCloudLaplacian(const Points& points, const CloudOptions& options, Clou
   setBoundaryAndNormals(findBoundary(built, cloud, source, viewpoint, workers), built.support.normals, cloud, workers,
                         result);
   setPositions(points, built.stars.displacement, cloud, workers, result);
+  result.frames.orientation = options.normals != nullptr ? Orientation::given : Orientation::arbitrary;
+  if (options.normals == nullptr && viewpoint != nullptr) faceViewpoint(*viewpoint, workers, result);
   source = {};
   built.support.normals = {};
   release(built.support.fit_radius);

@@ -55,6 +55,16 @@ void setPositions(const Points& points, const PointBuffer& displacement, const R
       result.positions.row(i) = result.positions.row(result.representative[i]);
 }
 
+void faceViewpoint(const Eigen::Vector3d& viewpoint, const Workers& workers, Laplacian& result) {
+  Points& normals = result.frames.normals;
+  const Eigen::RowVector3d half = viewpoint.transpose() / 2;  // so that no difference overflows
+  workers.forBlocks("boundary", normals.rows(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    for (std::int64_t i = begin; i < end; ++i)
+      if (normals.row(i).dot(half - result.positions.row(i) / 2) < 0) normals.row(i) *= -1;
+  });
+  result.frames.orientation = Orientation::viewpoint;
+}
+
 void setTangents(const Workers& workers, Laplacian& result) {
   Frames& frames = result.frames;
   frames.tangents.resize(frames.normals.rows(), 3);

@@ -22,6 +22,9 @@ void setBoundaryAndNormals(const Buffer<Boundary>& boundary, const PointsView& n
 void setPositions(const Points& points, const PointBuffer& displacement, const RankedCloud& cloud,
                   const Workers& workers, Laplacian& result);
 
+/// Turns normals towards the viewpoint.
+void faceViewpoint(const Eigen::Vector3d& viewpoint, const Workers& workers, Laplacian& result);
+
 /// Sets the tangents, which are zero where the normal is.
 void setTangents(const Workers& workers, Laplacian& result);
 

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "options.h"
+#include "point_options.h"
 #include "tufted/errors.h"
 
 namespace {
@@ -39,7 +40,11 @@ void addBuildOptions(CLI::App& command, Build& build) {
        addChoice(command, "--structure", build.structure, structures,
                  "Neighbours by the scan's own structure, clouds only (none)"),
        command.add_flag("--normals", build.normals,
-                        "Use the file's normals for the tangent planes, not those of the PCA; clouds only")});
+                        "Use the file's normals for the tangent planes, not those of the PCA; clouds only"),
+       command
+           .add_option("--viewpoint", build.given_viewpoint,
+                       "Where the sensor stood, clouds only (the file's, or the origin of a depth image)")
+           ->type_name("X,Y,Z")});
   addNumber(command, "--threads", build.cloud.threads, 1, 1 << 16, "At most this many threads (all)")->type_name("N");
 }
 
@@ -67,7 +72,9 @@ tufted::Laplacian buildLaplacian(const tufted::Geometry& geometry, const Input& 
   build.cloud.steps = tufted::cloudSteps(build.preset);
   // The position is at hand where a file states one, and where an image of depths leaves it at the origin.
   build.viewpoint = {geometry.viewpoint[0], geometry.viewpoint[1], geometry.viewpoint[2]};
-  if (geometry.height > 1 || !build.viewpoint.isZero(0)) build.cloud.viewpoint = &build.viewpoint;
+  const bool is_given = !build.given_viewpoint.empty();
+  if (is_given) build.viewpoint = parsePosition(build.given_viewpoint, "--viewpoint");
+  if (is_given || geometry.height > 1 || !build.viewpoint.isZero(0)) build.cloud.viewpoint = &build.viewpoint;
   build.cloud.progress = progress;
   build.cloud.keep_cover = keep_cover;
   build.mesh.order = build.cloud.order;

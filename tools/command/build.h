@@ -22,6 +22,7 @@ struct Build {
   /// The options that were used in the end; they borrow from the members below and from the geometry.
   tufted::CloudOptions cloud;
   tufted::MeshOptions mesh;
+  std::string given_viewpoint;  ///< X,Y,Z; empty: that of the file, if it has one
   std::optional<tufted::ScanStructure> scan;
   Eigen::Vector3d viewpoint = Eigen::Vector3d::Zero();
 

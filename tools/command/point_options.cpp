@@ -60,6 +60,14 @@ std::vector<double> parseNumbers(const std::string& text, const std::string& opt
   return numbers;
 }
 
+Eigen::Vector3d parsePosition(const std::string& text, const std::string& option) {
+  const std::vector<double> numbers = parseNumbers(text, option);
+  if (numbers.size() != 3) throw tufted::InvalidInput(option + " " + text + " is not X,Y,Z");
+  const Eigen::Vector3d position(numbers[0], numbers[1], numbers[2]);
+  if (!position.allFinite()) throw tufted::InvalidInput(option + " " + text + " is not finite, must be");
+  return position;
+}
+
 std::vector<Row> readRows(const std::filesystem::path& path) {
   std::ifstream file(path);
   if (!file || std::filesystem::is_directory(path)) throw tufted::IoError(path.string() + ": cannot be read");

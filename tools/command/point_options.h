@@ -11,6 +11,9 @@
 /// Numbers separated by commas. @throws InvalidInput naming the option
 std::vector<double> parseNumbers(const std::string& text, const std::string& option);
 
+/// Reads X,Y,Z. @throws InvalidInput naming the option unless it is three finite numbers
+Eigen::Vector3d parsePosition(const std::string& text, const std::string& option);
+
 /// Numbers in a line of a text file.
 struct Row {
   std::string name;  ///< "path: line 12", for messages

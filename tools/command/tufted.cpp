@@ -55,6 +55,7 @@ int main(int argc, char** argv) {
   addInterpolate(app, run);
   addPoisson(app, run);
   addGreen(app, run);
+  addNormals(app, run);
   addOperators(app, run);
   addInfo(app, run);
   addValidate(app, run);

@@ -1,0 +1,271 @@
+// Signs of normals: towards a viewpoint, or alike between neighbours (the problem of Hoppe et al. 1992, Section 3.3).
+#include "tufted/normals.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <map>
+#include <queue>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "algorithms/connected.h"
+#include "base/parallel.h"
+#include "base/stage_clock.h"
+#include "tufted/check.h"
+#include "tufted/errors.h"
+
+namespace tufted {
+namespace {
+
+constexpr const char* function_name = "orientedFrames";
+
+/// Planes that meet at less than 45 degrees are one smooth surface, whose normals agree.
+constexpr double smooth_cosine = 0.7;
+/// What an edge across a crease counts for, beside one between two points of a smooth surface.
+constexpr double crease_share = 0.5;
+/// A component whose normals point out by less than this part of its extent encloses no volume.
+constexpr double flat_share = 1e-6;
+
+void checkArguments(const Laplacian& laplacian, const Frames& frames, const OrientationOptions& options) {
+  checkSizes(function_name, laplacian);
+  const std::string name = std::string(function_name) + ": ";
+  const auto n = static_cast<Eigen::Index>(laplacian.status.size());
+  const auto check = [&](const char* what, Eigen::Index rows, const char* hint) {
+    if (rows == n) return;
+    throw InvalidInput(name + what + " has " + std::to_string(rows) + " rows, must have " + std::to_string(n) + hint);
+  };
+  check("frames.normals", frames.normals.rows(), "; meshes have meshFrames()");
+  check("frames.tangents", frames.tangents.rows(), ", one per point of the Laplacian");
+  check("Laplacian::positions", laplacian.positions.rows(), ", one per point");
+  if (options.viewpoint != nullptr && !options.viewpoint->allFinite())
+    throw InvalidInput(name + "viewpoint is not finite, must be");
+  for (Eigen::Index i = 0; i < n; ++i) {
+    if (laplacian.status[i] != PointStatus::active) continue;
+    if (!laplacian.positions.row(i).allFinite() || !frames.normals.row(i).allFinite())
+      throw InvalidInput(name + "the position or normal of point " + std::to_string(i) +
+                         " is not finite, must be: the Laplacian has it active");
+  }
+}
+
+/// Two neighbours.
+struct Edge {
+  int low, high;
+  double alike;  ///< -1 to 1: that their normals have one sign, or that they have not
+};
+
+Edge edgeBetween(const Points& positions, const Points& normals, int low, int high) {
+  const Eigen::RowVector3d a = normals.row(low), b = normals.row(high);
+  const double cosine = a.dot(b);
+  if (std::abs(cosine) >= smooth_cosine) return {low, high, cosine};
+  // At a crease: an arc that both lie on is symmetric in the plane between them.
+  const Eigen::RowVector3d edge = (positions.row(high) - positions.row(low)).stableNormalized();
+  const double reflected = cosine - 2 * a.dot(edge) * b.dot(edge);
+  return {low, high, crease_share * (std::abs(reflected) > std::abs(cosine) ? reflected : cosine)};
+}
+
+std::vector<Edge> edgesOf(const Laplacian& laplacian, const Points& normals) {
+  std::vector<Edge> edges;
+  edges.reserve(static_cast<std::size_t>(laplacian.L.nonZeros()) / 2);
+  for (int j = 0; j < laplacian.L.cols(); ++j) {
+    for (SparseMatrix::InnerIterator entry(laplacian.L, j); entry && entry.row() < j; ++entry)
+      if (entry.value() < 0)
+        edges.push_back(edgeBetween(laplacian.positions, normals, static_cast<int>(entry.row()), j));
+  }
+  return edges;
+}
+
+/// Union-find in which each element knows whether it has the sign of its set's root.
+class SignedSets {
+ public:
+  explicit SignedSets(int size) : parent_(size), turned_(size, 0) {
+    for (int i = 0; i < size; ++i) parent_[i] = i;
+  }
+
+  int size() const { return static_cast<int>(parent_.size()); }
+
+  /// Whether the sign of an element is not that of its root.
+  bool isTurned(int element) {
+    compress(element);
+    return turned_[element] != 0;
+  }
+
+  /// Joins the sets of a and b, which must be two, so that b has the sign of a, or the other one.
+  void unite(int a, int b, bool turns) {
+    const int first = compress(a), second = compress(b);
+    const bool differ = (turned_[a] ^ turned_[b]) != (turns ? 1 : 0);
+    parent_[std::max(first, second)] = std::min(first, second);
+    turned_[std::max(first, second)] = differ ? 1 : 0;
+  }
+
+ private:
+  /// Makes the root of an element its parent, and returns it.
+  int compress(int element) {
+    int root = element;
+    bool turned = false;
+    for (; parent_[root] != root; root = parent_[root]) turned ^= turned_[root] != 0;
+    while (parent_[element] != root) {
+      const int next = parent_[element];
+      const bool is_turned = turned_[element] != 0;
+      parent_[element] = root;
+      turned_[element] = turned ? 1 : 0;
+      turned ^= is_turned;
+      element = next;
+    }
+    return root;
+  }
+
+  std::vector<int> parent_;
+  std::vector<std::uint8_t> turned_;
+};
+
+/// Joins all sets that edges connect, the surest pair of sets first. What speaks for a pair is the sum over all edges
+/// between its two sets, so a few edges that are wrong do not matter (greedy additive contraction, Keuper et al. 2015).
+class Contraction {
+ public:
+  Contraction(const std::vector<Edge>& edges, SignedSets& sets) : sets_(sets), alike_(sets.size()) {
+    for (const Edge& edge : edges) {
+      alike_[edge.low][edge.high] = edge.alike;
+      alike_[edge.high][edge.low] = edge.alike;
+    }
+    for (int a = 0; a < static_cast<int>(alike_.size()); ++a)
+      for (const auto& [b, alike] : alike_[a])
+        if (a < b) queue_.push({std::abs(alike), a, b});
+  }
+
+  void run(const Workers& workers) {
+    constexpr std::size_t between_reports = 65536;
+    for (std::size_t count = 0; !queue_.empty(); ++count) {
+      if (count % between_reports == 0)
+        workers.report("orient", std::min(1.0, static_cast<double>(joined_) / static_cast<double>(alike_.size())));
+      const auto [certainty, a, b] = queue_.top();
+      queue_.pop();
+      const auto found = alike_[a].find(b);
+      if (found != alike_[a].end() && std::abs(found->second) == certainty) contract(a, b, found->second);
+    }
+  }
+
+ private:
+  struct Pair {
+    double certainty;
+    int a, b;
+
+    friend bool operator<(const Pair& p, const Pair& q) {
+      return std::tie(p.certainty, q.a, q.b) < std::tie(q.certainty, p.a, p.b);
+    }
+  };
+
+  void contract(int a, int b, double alike) {
+    ++joined_;
+    if (alike_[a].size() < alike_[b].size()) std::swap(a, b);
+    sets_.unite(a, b, alike < 0);
+    alike_[a].erase(b);
+    for (const auto& [c, weight] : std::exchange(alike_[b], {})) {
+      if (c == a) continue;
+      alike_[c].erase(b);
+      const double sum = alike_[a][c] += alike < 0 ? -weight : weight;
+      alike_[c][a] = sum;
+      queue_.push({std::abs(sum), std::min(a, c), std::max(a, c)});
+    }
+  }
+
+  SignedSets& sets_;
+  std::vector<std::map<int, double>> alike_;  ///< by element that stands for its set
+  std::priority_queue<Pair> queue_;
+  std::size_t joined_ = 0;
+};
+
+/// Whether each component of normals that agree points inwards.
+std::vector<bool> inwardComponents(const Laplacian& laplacian, const Components& components, const Points& normals) {
+  const Points& positions = laplacian.positions;
+  const VectorXd weights = components.weights(laplacian.M);
+  // Relative to one point and over the extent, so that neither distance nor size matters.
+  std::vector<int> first(components.count, -1);
+  std::vector<double> extent(components.count, 0);
+  for (const int i : components.points) {
+    int& start = first[components.of[i]];
+    if (start < 0) start = i;
+    double& most = extent[components.of[i]];
+    most = std::max(most, (positions.row(i) / 2 - positions.row(start) / 2).cwiseAbs().maxCoeff());
+  }
+  const auto place = [&](int i) -> Eigen::RowVector3d {
+    const int c = components.of[i];
+    if (!(extent[c] > 0)) return Eigen::RowVector3d::Zero();
+    return (positions.row(i) / 2 - positions.row(first[c]) / 2) / extent[c];
+  };
+  std::vector<Eigen::RowVector3d> center(components.count, Eigen::RowVector3d::Zero()), mean = center;
+  for (const int i : components.points) {
+    center[components.of[i]] += weights[i] * place(i);
+    mean[components.of[i]] += weights[i] * normals.row(i);
+  }
+  std::vector<double> outward(components.count, 0);  // three times the volume over the area
+  for (const int i : components.points)
+    outward[components.of[i]] += weights[i] * normals.row(i).dot(place(i) - center[components.of[i]]);
+  std::vector<bool> inward(components.count);
+  for (int c = 0; c < components.count; ++c) {
+    Eigen::Index axis = 0;
+    mean[c].cwiseAbs().maxCoeff(&axis);
+    inward[c] = std::abs(outward[c]) > flat_share ? outward[c] < 0 : mean[c][axis] < 0;
+  }
+  return inward;
+}
+
+/// Normals alike between neighbours, and outwards.
+void orientAlike(const Laplacian& laplacian, const Progress& progress, Points& normals, OrientationReport& report) {
+  const Workers workers(1, progress);
+  const std::vector<Edge> edges = edgesOf(laplacian, normals);
+  SignedSets sets(static_cast<int>(normals.rows()));
+  Contraction(edges, sets).run(workers);
+  const Components components = findComponents(laplacian);
+  for (const int i : components.points)
+    if (sets.isTurned(i)) normals.row(i) *= -1;
+  const std::vector<bool> inward = inwardComponents(laplacian, components, normals);
+  for (const int i : components.points)
+    if (inward[components.of[i]]) normals.row(i) *= -1;
+  for (const Edge& edge : edges)
+    report.disagreeing_edges += (edge.alike < 0) != (sets.isTurned(edge.low) != sets.isTurned(edge.high)) ? 1 : 0;
+  report.components = components.count;
+}
+
+}  // namespace
+
+Frames orientedFrames(const Laplacian& laplacian, const OrientationOptions& options, OrientationReport* report) {
+  return orientedFrames(laplacian, laplacian.frames, options, report);
+}
+
+Frames orientedFrames(const Laplacian& laplacian, const Frames& frames, const OrientationOptions& options,
+                      OrientationReport* report) {
+  checkArguments(laplacian, frames, options);
+  const Stopwatch watch;
+  OrientationReport made;
+  Frames result = frames;
+  if (options.viewpoint != nullptr) {
+    const Eigen::RowVector3d viewpoint = options.viewpoint->transpose() / 2;
+    for (Eigen::Index i = 0; i < result.normals.rows(); ++i) {
+      if (laplacian.status[i] != PointStatus::active) continue;
+      if (result.normals.row(i).dot(viewpoint - laplacian.positions.row(i) / 2) < 0) result.normals.row(i) *= -1;
+    }
+  } else {
+    orientAlike(laplacian, options.progress, result.normals, made);
+  }
+  for (Eigen::Index i = 0; i < result.normals.rows(); ++i) {
+    const int source = laplacian.representative[i];
+    if (laplacian.status[source] != PointStatus::active) continue;
+    if (source != i) {
+      result.normals.row(i) = result.normals.row(source);
+      result.tangents.row(i) = result.tangents.row(source);
+    } else if (result.normals.row(i).dot(frames.normals.row(i)) < 0) {
+      result.tangents.row(i) *= -1;
+      ++made.turned;
+    }
+  }
+  result.orientation = options.viewpoint != nullptr ? Orientation::viewpoint : Orientation::consistent;
+  made.seconds = watch.seconds();
+  if (report != nullptr) *report = made;
+  return result;
+}
+
+}  // namespace tufted

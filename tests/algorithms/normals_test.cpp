@@ -1,0 +1,186 @@
+// Normals face the sensor, or agree on each component and point outwards.
+#include "tufted/normals.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <vector>
+
+#include "shapes/shapes.h"
+#include "support/refusal.h"
+#include "tufted/tufted.h"
+
+namespace tufted {
+namespace {
+
+/// The share of active points whose normal is on the side of the true one.
+double outwardShare(const Laplacian& laplacian, const Points& normals, const Points& exact) {
+  int outward = 0, active = 0;
+  for (Eigen::Index i = 0; i < normals.rows(); ++i) {
+    if (laplacian.status[i] != PointStatus::active) continue;
+    ++active;
+    outward += normals.row(i).dot(exact.row(i)) > 0 ? 1 : 0;
+  }
+  return outward / static_cast<double>(active);
+}
+
+TEST(OrientedFrames, PointOutwardsOnClosedSurfaces) {
+  const shapes::Cloud clouds[] = {shapes::sphere(16000), shapes::sphere(100), shapes::ellipsoid(16000),
+                                  shapes::torus(16000), shapes::cubeSurface(16000)};
+  for (const shapes::Cloud& cloud : clouds) {
+    for (const double noise : {0.0, 0.01}) {
+      const Laplacian laplacian = pointCloudLaplacian(shapes::withNoise(cloud, noise).points);
+      EXPECT_EQ(laplacian.frames.orientation, Orientation::arbitrary);
+      OrientationReport report;
+      const Frames frames = orientedFrames(laplacian, {}, &report);
+      EXPECT_GE(outwardShare(laplacian, frames.normals, cloud.normals), 0.999) << cloud.shape << ' ' << noise;
+      EXPECT_EQ(frames.orientation, Orientation::consistent);
+      EXPECT_EQ(report.components, laplacian.report.components);
+      EXPECT_GT(report.turned, 0);
+      for (Eigen::Index i = 0; i < cloud.points.rows(); ++i)
+        EXPECT_LE(std::abs(frames.normals.row(i).dot(frames.tangents.row(i))), 1e-12);
+    }
+  }
+}
+
+TEST(OrientedFrames, OfSeveralComponentsAreOrientedOneByOne) {
+  const Points points = shapes::twoSpheres(0.1);
+  const Laplacian laplacian = pointCloudLaplacian(points);
+  OrientationReport report;
+  const Frames frames = orientedFrames(laplacian, {}, &report);
+  EXPECT_EQ(report.components, 2);
+  EXPECT_EQ(report.disagreeing_edges, 0);
+  for (int part = 0; part < 2; ++part) {
+    const Eigen::RowVector3d center = points.middleRows(1000 * part, 1000).colwise().mean();
+    for (int i = 1000 * part; i < 1000 * (part + 1); ++i)
+      EXPECT_GT(frames.normals.row(i).dot(points.row(i) - center), 0) << i;
+  }
+}
+
+TEST(OrientedFrames, OfAPlanePointUp) {
+  const Points plane = shapes::square(500).points;
+  const Frames frames = orientedFrames(pointCloudLaplacian(plane));
+  for (Eigen::Index i = 0; i < plane.rows(); ++i) EXPECT_GT(frames.normals(i, 2), 0.99);
+}
+
+TEST(OrientedFrames, DisagreeSomewhereOnAMoebiusStrip) {
+  const shapes::Mesh strip = shapes::moebius(12);
+  const Laplacian laplacian = meshLaplacian(strip.points, strip.triangles);
+  OrientationReport report;
+  const Frames frames = orientedFrames(laplacian, meshFrames(strip.points, strip.triangles), {}, &report);
+  EXPECT_GT(report.disagreeing_edges, 0);
+  EXPECT_LE(report.disagreeing_edges, 50);  // one cut across the strip, which has 12 rows
+  EXPECT_TRUE(frames.normals.allFinite());
+}
+
+TEST(OrientedFrames, DoNotDependOnTheSignsTheyComeWith) {
+  const Points points = shapes::withNoise(shapes::torus(3000), 0.01).points;
+  Laplacian laplacian = pointCloudLaplacian(points);
+  const Frames frames = orientedFrames(laplacian);
+  for (Eigen::Index i = 0; i < points.rows(); i += 3) laplacian.frames.normals.row(i) *= -1;
+  EXPECT_EQ(orientedFrames(laplacian).normals, frames.normals);
+}
+
+TEST(OrientedFrames, KeepTheSecondTangent) {
+  const Laplacian laplacian = pointCloudLaplacian(shapes::torus(1000).points);
+  const Frames& before = laplacian.frames;
+  const Frames frames = orientedFrames(laplacian);
+  for (Eigen::Index i = 0; i < 1000; ++i) {
+    const Eigen::RowVector3d normal = frames.normals.row(i), old = before.normals.row(i);
+    EXPECT_EQ(normal.cross(frames.tangents.row(i)), old.cross(before.tangents.row(i)));
+  }
+}
+
+TEST(OrientedFrames, AreTheSameInAnyOrderUnitAndPlace) {
+  const shapes::Cloud cloud = shapes::withNoise(shapes::torus(3000), 0.01), mixed = shapes::shuffled(cloud);
+  const Frames first = orientedFrames(pointCloudLaplacian(mixed.points));
+  EXPECT_EQ(outwardShare(pointCloudLaplacian(mixed.points), first.normals, mixed.normals), 1);
+  for (const int exponent : {-400, 400}) {
+    const Points scaled = cloud.points * std::ldexp(1.0, exponent);
+    const Laplacian laplacian = pointCloudLaplacian(scaled);
+    EXPECT_EQ(outwardShare(laplacian, orientedFrames(laplacian).normals, cloud.normals), 1) << exponent;
+  }
+  const Points far = cloud.points.rowwise() + Eigen::RowVector3d(1e6, -2e6, 3e6);
+  const Laplacian laplacian = pointCloudLaplacian(far);
+  EXPECT_EQ(outwardShare(laplacian, orientedFrames(laplacian).normals, cloud.normals), 1);
+}
+
+TEST(OrientedFrames, OfMeshesDoNotNeedOrientedTriangles) {
+  shapes::Mesh ball = shapes::icosphere(3);
+  for (Eigen::Index f = 0; f < ball.triangles.rows(); f += 2) std::swap(ball.triangles(f, 0), ball.triangles(f, 1));
+  const Laplacian laplacian = meshLaplacian(ball.points, ball.triangles);
+  const Frames frames = orientedFrames(laplacian, meshFrames(ball.points, ball.triangles));
+  EXPECT_EQ(outwardShare(laplacian, frames.normals, ball.points), 1);
+}
+
+TEST(OrientedFrames, FaceTheViewpoint) {
+  const Points points = shapes::torus(2000).points;
+  const Eigen::Vector3d sensor(3, 1, 2);
+  const auto facing = [&](const Frames& frames) {
+    for (Eigen::Index i = 0; i < points.rows(); ++i)
+      if (frames.normals.row(i).dot(sensor.transpose() - points.row(i)) < 0) return false;
+    return frames.orientation == Orientation::viewpoint;
+  };
+  CloudOptions options;
+  EXPECT_FALSE(facing(pointCloudLaplacian(points, options).frames));
+  EXPECT_TRUE(facing(orientedFrames(pointCloudLaplacian(points, options), {.viewpoint = &sensor})));
+  options.viewpoint = &sensor;
+  EXPECT_TRUE(facing(pointCloudLaplacian(points, options).frames));
+  // The caller's normals keep their sign.
+  const Points inwards = -shapes::torus(2000).normals;
+  options.normals = &inwards;
+  const Frames given = pointCloudLaplacian(points, options).frames;
+  EXPECT_EQ(given.orientation, Orientation::given);
+  for (Eigen::Index i = 0; i < points.rows(); ++i) EXPECT_GT(given.normals.row(i).dot(inwards.row(i)), 0);
+}
+
+TEST(OrientedFrames, OfADepthImageFaceItsOrigin) {
+  const shapes::Cloud image = shapes::depthCamera({.width = 160, .height = 120});
+  const ScanStructure structure = imageStructure(image.width, image.height);
+  CloudOptions options;
+  options.structure = &structure;
+  const Laplacian laplacian = pointCloudLaplacian(image.points, options);
+  EXPECT_EQ(laplacian.frames.orientation, Orientation::viewpoint);
+  EXPECT_GE(outwardShare(laplacian, laplacian.frames.normals, image.normals), 0.99);
+}
+
+TEST(OrientedFrames, OfOddPointsAreDefined) {
+  Points points = shapes::sphere(500).points;
+  points.row(3).setConstant(NAN);
+  points.row(9) = points.row(1);
+  points.row(12) << 50, 50, 50;
+  const Laplacian laplacian = pointCloudLaplacian(points);
+  const Frames frames = orientedFrames(laplacian);
+  EXPECT_TRUE(frames.normals.row(3).isZero(0));
+  EXPECT_EQ(frames.normals.row(9), frames.normals.row(1));
+  EXPECT_EQ(frames.tangents.row(9), frames.tangents.row(1));
+  EXPECT_GT(frames.normals.row(1).dot(points.row(1)), 0);
+  EXPECT_EQ(orientedFrames(pointCloudLaplacian(Points(0, 3))).normals.rows(), 0);
+  EXPECT_EQ(orientedFrames(pointCloudLaplacian(Points::Zero(1, 3))).normals.rows(), 1);
+}
+
+TEST(OrientedFrames, RefuseWhatDoesNotFit) {
+  const Points points = shapes::sphere(100).points;
+  const Laplacian laplacian = pointCloudLaplacian(points);
+  const shapes::Mesh ball = shapes::icosphere(1);
+  const auto refused = [](const Laplacian& l, const OrientationOptions& options = {}) {
+    return support::refusal([&] { orientedFrames(l, options); });
+  };
+  EXPECT_EQ(refused(meshLaplacian(ball.points, ball.triangles)),
+            "orientedFrames: frames.normals has 0 rows, must have 42; meshes have meshFrames()");
+  Laplacian without = laplacian;
+  without.positions = {};
+  EXPECT_EQ(refused(without), "orientedFrames: Laplacian::positions has 0 rows, must have 100, one per point");
+  Laplacian broken = laplacian;
+  broken.frames.normals(7, 1) = NAN;
+  EXPECT_EQ(refused(broken),
+            "orientedFrames: the position or normal of point 7 is not finite, must be: the Laplacian "
+            "has it active");
+  const Eigen::Vector3d nowhere(0, NAN, 0);
+  EXPECT_EQ(refused(laplacian, {.viewpoint = &nowhere}), "orientedFrames: viewpoint is not finite, must be");
+  EXPECT_THROW(orientedFrames(laplacian, {.progress = [](std::string_view, double) { return false; }}), Cancelled);
+}
+
+}  // namespace
+}  // namespace tufted

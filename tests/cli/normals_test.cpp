@@ -1,0 +1,78 @@
+// The subcommand normals, and who says where the sensor stood.
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "subcommands.h"
+#include "tufted/io/read.h"
+
+namespace {
+
+using Normals = Subcommands;
+
+/// The share of normals that point away from `place`, or from the origin.
+double outward(const std::vector<double>& normals, const tufted::Points& points) {
+  double count = 0;
+  for (Eigen::Index i = 0; i < points.rows(); ++i)
+    count += points(i, 0) * normals[3 * i] + points(i, 1) * normals[3 * i + 1] + points(i, 2) * normals[3 * i + 2] > 0;
+  return count / static_cast<double>(points.rows());
+}
+
+TEST_F(Normals, PointOutwardsAndFaceTheSensorWhereItIsKnown) {
+  const std::string file = dir_.write("sphere.xyz", sphere(500));
+  const tufted::Points points = tufted::read(file).points;
+  EXPECT_NE(run({"normals", file, "--out", in("out")}).out.find("outwards on 1 components"), std::string::npos);
+  EXPECT_EQ(outward(values("out/normals.npy"), points), 1);
+  EXPECT_EQ(report("out")["orientation"]["disagreeing_edges"], 0);
+  EXPECT_NE(readAll(dir_ / "out/points.ply").find("property float nx\n"), std::string::npos);
+
+  // From the centre all face inwards.
+  EXPECT_NE(run({"normals", file, "--viewpoint", "0,0,0", "--out", in("in")}).out.find("towards the sensor"),
+            std::string::npos);
+  EXPECT_EQ(outward(values("in/normals.npy"), points), 0);
+  EXPECT_EQ(report("in")["orientation"]["towards"], "viewpoint");
+  run({"normals", file, "--viewpoint", "0,0,0", "--consistent", "--out", in("out")});
+  EXPECT_EQ(outward(values("out/normals.npy"), points), 1);
+
+  // The folder remembers.
+  run({"laplacian", file, "--viewpoint", "0,0,0", "--out", in("folder")});
+  EXPECT_EQ(report("folder")["orientation"], "viewpoint");
+  run({"normals", "--operator", in("folder"), "--out", in("in")});
+  EXPECT_EQ(outward(values("in/normals.npy"), points), 0);
+  run({"normals", "--operator", in("folder"), "--consistent", "--out", in("out")});
+  EXPECT_EQ(outward(values("out/normals.npy"), points), 1);
+}
+
+TEST_F(Normals, OfMeshesAreThoseOfTheirTriangles) {
+  const std::string file = dir_.write("tetrahedron.off", tetrahedron);
+  run({"normals", file, "--out", in("out")});
+  EXPECT_EQ(values("out/normals.npy").size(), 12u);
+  run({"laplacian", file, "--out", in("folder")});
+  run({"normals", "--operator", in("folder"), "--out", in("same")});
+  EXPECT_EQ(values("same/normals.npy"), values("out/normals.npy"));
+}
+
+TEST_F(Normals, RefuseWhatTheyCannotUse) {
+  const std::string file = dir_.write("sphere.xyz", sphere(200));
+  const std::string mesh = dir_.write("tetrahedron.off", tetrahedron);
+  expectRefusal({"normals", file, "--viewpoint", "1,2"}, "--viewpoint 1,2 is not X,Y,Z");
+  expectRefusal({"normals", file, "--viewpoint", "1,2,inf"}, "--viewpoint 1,2,inf is not finite");
+  expectRefusal({"normals", file, "--viewpoint", "up"}, "--viewpoint up is no list of numbers");
+  expectRefusal({"normals", mesh, "--viewpoint", "1,2,3"}, "--viewpoint applies to point clouds");
+  run({"laplacian", file, "--out", in("folder")});
+  expectRefusal({"normals", "--operator", in("folder"), "--viewpoint", "1,2,3"}, "--viewpoint");
+  // As an older version wrote it, and as none did.
+  const auto change = [&](const std::string& from, const std::string& to) {
+    std::string text = readAll(dir_ / "folder/report.json");
+    text.replace(text.find(from), from.size(), to);
+    std::ofstream(dir_ / "folder/report.json") << text;
+  };
+  change("\"orientation\": \"arbitrary\"", "\"orientation\": \"upwards\"");
+  expectRefusal({"normals", "--operator", in("folder")}, "has the orientation '\"upwards\"', must be arbitrary", 1);
+  change("\"orientation\": \"upwards\",", "");
+  run({"normals", "--operator", in("folder"), "--out", in("out")});
+  change("\"measured_positions.npy\",", "");
+  expectRefusal({"normals", "--operator", in("folder")}, "has no measured_positions.npy", 1);
+}
+
+}  // namespace
