@@ -49,7 +49,7 @@ template <class T>
 class UninitializedAllocator : public WorkspaceAllocator<T> {
  public:
   template <class U>
-  struct rebind {
+  struct rebind {  // NOLINT(readability-identifier-naming): the name that allocators must have
     using other = UninitializedAllocator<U>;
   };
 

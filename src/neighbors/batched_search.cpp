@@ -150,6 +150,7 @@ class BatchSearch {
   /// The first way. Returns how many points of the batch, from the first on, are done.
   int findAround(int first, int count, double radius, Neighbor* found) {
     int done = 0;
+    // NOLINTNEXTLINE(clang-analyzer-security.FloatLoopCounter): it grows by a factor, and need not end exactly
     for (double around = first_around; around < last_around; around *= next_around) {
       SearchedBatch batch{first, count, {}, 0, 0};
       if (!search_.candidatesWithin(first, count, around * radius, scratch_.searched, batch.ball)) break;

@@ -110,6 +110,7 @@ struct TriangleFans {
 /// The loops that a build spends its time in. They are compiled for every processor and once more for AVX-512; the
 /// operations are the same, and so are the bits.
 struct Kernels {
+  // NOLINTBEGIN(readability-identifier-naming): they are called as functions
   /// The candidates within the squared distance `bound` of a point, but for number p: squared distances, with the bits
   /// of FLANN's L2_Simple, and ranks. Both arrays have room for all candidates and one packet.
   /// @returns how many
@@ -149,6 +150,7 @@ struct Kernels {
   void (*measureTriangleFans)(const TriangleFans& fans, double added);
   /// See wrapInverted().
   StarKind (*wrapInverted)(const PlanarOffsets& planar, InvertedStar& star);
+  // NOLINTEND(readability-identifier-naming)
 };
 
 /// What every processor runs.

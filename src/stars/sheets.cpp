@@ -88,7 +88,7 @@ std::span<TriedSheet> trySheets(const OffsetBuffer& all, double fit_radius, Shee
   const int plane_count = planesThroughNearest(all.view(), planes);
   std::array<HeightRange, kernel_packet> range;
   scratch.heights.resize(static_cast<std::size_t>(toPackets(all.count())));
-  scratch.heights_along.resize(static_cast<std::size_t>(kernel_packet * all.count()));
+  scratch.heights_along.resize(static_cast<std::size_t>(kernel_packet) * all.count());
   kernels().connectedHeightsAlong(all.view(), planes, sheet_gap * fit_radius, scratch.heights_along.data(),
                                   range.data());
   std::size_t count = 0;
