@@ -98,6 +98,7 @@ class RoundsByFactor : public HeatRounds {
 
 }  // namespace
 
+// NOLINTNEXTLINE(performance-unnecessary-value-param): moved from, where Eigen can
 HeatSystem makeHeatSystem(const std::string& function, SparseMatrix matrix, VectorXd interior,
                           const SolverOptions& options) {
   HeatSystem system;

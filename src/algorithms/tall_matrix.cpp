@@ -16,6 +16,7 @@ using ConstBlock = Eigen::Ref<const MatrixXd>;
 
 #ifdef TUFTED_WITH_GPL
 // The BLAS that CHOLMOD brings with it; several times faster than Eigen, which is limited to the oldest instructions.
+// NOLINTNEXTLINE(readability-identifier-naming): its name
 extern "C" void dgemm_(const char* transpose_a, const char* transpose_b, const int* m, const int* n, const int* k,
                        const double* alpha, const double* a, const int* lda, const double* b, const int* ldb,
                        const double* beta, double* c, const int* ldc);

@@ -42,7 +42,7 @@ class TriangleFanBuffer {
 
  private:
   void reserve(int count) {
-    const auto room = static_cast<std::size_t>(toPackets(count) + kernel_packet);
+    const auto room = static_cast<std::size_t>(toPackets(count)) + kernel_packet;
     if (given_[0].size() >= room) return;
     for (auto& values : given_) values.resize(2 * room);
     for (auto& values : found_) values.resize(2 * room);

@@ -14,6 +14,7 @@ namespace tufted::io {
 template <class Visitor>
 decltype(auto) visitType(FieldType type, Visitor&& visit) {
   switch (type) {
+    // NOLINTNEXTLINE(bugprone-branch-clone): each calls another visit()
     case FieldType::int8:
       return visit(std::int8_t());
     case FieldType::uint8:

@@ -38,7 +38,7 @@ void NpzArchive::add(const std::string& name, std::string_view descr, const std:
 
 void NpzArchive::close() {
   if (zip_close(archive_.get()) != 0) fail();
-  archive_.release();
+  static_cast<void>(archive_.release());  // zip_close() has freed it
 }
 
 void NpzArchive::fail() const {

@@ -79,6 +79,7 @@ Geometry copyWith(const Geometry& geometry, const std::vector<ResultArray>& arra
 
 std::vector<std::string> resultFiles(const std::vector<ResultArray>& arrays, const ResultOptions& options) {
   std::vector<std::string> names;
+  names.reserve(arrays.size() + options.copies.size() + 1);
   for (const ResultArray& array : arrays) names.push_back(array.name + ".npy");
   for (const Format format : options.copies) names.emplace_back(format == Format::ply ? "points.ply" : "points.pcd");
   names.emplace_back("report.json");

@@ -1,4 +1,4 @@
-// The subcommand normals, and who says where the sensor stood.
+// The subcommands normals and curvature, and who says where the sensor stood.
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -50,6 +50,28 @@ TEST_F(Normals, OfMeshesAreThoseOfTheirTriangles) {
   run({"laplacian", file, "--out", in("folder")});
   run({"normals", "--operator", in("folder"), "--out", in("same")});
   EXPECT_EQ(values("same/normals.npy"), values("out/normals.npy"));
+}
+
+TEST_F(Normals, DecideOnTheSignOfCurvature) {
+  const std::string file = dir_.write("sphere.xyz", sphere(2000));
+  run({"curvature", file, "--out", in("out")});
+  const std::vector<double> outward = values("out/curvature.npy");
+  ASSERT_EQ(outward.size(), 8000u);
+  for (int i = 0; i < 2000; ++i) {
+    EXPECT_NEAR(outward[4 * i], 1, 0.1);      // H
+    EXPECT_NEAR(outward[4 * i + 1], 1, 0.2);  // K
+    EXPECT_GE(outward[4 * i + 2], outward[4 * i + 3]);
+  }
+  EXPECT_EQ(values("out/principal_directions.npy").size(), 12000u);
+  EXPECT_NE(readAll(dir_ / "out/points.ply").find("property float curvature_3\n"), std::string::npos);
+  EXPECT_EQ(report("out")["report"]["undetermined"], 0);
+  run({"curvature", file, "--viewpoint", "0,0,0", "--out", in("in")});
+  const std::vector<double> inward = values("in/curvature.npy");
+  for (int i = 0; i < 2000; ++i) EXPECT_NEAR(inward[4 * i], -outward[4 * i], 1e-9);
+  run({"curvature", file, "--method", "laplacian", "--out", in("laplacian")});
+  EXPECT_EQ(values("laplacian/curvature.npy").size(), 2000u);
+  EXPECT_FALSE(std::filesystem::exists(in("laplacian/principal_directions.npy")));
+  expectRefusal({"curvature", file, "--method", "laplacien"}, "did you mean `laplacian`?");
 }
 
 TEST_F(Normals, RefuseWhatTheyCannotUse) {

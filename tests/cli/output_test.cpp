@@ -73,6 +73,7 @@ const std::vector<std::vector<std::string>> commands = {{"laplacian", "--format"
                                                         {"poisson", "--field", "x", "--pin", "0=1"},
                                                         {"green", "--source", "0"},
                                                         {"normals"},
+                                                        {"curvature"},
                                                         {"operators", "--count", "3"}};
 
 TEST_F(OutputOfCommands, ThatCannotBeWrittenIsRefusedBeforeTheBuild) {

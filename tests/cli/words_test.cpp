@@ -32,7 +32,7 @@ TEST_F(Words, AnUnknownCommandIsNamedWithTheNearest) {
   expectSaid({"validate-fil"}, said("validate-fil", "validate"));
   expectSaid({"xyz"},
              "unknown command `xyz`, must be one of laplacian, spectrum, hks, embed, filter, distance, interpolate, "
-             "poisson, green, normals, operators, info, validate (see tufted --help)");
+             "poisson, green, normals, curvature, operators, info, validate (see tufted --help)");
   expectSaid({"--hlep"}, "unknown option `--hlep`; did you mean `--help`? (see tufted --help)");
   expectSaid({}, "A subcommand is required (see tufted --help)");
 }
@@ -109,6 +109,7 @@ TEST_F(Words, TheShortOptionForOutIsTakenByEveryCommand) {
                                                           {"poisson", "--field", "x"},
                                                           {"green", "--source", "0"},
                                                           {"normals"},
+                                                          {"curvature"},
                                                           {"operators", "--count", "3"}};
   for (std::vector<std::string> command : commands) {
     const std::string name = command[0];

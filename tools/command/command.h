@@ -26,6 +26,7 @@ void addDistance(CLI::App& app, Run& run);
 void addInterpolate(CLI::App& app, Run& run);
 void addPoisson(CLI::App& app, Run& run);
 void addGreen(CLI::App& app, Run& run);
+void addCurvature(CLI::App& app, Run& run);
 void addNormals(CLI::App& app, Run& run);
 void addOperators(CLI::App& app, Run& run);
 void addInfo(CLI::App& app, Run& run);

@@ -56,6 +56,7 @@ int main(int argc, char** argv) {
   addPoisson(app, run);
   addGreen(app, run);
   addNormals(app, run);
+  addCurvature(app, run);
   addOperators(app, run);
   addInfo(app, run);
   addValidate(app, run);

@@ -1,0 +1,301 @@
+// Curvature of fitted heights, in windows chosen by the intersection of confidence intervals.
+#include "tufted/curvature.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "algorithms/height_fit.h"
+#include "base/parallel.h"
+#include "base/stage_clock.h"
+#include "tufted/check.h"
+#include "tufted/errors.h"
+
+namespace tufted {
+namespace {
+
+constexpr const char* function_name = "curvatures";
+constexpr std::int64_t block_size = 256;
+
+/// Rings of neighbours in the first window of exact points, in that of noisy ones, and in the last.
+constexpr int first_rings = 2;
+constexpr int first_noisy_rings = 4;
+constexpr int last_rings = 14;
+/// Points of a window; no ring is added to more.
+constexpr int most_points = 800;
+/// What fits of four rings leave over, by that of two. A smooth surface leaves over eight times as much or more, noise
+/// about as much.
+constexpr double noisy_below = 4;
+/// Half the width of a confidence interval, in standard deviations of independent errors.
+constexpr double confidence = 1;
+/// The same for noise, whose errors are not independent: what is left of it after denoising spans some spacings.
+constexpr double noisy_confidence = 8;
+
+void checkArguments(const Laplacian& laplacian, const Frames& frames, const CurvatureOptions& options) {
+  checkSizes(function_name, laplacian);
+  const std::string name = std::string(function_name) + ": ";
+  const auto n = static_cast<Eigen::Index>(laplacian.status.size());
+  const auto check = [&](const char* what, Eigen::Index rows, const char* hint) {
+    if (rows == n) return;
+    throw InvalidInput(name + what + " has " + std::to_string(rows) + " rows, must have " + std::to_string(n) + hint);
+  };
+  check("frames.normals", frames.normals.rows(), "; meshes have meshFrames()");
+  check("frames.tangents", frames.tangents.rows(), ", one per point of the Laplacian");
+  check("Laplacian::positions", laplacian.positions.rows(), ", one per point");
+  if (options.threads < 0) throw InvalidInput(name + "threads = " + std::to_string(options.threads) + ", must be >= 0");
+  for (Eigen::Index i = 0; i < n; ++i) {
+    if (laplacian.status[i] != PointStatus::active) continue;
+    if (!laplacian.positions.row(i).allFinite() || !frames.normals.row(i).allFinite() ||
+        !frames.tangents.row(i).allFinite())
+      throw InvalidInput(name + "the position or frame of point " + std::to_string(i) +
+                         " is not finite, must be: the Laplacian has it active");
+  }
+}
+
+/// The rings of neighbours of one point after the other.
+class Rings {
+ public:
+  explicit Rings(const SparseMatrix& L) : L_(L), seen_(L.cols(), 0) {}
+
+  void start(int p) {
+    points_.assign(1, p);
+    count_ = 0;
+    seen_[p] = ++start_;
+    ring_begin_ = 0;
+  }
+
+  /// Adds the next ring. False if there is none.
+  bool grow() {
+    ++count_;
+    const std::size_t ring_end = points_.size();
+    for (; ring_begin_ < ring_end; ++ring_begin_) {
+      for (SparseMatrix::InnerIterator entry(L_, points_[ring_begin_]); entry; ++entry) {
+        const auto q = static_cast<int>(entry.row());
+        if (seen_[q] == start_) continue;
+        seen_[q] = start_;
+        points_.push_back(q);
+      }
+    }
+    return points_.size() > ring_end;
+  }
+
+  /// How many rings have been asked for.
+  int count() const { return count_; }
+  /// The point itself and its rings.
+  const std::vector<int>& points() const { return points_; }
+
+ private:
+  const SparseMatrix& L_;
+  std::vector<std::int64_t> seen_;  ///< number of the last start that has seen the point
+  std::vector<int> points_;
+  std::size_t ring_begin_ = 0;
+  std::int64_t start_ = 0;
+  int count_ = 0;
+};
+
+/// A fit, with lengths in the caller's unit.
+struct Window {
+  HeightFit fit;
+  double radius;
+  int rings;
+};
+
+/// What fits of few and of some more rings leave over of the heights, root mean square in the caller's unit.
+struct Residuals {
+  double few = 0, more = 0;
+};
+
+/// Heights over the tangent plane of one point after the other.
+class Fitter {
+ public:
+  Fitter(const Laplacian& laplacian, const Frames& frames)
+      : positions_(laplacian.positions), frames_(frames), rings_(laplacian.L) {}
+
+  /// The widest window that agrees with all narrower ones.
+  /// What fits leave over around one point.
+  Residuals residuals(int p) {
+    const auto leftOver = [&](int rings) {
+      while (rings_.count() < rings && rings_.grow()) {
+      }
+      const std::optional<Window> window = fitWindow(p);
+      return window && std::isfinite(window->fit.error) ? window->fit.error * window->radius : 0;
+    };
+    rings_.start(p);
+    const double few = leftOver(first_rings);
+    return {few, leftOver(first_noisy_rings)};
+  }
+
+  /// The widest window that agrees with all narrower ones.
+  std::optional<Window> fit(int p, const std::vector<Residuals>& residuals) {
+    rings_.start(p);
+    const Errors errors = errorsAround(residuals);
+    rings_.start(p);
+    std::optional<Window> best;
+    Eigen::Array3d low = Eigen::Array3d::Constant(-INFINITY), high = -low;
+    for (bool grows = true; grows && rings_.count() < last_rings && std::ssize(rings_.points()) <= most_points;) {
+      grows = rings_.grow();
+      if (grows && rings_.count() < errors.first_rings) continue;
+      const std::optional<Window> window = fitWindow(p);
+      if (!window) continue;
+      const Eigen::Array3d second = window->fit.coefficients.tail<3>().array() / window->radius;
+      const Eigen::Array3d half = errors.interval / window->radius * (window->fit.deviation.array() / window->radius);
+      low = low.max(second - half);
+      high = high.min(second + half);
+      if (best && (low > high).any()) break;
+      best = window;
+    }
+    return best;
+  }
+
+ private:
+  /// What the heights around a point are off by.
+  struct Errors {
+    int first_rings;  ///< of the first window
+    double interval;  ///< half the width of the confidence interval of a height, in the caller's unit
+  };
+
+  Errors errorsAround(const std::vector<Residuals>& residuals) {
+    while (rings_.count() < first_noisy_rings && rings_.grow()) {
+    }
+    Residuals sum;
+    for (const int q : rings_.points()) {
+      sum.few += residuals[q].few;
+      sum.more += residuals[q].more;
+    }
+    const auto count = static_cast<double>(rings_.points().size());
+    const bool is_noisy = sum.more < noisy_below * sum.few;
+    return is_noisy ? Errors{first_noisy_rings, noisy_confidence * sum.more / count}
+                    : Errors{first_rings, confidence * sum.few / count};
+  }
+
+  std::optional<Window> fitWindow(int p) {
+    const Eigen::RowVector3d center = positions_.row(p), normal = frames_.normals.row(p), x = frames_.tangents.row(p);
+    const Eigen::RowVector3d y = normal.cross(x);
+    double radius = 0;
+    for (const int q : rings_.points()) radius = std::max(radius, (positions_.row(q) - center).stableNorm());
+    radius *= wider;
+    if (!(radius > 0) || !std::isfinite(radius)) return std::nullopt;
+    samples_.clear();
+    for (const int q : rings_.points()) {
+      const Eigen::RowVector3d offset = (positions_.row(q) - center) / radius;
+      samples_.push_back({offset.dot(x), offset.dot(y), offset.dot(normal)});
+    }
+    const std::optional<HeightFit> fit = fitHeights(samples_);
+    return fit ? std::optional(Window{*fit, radius, rings_.count()}) : std::nullopt;
+  }
+
+  /// The radius where weights end, over that of the outermost point.
+  static constexpr double wider = 1.1;
+
+  const Points& positions_;
+  const Frames& frames_;
+  Rings rings_;
+  std::vector<HeightSample> samples_;
+};
+
+/// Curvatures of the graph of the heights at the point.
+void setCurvatures(int p, const Window& window, const Frames& frames, Curvatures& result) {
+  const auto& c = window.fit.coefficients;
+  const double b = c[1], e = c[2], length = std::sqrt(1 + b * b + e * e);
+  Eigen::Matrix2d first, second;
+  first << 1 + b * b, b * e, b * e, 1 + e * e;
+  second << c[3], c[4], c[4], c[5];
+  second *= -1 / length;  // positive where heights fall on all sides
+  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2d> solver(second, first);
+  const Eigen::RowVector3d normal = frames.normals.row(p), x = frames.tangents.row(p), y = normal.cross(x);
+  const Eigen::Vector2d k = solver.eigenvalues() / window.radius;  // ascending
+  result.principal.row(p) << k[1], k[0];
+  result.mean[p] = (k[0] + k[1]) / 2;
+  result.gaussian[p] = k[0] * k[1];
+  const auto direction = [&](int column) -> Eigen::RowVector3d {
+    const Eigen::Vector2d v = solver.eigenvectors().col(column);
+    return (v[0] * (x + b * normal) + v[1] * (y + e * normal)).normalized();
+  };
+  result.first.row(p) = direction(1);
+  result.second.row(p) = direction(0);
+}
+
+Curvatures fitCurvatures(const Laplacian& laplacian, const Frames& frames, const Workers& workers) {
+  const auto n = static_cast<Eigen::Index>(laplacian.status.size());
+  Curvatures result{VectorXd::Zero(n),  VectorXd::Zero(n),  Eigen::MatrixX2d::Zero(n, 2),
+                    Points::Zero(n, 3), Points::Zero(n, 3), {}};
+  std::vector<int> rings(n, 0);
+  std::vector<std::optional<Fitter>> fitters(workers.count());
+  std::vector<Residuals> residuals(n);
+  workers.forBlocks("noise", n, block_size, [&](std::int64_t begin, std::int64_t end, int worker) {
+    std::optional<Fitter>& fitter = fitters[worker];
+    if (!fitter) fitter.emplace(laplacian, frames);
+    for (int p = static_cast<int>(begin); p < end; ++p)
+      if (laplacian.status[p] == PointStatus::active) residuals[p] = fitter->residuals(p);
+  });
+  workers.forBlocks("curvature", n, block_size, [&](std::int64_t begin, std::int64_t end, int worker) {
+    std::optional<Fitter>& fitter = fitters[worker];
+    if (!fitter) fitter.emplace(laplacian, frames);
+    for (int p = static_cast<int>(begin); p < end; ++p) {
+      if (laplacian.status[p] != PointStatus::active) continue;
+      const std::optional<Window> window = fitter->fit(p, residuals);
+      if (!window) continue;
+      setCurvatures(p, *window, frames, result);
+      rings[p] = window->rings;
+    }
+  });
+  std::int64_t sum = 0;
+  for (Eigen::Index i = 0; i < n; ++i) {
+    sum += rings[i];
+    if (laplacian.status[i] == PointStatus::active && rings[i] == 0) ++result.report.undetermined;
+  }
+  result.report.mean_rings =
+      static_cast<double>(sum) / static_cast<double>(std::max<std::int64_t>(laplacian.report.active, 1));
+  return result;
+}
+
+/// L x = 2 H n M at each point.
+Curvatures laplacianCurvatures(const Laplacian& laplacian, const Frames& frames, const Workers& workers) {
+  const Points& positions = laplacian.positions;
+  const auto n = static_cast<Eigen::Index>(laplacian.status.size());
+  Curvatures result;
+  result.mean = VectorXd::Zero(n);
+  workers.forBlocks("curvature", n, block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    for (int p = static_cast<int>(begin); p < end; ++p) {
+      if (laplacian.status[p] != PointStatus::active || !(laplacian.M[p] > 0)) continue;
+      Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();  // of differences, whatever the distance from the origin
+      for (SparseMatrix::InnerIterator entry(laplacian.L, p); entry; ++entry)
+        sum += entry.value() * (positions.row(entry.row()) - positions.row(p));
+      result.mean[p] = sum.dot(frames.normals.row(p)) / laplacian.M[p] / 2;
+    }
+  });
+  return result;
+}
+
+}  // namespace
+
+Curvatures curvatures(const Laplacian& laplacian, const CurvatureOptions& options) {
+  return curvatures(laplacian, laplacian.frames, options);
+}
+
+Curvatures curvatures(const Laplacian& laplacian, const Frames& frames, const CurvatureOptions& options) {
+  checkArguments(laplacian, frames, options);
+  const Stopwatch watch;
+  const Workers workers(options.threads, options.progress);
+  const bool fits = options.method == CurvatureMethod::fit;
+  Curvatures result =
+      fits ? fitCurvatures(laplacian, frames, workers) : laplacianCurvatures(laplacian, frames, workers);
+  for (Eigen::Index i = 0; i < result.mean.size(); ++i) {
+    const int source = laplacian.representative[i];
+    if (source == i) continue;
+    result.mean[i] = result.mean[source];
+    if (!fits) continue;
+    result.gaussian[i] = result.gaussian[source];
+    result.principal.row(i) = result.principal.row(source);
+    result.first.row(i) = result.first.row(source);
+    result.second.row(i) = result.second.row(source);
+  }
+  result.report.seconds = watch.seconds();
+  return result;
+}
+
+}  // namespace tufted

@@ -1,0 +1,205 @@
+// Curvature of shapes whose curvature is known.
+#include "tufted/curvature.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "shapes/shapes.h"
+#include "support/refusal.h"
+#include "tufted/tufted.h"
+
+namespace tufted {
+namespace {
+
+using Principal = Eigen::RowVector2d;
+
+/// A cloud, and k1 >= k2 of the surface at each of its points, for outward normals.
+struct Shape {
+  shapes::Cloud cloud;
+  Eigen::MatrixX2d exact;
+  double greatest;  ///< |k|
+};
+
+Shape sphere(int n, double noise = 0) {
+  return {shapes::withNoise(shapes::sphere(n), noise), Eigen::MatrixX2d::Ones(n, 2), 1};
+}
+
+Shape torus(int n, double noise = 0) {
+  Shape shape{shapes::torus(n), Eigen::MatrixX2d(n, 2), 2.5};
+  for (int i = 0; i < n; ++i) {
+    const double distance = shape.cloud.points.row(i).head<2>().norm();
+    shape.exact.row(i) << 2.5, (distance - 1) / 0.4 / distance;
+  }
+  shape.cloud = shapes::withNoise(shape.cloud, noise);
+  return shape;
+}
+
+/// Half a cylinder, whose rims are two half circles and two straight lines.
+Shape cylinder(int n) {
+  Shape shape{shapes::cylinderPatch(n), Eigen::MatrixX2d(n, 2), 1};
+  const shapes::Cloud& cloud = shape.cloud;
+  for (int i = 0; i < n; ++i) {
+    const bool outward = cloud.normals.row(i).head<2>().dot(cloud.points.row(i).head<2>()) > 0;
+    shape.exact.row(i) << (outward ? Principal(1, 0) : Principal(0, -1));
+  }
+  return shape;
+}
+
+/// The frames of a Laplacian with the signs of the exact normals.
+Frames framesLike(const Laplacian& laplacian, const Points& normals) {
+  Frames frames = laplacian.frames;
+  for (Eigen::Index i = 0; i < normals.rows(); ++i)
+    if (frames.normals.row(i).dot(normals.row(i)) < 0) frames.normals.row(i) *= -1;
+  return frames;
+}
+
+/// The errors of k1 and k2, weighted by M, over the greatest curvature; the larger of the two.
+double error(const Laplacian& laplacian, const Eigen::MatrixX2d& found, const Shape& shape) {
+  const Eigen::MatrixX2d errors = (found - shape.exact).cwiseAbs();
+  const Principal sum = laplacian.M.transpose() * errors;
+  return sum.maxCoeff() / laplacian.M.sum() / shape.greatest;
+}
+
+double error(const Shape& shape) {
+  const Laplacian laplacian = pointCloudLaplacian(shape.cloud.points);
+  const Curvatures found = curvatures(laplacian, framesLike(laplacian, shape.cloud.normals));
+  EXPECT_EQ(found.report.undetermined, 0);
+  return error(laplacian, found.principal, shape);
+}
+
+TEST(Curvature, IsWithinTwoPercentAndFallsWithTheSpacing) {
+  for (Shape (*const make)(int) : {+[](int n) { return sphere(n); }, +[](int n) { return torus(n); }, cylinder}) {
+    const double coarse = error(make(4000)), middle = error(make(16000)), fine = error(make(64000));
+    EXPECT_LE(middle, 0.02);
+    EXPECT_LE(middle, 0.6 * coarse);
+    EXPECT_LE(fine, 0.6 * middle);
+  }
+}
+
+TEST(Curvature, IsRightNextToARim) {
+  const Shape shape = cylinder(16000);
+  const Laplacian laplacian = pointCloudLaplacian(shape.cloud.points);
+  const Curvatures found = curvatures(laplacian, framesLike(laplacian, shape.cloud.normals));
+  const double near = 3 * std::sqrt(shape.cloud.area / 16000);
+  double worst = 0;
+  int count = 0;
+  for (int i = 0; i < 16000; ++i) {
+    const double z = shape.cloud.points(i, 2);
+    const double rim = std::min(z - shape.cloud.points.col(2).minCoeff(), shape.cloud.points.col(2).maxCoeff() - z);
+    if (rim > near) continue;
+    ++count;
+    worst = std::max(worst, (found.principal.row(i) - shape.exact.row(i)).cwiseAbs().maxCoeff());
+  }
+  EXPECT_GT(count, 500);
+  EXPECT_LE(worst, 0.02);
+}
+
+TEST(Curvature, OfNoisyShapesComesFromWiderWindows) {
+  for (const Shape& shape : {sphere(16000, 0.01), torus(16000, 0.01)}) {
+    const Laplacian laplacian = pointCloudLaplacian(shape.cloud.points);
+    const Curvatures found = curvatures(laplacian, framesLike(laplacian, shape.cloud.normals));
+    EXPECT_LE(error(laplacian, found.principal, shape), 0.15);
+    EXPECT_GT(found.report.mean_rings, 7);
+  }
+}
+
+TEST(Curvature, HasPerpendicularDirectionsAlongTheCircles) {
+  const Shape shape = torus(16000);
+  const Laplacian laplacian = pointCloudLaplacian(shape.cloud.points);
+  const Curvatures found = curvatures(laplacian, framesLike(laplacian, shape.cloud.normals));
+  double sum = 0;
+  for (int i = 0; i < 16000; ++i) {
+    const Eigen::RowVector3d first = found.first.row(i), second = found.second.row(i);
+    EXPECT_NEAR(first.norm(), 1, 1e-12);
+    EXPECT_NEAR(first.dot(second), 0, 1e-9);
+    const Eigen::RowVector3d around = Eigen::RowVector3d::UnitZ().cross(shape.cloud.points.row(i)).normalized();
+    sum += std::abs(first.dot(around));  // k1 belongs to the small circle, perpendicular to that
+  }
+  EXPECT_LE(sum / 16000, 0.02);
+}
+
+TEST(Curvature, TurnsWithTheNormal) {
+  const Shape shape = torus(4000);
+  const Laplacian laplacian = pointCloudLaplacian(shape.cloud.points);
+  Frames frames = framesLike(laplacian, shape.cloud.normals);
+  const Curvatures outward = curvatures(laplacian, frames);
+  frames.normals *= -1;
+  const Curvatures inward = curvatures(laplacian, frames);
+  EXPECT_LE((outward.mean + inward.mean).cwiseAbs().maxCoeff(), 1e-9);
+  EXPECT_LE((outward.gaussian - inward.gaussian).cwiseAbs().maxCoeff(), 1e-9);
+}
+
+TEST(Curvature, ScalesWithTheUnit) {
+  const shapes::Cloud cloud = shapes::withNoise(shapes::torus(2000), 0.01);
+  const Laplacian laplacian = pointCloudLaplacian(cloud.points);
+  const VectorXd mean = curvatures(laplacian).mean;
+  for (const int exponent : {-400, 400}) {
+    const Points scaled = cloud.points * std::ldexp(1.0, exponent);
+    const VectorXd found = curvatures(pointCloudLaplacian(scaled)).mean;
+    for (Eigen::Index i = 0; i < mean.size(); ++i)
+      EXPECT_NEAR(std::ldexp(found[i], exponent), mean[i], 1e-6 * std::abs(mean[i]) + 1e-9) << exponent;
+  }
+}
+
+TEST(Curvature, HasTheSameBitsForAnyNumberOfThreads) {
+  const Laplacian laplacian = pointCloudLaplacian(shapes::withNoise(shapes::torus(3000), 0.01).points);
+  const Curvatures one = curvatures(laplacian, {.threads = 1}), many = curvatures(laplacian, {.threads = 7});
+  EXPECT_EQ(one.principal, many.principal);
+  EXPECT_EQ(one.first, many.first);
+}
+
+TEST(Curvature, OfMeshes) {
+  const shapes::Mesh ball = shapes::icosphere(4);
+  const Laplacian laplacian = meshLaplacian(ball.points, ball.triangles);
+  const Frames frames = meshFrames(ball.points, ball.triangles);
+  const Curvatures found = curvatures(laplacian, frames);
+  EXPECT_LE((found.principal.array() - 1).abs().maxCoeff(), 0.01);
+  const Curvatures by_laplacian = curvatures(laplacian, frames, {.method = CurvatureMethod::laplacian});
+  EXPECT_LE((by_laplacian.mean.array() - 1).abs().mean(), 0.05);
+  EXPECT_EQ(by_laplacian.principal.rows(), 0);
+}
+
+TEST(Curvature, OfAPlaneIsZero) {
+  const Points plane = shapes::square(1000).points;
+  const Curvatures found = curvatures(pointCloudLaplacian(plane));
+  EXPECT_LE(found.principal.cwiseAbs().maxCoeff(), 1e-9);
+}
+
+TEST(Curvature, OfOddPointsIsDefined) {
+  Points points = shapes::sphere(500).points;
+  points.row(3).setConstant(NAN);
+  points.row(9) = points.row(1);
+  points.row(12) << 50, 50, 50;
+  const Curvatures found = curvatures(pointCloudLaplacian(points));
+  EXPECT_EQ(found.mean[3], 0);
+  EXPECT_EQ(found.mean[12], 0);
+  EXPECT_EQ(found.principal.row(9), found.principal.row(1));
+  EXPECT_TRUE(found.principal.allFinite() && found.first.allFinite());
+  for (const int n : {0, 1, 3, 5}) {
+    const Curvatures few = curvatures(pointCloudLaplacian(shapes::sphere(n + 1).points.topRows(n)));
+    EXPECT_EQ(few.mean.size(), n);
+    EXPECT_TRUE(few.principal.allFinite());
+  }
+}
+
+TEST(Curvature, RefusesWhatDoesNotFit) {
+  const Laplacian laplacian = pointCloudLaplacian(shapes::sphere(100).points);
+  Laplacian without = laplacian;
+  without.positions = {};
+  EXPECT_EQ(support::refusal([&] { curvatures(without); }),
+            "curvatures: Laplacian::positions has 0 rows, must have 100, one per point");
+  Laplacian broken = laplacian;
+  broken.frames.tangents(4, 0) = INFINITY;
+  EXPECT_EQ(support::refusal([&] { curvatures(broken); }),
+            "curvatures: the position or frame of point 4 is not finite, must be: the Laplacian has it active");
+  EXPECT_EQ(support::refusal([&] { curvatures(laplacian, {.threads = -1}); }),
+            "curvatures: threads = -1, must be >= 0");
+  EXPECT_THROW(curvatures(laplacian, {.progress = [](std::string_view, double) { return false; }}), Cancelled);
+}
+
+}  // namespace
+}  // namespace tufted

@@ -1,0 +1,89 @@
+#include <CLI/CLI.hpp>
+#include <map>
+
+#include "command.h"
+#include "operator.h"
+#include "options.h"
+#include "oriented.h"
+#include "tufted/curvature.h"
+
+namespace {
+
+constexpr const char* description = "Curvature: mean, Gaussian and principal, with their directions.";
+
+constexpr const char* footer =
+    R"(At each point a quadric is fitted to the heights of its neighbours over its tangent plane, in a window as wide as the
+noise asks for. A curvature is positive where the surface bends away from the normal: that of a sphere of radius r, with
+normals that point outwards, is 1/r. Normals are those of `tufted normals`.
+  --method laplacian  mean curvature alone, from L x = 2 H n M. It does not converge on random points: on a torus the mean
+                      error stays 7 % of the greatest curvature, however many points there are.
+
+Writes into DIR, renamed one after the other when all are complete:
+  curvature.npy             N x 4, float64: mean H and k1 >= k2 in 1/length, Gaussian K in 1/length^2, in the order
+                            H, K, k1, k2; with --method laplacian N values, H; 0 at points that take no part
+  principal_directions.npy  N x 6: unit vectors of k1, then of k2; not with --method laplacian
+  points.ply                the points with the fields curvature_0 to curvature_3, float32, and the normals; points.pcd
+                            with --format pcd
+  report.json               method, orientation, undetermined points, rings of neighbours in the fits, seconds
+FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written.)";
+
+const std::map<std::string, tufted::CurvatureMethod> methods = {{"fit", tufted::CurvatureMethod::fit},
+                                                                {"laplacian", tufted::CurvatureMethod::laplacian}};
+
+struct Settings {
+  OperatorSettings source;
+  Orienting orienting;
+  tufted::CurvatureOptions options;
+
+  bool fits() const { return options.method == tufted::CurvatureMethod::fit; }
+  std::vector<std::string> files() const {
+    return fits() ? std::vector<std::string>{"curvature.npy", "principal_directions.npy"}
+                  : std::vector<std::string>{"curvature.npy"};
+  }
+};
+
+void check(Settings&, const Operator& source) {
+  checkFrames(source);
+}
+
+Results compute(Settings& settings, Operator& source) {
+  Results results;
+  source.laplacian.frames = orientedFrames(settings.orienting, source, results);
+  source.geometry.normals = {};  // signs are those of the normals in use
+  settings.options.threads = source.threads;
+  settings.options.progress = source.progress;
+  const tufted::Curvatures found = tufted::curvatures(source.laplacian, settings.options);
+  const bool fits = settings.fits();
+  Eigen::MatrixXd values(found.mean.size(), fits ? 4 : 1);
+  values.col(0) = found.mean;
+  if (fits) {
+    values.col(1) = found.gaussian;
+    values.rightCols(2) = found.principal;
+  }
+  results.arrays = {{.name = "curvature", .values = values}};
+  if (fits) {
+    Eigen::MatrixXd directions(found.mean.size(), 6);
+    directions << found.first, found.second;
+    results.arrays.push_back({.name = "principal_directions", .values = directions, .per_point = false});
+    results.summary.add("windows", "%.1f rings of neighbours on average", found.report.mean_rings);
+    if (found.report.undetermined > 0)
+      results.summary.add("undetermined", "%lld points, whose neighbours lie on a line or a conic",
+                          static_cast<long long>(found.report.undetermined));
+  }
+  results.report["report"] = {{"method", fits ? "fit" : "laplacian"},
+                              {"undetermined", found.report.undetermined},
+                              {"mean_rings", found.report.mean_rings},
+                              {"seconds", found.report.seconds}};
+  if (found.mean.size() > 0)
+    results.summary.add("mean curvature", "%.6g to %.6g, 1 / length", found.mean.minCoeff(), found.mean.maxCoeff());
+  return results;
+}
+
+}  // namespace
+
+void addCurvature(CLI::App& app, Run& run) {
+  const auto [command, settings] =
+      addOperatorCommand<Settings>(app, run, "curvature", description, footer, compute, check);
+  addOrienting(*command, settings->orienting);
+  addChoice(*command, "--method", settings->options.method, methods, "How curvature is found (fit)");
+}
