@@ -39,7 +39,7 @@ struct OrientationReport {
 /// Where normals turn, so do tangents, and cross(normal, tangent) stays. Coincident points have the frame of their
 /// representative; other points that are not active keep theirs.
 /// @param laplacian with positions; with frames, as that of a cloud has
-/// @throws InvalidInput for arrays of the wrong size, a Laplacian without positions or frames, positions or normals of
+/// @throws InvalidInput for arrays of the wrong size, a Laplacian without positions or frames, positions or frames of
 /// active points that are not finite, or a viewpoint that is not
 /// @throws Cancelled when `options.progress` returns false
 Frames orientedFrames(const Laplacian& laplacian, const OrientationOptions& options = {},

@@ -9,10 +9,10 @@
 #include <string>
 #include <vector>
 
+#include "algorithms/check_frames.h"
 #include "algorithms/height_fit.h"
 #include "base/parallel.h"
 #include "base/stage_clock.h"
-#include "tufted/check.h"
 #include "tufted/errors.h"
 
 namespace tufted {
@@ -34,27 +34,6 @@ constexpr double noisy_below = 4;
 constexpr double confidence = 1;
 /// The same for noise, whose errors are not independent: what is left of it after denoising spans some spacings.
 constexpr double noisy_confidence = 8;
-
-void checkArguments(const Laplacian& laplacian, const Frames& frames, const CurvatureOptions& options) {
-  checkSizes(function_name, laplacian);
-  const std::string name = std::string(function_name) + ": ";
-  const auto n = static_cast<Eigen::Index>(laplacian.status.size());
-  const auto check = [&](const char* what, Eigen::Index rows, const char* hint) {
-    if (rows == n) return;
-    throw InvalidInput(name + what + " has " + std::to_string(rows) + " rows, must have " + std::to_string(n) + hint);
-  };
-  check("frames.normals", frames.normals.rows(), "; meshes have meshFrames()");
-  check("frames.tangents", frames.tangents.rows(), ", one per point of the Laplacian");
-  check("Laplacian::positions", laplacian.positions.rows(), ", one per point");
-  if (options.threads < 0) throw InvalidInput(name + "threads = " + std::to_string(options.threads) + ", must be >= 0");
-  for (Eigen::Index i = 0; i < n; ++i) {
-    if (laplacian.status[i] != PointStatus::active) continue;
-    if (!laplacian.positions.row(i).allFinite() || !frames.normals.row(i).allFinite() ||
-        !frames.tangents.row(i).allFinite())
-      throw InvalidInput(name + "the position or frame of point " + std::to_string(i) +
-                         " is not finite, must be: the Laplacian has it active");
-  }
-}
 
 /// The rings of neighbours of one point after the other.
 class Rings {
@@ -278,7 +257,10 @@ Curvatures curvatures(const Laplacian& laplacian, const CurvatureOptions& option
 }
 
 Curvatures curvatures(const Laplacian& laplacian, const Frames& frames, const CurvatureOptions& options) {
-  checkArguments(laplacian, frames, options);
+  checkFrames(function_name, laplacian, frames);
+  if (options.threads < 0)
+    throw InvalidInput(std::string(function_name) + ": threads = " + std::to_string(options.threads) +
+                       ", must be >= 0");
   const Stopwatch watch;
   const Workers workers(options.threads, options.progress);
   const bool fits = options.method == CurvatureMethod::fit;

@@ -12,10 +12,10 @@
 #include <utility>
 #include <vector>
 
+#include "algorithms/check_frames.h"
 #include "algorithms/connected.h"
 #include "base/parallel.h"
 #include "base/stage_clock.h"
-#include "tufted/check.h"
 #include "tufted/errors.h"
 
 namespace tufted {
@@ -29,27 +29,6 @@ constexpr double smooth_cosine = 0.7;
 constexpr double crease_share = 0.5;
 /// A component whose normals point out by less than this part of its extent encloses no volume.
 constexpr double flat_share = 1e-6;
-
-void checkArguments(const Laplacian& laplacian, const Frames& frames, const OrientationOptions& options) {
-  checkSizes(function_name, laplacian);
-  const std::string name = std::string(function_name) + ": ";
-  const auto n = static_cast<Eigen::Index>(laplacian.status.size());
-  const auto check = [&](const char* what, Eigen::Index rows, const char* hint) {
-    if (rows == n) return;
-    throw InvalidInput(name + what + " has " + std::to_string(rows) + " rows, must have " + std::to_string(n) + hint);
-  };
-  check("frames.normals", frames.normals.rows(), "; meshes have meshFrames()");
-  check("frames.tangents", frames.tangents.rows(), ", one per point of the Laplacian");
-  check("Laplacian::positions", laplacian.positions.rows(), ", one per point");
-  if (options.viewpoint != nullptr && !options.viewpoint->allFinite())
-    throw InvalidInput(name + "viewpoint is not finite, must be");
-  for (Eigen::Index i = 0; i < n; ++i) {
-    if (laplacian.status[i] != PointStatus::active) continue;
-    if (!laplacian.positions.row(i).allFinite() || !frames.normals.row(i).allFinite())
-      throw InvalidInput(name + "the position or normal of point " + std::to_string(i) +
-                         " is not finite, must be: the Laplacian has it active");
-  }
-}
 
 /// Two neighbours.
 struct Edge {
@@ -238,7 +217,9 @@ Frames orientedFrames(const Laplacian& laplacian, const OrientationOptions& opti
 
 Frames orientedFrames(const Laplacian& laplacian, const Frames& frames, const OrientationOptions& options,
                       OrientationReport* report) {
-  checkArguments(laplacian, frames, options);
+  checkFrames(function_name, laplacian, frames);
+  if (options.viewpoint != nullptr && !options.viewpoint->allFinite())
+    throw InvalidInput(std::string(function_name) + ": viewpoint is not finite, must be");
   const Stopwatch watch;
   OrientationReport made;
   Frames result = frames;

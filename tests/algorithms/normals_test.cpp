@@ -175,7 +175,7 @@ TEST(OrientedFrames, RefuseWhatDoesNotFit) {
   Laplacian broken = laplacian;
   broken.frames.normals(7, 1) = NAN;
   EXPECT_EQ(refused(broken),
-            "orientedFrames: the position or normal of point 7 is not finite, must be: the Laplacian "
+            "orientedFrames: the position or frame of point 7 is not finite, must be: the Laplacian "
             "has it active");
   const Eigen::Vector3d nowhere(0, NAN, 0);
   EXPECT_EQ(refused(laplacian, {.viewpoint = &nowhere}), "orientedFrames: viewpoint is not finite, must be");

@@ -1,0 +1,12 @@
+#pragma once
+
+#include "tufted/laplacian.h"
+
+namespace tufted {
+
+/// Checks what functions of frames and positions have in common.
+/// @param function named in messages
+/// @throws InvalidInput for arrays of the wrong size, or positions or frames of active points that are not finite
+void checkFrames(const char* function, const Laplacian& laplacian, const Frames& frames);
+
+}  // namespace tufted
