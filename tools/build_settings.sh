@@ -11,6 +11,8 @@ export CCACHE_BASEDIR CCACHE_NOHASHDIR=${CCACHE_NOHASHDIR-1}
 
 # Files that include a precompiled header are cached only so.
 export CCACHE_SLOPPINESS=${CCACHE_SLOPPINESS-pch_defines,time_macros}
+# Otherwise a precompiled header is found from before a comment changed, and GCC does not know the changed file again.
+export CCACHE_COMMENTS=${CCACHE_COMMENTS-1}
 
 configure_arguments=()
 # GCC knows mold from 12.1 on.

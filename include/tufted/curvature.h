@@ -37,8 +37,8 @@ struct Curvatures {
   VectorXd gaussian;  ///< N; K = k1 k2, 1 / length^2; size 0 with CurvatureMethod::laplacian
   Eigen::MatrixX2d
       principal;           ///< N x 2; principal curvatures k1 >= k2, 1 / length; 0 rows with CurvatureMethod::laplacian
-  Points first, second;    ///< N x 3; unit directions of k1 and k2, of any sign, perpendicular to each other; 0 x 3
-                           ///< with CurvatureMethod::laplacian
+  Points first;            ///< N x 3; unit direction of k1, of any sign; 0 x 3 with CurvatureMethod::laplacian
+  Points second;           ///< N x 3; that of k2, perpendicular to the first; 0 x 3 with CurvatureMethod::laplacian
   CurvatureReport report;  ///< what happened
 };
 

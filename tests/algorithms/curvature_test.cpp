@@ -1,6 +1,4 @@
 // Curvature of shapes whose curvature is known.
-#include "tufted/curvature.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>

@@ -1,6 +1,4 @@
 // Normals face the sensor, or agree on each component and point outwards.
-#include "tufted/normals.h"
-
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
