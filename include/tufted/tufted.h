@@ -22,3 +22,4 @@
 #include "tufted/spectral.h"
 #include "tufted/spectrum.h"
 #include "tufted/types.h"
+#include "tufted/vector_heat.h"

@@ -107,24 +107,10 @@ struct DistanceSolver::State {
   std::optional<const LinearSystem> poisson;
   SolverReport report;
 
-  void addReport(const SolverReport& added);
   Sources locate(const std::vector<SurfacePoint>& sources) const;
   std::vector<std::uint8_t> facesInside(const Sources& sources) const;
   void shift(const Sources& sources, VectorXd& distance) const;
 };
-
-void DistanceSolver::State::addReport(const SolverReport& added) {
-  if (report.method.empty())
-    report.method = added.method;
-  else if (report.method.find(added.method) == std::string::npos)
-    report.method += " and " + added.method;
-  report.unknowns += added.unknowns;
-  report.nonzeros += added.nonzeros;
-  report.bytes += added.bytes;
-  report.factor_bytes += added.factor_bytes;
-  report.components = std::max(report.components, added.components);
-  report.iterative |= added.iterative;
-}
 
 DistanceSolver::DistanceSolver(DistanceSolver&&) noexcept = default;
 DistanceSolver& DistanceSolver::operator=(DistanceSolver&&) noexcept = default;
@@ -158,7 +144,7 @@ DistanceSolver::DistanceSolver(const Laplacian& laplacian, const DistanceOptions
   state->heat = makeHeatSystem(constructor, heatMatrix(laplacian, surface, state->time), std::move(interior), one);
   state->poisson.emplace(LinearSystem::laplacian({.function = constructor, .matrix = "L"}, laplacian, one));
   for (const LinearSystem* held : {state->heat.closed.get(), state->heat.open.get(), &*state->poisson})
-    if (held != nullptr) state->addReport(held->report());
+    if (held != nullptr) addReport(held->report(), state->report);
   state->report.seconds = watch.seconds();
   state_ = std::move(state);
 }

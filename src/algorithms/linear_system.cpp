@@ -170,4 +170,17 @@ void LinearSystem::separate(const Components& parts, const std::vector<std::uint
   fail(names_.function, failure);
 }
 
+void addReport(const SolverReport& added, SolverReport& all) {
+  if (all.method.empty())
+    all.method = added.method;
+  else if (all.method.find(added.method) == std::string::npos)
+    all.method += " and " + added.method;
+  all.unknowns += added.unknowns;
+  all.nonzeros += added.nonzeros;
+  all.bytes += added.bytes;
+  all.factor_bytes += added.factor_bytes;
+  all.components = std::max(all.components, added.components);
+  all.iterative |= added.iterative;
+}
+
 }  // namespace tufted

@@ -104,4 +104,7 @@ class LinearSystem {
   int threads_;
 };
 
+/// Adds the report on one system to that on all systems of a solver.
+void addReport(const SolverReport& added, SolverReport& all);
+
 }  // namespace tufted

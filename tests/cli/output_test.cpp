@@ -72,6 +72,9 @@ const std::vector<std::vector<std::string>> commands = {{"laplacian", "--format"
                                                         {"poisson", "--field", "x"},
                                                         {"poisson", "--field", "x", "--pin", "0=1"},
                                                         {"green", "--source", "0"},
+                                                        {"extend", "--pin", "0=1"},
+                                                        {"transport", "--source", "0", "--vector", "1,2,3"},
+                                                        {"logmap", "--source", "0"},
                                                         {"normals"},
                                                         {"curvature"},
                                                         {"operators", "--count", "3"}};

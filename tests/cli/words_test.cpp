@@ -30,9 +30,10 @@ TEST_F(Words, AnUnknownCommandIsNamedWithTheNearest) {
   expectSaid({"inof", cloud_}, said("inof", "info"));
   expectSaid({"help"}, said("help", "--help"));
   expectSaid({"validate-fil"}, said("validate-fil", "validate"));
-  expectSaid({"xyz"},
-             "unknown command `xyz`, must be one of laplacian, spectrum, hks, embed, filter, distance, interpolate, "
-             "poisson, green, normals, curvature, operators, info, validate (see tufted --help)");
+  expectSaid(
+      {"xyz"},
+      "unknown command `xyz`, must be one of laplacian, spectrum, hks, embed, filter, distance, interpolate, "
+      "poisson, green, extend, transport, logmap, normals, curvature, operators, info, validate (see tufted --help)");
   expectSaid({"--hlep"}, "unknown option `--hlep`; did you mean `--help`? (see tufted --help)");
   expectSaid({}, "A subcommand is required (see tufted --help)");
 }
@@ -108,6 +109,9 @@ TEST_F(Words, TheShortOptionForOutIsTakenByEveryCommand) {
                                                           {"interpolate", "--pin", "0=1"},
                                                           {"poisson", "--field", "x"},
                                                           {"green", "--source", "0"},
+                                                          {"extend", "--pin", "0=1"},
+                                                          {"transport", "--source", "0", "--vector", "1,2,3"},
+                                                          {"logmap", "--source", "0"},
                                                           {"normals"},
                                                           {"curvature"},
                                                           {"operators", "--count", "3"}};

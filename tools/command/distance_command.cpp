@@ -1,16 +1,15 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
 #include <string>
 
 #include "command.h"
-#include "extent.h"
 #include "operator.h"
 #include "options.h"
 #include "point_options.h"
 #include "reports.h"
+#include "time_step.h"
 #include "tufted/distance.h"
 #include "tufted/errors.h"
 
@@ -62,19 +61,6 @@ void check(Settings& settings, const Operator& source) {
     throw tufted::InvalidInput("no source is given, must be at least one by --source, --near, --sources or --face");
 }
 
-/// Refuses a time step in which heat spreads over everything, or hardly at all. In a time t it goes as far as the root
-/// of t. Distances are 5 % too short if that is a sixth of an edge (--time-step 0.03), 13 % at a thirtieth, 20 % at a
-/// thousandth, and finally they are meaningless.
-void checkTimeStep(double time_step, double time, const Operator& source) {
-  constexpr double shortest = 0.01;  // of the spacing
-  const Extent extent = extentOf(source);
-  const double length = std::sqrt(time);
-  if (length >= shortest * extent.spacing && length <= extent.size) return;
-  throw tufted::InvalidInput("--time-step " + numberText(time_step) + ": heat goes " + numberText(length) + ", " +
-                             (length > extent.size ? "beyond all points" : "less than a hundredth of the spacing") +
-                             ": " + extent.text());
-}
-
 Results compute(Settings& settings, Operator& source) {
   Results results;
   std::vector<tufted::SurfacePoint> sources;
@@ -114,9 +100,7 @@ void addDistance(CLI::App& app, Run& run) {
   command->add_option("--face", settings->faces, "A point of distance 0 inside a triangle, meshes only")
       ->allow_extra_args(false)
       ->type_name("FACE,A,B,C");
-  addNumber(*command, "--time-step", settings->options.time_step, std::numeric_limits<double>::min(), 1e12,
-            "Time step in --time-unit; larger ones smooth (0.5)")
-      ->type_name("T");
+  addTimeStep(*command, settings->options.time_step, "Time step in --time-unit; larger ones smooth (0.5)");
   addChoice(*command, "--time-unit", settings->options.unit, units,
             "Squared mean edge; adapted: weighted by area, for uneven density (mean)");
 }

@@ -1,9 +1,18 @@
 #include "oriented.h"
 
 #include <CLI/CLI.hpp>
+#include <string>
 
 #include "tufted/errors.h"
 #include "tufted/gradient.h"
+
+namespace {
+
+[[noreturn]] void refuse(const Operator& source, const std::string& missing) {
+  throw tufted::IoError(source.name + ": has no " + missing + ", which `tufted laplacian --format npz,ply` writes");
+}
+
+}  // namespace
 
 void addOrienting(CLI::App& command, Orienting& orienting) {
   command.add_flag("--consistent", orienting.consistent,
@@ -11,19 +20,26 @@ void addOrienting(CLI::App& command, Orienting& orienting) {
 }
 
 void checkFrames(const Operator& source) {
+  checkPositions(source);
   const tufted::Laplacian& laplacian = source.laplacian;
-  if (laplacian.status.empty()) return;  // is yet to be built
   const bool has_frames = laplacian.frames.normals.rows() > 0 || source.geometry.is_mesh;
-  if (!has_frames || laplacian.positions.rows() == 0)
-    throw tufted::IoError(source.name + ": has no " + (has_frames ? "measured_positions.npy" : "frames of a cloud") +
-                          ", which `tufted laplacian --format npz,ply` writes");
+  if (!laplacian.status.empty() && !has_frames) refuse(source, "frames of a cloud");
+}
+
+void checkPositions(const Operator& source) {
+  const tufted::Laplacian& laplacian = source.laplacian;
+  // Without points it is yet to be built.
+  if (!laplacian.status.empty() && laplacian.positions.rows() == 0) refuse(source, "measured_positions.npy");
+}
+
+tufted::Frames framesOf(const Operator& source) {
+  if (!source.geometry.is_mesh) return source.laplacian.frames;
+  return tufted::meshFrames(source.geometry.points, source.geometry.triangles);
 }
 
 tufted::Frames orientedFrames(const Orienting& orienting, const Operator& source, Results& results) {
   const tufted::Laplacian& laplacian = source.laplacian;
-  const bool is_mesh = source.geometry.is_mesh;
-  tufted::Frames frames =
-      is_mesh ? tufted::meshFrames(source.geometry.points, source.geometry.triangles) : laplacian.frames;
+  tufted::Frames frames = framesOf(source);
   if (frames.orientation == tufted::Orientation::viewpoint && !orienting.consistent) {
     results.report["orientation"] = {{"towards", "viewpoint"}};
     results.summary.add("normals", "towards the sensor");

@@ -32,6 +32,17 @@ void addJoint(const std::optional<tufted::WeakJoint>& joint, Results& results) {
                       part(joint->second, joint->second_points).c_str());
 }
 
+/// Adds what the reports of heat have in common.
+template <class Report>
+void addHeat(const Report& report, const tufted::SolverReport& solver, Results& results) {
+  results.report["report"] = {{"rounds", report.rounds},     {"iterations", report.iterations},
+                              {"residual", report.residual}, {"backward_error", report.backward_error},
+                              {"seconds", report.seconds},   {"solver", toJson(solver)}};
+  results.summary.add("prepared", "%s, %.3g s", solver.method.c_str(), solver.seconds);
+  results.summary.add("query", "%d rounds of heat, residual %.1e, backward error %.1e, %.3g s", report.rounds,
+                      report.residual, report.backward_error, report.seconds);
+}
+
 }  // namespace
 
 void addReport(const tufted::SolveReport& report, Results& results) {
@@ -66,15 +77,11 @@ void addReport(const tufted::SpectrumReport& report, Results& results) {
 }
 
 void addReport(const tufted::DistanceReport& report, const tufted::SolverReport& solver, Results& results) {
-  results.report["report"] = {{"rounds", report.rounds},
-                              {"iterations", report.iterations},
-                              {"residual", report.residual},
-                              {"backward_error", report.backward_error},
-                              {"nearly_disconnected", toJson(report.weak_joint)},
-                              {"seconds", report.seconds},
-                              {"solver", toJson(solver)}};
-  results.summary.add("prepared", "%s, %.3g s", solver.method.c_str(), solver.seconds);
-  results.summary.add("query", "%d rounds of heat, residual %.1e, backward error %.1e, %.3g s", report.rounds,
-                      report.residual, report.backward_error, report.seconds);
+  addHeat(report, solver, results);
+  results.report["report"]["nearly_disconnected"] = toJson(report.weak_joint);
   addJoint(report.weak_joint, results);
+}
+
+void addReport(const tufted::VectorHeatReport& report, const tufted::SolverReport& solver, Results& results) {
+  addHeat(report, solver, results);
 }

@@ -55,6 +55,9 @@ int main(int argc, char** argv) {
   addInterpolate(app, run);
   addPoisson(app, run);
   addGreen(app, run);
+  addExtend(app, run);
+  addTransport(app, run);
+  addLogmap(app, run);
   addNormals(app, run);
   addCurvature(app, run);
   addOperators(app, run);

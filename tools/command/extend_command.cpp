@@ -1,0 +1,66 @@
+#include <CLI/CLI.hpp>
+#include <utility>
+
+#include "command.h"
+#include "operator.h"
+#include "oriented.h"
+#include "pin_options.h"
+#include "reports.h"
+#include "time_step.h"
+#include "tufted/vector_heat.h"
+
+namespace {
+
+constexpr const char* description = "Carry values of some points to all: nearly those of the nearest.";
+
+constexpr const char* footer =
+    R"(Pins are given as INDEX=V or X,Y,Z=V (the point nearest to a position), with V1,V2,... for several values at
+once, or in text files. Every other point has the mean of the pins' values, each weighted by the heat that comes from
+it: that of the nearest pin, but for a seam a few spacings wide. `tufted interpolate` blends smoothly instead.
+
+Writes into DIR, renamed one after the other when all are complete:
+  values.npy   N values or N x c, float64; NaN where no path leads
+  points.ply   the points with the field values, float32; points.pcd with --format pcd
+  report.json  pins, time step, rounds, residual, backward error, seconds
+FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written.)";
+
+struct Settings {
+  OperatorSettings source;
+  PinOptions pins;
+  PlacedPins placed;
+  tufted::VectorHeatOptions options;
+
+  std::vector<std::string> files() const { return {"values.npy"}; }
+};
+
+void check(Settings& settings, const Operator& source) {
+  checkPositions(source);
+  settings.placed = placePins(settings.pins, source.points());
+}
+
+Results compute(Settings& settings, Operator& source) {
+  Results results;
+  const tufted::Pins pins = settings.placed.locate(source, results);
+  settings.options.solver = source.solverOptions();
+  const tufted::ExtensionSolver solver(source.laplacian, settings.options);
+  checkTimeStep(settings.options.time_step, solver.timeStep(), source);
+  tufted::VectorHeatReport made;
+  Eigen::MatrixXd values = solver.query(pins.points, pins.values, &made, source.progress);
+  results.report["pins"] = pins.points.size();
+  results.report["time_step"] = solver.timeStep();
+  results.summary.add("pins", "%zu", pins.points.size());
+  results.summary.add("not reached", "%lld points, which are NaN",
+                      static_cast<long long>(values.col(0).array().isNaN().count()));
+  addReport(made, solver.report(), results);
+  results.arrays = {{.name = "values", .values = std::move(values)}};
+  return results;
+}
+
+}  // namespace
+
+void addExtend(CLI::App& app, Run& run) {
+  const auto [command, settings] =
+      addOperatorCommand<Settings>(app, run, "extend", description, footer, compute, check);
+  addPinOptions(*command, settings->pins);
+  addTimeStep(*command, settings->options.time_step, "Time step in squared mean edges; larger ones mix more (4)");
+}

@@ -1,0 +1,81 @@
+#include <CLI/CLI.hpp>
+#include <string>
+#include <vector>
+
+#include "command.h"
+#include "operator.h"
+#include "oriented.h"
+#include "point_options.h"
+#include "reports.h"
+#include "tufted/errors.h"
+#include "tufted/vector_heat.h"
+
+namespace {
+
+constexpr const char* description = "Logarithmic map: in which direction, and how far, each point lies from one.";
+
+constexpr const char* footer =
+    R"(The two coordinates of a point are its geodesic distance from the source, in the direction in which the shortest
+path leaves it. The first axis is --axis, projected into the tangent plane of the source, or any tangent without;
+report.json says which, and the second is perpendicular to it, counterclockwise seen from the normal, which is that of
+`tufted normals`.
+
+Writes into DIR, renamed one after the other when all are complete:
+  logmap.npy   N x 2, float64, in the file's unit; 0, 0 at the source, NaN where no path leads
+  points.ply   the points with the fields logmap_0 and logmap_1, float32; points.pcd with --format pcd
+  report.json  source, axes, rounds, residual, backward error, seconds
+FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written with
+--format npz,ply,cover: distances need the cover's triangles.)";
+
+struct Settings {
+  OperatorSettings source;
+  Orienting orienting;
+  NamedPoints points;
+  std::string axis_text;
+  tufted::VectorHeatOptions options;
+  std::vector<Place> places;
+  Eigen::RowVector3d axis = Eigen::RowVector3d::Zero();
+
+  std::vector<std::string> files() const { return {"logmap.npy"}; }
+};
+
+void check(Settings& settings, const Operator& source) {
+  checkFrames(source);
+  settings.places = settings.points.places(source.points());
+  if (settings.places.size() != 1)
+    throw tufted::InvalidInput(std::to_string(settings.places.size()) +
+                               " sources are given, must be one by --source or --near");
+  if (settings.axis_text.empty()) return;
+  settings.axis = parsePosition(settings.axis_text, "--axis");
+  if (settings.axis.isZero(0)) throw tufted::InvalidInput("--axis " + settings.axis_text + " has no direction");
+}
+
+Results compute(Settings& settings, Operator& source) {
+  Results results;
+  const int point = locate(settings.places, source, results).front();
+  settings.options.solver = source.solverOptions();
+  const tufted::LogMapSolver solver(source.laplacian, orientedFrames(settings.orienting, source, results),
+                                    settings.options);
+  const tufted::LogMap map = solver.query(point, settings.axis, source.progress);
+  const auto direction = [](const Eigen::RowVector3d& v) { return std::vector<double>{v[0], v[1], v[2]}; };
+  results.report["source_point"] = point;
+  results.report["axes"] = {direction(map.first), direction(map.second)};
+  results.summary.add("first axis", "%.6g, %.6g, %.6g", map.first[0], map.first[1], map.first[2]);
+  results.summary.add("second axis", "%.6g, %.6g, %.6g", map.second[0], map.second[1], map.second[2]);
+  addReport(map.report, solver.report(), results);
+  results.summary.add("not reached", "%lld points, which are NaN",
+                      static_cast<long long>(map.coordinates.col(0).array().isNaN().count()));
+  results.arrays = {{.name = "logmap", .values = map.coordinates}};
+  return results;
+}
+
+}  // namespace
+
+void addLogmap(CLI::App& app, Run& run) {
+  const auto [command, settings] =
+      addOperatorCommand<Settings>(app, run, "logmap", description, footer, compute, check);
+  settings->source.needs_cover = true;
+  addOrienting(*command, settings->orienting);
+  addPointOptions(*command, settings->points, "The point in the centre");
+  command->add_option("--axis", settings->axis_text, "Direction of the first coordinate")->type_name("X,Y,Z");
+}

@@ -1,0 +1,82 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "command.h"
+#include "operator.h"
+#include "oriented.h"
+#include "point_options.h"
+#include "reports.h"
+#include "time_step.h"
+#include "tufted/errors.h"
+#include "tufted/vector_heat.h"
+
+namespace {
+
+constexpr const char* description = "Carry tangent vectors of some points to all, parallel along the surface.";
+
+constexpr const char* footer =
+    R"(Each --source, --near or line of --sources takes one --vector: the first vector belongs to the first of --source,
+those of --near and of --sources follow. Vectors are projected into the tangent planes of their points. Other points
+have, nearly, what the nearest source has, turned with the surface along the shortest path.
+
+Writes into DIR, renamed one after the other when all are complete:
+  vectors.npy  N x 3, float64, tangent to the surface; 0 where no path leads
+  points.ply   the points with the fields vectors_0 to vectors_2, float32; points.pcd with --format pcd
+  report.json  sources, time step, rounds, residual, backward error, seconds
+FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written.)";
+
+struct Settings {
+  OperatorSettings source;
+  NamedPoints points;
+  std::vector<std::string> texts;
+  tufted::VectorHeatOptions options;
+  std::vector<Place> places;
+  tufted::Points vectors;
+
+  std::vector<std::string> files() const { return {"vectors.npy"}; }
+};
+
+void check(Settings& settings, const Operator& source) {
+  checkFrames(source);
+  settings.places = settings.points.places(source.points());
+  if (settings.places.empty())
+    throw tufted::InvalidInput("no source is given, must be at least one by --source, --near or --sources");
+  if (settings.places.size() != settings.texts.size())
+    throw tufted::InvalidInput(std::to_string(settings.texts.size()) + " of --vector for " +
+                               std::to_string(settings.places.size()) + " sources, must be one for each");
+  settings.vectors.resize(std::ssize(settings.texts), 3);
+  for (std::size_t k = 0; k < settings.texts.size(); ++k)
+    settings.vectors.row(static_cast<Eigen::Index>(k)) = parsePosition(settings.texts[k], "--vector");
+}
+
+Results compute(Settings& settings, Operator& source) {
+  Results results;
+  const std::vector<int> sources = locate(settings.places, source, results);
+  settings.options.solver = source.solverOptions();
+  const tufted::TransportSolver solver(source.laplacian, framesOf(source), settings.options);
+  checkTimeStep(settings.options.time_step, solver.timeStep(), source);
+  tufted::VectorHeatReport made;
+  const tufted::Points vectors = solver.query(sources, settings.vectors, &made, source.progress);
+  results.report["sources"] = sources;
+  results.report["time_step"] = solver.timeStep();
+  addReport(made, solver.report(), results);
+  const auto reached = (vectors.rowwise().squaredNorm().array() > 0).count();
+  results.summary.add("reached", "%lld of %lld", static_cast<long long>(reached),
+                      static_cast<long long>(vectors.rows()));
+  results.arrays = {{.name = "vectors", .values = vectors}};
+  return results;
+}
+
+}  // namespace
+
+void addTransport(CLI::App& app, Run& run) {
+  const auto [command, settings] =
+      addOperatorCommand<Settings>(app, run, "transport", description, footer, compute, check);
+  addPointOptions(*command, settings->points, "Points whose vectors are given");
+  command->add_option("--vector", settings->texts, "The vector of a source; repeat for several")
+      ->allow_extra_args(false)
+      ->type_name("X,Y,Z");
+  addTimeStep(*command, settings->options.time_step, "Time step in squared mean edges; larger ones mix more (4)");
+}
