@@ -24,16 +24,20 @@ constexpr std::int64_t block_size = 256;
 /// Rings of neighbours in the first window of exact points, in that of noisy ones, and in the last.
 constexpr int first_rings = 2;
 constexpr int first_noisy_rings = 4;
-constexpr int last_rings = 14;
+constexpr int last_rings = 12;
+/// Rings of a window, at least, by those of the last one.
+constexpr double ring_growth = 1.25;
 /// Points of a window; no ring is added to more.
 constexpr int most_points = 800;
+/// What a fit leaves over of the heights, by the radius of the window, that is no noise but rounding.
+constexpr double exact_below = 1e-6;
 /// What fits of four rings leave over, by that of two. A smooth surface leaves over eight times as much or more, noise
 /// about as much.
 constexpr double noisy_below = 4;
 /// Half the width of a confidence interval, in standard deviations of independent errors.
 constexpr double confidence = 1;
 /// The same for noise, whose errors are not independent: what is left of it after denoising spans some spacings.
-constexpr double noisy_confidence = 8;
+constexpr double noisy_confidence = 10;
 
 /// The rings of neighbours of one point after the other.
 class Rings {
@@ -94,14 +98,14 @@ class Fitter {
   Fitter(const Laplacian& laplacian, const Frames& frames)
       : positions_(laplacian.positions), frames_(frames), rings_(laplacian.L) {}
 
-  /// The widest window that agrees with all narrower ones.
   /// What fits leave over around one point.
   Residuals residuals(int p) {
     const auto leftOver = [&](int rings) {
       while (rings_.count() < rings && rings_.grow()) {
       }
       const std::optional<Window> window = fitWindow(p);
-      return window && std::isfinite(window->fit.error) ? window->fit.error * window->radius : 0;
+      if (!window || !std::isfinite(window->fit.error) || window->fit.error < exact_below) return 0.0;
+      return window->fit.error * window->radius;
     };
     rings_.start(p);
     const double few = leftOver(first_rings);
@@ -114,10 +118,12 @@ class Fitter {
     const Errors errors = errorsAround(residuals);
     rings_.start(p);
     std::optional<Window> best;
+    int next_rings = errors.first_rings;
     Eigen::Array3d low = Eigen::Array3d::Constant(-INFINITY), high = -low;
     for (bool grows = true; grows && rings_.count() < last_rings && std::ssize(rings_.points()) <= most_points;) {
       grows = rings_.grow();
-      if (grows && rings_.count() < errors.first_rings) continue;
+      if (grows && rings_.count() < next_rings) continue;
+      next_rings = std::max(next_rings + 1, static_cast<int>(ring_growth * next_rings));
       const std::optional<Window> window = fitWindow(p);
       if (!window) continue;
       const Eigen::Array3d second = window->fit.coefficients.tail<3>().array() / window->radius;
@@ -176,26 +182,24 @@ class Fitter {
   std::vector<HeightSample> samples_;
 };
 
-/// Curvatures of the graph of the heights at the point.
+/// Curvatures of the fitted surface at the point.
 void setCurvatures(int p, const Window& window, const Frames& frames, Curvatures& result) {
   const auto& c = window.fit.coefficients;
   const double b = c[1], e = c[2], length = std::sqrt(1 + b * b + e * e);
-  Eigen::Matrix2d first, second;
-  first << 1 + b * b, b * e, b * e, 1 + e * e;
+  Eigen::Matrix2d second;
   second << c[3], c[4], c[4], c[5];
   second *= -1 / length;  // positive where heights fall on all sides
-  const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::Matrix2d> solver(second, first);
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(second);
   const Eigen::RowVector3d normal = frames.normals.row(p), x = frames.tangents.row(p), y = normal.cross(x);
   const Eigen::Vector2d k = solver.eigenvalues() / window.radius;  // ascending
   result.principal.row(p) << k[1], k[0];
   result.mean[p] = (k[0] + k[1]) / 2;
   result.gaussian[p] = k[0] * k[1];
-  const auto direction = [&](int column) -> Eigen::RowVector3d {
-    const Eigen::Vector2d v = solver.eigenvectors().col(column);
-    return (v[0] * (x + b * normal) + v[1] * (y + e * normal)).normalized();
-  };
-  result.first.row(p) = direction(1);
-  result.second.row(p) = direction(0);
+  const Eigen::Vector2d v = solver.eigenvectors().col(1);
+  const Eigen::RowVector3d fitted_normal = (normal - b * x - e * y) / length;
+  const Eigen::RowVector3d first = (v[0] * (x + b * normal) + v[1] * (y + e * normal)).normalized();
+  result.first.row(p) = first;
+  result.second.row(p) = fitted_normal.cross(first);
 }
 
 Curvatures fitCurvatures(const Laplacian& laplacian, const Frames& frames, const Workers& workers) {

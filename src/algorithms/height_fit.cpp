@@ -3,6 +3,7 @@
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace tufted {
 namespace {
@@ -13,12 +14,15 @@ using Matrix6 = Eigen::Matrix<double, 6, 6>;
 /// A pivot below this part of the largest means that a combination of the columns vanishes on all samples.
 constexpr double least_pivot = 1e-9;
 
-Vector6 monomials(const HeightSample& s) {
-  return {1, s.u, s.v, s.u * s.u / 2, s.u * s.v, s.v * s.v / 2};
+/// The terms of a fit; quadratic ones of the coordinates that are stretched to the whole distance.
+Vector6 terms(const HeightSample& s) {
+  const double flat = s.u * s.u + s.v * s.v;
+  const double stretch = flat > std::numeric_limits<double>::min() ? 1 + s.height * s.height / flat : 1;
+  return {1, s.u, s.v, stretch * s.u * s.u / 2, stretch * s.u * s.v, stretch * s.v * s.v / 2};
 }
 
 double weightOf(const HeightSample& s) {
-  const double inner = std::max(0.0, 1 - s.u * s.u - s.v * s.v);
+  const double inner = std::max(0.0, 1 - s.u * s.u - s.v * s.v - s.height * s.height);
   return inner * inner;
 }
 
@@ -30,7 +34,7 @@ std::optional<HeightFit> fitHeights(std::span<const HeightSample> samples) {
   double weights = 0;
   for (const HeightSample& s : samples) {
     const double weight = weightOf(s);
-    const Vector6 row = monomials(s);
+    const Vector6 row = terms(s);
     normal.noalias() += weight * row * row.transpose();
     squared.noalias() += weight * weight * row * row.transpose();
     right += weight * s.height * row;
@@ -43,7 +47,7 @@ std::optional<HeightFit> fitHeights(std::span<const HeightSample> samples) {
   fit.coefficients = factor.solve(right);
   double left = 0;
   for (const HeightSample& s : samples) {
-    const double rest = s.height - monomials(s).dot(fit.coefficients);
+    const double rest = s.height - terms(s).dot(fit.coefficients);
     left += weightOf(s) * rest * rest;
   }
   // Of independent errors: sum w e^2 has the mean variance * (sum w - trace(N^-1 sum w^2 r r^T)).

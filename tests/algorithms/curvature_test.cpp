@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <string>
 
 #include "shapes/shapes.h"
@@ -22,17 +23,18 @@ struct Shape {
   double greatest;  ///< |k|
 };
 
-Shape sphere(int n, double noise = 0) {
-  return {shapes::withNoise(shapes::sphere(n), noise), Eigen::MatrixX2d::Ones(n, 2), 1};
+Shape sphere(int n, double noise = 0, std::uint64_t seed = 1) {
+  const shapes::Cloud cloud = shapes::sphere(n, shapes::Sampling::uniform, seed);
+  return {shapes::withNoise(cloud, noise, seed), Eigen::MatrixX2d::Ones(n, 2), 1};
 }
 
-Shape torus(int n, double noise = 0) {
-  Shape shape{shapes::torus(n), Eigen::MatrixX2d(n, 2), 2.5};
+Shape torus(int n, double noise = 0, std::uint64_t seed = 1) {
+  Shape shape{shapes::torus(n, shapes::Sampling::uniform, seed), Eigen::MatrixX2d(n, 2), 2.5};
   for (int i = 0; i < n; ++i) {
     const double distance = shape.cloud.points.row(i).head<2>().norm();
     shape.exact.row(i) << 2.5, (distance - 1) / 0.4 / distance;
   }
-  shape.cloud = shapes::withNoise(shape.cloud, noise);
+  shape.cloud = shapes::withNoise(shape.cloud, noise, seed);
   return shape;
 }
 
@@ -70,12 +72,16 @@ double error(const Shape& shape) {
 }
 
 TEST(Curvature, IsWithinTwoPercentAndFallsWithTheSpacing) {
-  for (Shape (*const make)(int) : {+[](int n) { return sphere(n); }, +[](int n) { return torus(n); }, cylinder}) {
+  for (Shape (*const make)(int) : {+[](int n) { return torus(n); }, cylinder}) {
     const double coarse = error(make(4000)), middle = error(make(16000)), fine = error(make(64000));
     EXPECT_LE(middle, 0.02);
     EXPECT_LE(middle, 0.6 * coarse);
     EXPECT_LE(fine, 0.6 * middle);
   }
+}
+
+TEST(Curvature, OfASphereIsExactWhateverTheSpacing) {
+  EXPECT_LE(error(sphere(1000)), 1e-6);
 }
 
 TEST(Curvature, IsRightNextToARim) {
@@ -97,11 +103,13 @@ TEST(Curvature, IsRightNextToARim) {
 }
 
 TEST(Curvature, OfNoisyShapesComesFromWiderWindows) {
-  for (const Shape& shape : {sphere(16000, 0.01), torus(16000, 0.01)}) {
-    const Laplacian laplacian = pointCloudLaplacian(shape.cloud.points);
-    const Curvatures found = curvatures(laplacian, framesLike(laplacian, shape.cloud.normals));
-    EXPECT_LE(error(laplacian, found.principal, shape), 0.15);
-    EXPECT_GT(found.report.mean_rings, 7);
+  for (const std::uint64_t seed : {101, 102}) {  // never used to choose a constant
+    for (const Shape& shape : {sphere(16000, 0.01, seed), torus(16000, 0.01, seed)}) {
+      const Laplacian laplacian = pointCloudLaplacian(shape.cloud.points);
+      const Curvatures found = curvatures(laplacian, framesLike(laplacian, shape.cloud.normals));
+      EXPECT_LE(error(laplacian, found.principal, shape), 0.03);
+      EXPECT_GT(found.report.mean_rings, 10);
+    }
   }
 }
 
