@@ -57,7 +57,11 @@ struct Laplacian {
   std::vector<PointStatus> status;  ///< N
   std::vector<int> representative;  ///< N; the point itself unless coincident, then the lowest equal index
   std::vector<Boundary> boundary;   ///< N; why the surface ends at a point, if it does
-  Frames frames;                    ///< set on clouds; 0 x 3 on meshes, where those of meshFrames() may be stored
+  /// N; the connected component of L that a point belongs to, 0 for the one of the most active points, then 1, ...; of
+  /// equal ones that of the lowest index first. Coincident points have that of their representative, points that are
+  /// isolated or not finite -1. Empty where nobody has stored them; see componentLabels().
+  std::vector<int> component;
+  Frames frames;  ///< set on clouds; 0 x 3 on meshes, where those of meshFrames() may be stored
   /// N x 3, in the caller's unit: where the lengths of edges are measured. The caller's points, bit for bit, but for
   /// noisy ones of a cloud, which are put back onto the surface (Lengths::denoised). A point that coincides with
   /// another lies where that one does. 0 x 3 where nobody has stored them.

@@ -27,6 +27,11 @@ VectorXd heatTimes(const Spectrum& spectrum, int count = 16);
 /// @return N x T, 1 / length^2
 /// @throws InvalidInput for times that are negative or not finite
 Eigen::MatrixXd heatKernelSignature(const Spectrum& spectrum, const VectorXd& times);
+/// The same from a spectrum of positive eigenvalues alone (SpectrumOptions::null_space = false): the constants of the
+/// connected components are added, 1 / area of each at all times.
+/// @param spectrum of `laplacian`
+/// @throws InvalidInput for times as above, arrays of the wrong size, or a spectrum with the eigenvalue 0
+Eigen::MatrixXd heatKernelSignature(const Laplacian& laplacian, const Spectrum& spectrum, const VectorXd& times);
 
 /// Energies for the wave kernel signature, evenly spaced from log(smallest positive eigenvalue) to log(largest).
 /// @param count >= 2

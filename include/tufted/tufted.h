@@ -2,6 +2,7 @@
 
 // Everything in the core library. Files and the PCL filters have headers of their own (tufted/io, tufted/pcl).
 #include "tufted/check.h"
+#include "tufted/components.h"
 #include "tufted/curvature.h"
 #include "tufted/describe.h"
 #include "tufted/distance.h"

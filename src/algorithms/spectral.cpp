@@ -7,6 +7,7 @@
 #include <numbers>
 #include <string>
 
+#include "algorithms/connected.h"
 #include "base/number_text.h"
 #include "tufted/check.h"
 #include "tufted/errors.h"
@@ -57,6 +58,24 @@ MatrixXd heatKernelSignature(const Spectrum& spectrum, const VectorXd& times) {
       throw InvalidInput("heatKernelSignature: a time is " + numberText(t) + ", must be finite and at least 0");
   const MatrixXd weights = (-spectrum.values * times.transpose()).array().exp();
   return sumSquares(spectrum.vectors, weights);
+}
+
+MatrixXd heatKernelSignature(const Laplacian& laplacian, const Spectrum& spectrum, const VectorXd& times) {
+  const std::string function = "heatKernelSignature";
+  checkSizes(function, laplacian);
+  if (spectrum.vectors.rows() != std::ssize(laplacian.status))
+    throw InvalidInput(function + ": spectrum has " + std::to_string(spectrum.vectors.rows()) + " rows, must have " +
+                       std::to_string(laplacian.status.size()) + ", one per point of the Laplacian");
+  if (spectrum.values.size() > 0 && !(spectrum.values[0] > 0))
+    throw InvalidInput(function + ": spectrum has the eigenvalue 0, must have positive ones alone");
+  MatrixXd result = heatKernelSignature(spectrum, times);
+  const Components components = findComponents(laplacian);
+  const VectorXd areas = components.sums(laplacian.M);
+  for (Index i = 0; i < result.rows(); ++i) {
+    const int component = components.of[laplacian.representative[i]];
+    if (component >= 0 && areas[component] > 0) result.row(i).array() += 1 / areas[component];
+  }
+  return result;
 }
 
 VectorXd waveEnergies(const Spectrum& spectrum, int count) {

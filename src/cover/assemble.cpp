@@ -5,7 +5,6 @@
 #include <numeric>
 
 #include "base/buffer.h"
-#include "base/disjoint_sets.h"
 #include "cover/face_areas.h"
 #include "cover/geometry.h"
 #include "cover/matrix_columns.h"
@@ -104,18 +103,6 @@ void assembleLaplacian(const IntrinsicTriangulation& cover, const Buffer<int>& i
                        const Workers& workers, Laplacian& result) {
   const CoverRows rows(cover, scale, workers, result.report);
   MatrixColumns(rows, input_index, workers, result).write(size, "pointCloudLaplacian and meshLaplacian");
-}
-
-std::int64_t countComponents(const SparseMatrix& L) {
-  DisjointSets sets(L.cols());
-  std::int64_t components = 0;
-  for (int j = 0; j < L.cols(); ++j) {
-    const int first = L.outerIndexPtr()[j], last = L.outerIndexPtr()[j + 1];
-    components += first < last ? 1 : 0;
-    for (int i = first; i < last && L.innerIndexPtr()[i] < j; ++i)
-      if (sets.unite(L.innerIndexPtr()[i], j)) --components;
-  }
-  return components;
 }
 
 }  // namespace tufted

@@ -21,7 +21,4 @@ namespace tufted {
 void assembleLaplacian(const IntrinsicTriangulation& cover, const Buffer<int>& input_index, int size, double scale,
                        const Workers& workers, Laplacian& result);
 
-/// Connected components of the graph of L among rows with a positive diagonal.
-std::int64_t countComponents(const SparseMatrix& L);
-
 }  // namespace tufted

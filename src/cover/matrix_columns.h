@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <numeric>
 #include <utility>
+#include <vector>
 
 #include "base/buffer.h"
 #include "base/disjoint_sets.h"
@@ -12,6 +13,7 @@
 #include "base/require.h"
 #include "base/workspace.h"
 #include "cover/clamped_weights.h"
+#include "cover/components.h"
 #include "tufted/laplacian.h"
 #include "tufted/types.h"
 
@@ -84,7 +86,13 @@ class MatrixColumns {
  public:
   /// @param input_index the caller's index of each vertex
   MatrixColumns(const WeightRows& rows, const Buffer<int>& input_index, const Workers& workers, Laplacian& result)
-      : rows_(rows), input_index_(input_index), workers_(workers), L_(result.L), M_(result.M), report_(result.report) {}
+      : rows_(rows),
+        input_index_(input_index),
+        workers_(workers),
+        L_(result.L),
+        M_(result.M),
+        component_(result.component),
+        report_(result.report) {}
 
   /// @param size of the caller's numbering
   /// @param function to be named in errors
@@ -104,6 +112,12 @@ class MatrixColumns {
       for (const auto& [p, q] : block.edges_to_other) report_.components -= sets.unite(p, q) ? 1 : 0;
     }
     report_.nonzeros = L_.nonZeros();
+    component_.assign(static_cast<std::size_t>(size), -1);
+    for (int p = 0; p < static_cast<int>(rows_.size()); ++p) {
+      const int i = input_index_[p];
+      if (L_.outerIndexPtr()[i] < L_.outerIndexPtr()[i + 1]) component_[i] = input_index_[sets.root(p)];
+    }
+    numberComponents(component_);
   }
 
  private:
@@ -186,6 +200,7 @@ class MatrixColumns {
   const Workers& workers_;
   SparseMatrix& L_;
   VectorXd& M_;
+  std::vector<int>& component_;
   Report& report_;
 };
 

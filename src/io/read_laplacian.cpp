@@ -14,6 +14,7 @@
 #include "io/npz_reader.h"
 #include "io/positions_file.h"
 #include "io/promises.h"
+#include "tufted/components.h"
 #include "tufted/io/results.h"
 
 namespace tufted {
@@ -171,6 +172,7 @@ Laplacian readLaplacian(const std::filesystem::path& dir, bool with_cover) {
     io::refuse(dir / "report.json",
                "counts " + std::to_string(counted) + " points, and L has " + std::to_string(n) + " rows");
   io::requirePromises(dir, laplacian);
+  laplacian.component = componentLabels(laplacian);
   return laplacian;
 }
 

@@ -20,6 +20,7 @@
 #include "io/positions_file.h"
 #include "io/report_json.h"
 #include "io/staged_files.h"
+#include "tufted/components.h"
 #include "tufted/errors.h"
 
 namespace tufted {
@@ -34,6 +35,7 @@ struct Results {
   const WriteOptions& options;
   io::OutputMatrices matrices = {laplacian, options};
   std::vector<io::Convention> conventions = io::conventions(laplacian, options);
+  std::vector<int> component = laplacian.component.empty() ? componentLabels(laplacian) : laplacian.component;
 };
 
 template <class T>
@@ -98,6 +100,8 @@ const ResultFile result_files[] = {
      }},
     {std::nullopt, io::positions_name,
      [](const OutputPath& to, const Results& r) { io::writePositions(to, r.laplacian.positions); }},
+    {std::nullopt, "components.npy",
+     [](const OutputPath& to, const Results& r) { writeNpy(to, "<i4", r.component.data(), r.component.size()); }},
     {std::nullopt, "report.json", writeReport},
 };
 
@@ -121,6 +125,7 @@ void check(const Laplacian& laplacian, const Geometry& geometry) {
   require("status", laplacian.status.size(), points);
   require("representative", laplacian.representative.size(), points);
   require("boundary", laplacian.boundary.size(), points);
+  if (!laplacian.component.empty()) require("component", laplacian.component.size(), points);
   if (laplacian.positions.rows() > 0) require("positions", laplacian.positions.rows(), points);
   if (geometry.normals.rows() > 0) require("normals", geometry.normals.rows(), points);
   if (geometry.height > 1)

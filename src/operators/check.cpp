@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "cover/assemble.h"
+#include "cover/components.h"
 #include "operators/check_surface.h"
 #include "operators/lower_triangle.h"
 #include "operators/promise.h"

@@ -17,6 +17,7 @@ void checkSizes(const std::string& function, const Laplacian& laplacian) {
   expect("size of M =", laplacian.M.size(), false);
   expect("size of representative =", std::ssize(laplacian.representative), false);
   expect("size of boundary =", std::ssize(laplacian.boundary), false);
+  expect("size of component =", std::ssize(laplacian.component), true);
   expect("size of cover_areas =", laplacian.cover_areas.size(), true);
   expect("rows of frames.normals =", laplacian.frames.normals.rows(), true);
   expect("rows of frames.tangents =", laplacian.frames.tangents.rows(), true);

@@ -31,6 +31,7 @@ void checkBuild(const char* function, double mollify, int threads) {
 void restart(Laplacian& result, Kind kind, std::int64_t points, const Workers& workers) {
   result.kind = kind;
   result.cover_source.reset();
+  result.component.clear();
   std::vector<StageCost> stages = std::move(result.report.stages);
   stages.clear();
   result.report = {};
@@ -54,16 +55,19 @@ void finishResult(const BuildFigures& figures, int exponent, Laplacian& result) 
   for (double& mass : result.M) mass = area_unit.times(mass);
   result.cover_areas = result.M;
   report.area = report.cover_area = result.M.sum();
+  if (result.component.size() != result.status.size()) result.component.assign(result.status.size(), -1);
   for (std::size_t i = 0; i < result.status.size(); ++i) {
     const bool has_row = result.L.outerIndexPtr()[i] != result.L.outerIndexPtr()[i + 1];
     if (result.status[i] == PointStatus::active && !has_row) result.status[i] = PointStatus::isolated;
     // Surfaces end at points of surfaces; a representative comes before the points it stands for.
-    if (result.status[i] == PointStatus::coincident)
+    if (result.status[i] == PointStatus::coincident) {
       result.boundary[i] = result.boundary[result.representative[i]];
-    else if (result.status[i] != PointStatus::active)
+      result.component[i] = result.component[result.representative[i]];
+    } else if (result.status[i] != PointStatus::active) {
       result.boundary[i] = Boundary::none;
-    else
+    } else {
       countBoundary(result.boundary[i], report);
+    }
     report.active += result.status[i] == PointStatus::active ? 1 : 0;
     report.not_finite += result.status[i] == PointStatus::not_finite ? 1 : 0;
     report.coincident += result.status[i] == PointStatus::coincident ? 1 : 0;

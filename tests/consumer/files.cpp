@@ -29,8 +29,8 @@ int main(int argc, char** argv) try {
   const tufted::Laplacian laplacian = tufted::pointCloudLaplacian(cloud.points);
   tufted::writeLaplacian(dir, laplacian, cloud, {.source = "scan"});
 
-  for (const char* name :
-       {"L.npz", "M.npy", "status.npy", "representative.npy", "boundary.npy", "measured_positions.npy", "report.json"})
+  for (const char* name : {"L.npz", "M.npy", "status.npy", "representative.npy", "boundary.npy",
+                           "measured_positions.npy", "components.npy", "report.json"})
     if (!std::filesystem::exists(dir / name)) {
       std::fprintf(stderr, "%s is missing\n", name);
       return 1;

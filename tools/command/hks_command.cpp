@@ -20,7 +20,8 @@ namespace {
 constexpr const char* description = "Heat kernel signatures, or wave kernel signatures with --wave, of every point.";
 
 constexpr const char* footer =
-    R"(Heat: sum of exp(-lambda_i t) phi_i(x)^2 at S times from 4 ln 10 / lambda_K to 4 ln 10 / lambda_1, or at those of
+    R"(Of the K smallest positive eigenvalues, and the constants on connected components.
+Heat: sum of exp(-lambda_i t) phi_i(x)^2 at S times from 4 ln 10 / lambda_K to 4 ln 10 / lambda_1, or at those of
 --times, neither so short that heat stays at its point nor so long that it is even. Wave: means of phi_i(x)^2 around S
 energies from log lambda_1 to log lambda_K. Both in 1 / length^2.
 
@@ -76,7 +77,8 @@ void checkTimes(const std::vector<double>& times, const tufted::Spectrum& spectr
 }
 
 /// The signature, and what it was sampled at.
-std::vector<tufted::ResultArray> signatures(const Settings& settings, const tufted::Spectrum& spectrum) {
+std::vector<tufted::ResultArray> signatures(const Settings& settings, const tufted::Laplacian& laplacian,
+                                            const tufted::Spectrum& spectrum) {
   if (settings.wave) {
     const tufted::VectorXd energies = tufted::waveEnergies(spectrum, settings.samples > 0 ? settings.samples : 100);
     return {{.name = "wks", .values = tufted::waveKernelSignature(spectrum, static_cast<int>(energies.size()))},
@@ -84,18 +86,21 @@ std::vector<tufted::ResultArray> signatures(const Settings& settings, const tuft
   }
   tufted::VectorXd times = Eigen::Map<const tufted::VectorXd>(settings.times.data(), std::ssize(settings.times));
   if (settings.times.empty()) times = tufted::heatTimes(spectrum, settings.samples > 0 ? settings.samples : 16);
-  return {{.name = "hks", .values = tufted::heatKernelSignature(spectrum, times)},
+  return {{.name = "hks", .values = tufted::heatKernelSignature(laplacian, spectrum, times)},
           {.name = "times", .values = times, .per_point = false}};
 }
 
 Results compute(Settings& settings, Operator& source) {
-  const tufted::Spectrum spectrum = spectrumFor("--count", settings.count, source, source.spectrumOptions());
+  tufted::SpectrumOptions options = source.spectrumOptions();
+  options.null_space = false;
+  const tufted::Spectrum spectrum = spectrumFor("--count", settings.count, source, options);
   checkTimes(settings.times, spectrum, source);
   Results results;
-  results.arrays = signatures(settings, spectrum);
+  results.arrays = signatures(settings, source.laplacian, spectrum);
   results.summary.add(settings.wave ? "energies" : "times", "%ld per point, of %d eigenvalues up to %.6g",
                       static_cast<long>(results.arrays[0].values.cols()), settings.count,
                       spectrum.values[settings.count - 1]);
+  addNullSpace(nullSpace(source.laplacian), false, results);
   results.arrays.push_back({.name = "evals", .values = spectrum.values, .per_point = false});
   addReport(spectrum.report, results);
   return results;
@@ -105,7 +110,8 @@ Results compute(Settings& settings, Operator& source) {
 
 void addHks(CLI::App& app, Run& run) {
   const auto [command, settings] = addOperatorCommand<Settings>(app, run, "hks", description, footer, compute, check);
-  addNumber(*command, "--count", settings->count, 2, std::numeric_limits<int>::max(), "Number of eigenvalues (100)")
+  addNumber(*command, "--count", settings->count, 2, std::numeric_limits<int>::max(),
+            "Number of positive eigenvalues (100)")
       ->type_name("K");
   CLI::Option* const samples =
       addNumber(*command, "--samples", settings->samples, 2, 1 << 16, "Times (16), or energies with --wave (100)")

@@ -132,6 +132,7 @@ void addOperatorOptions(CLI::App& command, OperatorSettings& settings) {
   addChoice(command, "--format", settings.copies, copies, "Format of the copy of the points with the results (ply)");
   addBuildOptions(command, settings.build);
   addSolvingOptions(command, settings.solving);
+  addComponentOptions(command, settings.components);
   std::vector<const CLI::Option*> unused = {command.get_option("--as"), command.get_option("--weld")};
   unused.insert(unused.end(), settings.build.cloud_only.begin(), settings.build.cloud_only.end());
   command.parse_complete_callback([file, folder, unused] {
@@ -152,6 +153,16 @@ tufted::Spectrum spectrumFor(const char* option, int count, const Operator& sour
                              const tufted::SpectrumOptions& options) {
   return forOption(std::string(option) + " " + std::to_string(count),
                    [&] { return tufted::spectrum(source.laplacian, count, options); });
+}
+
+int nullSpace(const tufted::Laplacian& laplacian) {
+  return tufted::mostEigenpairs(laplacian, true) - tufted::mostEigenpairs(laplacian, false);
+}
+
+void addNullSpace(int nulls, bool is_written, Results& results) {
+  results.report["null_space"] = nulls;
+  results.summary.add("null space", "%d, a constant on each connected component, %s", nulls,
+                      is_written ? "written first" : "not written");
 }
 
 int runWithOperator(OperatorSettings& settings, std::vector<std::string> files, const Check& check,
@@ -178,13 +189,17 @@ int runWithOperator(OperatorSettings& settings, std::vector<std::string> files, 
     source.laplacian =
         buildLaplacian(source.geometry, settings.input, settings.build, settings.needs_cover, source.progress);
   checkpoint();
+  Results chosen;
+  chooseComponents(settings.components, source, chosen);
   Results results = blameData(source, [&] { return compute(source); });
+  if (!chosen.report.is_null()) results.report.update(chosen.report);
   write(settings, source, results);
   bar.clear();
   if (const std::string why = whyNothing(source); !why.empty()) warn(bar, source.name + ": " + why);
   for (const std::string& warning : results.warnings) warn(bar, warning);
   addNeighbors(source.laplacian.report, settings.build, results.summary);
   results.summary.add("written to", "%s", settings.out.c_str());
+  chosen.summary.print();
   results.summary.print();
   return exit_done;
 }

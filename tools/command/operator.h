@@ -11,6 +11,7 @@
 
 #include "build.h"
 #include "command.h"
+#include "component_options.h"
 #include "input.h"
 #include "summary.h"
 #include "tufted/io/results.h"
@@ -34,6 +35,7 @@ struct OperatorSettings {
   std::filesystem::path out;
   Build build;
   Solving solving;
+  ComponentOptions components;
   std::vector<tufted::Format> copies = {tufted::Format::ply};
   bool needs_cover = false;  ///< whether the command needs the cover, not only L and M
 
@@ -71,6 +73,9 @@ void checkCount(const char* option, int count, const Operator& source);
 tufted::Spectrum spectrumFor(const char* option, int count, const Operator& source,
                              const tufted::SpectrumOptions& options);
 
+/// How many eigenvalues are 0: one for each component that has an area.
+int nullSpace(const tufted::Laplacian& laplacian);
+
 /// The results of a command.
 struct Results {
   std::vector<tufted::ResultArray> arrays;
@@ -80,6 +85,9 @@ struct Results {
   /// Writes the results in place of writeResults, if set.
   std::function<void(const std::filesystem::path& dir, const tufted::ResultOptions& options)> write = {};
 };
+
+/// Says how large the null space is.
+void addNullSpace(int nulls, bool is_written, Results& results);
 
 /// Checks options before the Laplacian is built, which may take long. The points are known by then, and with --operator
 /// the whole Laplacian.

@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <chrono>
 #include <limits>
+#include <string>
 
 #include "command.h"
 #include "operator.h"
@@ -54,6 +55,10 @@ Results compute(Settings& settings, Operator& source) {
   const tufted::Spectrum spectrum = spectrumFor("--count", settings.count, source, source.spectrumOptions());
   Results results;
   results.summary.add("eigenvalues", "%d", settings.count);
+  if (const int zeros = spectrum.report.null_space; 2 * zeros > settings.count)
+    results.warnings.push_back(source.name + ": " + std::to_string(zeros) + " of " + std::to_string(settings.count) +
+                               " eigenvalues are 0, one for each connected component; take more by --count, or fewer "
+                               "components by --component largest or --min-component N");
   addReport(spectrum.report, results);
   results.report["gradients"] = {{"seconds", gradients_took.count()}};
   results.write = [&source, gradients, spectrum](const std::filesystem::path& dir,

@@ -63,7 +63,6 @@ void addReport(const tufted::SpectrumReport& report, Results& results) {
                               {"residual", report.residual},     {"backward_error", report.backward_error},
                               {"weak_pair", report.weak_pair},   {"orthogonality", report.orthogonality},
                               {"seconds", report.seconds},       {"solver", toJson(report.solver)}};
-  results.summary.add("exactly zero", "%d", report.null_space);
   if (report.iterations > 0)
     results.summary.add("iterations", "%d, residual %.1e, %s", report.iterations, report.residual,
                         report.solver.method.c_str());

@@ -13,20 +13,21 @@ constexpr const char* description = "Eigenvalues and eigenvectors of L x = lambd
 
 constexpr const char* footer =
     R"(Eigenvalues are ascending, in 1 / length^2. Vectors are M-orthonormal, and of both signs
-that is taken which makes the largest entry positive. Each connected component has the eigenvalue 0 once, exactly, with
-a constant on it.
+that is taken which makes the largest entry positive. Each connected component also has the eigenvalue 0 once, exactly,
+with a constant on it: the null space, whose size is said. --with-null-space writes it in front of the K.
 
 Writes into DIR, renamed one after the other when all are complete:
-  evals.npy    K eigenvalues, float64
+  evals.npy    K positive eigenvalues, float64
   evecs.npy    N x K, float64; 0 at points that take no part, coincident ones as their representative
   points.ply   the points with evecs_0, evecs_1, ... as fields of float32; points.pcd with --format pcd: a field evecs
                of K values
-  report.json  method, iterations, residual, seconds
+  report.json  size of the null space, method, iterations, residual, seconds
 FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written.)";
 
 struct Settings {
   OperatorSettings source;
   int count = 32;
+  bool with_null_space = false;
   double tolerance = tufted::SpectrumOptions().tolerance;
 
   std::vector<std::string> files() const { return {"evals.npy", "evecs.npy"}; }
@@ -39,10 +40,15 @@ void check(Settings& settings, const Operator& source) {
 Results compute(Settings& settings, Operator& source) {
   tufted::SpectrumOptions options = source.spectrumOptions();
   options.tolerance = settings.tolerance;
-  tufted::Spectrum spectrum = spectrumFor("--count", settings.count, source, options);
+  options.null_space = settings.with_null_space;
+  const int nulls = nullSpace(source.laplacian);
+  tufted::Spectrum spectrum =
+      spectrumFor("--count", settings.count + (settings.with_null_space ? nulls : 0), source, options);
   Results results;
-  results.summary.add("eigenvalues", "%d, from %.6g to %.6g", settings.count, spectrum.values[0],
-                      spectrum.values[settings.count - 1]);
+  results.summary.add("eigenvalues", "%d positive ones, from %.6g to %.6g", settings.count,
+                      spectrum.values[spectrum.values.size() - settings.count],
+                      spectrum.values[spectrum.values.size() - 1]);
+  addNullSpace(nulls, settings.with_null_space, results);
   addReport(spectrum.report, results);
   results.arrays = {{.name = "evals", .values = spectrum.values, .per_point = false},
                     {.name = "evecs", .values = std::move(spectrum.vectors)}};
@@ -54,8 +60,10 @@ Results compute(Settings& settings, Operator& source) {
 void addSpectrum(CLI::App& app, Run& run) {
   const auto [command, settings] =
       addOperatorCommand<Settings>(app, run, "spectrum", description, footer, compute, check);
-  addNumber(*command, "--count", settings->count, 1, std::numeric_limits<int>::max(), "Number of eigenvalues (32)")
+  addNumber(*command, "--count", settings->count, 1, std::numeric_limits<int>::max(),
+            "Number of positive eigenvalues (32)")
       ->type_name("K");
+  command->add_flag("--with-null-space", settings->with_null_space, "Write the eigenvalues 0 as well, first");
   addNumber(*command, "--tolerance", settings->tolerance, 1e-15, 0.5, "Relative accuracy of vectors (1e-10)")
       ->type_name("T");
 }

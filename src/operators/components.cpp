@@ -1,0 +1,129 @@
+// The connected components of a surface, and the Laplacian of some of them.
+#include "tufted/components.h"
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/disjoint_sets.h"
+#include "cover/components.h"
+#include "tufted/check.h"
+#include "tufted/errors.h"
+
+namespace tufted {
+namespace {
+
+/// The faces of a cover whose connected part has a point that stays.
+IntrinsicTriangulation restrictedCover(const IntrinsicTriangulation& cover, const std::vector<std::uint8_t>& stays) {
+  DisjointSets parts(cover.vertices);
+  for (const auto& [a, b, c] : cover.faces) {
+    parts.unite(a, b);
+    parts.unite(a, c);
+  }
+  std::vector<std::uint8_t> part_stays(stays.size(), 0);
+  for (int i = 0; i < cover.vertices; ++i)
+    if (stays[i] != 0) part_stays[parts.root(i)] = 1;
+  std::vector<int> number(cover.faces.size(), -1);
+  IntrinsicTriangulation result;
+  result.vertices = cover.vertices;
+  for (std::size_t f = 0; f < cover.faces.size(); ++f) {
+    if (part_stays[parts.root(cover.faces[f][0])] == 0) continue;
+    number[f] = static_cast<int>(result.faces.size());
+    result.faces.push_back(cover.faces[f]);
+  }
+  for (std::size_t f = 0; f < cover.faces.size(); ++f) {
+    if (number[f] < 0) continue;
+    for (std::size_t side = 3 * f; side < 3 * f + 3; ++side) {
+      // A side and the one that it is glued to lie in one part.
+      result.glue.push_back(3 * number[cover.glue[side] / 3] + cover.glue[side] % 3);
+      result.length.push_back(cover.length[side]);
+    }
+  }
+  return result;
+}
+
+/// Counts again what the report says of points.
+void recount(Laplacian& laplacian) {
+  Report& report = laplacian.report;
+  report.active = report.isolated = report.coincident = 0;
+  report.rim_points = report.jump_points = report.lost_points = 0;
+  for (std::size_t i = 0; i < laplacian.status.size(); ++i) {
+    const PointStatus status = laplacian.status[i];
+    report.active += status == PointStatus::active ? 1 : 0;
+    report.isolated += status == PointStatus::isolated ? 1 : 0;
+    report.coincident += status == PointStatus::coincident ? 1 : 0;
+    if (status != PointStatus::active) continue;
+    report.rim_points += laplacian.boundary[i] == Boundary::rim ? 1 : 0;
+    report.jump_points += laplacian.boundary[i] == Boundary::jump ? 1 : 0;
+    report.lost_points += laplacian.boundary[i] == Boundary::lost ? 1 : 0;
+  }
+  report.nonzeros = laplacian.L.nonZeros();
+  report.area = laplacian.M.sum();
+  if (laplacian.cover_areas.size() > 0) report.cover_area = laplacian.cover_areas.sum();
+}
+
+}  // namespace
+
+std::vector<int> componentLabels(const Laplacian& laplacian) {
+  checkSizes("componentLabels", laplacian);
+  std::vector<int> label = componentsOf(laplacian.L);
+  for (std::size_t i = 0; i < label.size(); ++i)
+    if (laplacian.status[i] == PointStatus::coincident) label[i] = label[laplacian.representative[i]];
+  return label;
+}
+
+std::vector<std::int64_t> componentSizes(const std::vector<int>& labels) {
+  std::vector<std::int64_t> sizes;
+  for (const int label : labels) {
+    if (label < 0) continue;
+    if (label >= std::ssize(sizes)) sizes.resize(static_cast<std::size_t>(label) + 1, 0);
+    ++sizes[label];
+  }
+  return sizes;
+}
+
+Laplacian restrictedTo(const Laplacian& laplacian, const std::vector<int>& components) {
+  const std::vector<int> labels = componentLabels(laplacian);
+  const auto count = std::ssize(componentSizes(labels));
+  std::vector<std::uint8_t> chosen(static_cast<std::size_t>(count), 0);
+  for (const int component : components) {
+    if (component < 0 || component >= count)
+      throw InvalidInput("restrictedTo: component " + std::to_string(component) + ", must lie in [0, " +
+                         std::to_string(count) + ")");
+    chosen[component] = 1;
+  }
+  std::vector<int> number(chosen.size(), -1);
+  int kept = 0;
+  for (std::size_t c = 0; c < chosen.size(); ++c)
+    if (chosen[c] != 0) number[c] = kept++;
+
+  Laplacian result = laplacian;
+  result.component = labels;
+  std::vector<std::uint8_t> stays(labels.size(), 0);
+  for (std::size_t i = 0; i < labels.size(); ++i) {
+    if (labels[i] < 0) continue;
+    result.component[i] = number[labels[i]];
+    stays[i] = result.component[i] >= 0 ? 1 : 0;
+    if (stays[i] != 0) continue;
+    const auto row = static_cast<Eigen::Index>(i);
+    result.M[row] = 0;
+    if (result.cover_areas.size() > 0) result.cover_areas[row] = 0;
+    result.boundary[i] = Boundary::none;
+    result.representative[i] = static_cast<int>(i);
+    result.status[i] = PointStatus::isolated;
+  }
+  result.L.prune([&](Eigen::Index i, Eigen::Index, double) { return stays[i] != 0; });
+  recount(result);
+  result.report.components = kept;
+  result.cover_source.reset();
+  if (laplacian.hasCover()) {
+    auto cover = std::make_shared<IntrinsicTriangulation>(restrictedCover(laplacian.cover(), stays));
+    result.report.triangles = cover->size() / 2;
+    result.stored_cover = std::move(cover);
+  }
+  return result;
+}
+
+}  // namespace tufted

@@ -1,0 +1,68 @@
+#include "component_options.h"
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+#include "operator.h"
+#include "options.h"
+#include "point_options.h"
+#include "tufted/components.h"
+#include "tufted/errors.h"
+
+namespace {
+
+/// The labels that are wanted, of components with so many points.
+std::vector<int> chosenOf(const ComponentOptions& options, const std::vector<std::int64_t>& sizes,
+                          const Operator& source) {
+  const std::string name = options.chosen.empty() ? "--min-component " + std::to_string(options.min_points)
+                                                  : "--component " + options.chosen;
+  const std::string rest = ": " + source.name + " has " + std::to_string(sizes.size()) + " components";
+  std::vector<int> chosen;
+  if (options.chosen.empty()) {
+    for (std::size_t c = 0; c < sizes.size() && sizes[c] >= options.min_points; ++c)
+      chosen.push_back(static_cast<int>(c));
+    if (chosen.empty())
+      throw tufted::InvalidInput(name + rest +
+                                 (sizes.empty() ? "" : ", the largest of " + std::to_string(sizes[0]) + " points"));
+    return chosen;
+  }
+  if (options.chosen == "largest") return {0};
+  for (const double label : parseNumbers(options.chosen, "--component")) {
+    if (label != std::floor(label) || !(label >= 0 && label < static_cast<double>(sizes.size())))
+      throw tufted::InvalidInput(name + rest + ", counted from 0");
+    chosen.push_back(static_cast<int>(label));
+  }
+  return chosen;
+}
+
+}  // namespace
+
+void addComponentOptions(CLI::App& command, ComponentOptions& options) {
+  CLI::Option* const chosen =
+      command.add_option("--component", options.chosen, "Only these connected components, 0 has the most points (all)")
+          ->check(notEmpty)
+          ->type_name("largest|I,J,...");
+  addNumber(command, "--min-component", options.min_points, 1, std::numeric_limits<int>::max(),
+            "Only connected components of at least so many points (1)")
+      ->excludes(chosen)
+      ->type_name("N");
+}
+
+void chooseComponents(const ComponentOptions& options, Operator& source, Results& results) {
+  if (options.chosen.empty() && options.min_points <= 1) return;
+  const std::vector<std::int64_t> sizes = tufted::componentSizes(tufted::componentLabels(source.laplacian));
+  if (sizes.empty()) return;  // nothing is active, which is said elsewhere
+  const std::vector<int> chosen = chosenOf(options, sizes, source);
+  std::int64_t all = 0, points = 0;
+  for (const std::int64_t size : sizes) all += size;
+  source.laplacian = tufted::restrictedTo(source.laplacian, chosen);
+  for (const std::int64_t size : tufted::componentSizes(source.laplacian.component)) points += size;
+  results.report["components"] = {
+      {"of", sizes.size()}, {"taken", source.laplacian.report.components}, {"points", points}};
+  results.summary.add("components", "%lld of %zu, %lld points (%.3g %%)",
+                      static_cast<long long>(source.laplacian.report.components), sizes.size(),
+                      static_cast<long long>(points), 100.0 * static_cast<double>(points) / static_cast<double>(all));
+}
