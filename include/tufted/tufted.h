@@ -22,5 +22,6 @@
 #include "tufted/solver.h"
 #include "tufted/spectral.h"
 #include "tufted/spectrum.h"
+#include "tufted/surface_triangles.h"
 #include "tufted/types.h"
 #include "tufted/vector_heat.h"

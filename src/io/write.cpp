@@ -22,6 +22,7 @@
 #include "io/staged_files.h"
 #include "tufted/components.h"
 #include "tufted/errors.h"
+#include "tufted/surface_triangles.h"
 
 namespace tufted {
 namespace {
@@ -97,6 +98,15 @@ const ResultFile result_files[] = {
     {Format::pcd, "points.pcd",
      [](const OutputPath& to, const Results& r) {
        io::writePcd(to, r.laplacian, r.geometry, r.matrices.masses(), r.conventions);
+     }},
+    {Format::triangles, "triangles.ply",
+     [](const OutputPath& to, const Results& r) {
+       Geometry surface = r.geometry;
+       if (r.laplacian.positions.rows() > 0) surface.points = r.laplacian.positions;
+       if (!surface.is_mesh) surface.triangles = surfaceTriangles(r.laplacian);
+       surface.is_mesh = true;
+       surface.width = surface.height = 0;
+       io::writePly(to, r.laplacian, surface, r.matrices.masses(), r.conventions);
      }},
     {std::nullopt, io::positions_name,
      [](const OutputPath& to, const Results& r) { io::writePositions(to, r.laplacian.positions); }},

@@ -63,6 +63,7 @@ Writes into DIR, renamed one after the other when all are complete; files of oth
   report.json         what happened, with options, sign and scale
   measured_positions.npy
                       N x 3: where lengths are measured, noisy points of a cloud put back onto the surface
+  components.npy      the connected component of each point, 0 has the most points; -1: takes no part
   --format npz
   L.npz               sparse matrix, scipy.sparse.load_npz
   M.npy               areas
@@ -84,7 +85,10 @@ Writes into DIR, renamed one after the other when all are complete; files of oth
   points.pcd          the same, for PCL
   --format cover
   cover.npz           the triangles of the tufted cover by corners, gluing and lengths, which `tufted distance
-                      --operator` needs; three times as large as all of npz, so only on request)";
+                      --operator` needs; three times as large as all of npz, so only on request
+  --format triangles
+  triangles.ply       triangles to look at, at the measured positions: of a cloud those of its surface, oriented alike,
+                      one or two at each edge; of a mesh its own)";
 
 struct Settings {
   Input input;
@@ -94,9 +98,10 @@ struct Settings {
 };
 
 const std::map<std::string, tufted::Format> formats = {
-    {"npz", tufted::Format::npz},     {"mtx", tufted::Format::mtx}, {"mat", tufted::Format::mat},
-    {"spmat", tufted::Format::spmat}, {"ply", tufted::Format::ply}, {"pcd", tufted::Format::pcd},
-    {"cover", tufted::Format::cover}};
+    {"npz", tufted::Format::npz},     {"mtx", tufted::Format::mtx},
+    {"mat", tufted::Format::mat},     {"spmat", tufted::Format::spmat},
+    {"ply", tufted::Format::ply},     {"pcd", tufted::Format::pcd},
+    {"cover", tufted::Format::cover}, {"triangles", tufted::Format::triangles}};
 const std::map<std::string, tufted::Sign> signs = {{"psd", tufted::Sign::psd}, {"igl", tufted::Sign::igl}};
 
 /// What is written, and how.
@@ -108,7 +113,8 @@ void addWriteOptions(CLI::App& command, tufted::WriteOptions& options) {
   };
   command
       .add_option_function<std::vector<std::string>>(
-          "--format", set, "What to write, separated by commas: npz, mtx, mat, spmat, ply, pcd, cover (npz,ply)")
+          "--format", set,
+          "What to write, separated by commas: npz, mtx, mat, spmat, ply, pcd, cover, triangles (npz,ply)")
       ->delimiter(',')
       ->allow_extra_args(false)  // what follows may be FILE
       ->check(check)
@@ -155,7 +161,10 @@ int runLaplacian(Settings& settings) {
   const tufted::Geometry geometry = readInput(settings.input, progress);
   if (interrupted()) throw tufted::Cancelled("cancelled");
   tufted::WriteOptions& write = settings.write;
-  const bool keep_cover = std::count(write.formats.begin(), write.formats.end(), tufted::Format::cover) > 0;
+  const auto isWanted = [&write](tufted::Format format) {
+    return std::find(write.formats.begin(), write.formats.end(), format) != write.formats.end();
+  };
+  const bool keep_cover = isWanted(tufted::Format::cover) || isWanted(tufted::Format::triangles);
   const tufted::Laplacian laplacian = buildLaplacian(geometry, settings.input, settings.build, keep_cover, progress);
   write.source = settings.input.name();
   write.progress = progress;

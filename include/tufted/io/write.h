@@ -12,13 +12,14 @@ namespace tufted {
 
 /// The files that writeLaplacian can write, beside report.json, which it always writes.
 enum class Format : std::uint8_t {
-  npz,    ///< L.npz, M.npy, status.npy, representative.npy, boundary.npy, frames.npy: NumPy and SciPy
-  mtx,    ///< L.mtx, M.mtx: Matrix Market
-  mat,    ///< laplacian.mat: MATLAB 5, at most 2^31 - 1 bytes per variable
-  spmat,  ///< L.spmat, M.spmat: triplets counted from 1, as the paper's program writes them
-  ply,    ///< points.ply
-  pcd,    ///< points.pcd
-  cover,  ///< cover.npz: the triangles, larger than all other files together; only distances need them
+  npz,        ///< L.npz, M.npy, status.npy, representative.npy, boundary.npy, frames.npy: NumPy and SciPy
+  mtx,        ///< L.mtx, M.mtx: Matrix Market
+  mat,        ///< laplacian.mat: MATLAB 5, at most 2^31 - 1 bytes per variable
+  spmat,      ///< L.spmat, M.spmat: triplets counted from 1, as the paper's program writes them
+  ply,        ///< points.ply
+  pcd,        ///< points.pcd
+  cover,      ///< cover.npz: the triangles, larger than all other files together; only distances need them
+  triangles,  ///< triangles.ply: triangles to look at, see surfaceTriangles(); of a mesh its own
 };
 
 /// Sign of L in the files. M is positive in both.
@@ -59,6 +60,9 @@ std::vector<std::string> resultFiles(const std::vector<Format>& formats);
 ///   M.spmat             the diagonal matrix of the N masses, in the same way
 ///   points.ply          the points, little endian; the triangles of a mesh
 ///   points.pcd          the points, binary
+///   triangles.ply       as points.ply, but at Laplacian::positions, with surfaceTriangles() or those of the mesh
+///   measured_positions.npy  float64, N x 3, see Laplacian::positions
+///   components.npy      int32, N, see Laplacian::component
 ///   report.json         the kind and the Report, with sign and scale stated, and what was changed in reading the input
 /// The points have x y z and normals (where known), the fields of the input, mass (float64), boundary, status (uint8)
 /// and representative (int32). x y z are float32 where that loses nothing, else float64: PCL turns wider coordinates
@@ -73,7 +77,8 @@ std::vector<std::string> resultFiles(const std::vector<Format>& formats);
 /// killed while it renames leaves new files beside old ones, and in `dir`/.tufted-XXXXXX/old those that it replaced.
 /// Where several processes write into one `dir`, each renames all its files before the next one does.
 /// @throws InvalidInput if the arrays of `laplacian` and `geometry` differ in length, the name of a field is not one
-///         word, the pose of the sensor is not valid, or the cover is asked for and was not kept
+///         word, the pose of the sensor is not valid, or the cover is asked for and was not kept;
+///         for Format::triangles also as surfaceTriangles()
 /// @throws IoError naming the path
 /// @throws Cancelled when `options.progress` returns false
 void writeLaplacian(const std::filesystem::path& dir, const Laplacian& laplacian, const Geometry& geometry,
