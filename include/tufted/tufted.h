@@ -18,6 +18,7 @@
 #include "tufted/polygons.h"
 #include "tufted/report.h"
 #include "tufted/scan_structure.h"
+#include "tufted/segments.h"
 #include "tufted/smoothing.h"
 #include "tufted/solver.h"
 #include "tufted/spectral.h"

@@ -1,6 +1,7 @@
 #include "tufted/io/results.h"
 
 #include <algorithm>
+#include <cstdint>
 #include <cstring>
 
 #include "io/conventions.h"
@@ -14,8 +15,6 @@
 
 namespace tufted {
 namespace {
-
-using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
 void check(const Laplacian& laplacian, const Geometry& geometry, const std::vector<ResultArray>& arrays,
            const ResultOptions& options) {
@@ -38,12 +37,14 @@ void check(const Laplacian& laplacian, const Geometry& geometry, const std::vect
       throw InvalidInput("writeResults: copies of the points are ply or pcd");
 }
 
-void writeArray(const io::OutputPath& to, const Eigen::MatrixXd& values) {
-  const RowMajor rows = values;
+/// @param descr numpy's name of the type of `Number`
+template <class Number>
+void writeArray(const io::OutputPath& to, const char* descr, const Eigen::MatrixXd& values) {
+  const Eigen::Matrix<Number, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> rows = values.cast<Number>();
   io::OutputFile file(to);
-  file.write(io::npyHeader("<f8", values.cols() == 1 ? std::vector<std::int64_t>{values.rows()}
+  file.write(io::npyHeader(descr, values.cols() == 1 ? std::vector<std::int64_t>{values.rows()}
                                                      : std::vector<std::int64_t>{values.rows(), values.cols()}));
-  file.write(rows.data(), static_cast<std::size_t>(rows.size()) * sizeof(double));
+  file.write(rows.data(), static_cast<std::size_t>(rows.size()) * sizeof(Number));
   file.close();
 }
 
@@ -118,7 +119,11 @@ void writeResults(const std::filesystem::path& dir, const Laplacian& laplacian, 
   io::StagedFiles files(dir);
   for (const ResultArray& array : arrays) {
     if (options.progress && !options.progress("write", 0)) throw Cancelled("writeResults: cancelled");
-    writeArray(files.stage(array.name + ".npy"), array.values);
+    const io::OutputPath to = files.stage(array.name + ".npy");
+    if (array.is_integer)
+      writeArray<std::int32_t>(to, "<i4", array.values);
+    else
+      writeArray<double>(to, "<f8", array.values);
   }
   io::stageResults(files, laplacian, geometry, arrays, options);
   files.commit();

@@ -60,25 +60,6 @@ class OutputOfCommands : public Subcommands {
   }
 };
 
-/// A command of each kind, without FILE and --out.
-const std::vector<std::vector<std::string>> commands = {{"laplacian", "--format", "npz,ply,pcd,mtx,mat,spmat,cover"},
-                                                        {"spectrum", "--count", "3"},
-                                                        {"hks", "--count", "3"},
-                                                        {"hks", "--count", "3", "--wave", "--format", "pcd"},
-                                                        {"embed"},
-                                                        {"filter", "--positions", "--count", "3"},
-                                                        {"distance", "--source", "0"},
-                                                        {"interpolate", "--pin", "0=1"},
-                                                        {"poisson", "--field", "x"},
-                                                        {"poisson", "--field", "x", "--pin", "0=1"},
-                                                        {"green", "--source", "0"},
-                                                        {"extend", "--pin", "0=1"},
-                                                        {"transport", "--source", "0", "--vector", "1,2,3"},
-                                                        {"logmap", "--source", "0"},
-                                                        {"normals"},
-                                                        {"curvature"},
-                                                        {"operators", "--count", "3"}};
-
 TEST_F(OutputOfCommands, ThatCannotBeWrittenIsRefusedBeforeTheBuild) {
   const std::string cloud = dir_.write("small.xyz", sphere(200)), file = dir_.write("file", "stays");
   for (std::vector<std::string> command : commands) {

@@ -12,6 +12,27 @@
 #include "command.h"
 #include "samples.h"
 
+/// A command of each kind, without FILE and --out.
+inline const std::vector<std::vector<std::string>> commands = {
+    {"laplacian", "--format", "npz,ply,pcd,mtx,mat,spmat,cover,triangles"},
+    {"spectrum", "--count", "3"},
+    {"hks", "--count", "3"},
+    {"hks", "--count", "3", "--wave", "--format", "pcd"},
+    {"embed"},
+    {"filter", "--positions", "--count", "3"},
+    {"distance", "--source", "0"},
+    {"interpolate", "--pin", "0=1"},
+    {"poisson", "--field", "x"},
+    {"poisson", "--field", "x", "--pin", "0=1"},
+    {"green", "--source", "0"},
+    {"extend", "--pin", "0=1"},
+    {"transport", "--source", "0", "--vector", "1,2,3"},
+    {"logmap", "--source", "0"},
+    {"segment", "--count", "3"},
+    {"normals"},
+    {"curvature"},
+    {"operators", "--count", "3"}};
+
 /// Subcommands that use a Laplacian, in a folder of their own.
 class Subcommands : public testing::Test {
  protected:

@@ -58,6 +58,7 @@ int main(int argc, char** argv) {
   addExtend(app, run);
   addTransport(app, run);
   addLogmap(app, run);
+  addSegment(app, run);
   addNormals(app, run);
   addCurvature(app, run);
   addOperators(app, run);

@@ -13,9 +13,10 @@ namespace tufted {
 
 /// Values that an algorithm computed, for writeResults().
 struct ResultArray {
-  std::string name;        ///< name of the file, without extension, and of the field; one word
-  Eigen::MatrixXd values;  ///< N x c if per point; otherwise of any shape
-  bool per_point = true;   ///< whether the values are also a field of the copies of the points
+  std::string name;         ///< name of the file, without extension, and of the field; one word
+  Eigen::MatrixXd values;   ///< N x c if per point; otherwise of any shape
+  bool per_point = true;    ///< whether the values are also a field of the copies of the points
+  bool is_integer = false;  ///< whether the values are integers, which NAME.npy holds as int32
 };
 
 /// Options of writeResults().
@@ -29,7 +30,7 @@ struct ResultOptions {
 std::vector<std::string> resultFiles(const std::vector<ResultArray>& arrays, const ResultOptions& options);
 
 /// Writes results into the directory `dir`, which is made if missing, in the same way as writeLaplacian:
-///   NAME.npy               float64; one column: N values, else rows x columns in C order
+///   NAME.npy               float64, or int32; one column: N values, else rows x columns in C order
 ///   points.ply, points.pcd as writeLaplacian writes them, with each array per point as a field NAME of float32;
 ///                          several columns: NAME_0, NAME_1, ... in PLY, COUNT values in PCD
 ///   report.json            options.report

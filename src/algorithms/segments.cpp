@@ -1,0 +1,205 @@
+// Geodesic Voronoi cells, and spectral clustering (Ng, Jordan, Weiss 2002).
+#include "tufted/segments.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <numeric>
+#include <string>
+#include <utility>
+
+#include "algorithms/clusters.h"
+#include "algorithms/connected.h"
+#include "base/stage_clock.h"
+#include "tufted/check.h"
+#include "tufted/distance.h"
+#include "tufted/errors.h"
+#include "tufted/spectrum.h"
+
+namespace tufted {
+namespace {
+
+constexpr const char* function_name = "segments";
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+void checkArguments(const Laplacian& laplacian, const SegmentOptions& options, const Components& components) {
+  const std::string name = std::string(function_name) + ": ";
+  if (components.points.empty()) throw InvalidInput(name + "no point is active, must be at least one");
+  if (options.method == SegmentMethod::spectral) {
+    if (!options.seeds.empty()) throw InvalidInput(name + "seeds are given, must be none with SegmentMethod::spectral");
+  } else if (laplacian.positions.rows() != std::ssize(laplacian.status)) {
+    throw InvalidInput(name + "Laplacian::positions has " + std::to_string(laplacian.positions.rows()) +
+                       " rows, must have " + std::to_string(laplacian.status.size()) + ", one per point");
+  }
+  if (options.count < 1) throw InvalidInput(name + "count = " + std::to_string(options.count) + ", must be at least 1");
+  std::vector<int> seen;
+  for (const int seed : options.seeds) {
+    if (seed < 0 || seed >= std::ssize(laplacian.status))
+      throw InvalidInput(name + "seed " + std::to_string(seed) + ", must lie in [0, " +
+                         std::to_string(laplacian.status.size()) + ")");
+    const int point = laplacian.representative[seed];
+    if (components.of[point] < 0)
+      throw InvalidInput(name + "seed " + std::to_string(seed) + " lies on no component, must be active");
+    if (std::find(seen.begin(), seen.end(), point) != seen.end())
+      throw InvalidInput(name + "seed " + std::to_string(seed) + " is given twice, must be given once");
+    seen.push_back(point);
+  }
+}
+
+/// Voronoi cells of seeds, one seed after the other.
+class Cells {
+ public:
+  Cells(const Laplacian& laplacian, const Components& components, const SolverOptions& options)
+      : laplacian_(laplacian),
+        components_(components),
+        solver_(laplacian, {.solver = options}),
+        progress_(options.progress),
+        area_(components.sums(laplacian.M)),
+        has_seed_(static_cast<std::size_t>(components.count), false),
+        distance_(VectorXd::Constant(laplacian.M.size(), infinity)),
+        cell_(static_cast<std::size_t>(laplacian.M.size()), -1) {}
+
+  void addSeed(int seed) {
+    const VectorXd distance = solver_.query({seed}, nullptr, progress_);
+    for (const int i : components_.points) {
+      if (!(distance[i] < distance_[i])) continue;
+      distance_[i] = distance[i];
+      cell_[i] = static_cast<int>(seeds_.size());
+    }
+    has_seed_[components_.of[seed]] = true;
+    seeds_.push_back(seed);
+  }
+
+  /// The point that is farthest from all seeds; -1 if all points are seeds.
+  int farthest() const {
+    int best = -1;
+    double best_distance = 0;
+    for (const int i : components_.points) {
+      if (!has_seed_[components_.of[i]] || !(distance_[i] > best_distance)) continue;
+      best = i;
+      best_distance = distance_[i];
+    }
+    int component = -1;
+    for (int c = 0; c < components_.count; ++c)
+      if (!has_seed_[c] && (component < 0 || area_[c] > area_[component])) component = c;
+    if (component < 0) return best;
+    const double diameter = 2 * std::sqrt(area_[component] / std::numbers::pi);
+    return best < 0 || diameter > best_distance ? outermost(component) : best;
+  }
+
+  const std::vector<int>& seeds() const { return seeds_; }
+  const std::vector<int>& cells() const { return cell_; }
+
+ private:
+  /// The point of a component that is farthest from its centre.
+  int outermost(int component) const {
+    const Points& positions = laplacian_.positions;
+    int first = -1;
+    double weights = 0;
+    Eigen::RowVector3d centre = Eigen::RowVector3d::Zero();  // from the first point
+    const auto forPoints = [&](const auto& visit) {
+      for (const int i : components_.points)
+        if (components_.of[i] == component) visit(i);
+    };
+    const bool has_area = area_[component] > 0;
+    forPoints([&](int i) {
+      if (first < 0) first = i;
+      const double weight = has_area ? laplacian_.M[i] / area_[component] : 1;
+      centre += weight * (positions.row(i) - positions.row(first));
+      weights += weight;
+    });
+    centre /= weights;
+    int best = first;
+    double farthest = -1;
+    forPoints([&](int i) {
+      const double distance = (positions.row(i) - positions.row(first) - centre).stableNorm();
+      if (!(distance > farthest)) return;
+      best = i;
+      farthest = distance;
+    });
+    return best;
+  }
+
+  const Laplacian& laplacian_;
+  const Components& components_;
+  const DistanceSolver solver_;
+  const Progress& progress_;
+  const VectorXd area_;  ///< of each component
+  std::vector<bool> has_seed_;
+  VectorXd distance_;  ///< N, from the nearest seed
+  std::vector<int> cell_, seeds_;
+};
+
+Segments voronoi(const Laplacian& laplacian, const SegmentOptions& options, const Components& components) {
+  Cells cells(laplacian, components, options.solver);
+  for (const int seed : options.seeds) cells.addSeed(laplacian.representative[seed]);
+  while (options.seeds.empty() && std::ssize(cells.seeds()) < options.count) {
+    const int seed = cells.farthest();
+    if (seed < 0)
+      throw InvalidInput(std::string(function_name) + ": count = " + std::to_string(options.count) +
+                         ", must be at most " + std::to_string(cells.seeds().size()) +
+                         ", the number of different places");
+    cells.addSeed(seed);
+  }
+  return {.labels = cells.cells(), .areas = {}, .seeds = cells.seeds()};
+}
+
+Segments spectral(const Laplacian& laplacian, const SegmentOptions& options, const Components& components) {
+  Segments result;
+  result.labels.assign(laplacian.status.size(), -1);
+  if (options.count == 1) {
+    for (const int i : components.points) result.labels[i] = 0;
+    return result;
+  }
+  const SolverOptions& solver = options.solver;
+  const Spectrum found = spectrum(laplacian, options.count,
+                                  {.method = solver.method,
+                                   .memory_limit = solver.memory_limit,
+                                   .threads = solver.threads,
+                                   .progress = solver.progress});
+  // Points of components beyond the first `count` have rows of zeros.
+  std::vector<int> points;
+  for (const int i : components.points)
+    if (found.vectors.row(i).norm() > 0) points.push_back(i);
+  Eigen::MatrixXd rows = found.vectors(points, Eigen::all);
+  rows.rowwise().normalize();
+  const std::vector<int> cluster = clusters(rows, laplacian.M(points), options.count);
+  for (std::size_t k = 0; k < points.size(); ++k) result.labels[points[k]] = cluster[k];
+  return result;
+}
+
+/// Numbers segments by their area, and gives coincident points the label of their representative.
+void finish(const Laplacian& laplacian, int count, Segments& result) {
+  VectorXd areas = VectorXd::Zero(count);
+  for (std::size_t i = 0; i < result.labels.size(); ++i)
+    if (result.labels[i] >= 0) areas[result.labels[i]] += laplacian.M[static_cast<Eigen::Index>(i)];
+  std::vector<int> order(static_cast<std::size_t>(count)), number(order.size());
+  std::iota(order.begin(), order.end(), 0);
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return areas[a] > areas[b]; });
+  for (int k = 0; k < count; ++k) number[order[k]] = k;
+  for (int& label : result.labels)
+    if (label >= 0) label = number[label];
+  for (std::size_t i = 0; i < result.labels.size(); ++i) result.labels[i] = result.labels[laplacian.representative[i]];
+  result.areas = areas(order);
+  if (result.seeds.empty()) return;
+  std::vector<int> seeds;
+  for (const int k : order) seeds.push_back(result.seeds[k]);
+  result.seeds = std::move(seeds);
+}
+
+}  // namespace
+
+Segments segments(const Laplacian& laplacian, const SegmentOptions& options) {
+  checkSizes(function_name, laplacian);
+  const Stopwatch watch;
+  const Components components = findComponents(laplacian);
+  checkArguments(laplacian, options, components);
+  const bool is_spectral = options.method == SegmentMethod::spectral;
+  Segments result = is_spectral ? spectral(laplacian, options, components) : voronoi(laplacian, options, components);
+  finish(laplacian, is_spectral ? options.count : static_cast<int>(result.seeds.size()), result);
+  result.seconds = watch.seconds();
+  return result;
+}
+
+}  // namespace tufted

@@ -1,0 +1,93 @@
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "command.h"
+#include "operator.h"
+#include "options.h"
+#include "oriented.h"
+#include "point_options.h"
+#include "tufted/errors.h"
+#include "tufted/segments.h"
+
+namespace {
+
+constexpr const char* description = "Cut the surface into segments: cells around points, or parts between necks.";
+
+constexpr const char* footer =
+    R"(  voronoi   a point belongs to the seed that is nearest along the surface. Seeds are --seeds, or K points, each as far
+            as possible from those before it. Connected components that are small beside the cells get none.
+  spectral  points that diffusion joins closely, by k-means on the first K eigenvectors: connected components first,
+            then parts that narrow necks join
+
+Writes into DIR, renamed one after the other when all are complete:
+  labels.npy   N labels, int32, 0 for the segment of the largest area; -1 at points that take no part, and in connected
+               components that no segment reaches
+  points.ply   the points with the field labels, float32; points.pcd with --format pcd
+  report.json  method, seeds, the area of each segment in length^2, seconds
+FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written with
+--format npz,ply,cover: distances need the cover's triangles.)";
+
+const std::map<std::string, tufted::SegmentMethod> methods = {{"voronoi", tufted::SegmentMethod::voronoi},
+                                                              {"spectral", tufted::SegmentMethod::spectral}};
+
+struct Settings {
+  OperatorSettings source;
+  std::string seeds;
+  tufted::SegmentOptions options;
+
+  std::vector<std::string> files() const { return {"labels.npy"}; }
+};
+
+void check(Settings& settings, const Operator& source) {
+  checkPositions(source);
+  tufted::SegmentOptions& options = settings.options;
+  if (settings.seeds.empty()) return;
+  if (options.method == tufted::SegmentMethod::spectral)
+    throw tufted::InvalidInput("--seeds excludes --method spectral");
+  options.seeds.clear();
+  for (const double index : parseNumbers(settings.seeds, "--seeds"))
+    options.seeds.push_back(placeOf({index}, source.points(), "--seeds " + settings.seeds).index);
+}
+
+Results compute(Settings& settings, Operator& source) {
+  Results results;
+  settings.options.solver = source.solverOptions();
+  const tufted::Segments found = tufted::segments(source.laplacian, settings.options);
+  const bool is_spectral = settings.options.method == tufted::SegmentMethod::spectral;
+  Eigen::VectorXd labels(std::ssize(found.labels));
+  long long without = 0;
+  for (std::size_t i = 0; i < found.labels.size(); ++i) {
+    labels[static_cast<Eigen::Index>(i)] = found.labels[i];
+    without += found.labels[i] < 0 ? 1 : 0;
+  }
+  results.report["report"] = {{"method", is_spectral ? "spectral" : "voronoi"},
+                              {"seeds", found.seeds},
+                              {"areas", std::vector<double>(found.areas.begin(), found.areas.end())},
+                              {"without_label", without},
+                              {"seconds", found.seconds}};
+  results.summary.add("segments", "%lld, areas from %.6g to %.6g", static_cast<long long>(found.areas.size()),
+                      found.areas[found.areas.size() - 1], found.areas[0]);
+  results.summary.add("without label", "%lld points", without);
+  results.arrays = {{.name = "labels", .values = labels, .is_integer = true}};
+  return results;
+}
+
+}  // namespace
+
+void addSegment(CLI::App& app, Run& run) {
+  const auto [command, settings] =
+      addOperatorCommand<Settings>(app, run, "segment", description, footer, compute, check);
+  settings->source.needs_cover = true;
+  CLI::Option* const count = addNumber(*command, "--count", settings->options.count, 1, std::numeric_limits<int>::max(),
+                                       "Number of segments (8)")
+                                 ->type_name("K");
+  command->add_option("--seeds", settings->seeds, "Points whose cells are the segments")
+      ->check(notEmpty)
+      ->excludes(count)
+      ->type_name("I,J,...");
+  addChoice(*command, "--method", settings->options.method, methods, "How the surface is cut (voronoi)");
+}
