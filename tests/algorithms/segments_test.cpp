@@ -100,7 +100,8 @@ TEST(Segments, OfComponentsBeginWithTheLargest) {
   const Segments two = segments(laplacian, {.count = 2});
   EXPECT_EQ(two.labels[1100], -1);  // the other end of the large sphere is farther away than the small one is wide
   const Segments many = segments(laplacian, {.count = 12});
-  EXPECT_EQ(many.labels[1100], 11);
+  EXPECT_GE(many.labels[1100], 0);
+  for (int i = 0; i < 1200; ++i) EXPECT_EQ(many.labels[i] == many.labels[1100], i >= 1000);
   const Segments spectral = segments(laplacian, {.method = SegmentMethod::spectral, .count = 2});
   for (int i = 0; i < 1200; ++i) EXPECT_EQ(spectral.labels[i], i < 1000 ? 0 : 1);
 }
