@@ -10,25 +10,24 @@ class SpectrumCommand : public Subcommands {};
 TEST_F(SpectrumCommand, WritesEigenpairsAndACopyOfThePoints) {
   const std::string file = dir_.write("sphere.xyz", sphere(500));
   const Result result = run({"spectrum", file, "--out", in("out"), "--count", "5"});
-  EXPECT_NE(result.out.find("eigenvalues     5, from 0 to"), std::string::npos) << result.out;
+  EXPECT_NE(result.out.find("eigenvalues     5 positive ones, from "), std::string::npos) << result.out;
   const std::vector<double> evals = values("out/evals.npy");
   ASSERT_EQ(evals.size(), 5u);
-  EXPECT_EQ(evals[0], 0);
-  for (int i = 1; i < 4; ++i) EXPECT_NEAR(evals[i], 2, 0.3);
+  for (int i = 0; i < 3; ++i) EXPECT_NEAR(evals[i], 2, 0.3);
   EXPECT_NE(readAll(dir_ / "out/evecs.npy").find("'shape': (500, 5), }"), std::string::npos);
   EXPECT_EQ(values("out/evecs.npy").size(), 2500u);
   EXPECT_NE(readAll(dir_ / "out/points.ply").find("property float evecs_4\n"), std::string::npos);
   const auto json = report("out");
   EXPECT_EQ(json["command"], "spectrum");
   EXPECT_EQ(json["source"], file);
-  EXPECT_EQ(json["report"]["null_space"], 1);
+  EXPECT_EQ(json["null_space"], 1);
   EXPECT_LE(json["report"]["residual"], 1e-8);
   EXPECT_GT(json["report"]["iterations"], 0);
 }
 
 TEST_F(SpectrumCommand, HasItsResidualsWhereMostOfTheSpaceIsAskedFor) {
   const std::string file = dir_.write("sphere.xyz", sphere(400));
-  for (const char* count : {"200", "268", "399"}) {
+  for (const char* count : {"200", "268", "398"}) {
     const Result result = run({"spectrum", file, "--out", in("out"), "--count", count, "--format", "none"});
     EXPECT_NE(result.out.find("dense, residual "), std::string::npos) << result.out;
     const auto json = report("out");
@@ -87,10 +86,10 @@ TEST_F(SpectrumCommand, ACopyOfACopyHasTheNewVectorsAlone) {
 
 TEST_F(SpectrumCommand, WritesTheCopyInTheFormatAskedFor) {
   const std::string file = dir_.write("tetrahedron.off", tetrahedron);
-  run({"spectrum", file, "--out", in("pcd"), "--count", "3", "--format", "pcd"});
+  run({"spectrum", file, "--out", in("pcd"), "--count", "2", "--format", "pcd"});
   EXPECT_NE(readAll(dir_ / "pcd/points.pcd").find(" evecs "), std::string::npos);
   EXPECT_FALSE(std::filesystem::exists(in("pcd/points.ply")));
-  run({"spectrum", file, "--out", in("none"), "--count", "3", "--format", "none"});
+  run({"spectrum", file, "--out", in("none"), "--count", "2", "--format", "none"});
   EXPECT_FALSE(std::filesystem::exists(in("none/points.ply")));
   EXPECT_TRUE(std::filesystem::exists(in("none/evals.npy")));
 }

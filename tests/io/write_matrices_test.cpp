@@ -112,7 +112,9 @@ TEST(ResultFiles, AreThoseThatAreWrittenWhateverTheFormats) {
       {Format::pcd, Format::mtx, Format::pcd},
       {Format::npz, Format::mtx, Format::mat, Format::spmat, Format::ply, Format::pcd}};
   tufted::Laplacian laplacian = sampleLaplacian();
-  laplacian.stored_cover = std::make_shared<const tufted::IntrinsicTriangulation>();
+  tufted::IntrinsicTriangulation cover;
+  cover.vertices = 4;
+  laplacian.stored_cover = std::make_shared<const tufted::IntrinsicTriangulation>(cover);
   for (const auto& formats : choices) {
     const TemporaryDir dir;
     tufted::writeLaplacian(dir.path(), laplacian, sampleGeometry(), {.formats = formats});
