@@ -40,8 +40,8 @@ class ExtensionSolver {
   /// @throws Cancelled when `options.solver.progress` returns false
   explicit ExtensionSolver(const Laplacian& laplacian, const VectorHeatOptions& options = {});
 
-  /// Every value lies within the range of the sources' values on its component; at a source it is its own mixed with
-  /// those of sources a few spacings away. Several values at one place count as their mean.
+  /// Every value lies within the range of the sources' values on its component, but for rounding; at a source it is its
+  /// own mixed with those of sources a few spacings away. Several values at one place count as their mean.
   /// @param sources S indices of points; those that are not active are ignored
   /// @param values S x c, finite
   /// @return N x c; NaN where no path leads, at isolated points and at those that are not finite; a coincident point
