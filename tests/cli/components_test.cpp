@@ -81,6 +81,8 @@ TEST_F(ComponentCommands, AreTheFirstSegments) {
   expectRefusal({"segment", file, "--seeds", "3,3"}, "seed 3 is given twice");
   expectRefusal({"segment", file, "--seeds", "3,500"}, "--seeds 3,500");
   expectRefusal({"segment", file, "--seeds", "3", "--method", "spectral"}, "--seeds excludes --method spectral");
+  expectRefusal({"segment", dir_.write("tetrahedron.off", tetrahedron), "--count", "5"},
+                "--count 5: segments: count = 5, must be at most 4");
   expectRefusal({"segment", file, "--count", "0"}, "--count: 0 is not an integer in [1,");
 }
 

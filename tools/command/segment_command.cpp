@@ -56,7 +56,10 @@ void check(Settings& settings, const Operator& source) {
 Results compute(Settings& settings, Operator& source) {
   Results results;
   settings.options.solver = source.solverOptions();
-  const tufted::Segments found = tufted::segments(source.laplacian, settings.options);
+  const std::string option =
+      settings.seeds.empty() ? "--count " + std::to_string(settings.options.count) : "--seeds " + settings.seeds;
+  const tufted::Segments found =
+      forOption(option, [&] { return tufted::segments(source.laplacian, settings.options); });
   const bool is_spectral = settings.options.method == tufted::SegmentMethod::spectral;
   Eigen::VectorXd labels(std::ssize(found.labels));
   long long without = 0;
