@@ -76,4 +76,13 @@ TEST_F(VectorHeat, LogmapHasItsAxesInTheReport) {
   EXPECT_EQ(values("mesh/logmap.npy").size(), 8u);
 }
 
+TEST_F(VectorHeat, DefaultsDoForATetrahedron) {
+  const std::string mesh = dir_.write("tetrahedron.off", tetrahedron);
+  run({"transport", mesh, "--source", "1", "--vector", "1,2,3", "--out", in("out")});
+  EXPECT_EQ(values("out/vectors.npy").size(), 12u);
+  run({"extend", mesh, "--pin", "1=2", "--out", in("out")});
+  for (const double value : values("out/values.npy")) EXPECT_EQ(value, 2);
+  expectRefusal({"extend", mesh, "--pin", "1=2", "--time-step", "1e6"}, "beyond all points");
+}
+
 }  // namespace

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "command.h"
@@ -37,6 +38,7 @@ struct Settings {
   NamedPoints points;
   std::vector<std::string> faces;
   tufted::DistanceOptions options;
+  std::optional<double> time_step;
   std::vector<Place> places;
   std::vector<tufted::SurfacePoint> inside;  ///< of faces
 
@@ -68,8 +70,9 @@ Results compute(Settings& settings, Operator& source) {
     sources.push_back(tufted::SurfacePoint::vertex(point));
   sources.insert(sources.end(), settings.inside.begin(), settings.inside.end());
   settings.options.solver = source.solverOptions();
+  if (settings.time_step) settings.options.time_step = *settings.time_step;
   const tufted::DistanceSolver solver(source.laplacian, settings.options);
-  checkTimeStep(settings.options.time_step, solver.timeStep(), source);
+  checkTimeStep(settings.time_step, solver.timeStep(), source);
   tufted::DistanceReport made;
   const tufted::VectorXd distance = solver.queryAt(sources, &made, source.progress);
   results.arrays = {{.name = "distance", .values = distance}};
@@ -100,7 +103,7 @@ void addDistance(CLI::App& app, Run& run) {
   command->add_option("--face", settings->faces, "A point of distance 0 inside a triangle, meshes only")
       ->allow_extra_args(false)
       ->type_name("FACE,A,B,C");
-  addTimeStep(*command, settings->options.time_step, "Time step in --time-unit; larger ones smooth (0.5)");
+  addTimeStep(*command, settings->time_step, "Time step in --time-unit; larger ones smooth (0.5)");
   addChoice(*command, "--time-unit", settings->options.unit, units,
             "Squared mean edge; adapted: weighted by area, for uneven density (mean)");
 }

@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <utility>
 
 #include "command.h"
@@ -29,6 +30,7 @@ struct Settings {
   PinOptions pins;
   PlacedPins placed;
   tufted::VectorHeatOptions options;
+  std::optional<double> time_step;
 
   std::vector<std::string> files() const { return {"values.npy"}; }
 };
@@ -42,8 +44,9 @@ Results compute(Settings& settings, Operator& source) {
   Results results;
   const tufted::Pins pins = settings.placed.locate(source, results);
   settings.options.solver = source.solverOptions();
+  if (settings.time_step) settings.options.time_step = *settings.time_step;
   const tufted::ExtensionSolver solver(source.laplacian, settings.options);
-  checkTimeStep(settings.options.time_step, solver.timeStep(), source);
+  checkTimeStep(settings.time_step, solver.timeStep(), source);
   tufted::VectorHeatReport made;
   Eigen::MatrixXd values = solver.query(pins.points, pins.values, &made, source.progress);
   results.report["pins"] = pins.points.size();
@@ -62,5 +65,5 @@ void addExtend(CLI::App& app, Run& run) {
   const auto [command, settings] =
       addOperatorCommand<Settings>(app, run, "extend", description, footer, compute, check);
   addPinOptions(*command, settings->pins);
-  addTimeStep(*command, settings->options.time_step, "Time step in squared mean edges; larger ones mix more (4)");
+  addTimeStep(*command, settings->time_step, "Time step in squared mean edges; larger ones mix more (4)");
 }

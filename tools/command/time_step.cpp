@@ -8,16 +8,17 @@
 #include "options.h"
 #include "tufted/errors.h"
 
-CLI::Option* addTimeStep(CLI::App& command, double& time_step, const std::string& text) {
+CLI::Option* addTimeStep(CLI::App& command, std::optional<double>& time_step, const std::string& text) {
   return addNumber(command, "--time-step", time_step, std::numeric_limits<double>::min(), 1e12, text)->type_name("T");
 }
 
-void checkTimeStep(double time_step, double time, const Operator& source) {
+void checkTimeStep(const std::optional<double>& time_step, double time, const Operator& source) {
+  if (!time_step) return;
   constexpr double shortest = 0.01;  // of the spacing
   const Extent extent = extentOf(source);
   const double length = std::sqrt(time);
   if (length >= shortest * extent.spacing && length <= extent.size) return;
-  throw tufted::InvalidInput("--time-step " + numberText(time_step) + ": heat goes " + numberText(length) + ", " +
+  throw tufted::InvalidInput("--time-step " + numberText(*time_step) + ": heat goes " + numberText(length) + ", " +
                              (length > extent.size ? "beyond all points" : "less than a hundredth of the spacing") +
                              ": " + extent.text());
 }

@@ -1,5 +1,5 @@
 #include <CLI/CLI.hpp>
-#include <algorithm>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -32,6 +32,7 @@ struct Settings {
   NamedPoints points;
   std::vector<std::string> texts;
   tufted::VectorHeatOptions options;
+  std::optional<double> time_step;
   std::vector<Place> places;
   tufted::Points vectors;
 
@@ -55,8 +56,9 @@ Results compute(Settings& settings, Operator& source) {
   Results results;
   const std::vector<int> sources = locate(settings.places, source, results);
   settings.options.solver = source.solverOptions();
+  if (settings.time_step) settings.options.time_step = *settings.time_step;
   const tufted::TransportSolver solver(source.laplacian, framesOf(source), settings.options);
-  checkTimeStep(settings.options.time_step, solver.timeStep(), source);
+  checkTimeStep(settings.time_step, solver.timeStep(), source);
   tufted::VectorHeatReport made;
   const tufted::Points vectors = solver.query(sources, settings.vectors, &made, source.progress);
   results.report["sources"] = sources;
@@ -78,5 +80,5 @@ void addTransport(CLI::App& app, Run& run) {
   command->add_option("--vector", settings->texts, "The vector of a source; repeat for several")
       ->allow_extra_args(false)
       ->type_name("X,Y,Z");
-  addTimeStep(*command, settings->options.time_step, "Time step in squared mean edges; larger ones mix more (4)");
+  addTimeStep(*command, settings->time_step, "Time step in squared mean edges; larger ones mix more (4)");
 }
