@@ -36,7 +36,6 @@ struct Results {
   const WriteOptions& options;
   io::OutputMatrices matrices = {laplacian, options};
   std::vector<io::Convention> conventions = io::conventions(laplacian, options);
-  std::vector<int> component = laplacian.component.empty() ? componentLabels(laplacian) : laplacian.component;
 };
 
 template <class T>
@@ -111,7 +110,13 @@ const ResultFile result_files[] = {
     {std::nullopt, io::positions_name,
      [](const OutputPath& to, const Results& r) { io::writePositions(to, r.laplacian.positions); }},
     {std::nullopt, "components.npy",
-     [](const OutputPath& to, const Results& r) { writeNpy(to, "<i4", r.component.data(), r.component.size()); }},
+     [](const OutputPath& to, const Results& r) {
+       // Only now: the sizes of L are refused by the formats before its entries are walked.
+       const Laplacian& laplacian = r.laplacian;
+       const std::vector<int> component =
+           laplacian.component.empty() ? componentLabels(laplacian) : laplacian.component;
+       writeNpy(to, "<i4", component.data(), component.size());
+     }},
     {std::nullopt, "report.json", writeReport},
 };
 
