@@ -184,6 +184,7 @@ void finish(const Laplacian& laplacian, int count, Segments& result) {
   result.areas = areas(order);
   if (result.seeds.empty()) return;
   std::vector<int> seeds;
+  seeds.reserve(order.size());
   for (const int k : order) seeds.push_back(result.seeds[k]);
   result.seeds = std::move(seeds);
 }

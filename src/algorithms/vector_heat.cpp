@@ -62,12 +62,13 @@ double spacingOf(const SparseMatrix& L, const Points& positions) {
 }
 
 /// The matrix A + mass, where each point has `width` rows.
-SparseMatrix withMass(SparseMatrix A, const VectorXd& mass, int width) {
-  for (int i = 0; i < A.outerSize(); ++i) {
-    for (SparseMatrix::InnerIterator entry(A, i); entry; ++entry)
+SparseMatrix withMass(const SparseMatrix& A, const VectorXd& mass, int width) {
+  SparseMatrix sum = A;
+  for (int i = 0; i < sum.outerSize(); ++i) {
+    for (SparseMatrix::InnerIterator entry(sum, i); entry; ++entry)
       if (entry.row() == i) entry.valueRef() += mass[i / width];
   }
-  return A;
+  return sum;
 }
 
 }  // namespace

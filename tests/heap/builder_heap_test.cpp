@@ -41,7 +41,10 @@ std::vector<HeapCase> heapCases() {
   const Points sphere = shapes::sphere(5000).points, depth = shapes::depthCamera({.width = 96, .height = 72}).points;
   const Points noisy = shapes::withNoise(shapes::sphere(5000), 0.02).points;
   Points lattice(2500, 3);
-  for (int i = 0; i < lattice.rows(); ++i) lattice.row(i) << i % 50, i / 50, 0;
+  for (int i = 0; i < lattice.rows(); ++i) {
+    const int row = i / 50;
+    lattice.row(i) << i % 50, row, 0;
+  }
   CloudOptions pairs = {};
   pairs.gluing = Gluing::vertex_pair;
   CloudOptions forgetful = {};

@@ -33,6 +33,7 @@ inline std::string numberText(double number) {
 template <class T>
 std::vector<std::string> namesIn(const std::map<std::string, T>& values) {
   std::vector<std::string> names;
+  names.reserve(values.size());
   for (const auto& [name, value] : values) names.push_back(name);
   return names;
 }

@@ -54,16 +54,16 @@ void addNearest(const Place& place, int point, std::size_t number, const Operato
 std::vector<double> parseNumbers(const std::string& text, const std::string& option) {
   std::vector<double> numbers;
   std::istringstream words(text);
-  for (std::string word; std::getline(words, word, ',');)
-    if (!parseNumber(word, numbers.emplace_back()))
-      throw tufted::InvalidInput(option + " " + text + " is no list of numbers with commas between them");
+  bool valid = true;
+  for (std::string word; std::getline(words, word, ',');) valid &= parseNumber(word, numbers.emplace_back());
+  if (!valid) throw tufted::InvalidInput(option + " " + text + " is no list of numbers with commas between them");
   return numbers;
 }
 
 Eigen::Vector3d parsePosition(const std::string& text, const std::string& option) {
   const std::vector<double> numbers = parseNumbers(text, option);
   if (numbers.size() != 3) throw tufted::InvalidInput(option + " " + text + " is not X,Y,Z");
-  const Eigen::Vector3d position(numbers[0], numbers[1], numbers[2]);
+  Eigen::Vector3d position(numbers[0], numbers[1], numbers[2]);
   if (!position.allFinite()) throw tufted::InvalidInput(option + " " + text + " is not finite, must be");
   return position;
 }

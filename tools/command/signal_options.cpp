@@ -62,6 +62,7 @@ std::vector<MatrixXd> columnsOf(const std::string& name, const tufted::Geometry&
 /// The names that --field takes.
 std::vector<std::string> namesOf(const tufted::Geometry& geometry) {
   std::vector<std::string> names;
+  names.reserve(axes.size() + normal_axes.size() + geometry.fields.size());
   for (const auto& [name, axis] : axes) names.push_back(name);
   for (const auto& [name, axis] : normal_axes)
     if (geometry.normals.rows() > 0) names.push_back(name);
