@@ -1,7 +1,6 @@
 #include <algorithm>
 #include <limits>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -9,6 +8,7 @@
 #include "io/errors.h"
 #include "io/file_text.h"
 #include "io/frames_file.h"
+#include "io/json_file.h"
 #include "io/matrix_file.h"
 #include "io/npy.h"
 #include "io/npz_reader.h"
@@ -75,16 +75,6 @@ void readReport(const Json& json, const Path& path, Report& report) {
   take("largest_clamped", report.largest_clamped);
 }
 
-/// Discarded where it is no JSON. Nesting is bounded, because copies and texts of values recurse.
-Json readJson(const Path& path) {
-  constexpr int most = 32;  // ours have four
-  const auto check = [&path](int depth, Json::parse_event_t, const Json&) {
-    if (depth > most) io::refuse(path, "is nested deeper than " + std::to_string(most) + " levels");
-    return true;
-  };
-  return Json::parse(io::readBytes(path), check, false);
-}
-
 /// Directories of before there was `kind` have the options of the build, if the command wrote them.
 /// @param needed whether anything depends on it, which is the scale of the cover
 Kind readKind(const Json& json, bool needed, const Path& path) {
@@ -127,7 +117,7 @@ bool hasWritten(const Json& written, const std::string& name) {
 
 Laplacian readUncheckedLaplacian(const std::filesystem::path& dir, bool with_cover) {
   const Path report_path = dir / "report.json";
-  const Json json = readJson(report_path);
+  const Json json = io::readJson(report_path);
   if (!json.is_object() || !json.contains("report") || !json["report"].is_object())
     io::refuse(report_path, "is no report of a Laplacian");
   const Json written = json.value("write_options", Json::object());

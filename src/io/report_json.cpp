@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/frames_file.h"
+#include "tufted/io/results.h"
 
 namespace tufted {
 namespace {
@@ -143,6 +144,7 @@ std::string io::reportJson(const Laplacian& laplacian, const Geometry& geometry,
   json["write_options"] = {
       {"files", resultFiles(options.formats)}, {"sign", name(options.sign)}, {"dummy", options.dummy}};
   json["conventions"] = conventionsObject(conventions);
+  json["checksum"] = checksum(laplacian);
   json["report"] = reportObject(laplacian.report);
   // A path need not be UTF-8.
   return json.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";

@@ -1,8 +1,8 @@
 #include <CLI/CLI.hpp>
-#include <limits>
 #include <map>
 
 #include "command.h"
+#include "eigenpairs.h"
 #include "operator.h"
 #include "options.h"
 #include "reports.h"
@@ -31,25 +31,23 @@ const std::map<std::string, tufted::Embedding> kinds_of_distance = {{"commute", 
 
 struct Settings {
   OperatorSettings source;
-  int dimension = 3;
+  Eigenpairs pairs = {.count = 3};
   tufted::Embedding embedding = tufted::Embedding::commute;
 
   std::vector<std::string> files() const { return {"embedding.npy", "evals.npy"}; }
 };
 
 void check(Settings& settings, const Operator& source) {
-  checkCount("--dimension", settings.dimension, source);
+  checkPairs(settings.pairs, source, settings.source.out);
 }
 
 Results compute(Settings& settings, Operator& source) {
-  tufted::SpectrumOptions options = source.spectrumOptions();
-  options.null_space = false;
-  const tufted::Spectrum spectrum = spectrumFor("--dimension", settings.dimension, source, options);
+  const tufted::Spectrum spectrum = positivePairs(settings.pairs, source);
   Results results;
   results.arrays = {{.name = "embedding", .values = tufted::spectralEmbedding(spectrum, settings.embedding)},
                     {.name = "evals", .values = spectrum.values, .per_point = false}};
-  results.summary.add("coordinates", "%d, eigenvalues from %.6g to %.6g", settings.dimension, spectrum.values[0],
-                      spectrum.values[settings.dimension - 1]);
+  results.summary.add("coordinates", "%ld, eigenvalues from %.6g to %.6g", static_cast<long>(spectrum.values.size()),
+                      spectrum.values[0], spectrum.values[spectrum.values.size() - 1]);
   addReport(spectrum.report, results);
   return results;
 }
@@ -58,9 +56,8 @@ Results compute(Settings& settings, Operator& source) {
 
 void addEmbed(CLI::App& app, Run& run) {
   const auto [command, settings] = addOperatorCommand<Settings>(app, run, "embed", description, footer, compute, check);
-  addNumber(*command, "--dimension", settings->dimension, 1, std::numeric_limits<int>::max(),
-            "Number of coordinates (3)")
-      ->type_name("D");
+  addCount(*command, settings->pairs, "--dimension", 1, "Number of coordinates (3)")->type_name("D");
+  addSpectrumFolder(*command, settings->pairs);
   addChoice(*command, "--distance", settings->embedding, kinds_of_distance,
             "What embedded distances approximate (commute)");
 }

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "command.h"
+#include "eigenpairs.h"
 #include "extent.h"
 #include "operator.h"
 #include "options.h"
@@ -36,7 +37,7 @@ struct Settings {
   OperatorSettings source;
   SignalOptions signals;
   bool positions = false;
-  int count = 100;
+  Eigenpairs pairs = {.count = 100};
   std::optional<double> wavelength;
   Eigen::MatrixXd values;
 
@@ -56,45 +57,66 @@ void check(Settings& settings, const Operator& source) {
       throw tufted::IoError(source.name + ": has no points, which --positions filters");
     settings.values = source.geometry.points;
   }
-  if (!settings.wavelength) checkCount("--count", settings.count, source);
+  if (!settings.wavelength || !settings.pairs.folder.empty()) checkPairs(settings.pairs, source, settings.source.out);
 }
 
 double waveOf(double eigenvalue) {
   return 2 * std::numbers::pi / std::sqrt(eigenvalue);
 }
 
-/// The eigenvectors of waves at least so long.
-/// @throws InvalidInput where there is none, for then all points of a component would have one value, and for waves
-///         shorter than those of all eigenvectors
-tufted::Spectrum longWaves(const Operator& source, double wavelength, const tufted::SpectrumOptions& options) {
+double eigenvalueOf(double wavelength) {
+  return std::pow(2 * std::numbers::pi / wavelength, 2);
+}
+
+/// Keeps the eigenvectors of waves at least so long.
+/// @returns whether a shorter wave was there, so that none of those that are wanted is missing
+/// @throws InvalidInput where none is so long, for then all points of a component would have one value
+bool keepLongWaves(const Operator& source, double wavelength, tufted::Spectrum& spectrum) {
+  const Eigen::Index had = spectrum.values.size();
+  const Eigen::Index kept = (spectrum.values.array() <= eigenvalueOf(wavelength)).count();
+  if (kept == 0 && had > 0)
+    throw tufted::InvalidInput("--wavelength " + numberText(wavelength) + " is longer than the longest wave, " +
+                               numberText(waveOf(spectrum.values[0])) + ": " + extentOf(source).text());
+  spectrum.values.conservativeResize(kept);
+  spectrum.vectors.conservativeResize(Eigen::NoChange, kept);
+  return kept < had;
+}
+
+/// The eigenvectors of waves at least so long, computed.
+/// @throws InvalidInput as keepLongWaves(), and for waves shorter than those of all eigenvectors
+tufted::Spectrum longWaves(const Operator& source, double wavelength) {
   const tufted::Laplacian& laplacian = source.laplacian;
+  tufted::SpectrumOptions options = source.spectrumOptions();
+  options.null_space = false;
   const std::string name = "--wavelength " + numberText(wavelength);
   const double most = tufted::mostEigenpairs(laplacian, false);
-  const double bound = std::pow(2 * std::numbers::pi / wavelength, 2);
-  const double weyl = laplacian.M.sum() * bound / (4 * std::numbers::pi);  // about how many there are
+  const double weyl = laplacian.M.sum() * eigenvalueOf(wavelength) / (4 * std::numbers::pi);  // about how many
   for (double count = 16 + 1.1 * weyl; weyl <= most && most >= 1; count *= 1.5) {
     tufted::Spectrum spectrum = tufted::spectrum(laplacian, static_cast<int>(std::min(count, most)), options);
-    const Eigen::Index kept = (spectrum.values.array() <= bound).count();
-    if (kept == 0)
-      throw tufted::InvalidInput(name + " is longer than the longest wave, " + numberText(waveOf(spectrum.values[0])) +
-                                 ": " + extentOf(source).text());
-    if (kept < spectrum.values.size()) {
-      spectrum.values.conservativeResize(kept);
-      spectrum.vectors.conservativeResize(Eigen::NoChange, kept);
-      return spectrum;
-    }
+    if (keepLongWaves(source, wavelength, spectrum)) return spectrum;
     if (count >= most) break;
   }
   throw tufted::InvalidInput(name + " is shorter than what " + std::to_string(source.points()) +
                              " points can tell, must be longer, or give --count: " + extentOf(source).text());
 }
 
+/// The eigenvectors of waves at least so long, of those in a folder.
+/// @throws InvalidInput as keepLongWaves(), and where the folder may lack some
+tufted::Spectrum longWavesOfFolder(const Operator& source, double wavelength, const Eigenpairs& pairs) {
+  tufted::Spectrum spectrum = readPositivePairs(pairs, source);
+  const double shortest = spectrum.values.size() > 0 ? waveOf(spectrum.values.tail<1>()[0]) : 0;
+  if (keepLongWaves(source, wavelength, spectrum)) return spectrum;
+  throw tufted::InvalidInput("--wavelength " + numberText(wavelength) + ": the shortest wave in " +
+                             pairs.folder.string() + " is " + numberText(shortest) +
+                             ", write more by `tufted spectrum --count`");
+}
+
 Results compute(Settings& settings, Operator& source) {
   requireFinite(settings.values, source);
-  tufted::SpectrumOptions options = source.spectrumOptions();
-  options.null_space = false;
-  const tufted::Spectrum spectrum = settings.wavelength ? longWaves(source, *settings.wavelength, options)
-                                                        : spectrumFor("--count", settings.count, source, options);
+  const tufted::Spectrum spectrum = !settings.wavelength ? positivePairs(settings.pairs, source)
+                                    : settings.pairs.folder.empty()
+                                        ? longWaves(source, *settings.wavelength)
+                                        : longWavesOfFolder(source, *settings.wavelength, settings.pairs);
   const Eigen::MatrixXd means = tufted::componentMeans(source.laplacian, settings.values);
   Eigen::MatrixXd filtered = means + tufted::filterSignals(source.laplacian, spectrum, settings.values - means);
   const auto count = spectrum.values.size();
@@ -119,9 +141,9 @@ void addFilter(CLI::App& app, Run& run) {
       addOperatorCommand<Settings>(app, run, "filter", description, footer, compute, check);
   addSignalOptions(*command, settings->signals, "What to filter");
   command->add_flag("--positions", settings->positions, "Filter the positions of the points");
-  CLI::Option* const count = addNumber(*command, "--count", settings->count, 1, std::numeric_limits<int>::max(),
-                                       "Number of eigenvectors, those of eigenvalue 0 not counted (100)")
-                                 ->type_name("K");
+  CLI::Option* const count = addCount(*command, settings->pairs, "--count", 1,
+                                      "Number of eigenvectors, those of eigenvalue 0 not counted (100)");
+  addSpectrumFolder(*command, settings->pairs);
   addNumber(*command, "--wavelength", settings->wavelength, std::numeric_limits<double>::min(),
             std::numeric_limits<double>::max(), "Keep waves that are at least so long")
       ->excludes(count)

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "command.h"
+#include "eigenpairs.h"
 #include "extent.h"
 #include "operator.h"
 #include "options.h"
@@ -37,7 +38,7 @@ FILE and the options of building are those of `tufted laplacian`; --operator tak
 
 struct Settings {
   OperatorSettings source;
-  int count = 100;
+  Eigenpairs pairs = {.count = 100};
   int samples = 0;  ///< 0: 16 times, 100 energies
   bool wave = false;
   std::vector<double> times;
@@ -57,7 +58,7 @@ std::string isTime(const std::string& text) {
 }
 
 void check(Settings& settings, const Operator& source) {
-  checkCount("--count", settings.count, source);
+  checkPairs(settings.pairs, source, settings.source.out);
 }
 
 /// Refuses times in which heat does not reach the next point, which no few eigenvalues can tell, and those in which it
@@ -91,15 +92,13 @@ std::vector<tufted::ResultArray> signatures(const Settings& settings, const tuft
 }
 
 Results compute(Settings& settings, Operator& source) {
-  tufted::SpectrumOptions options = source.spectrumOptions();
-  options.null_space = false;
-  const tufted::Spectrum spectrum = spectrumFor("--count", settings.count, source, options);
+  const tufted::Spectrum spectrum = positivePairs(settings.pairs, source);
   checkTimes(settings.times, spectrum, source);
   Results results;
   results.arrays = signatures(settings, source.laplacian, spectrum);
-  results.summary.add(settings.wave ? "energies" : "times", "%ld per point, of %d eigenvalues up to %.6g",
-                      static_cast<long>(results.arrays[0].values.cols()), settings.count,
-                      spectrum.values[settings.count - 1]);
+  results.summary.add(settings.wave ? "energies" : "times", "%ld per point, of %ld eigenvalues up to %.6g",
+                      static_cast<long>(results.arrays[0].values.cols()), static_cast<long>(spectrum.values.size()),
+                      spectrum.values[spectrum.values.size() - 1]);
   addNullSpace(nullSpace(source.laplacian), false, results);
   results.arrays.push_back({.name = "evals", .values = spectrum.values, .per_point = false});
   addReport(spectrum.report, results);
@@ -110,9 +109,8 @@ Results compute(Settings& settings, Operator& source) {
 
 void addHks(CLI::App& app, Run& run) {
   const auto [command, settings] = addOperatorCommand<Settings>(app, run, "hks", description, footer, compute, check);
-  addNumber(*command, "--count", settings->count, 2, std::numeric_limits<int>::max(),
-            "Number of positive eigenvalues (100)")
-      ->type_name("K");
+  addCount(*command, settings->pairs, "--count", 2, "Number of positive eigenvalues (100)");
+  addSpectrumFolder(*command, settings->pairs);
   CLI::Option* const samples =
       addNumber(*command, "--samples", settings->samples, 2, 1 << 16, "Times (16), or energies with --wave (100)")
           ->type_name("S");

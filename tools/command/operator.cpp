@@ -143,28 +143,6 @@ void addOperatorOptions(CLI::App& command, OperatorSettings& settings) {
   });
 }
 
-void checkCount(const char* option, int count, const Operator& source) {
-  if (count >= source.points())
-    throw tufted::InvalidInput(std::string(option) + " = " + std::to_string(count) + ", must be less than " +
-                               std::to_string(source.points()) + ", the number of points");
-}
-
-tufted::Spectrum spectrumFor(const char* option, int count, const Operator& source,
-                             const tufted::SpectrumOptions& options) {
-  return forOption(std::string(option) + " " + std::to_string(count),
-                   [&] { return tufted::spectrum(source.laplacian, count, options); });
-}
-
-int nullSpace(const tufted::Laplacian& laplacian) {
-  return tufted::mostEigenpairs(laplacian, true) - tufted::mostEigenpairs(laplacian, false);
-}
-
-void addNullSpace(int nulls, bool is_written, Results& results) {
-  results.report["null_space"] = nulls;
-  results.summary.add("null space", "%d, a constant on each connected component, %s", nulls,
-                      is_written ? "written first" : "not written");
-}
-
 int runWithOperator(OperatorSettings& settings, std::vector<std::string> files, const Check& check,
                     const Compute& compute) {
   ProgressBar bar;

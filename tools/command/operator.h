@@ -66,18 +66,8 @@ struct Operator {
   }
 };
 
-/// Refuses more eigenvalues than there can be. @throws InvalidInput naming the option
-void checkCount(const char* option, int count, const Operator& source);
-
-/// The spectrum of the source. @throws InvalidInput naming the option where `count` are more eigenvalues than there are
-tufted::Spectrum spectrumFor(const char* option, int count, const Operator& source,
-                             const tufted::SpectrumOptions& options);
-
-/// How many eigenvalues are 0: one for each component that has an area.
-int nullSpace(const tufted::Laplacian& laplacian);
-
 /// The results of a command.
-struct Results {
+struct Results {  // NOLINT(bugprone-exception-escape): moves of its json, which do not throw
   std::vector<tufted::ResultArray> arrays;
   nlohmann::ordered_json report;  ///< members of report.json beside "tufted", "command" and "source"
   Summary summary;
@@ -85,9 +75,6 @@ struct Results {
   /// Writes the results in place of writeResults, if set.
   std::function<void(const std::filesystem::path& dir, const tufted::ResultOptions& options)> write = {};
 };
-
-/// Says how large the null space is.
-void addNullSpace(int nulls, bool is_written, Results& results);
 
 /// Checks options before the Laplacian is built, which may take long. The points are known by then, and with --operator
 /// the whole Laplacian.

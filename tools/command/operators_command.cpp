@@ -1,9 +1,10 @@
 #include <CLI/CLI.hpp>
-#include <chrono>
+#include <algorithm>
 #include <limits>
 #include <string>
 
 #include "command.h"
+#include "eigenpairs.h"
 #include "operator.h"
 #include "options.h"
 #include "reports.h"
@@ -21,14 +22,15 @@ constexpr const char* footer = R"(Writes into DIR, renamed one after the other w
                  gradY as _data, _indices, _indptr, _shape of csc matrices; float64. The cache of DiffusionNet has
                  these names; its file names are hashes, so load this one and hand on its arrays.
   points.ply     the points with the fields frames and evecs, float32; points.pcd with --format pcd
-  report.json    iterations, residual and seconds of the spectrum, seconds of the gradients
-gradX and gradY are slopes along the axes of the frames, by least squares over the neighbours in L. Points that take no
+  report.json    iterations, residual and seconds of the spectrum, neighbors and seconds of the gradients
+gradX and gradY are slopes along the axes of the frames, by least squares over the nearest points. Points that take no
 part have rows of zeros. FILE and the options of building are those of `tufted laplacian`; --operator takes what that
 has written, with the points (of meshes points.ply, which has the triangles).)";
 
 struct Settings {
   OperatorSettings source;
-  int count = 128;
+  Eigenpairs pairs = {.count = 128};
+  tufted::GradientOptions gradients;
 
   std::vector<std::string> files() const { return {"operators.npz"}; }
 };
@@ -41,26 +43,34 @@ void check(Settings& settings, const Operator& source) {
   if (source.laplacian.L.rows() > 0 && !geometry.is_mesh && source.laplacian.frames.normals.rows() == 0)
     throw tufted::IoError(source.name + ": has neither frames of a cloud nor the triangles of a mesh, which " +
                           "`tufted laplacian --format npz,ply` writes");
-  checkCount("--count", settings.count, source);
+  checkPairs(settings.pairs, source, settings.source.out);
 }
 
 Results compute(Settings& settings, Operator& source) {
   const tufted::Geometry& geometry = source.geometry;
-  const auto start = std::chrono::steady_clock::now();
-  const tufted::Gradients gradients = geometry.is_mesh
-                                          ? tufted::gradients(source.laplacian, geometry.points,
-                                                              tufted::meshFrames(geometry.points, geometry.triangles))
-                                          : tufted::gradients(source.laplacian, geometry.points);
-  const std::chrono::duration<double> gradients_took = std::chrono::steady_clock::now() - start;
-  const tufted::Spectrum spectrum = spectrumFor("--count", settings.count, source, source.spectrumOptions());
+  tufted::GradientOptions fitting = settings.gradients;
+  fitting.threads = source.threads;
+  fitting.progress = source.progress;
+  const tufted::Gradients gradients =
+      geometry.is_mesh ? tufted::gradients(source.laplacian, geometry.points,
+                                           tufted::meshFrames(geometry.points, geometry.triangles), fitting)
+                       : tufted::gradients(source.laplacian, geometry.points, fitting);
+  const tufted::Spectrum spectrum = firstPairs(settings.pairs, source);
   Results results;
-  results.summary.add("eigenvalues", "%d", settings.count);
-  if (const int zeros = spectrum.report.null_space; 2 * zeros > settings.count)
-    results.warnings.push_back(source.name + ": " + std::to_string(zeros) + " of " + std::to_string(settings.count) +
+  const auto count = static_cast<int>(spectrum.values.size());
+  results.summary.add("eigenvalues", "%d", count);
+  if (const int zeros = std::min(spectrum.report.null_space, count); 2 * zeros > count)
+    results.warnings.push_back(source.name + ": " + std::to_string(zeros) + " of " + std::to_string(count) +
                                " eigenvalues are 0, one for each connected component; take more by --count, or fewer "
                                "components by --component largest or --min-component N");
   addReport(spectrum.report, results);
-  results.report["gradients"] = {{"seconds", gradients_took.count()}};
+  const tufted::GradientReport& fits = gradients.report;
+  results.report["gradients"] = {{"mean_neighbors", fits.mean_neighbors},
+                                 {"widened", fits.widened},
+                                 {"on_a_line", fits.on_a_line},
+                                 {"regularization", fitting.regularization},
+                                 {"seconds", fits.seconds}};
+  results.summary.add("gradients", "of %.3g neighbors on average, %.3g s", fits.mean_neighbors, fits.seconds);
   results.write = [&source, gradients, spectrum](const std::filesystem::path& dir,
                                                  const tufted::ResultOptions& options) {
     tufted::writeOperators(dir, source.laplacian, source.geometry, gradients, spectrum, options);
@@ -73,6 +83,12 @@ Results compute(Settings& settings, Operator& source) {
 void addOperators(CLI::App& app, Run& run) {
   const auto [command, settings] =
       addOperatorCommand<Settings>(app, run, "operators", description, footer, compute, check);
-  addNumber(*command, "--count", settings->count, 1, std::numeric_limits<int>::max(), "Number of eigenvalues (128)")
-      ->type_name("K");
+  addCount(*command, settings->pairs, "--count", 1, "Number of eigenvalues, those that are 0 among them (128)");
+  addSpectrumFolder(*command, settings->pairs);
+  addNumber(*command, "--gradient-neighbors", settings->gradients.neighbors, 0, 10'000,
+            "Neighbors in the fits of gradients, 0 for those in L (30 for clouds, 0 for meshes)")
+      ->type_name("N");
+  addNumber(*command, "--gradient-regularization", settings->gradients.regularization, 0.0,
+            std::numeric_limits<double>::max(), "Length^2 added to the fits, which DiffusionNet does with 1e-5 (0)")
+      ->type_name("A");
 }

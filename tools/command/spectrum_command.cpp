@@ -1,7 +1,7 @@
 #include <CLI/CLI.hpp>
-#include <limits>
 
 #include "command.h"
+#include "eigenpairs.h"
 #include "operator.h"
 #include "options.h"
 #include "reports.h"
@@ -21,12 +21,12 @@ Writes into DIR, renamed one after the other when all are complete:
   evecs.npy    N x K, float64; 0 at points that take no part, coincident ones as their representative
   points.ply   the points with evecs_0, evecs_1, ... as fields of float32; points.pcd with --format pcd: a field evecs
                of K values
-  report.json  size of the null space, method, iterations, residual, seconds
+  report.json  size of the null space, checksum of L and M, method, iterations, residual, seconds
 FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written.)";
 
 struct Settings {
   OperatorSettings source;
-  int count = 32;
+  Eigenpairs pairs = {.count = 32};
   bool with_null_space = false;
   double tolerance = tufted::SpectrumOptions().tolerance;
 
@@ -34,21 +34,21 @@ struct Settings {
 };
 
 void check(Settings& settings, const Operator& source) {
-  checkCount("--count", settings.count, source);
+  checkPairs(settings.pairs, source, settings.source.out);
 }
 
 Results compute(Settings& settings, Operator& source) {
   tufted::SpectrumOptions options = source.spectrumOptions();
   options.tolerance = settings.tolerance;
   options.null_space = settings.with_null_space;
-  const int nulls = nullSpace(source.laplacian);
+  const int nulls = nullSpace(source.laplacian), count = settings.pairs.count;
   tufted::Spectrum spectrum =
-      spectrumFor("--count", settings.count + (settings.with_null_space ? nulls : 0), source, options);
+      computedPairs(settings.pairs, count + (settings.with_null_space ? nulls : 0), source, options);
   Results results;
-  results.summary.add("eigenvalues", "%d positive ones, from %.6g to %.6g", settings.count,
-                      spectrum.values[spectrum.values.size() - settings.count],
-                      spectrum.values[spectrum.values.size() - 1]);
+  results.summary.add("eigenvalues", "%d positive ones, from %.6g to %.6g", count,
+                      spectrum.values[spectrum.values.size() - count], spectrum.values[spectrum.values.size() - 1]);
   addNullSpace(nulls, settings.with_null_space, results);
+  results.report["checksum"] = tufted::checksum(source.laplacian);
   addReport(spectrum.report, results);
   results.arrays = {{.name = "evals", .values = spectrum.values, .per_point = false},
                     {.name = "evecs", .values = std::move(spectrum.vectors)}};
@@ -60,9 +60,7 @@ Results compute(Settings& settings, Operator& source) {
 void addSpectrum(CLI::App& app, Run& run) {
   const auto [command, settings] =
       addOperatorCommand<Settings>(app, run, "spectrum", description, footer, compute, check);
-  addNumber(*command, "--count", settings->count, 1, std::numeric_limits<int>::max(),
-            "Number of positive eigenvalues (32)")
-      ->type_name("K");
+  addCount(*command, settings->pairs, "--count", 1, "Number of positive eigenvalues (32)");
   command->add_flag("--with-null-space", settings->with_null_space, "Write the eigenvalues 0 as well, first");
   addNumber(*command, "--tolerance", settings->tolerance, 1e-15, 0.5, "Relative accuracy of vectors (1e-10)")
       ->type_name("T");

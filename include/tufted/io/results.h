@@ -8,6 +8,7 @@
 #include "tufted/io/read.h"
 #include "tufted/io/write.h"
 #include "tufted/laplacian.h"
+#include "tufted/spectrum.h"
 
 namespace tufted {
 
@@ -64,6 +65,20 @@ Laplacian readLaplacian(const std::filesystem::path& dir, bool with_cover = true
 /// each promise is broken.
 /// @throws IoError naming the file that is missing, damaged or does not fit the others
 Laplacian readUncheckedLaplacian(const std::filesystem::path& dir, bool with_cover = true);
+
+/// A checksum of L and M, by which results are known to belong to a Laplacian. Equal bits have equal checksums, however
+/// they were built or written (Sign::igl and dummy values do not count); it is no protection against forgery.
+/// @returns 16 hexadecimal digits
+std::string checksum(const Laplacian& laplacian);
+
+/// Reads the eigenpairs that `tufted spectrum` wrote: evals.npy, evecs.npy, and of report.json the checksum of the
+/// Laplacian that they belong to.
+/// @param laplacian the one they belong to, restricted to the components that they were computed of
+/// @return method "read"; null_space counts the zeros that were written, residual is measured anew
+/// @throws InvalidInput for arrays of the wrong size
+/// @throws IoError naming the file that is missing, damaged or of another Laplacian, or whose vectors are not the
+///         eigenvectors of the values
+Spectrum readSpectrum(const std::filesystem::path& dir, const Laplacian& laplacian);
 
 /// Reads numbers of any type from a .npy file.
 /// @return N x c, one column for an array of N values

@@ -1,0 +1,109 @@
+#include "eigenpairs.h"
+
+#include <CLI/CLI.hpp>
+#include <limits>
+#include <system_error>
+#include <utility>
+
+#include "options.h"
+#include "tufted/errors.h"
+
+namespace {
+
+/// Cuts a spectrum down to its first pairs.
+/// @throws InvalidInput naming the option where there are fewer
+void keepFirst(const Eigenpairs& pairs, tufted::Spectrum& spectrum) {
+  if (!pairs.is_given) return;
+  const auto has = spectrum.values.size();
+  if (pairs.count > has)
+    throw tufted::InvalidInput(pairs.option + " " + std::to_string(pairs.count) + ": " + pairs.folder.string() +
+                               " has " + std::to_string(has) + " of these eigenvalues");
+  spectrum.values.conservativeResize(pairs.count);
+  spectrum.vectors.conservativeResize(Eigen::NoChange, pairs.count);
+}
+
+}  // namespace
+
+CLI::Option* addCount(CLI::App& command, Eigenpairs& pairs, const std::string& option, int least,
+                      const std::string& help) {
+  pairs.option = option;
+  return addNumber(command, option, pairs.count, least, std::numeric_limits<int>::max(), help)
+      ->each([&pairs](const std::string&) { pairs.is_given = true; })
+      ->type_name("K");
+}
+
+void addSpectrumFolder(CLI::App& command, Eigenpairs& pairs) {
+  command
+      .add_option("--spectrum", pairs.folder,
+                  "Take the eigenvectors that `tufted spectrum --out DIR` wrote for this Laplacian (all that it has)")
+      ->check(notEmpty)
+      ->excludes(command.get_option("--solver"))
+      ->excludes(command.get_option("--memory-limit"))
+      ->type_name("DIR");
+}
+
+void checkPairs(const Eigenpairs& pairs, const Operator& source, const std::filesystem::path& out) {
+  if (pairs.folder.empty()) {
+    if (pairs.count < source.points()) return;
+    throw tufted::InvalidInput(pairs.option + " = " + std::to_string(pairs.count) + ", must be less than " +
+                               std::to_string(source.points()) + ", the number of points");
+  }
+  std::error_code error;
+  if (std::filesystem::equivalent(pairs.folder, out, error))
+    throw tufted::InvalidInput("--out " + out.string() + ": is the folder of --spectrum, which would be overwritten");
+  for (const char* name : {"report.json", "evals.npy", "evecs.npy"})
+    if (!std::filesystem::exists(pairs.folder / name, error))
+      throw tufted::IoError((pairs.folder / name).string() + ": does not exist, which `tufted spectrum` writes");
+}
+
+tufted::Spectrum computedPairs(const Eigenpairs& pairs, int count, const Operator& source,
+                               const tufted::SpectrumOptions& options) {
+  return forOption(pairs.option + " " + std::to_string(pairs.count),
+                   [&] { return tufted::spectrum(source.laplacian, count, options); });
+}
+
+tufted::Spectrum readPositivePairs(const Eigenpairs& pairs, const Operator& source) {
+  tufted::Spectrum spectrum = tufted::readSpectrum(pairs.folder, source.laplacian);
+  const Eigen::Index positive = spectrum.values.size() - spectrum.report.null_space;
+  spectrum.values = spectrum.values.tail(positive).eval();
+  spectrum.vectors = spectrum.vectors.rightCols(positive).eval();
+  return spectrum;
+}
+
+tufted::Spectrum positivePairs(const Eigenpairs& pairs, const Operator& source) {
+  if (!pairs.folder.empty()) {
+    tufted::Spectrum spectrum = readPositivePairs(pairs, source);
+    keepFirst(pairs, spectrum);
+    return spectrum;
+  }
+  tufted::SpectrumOptions options = source.spectrumOptions();
+  options.null_space = false;
+  return computedPairs(pairs, pairs.count, source, options);
+}
+
+tufted::Spectrum firstPairs(const Eigenpairs& pairs, const Operator& source) {
+  if (pairs.folder.empty()) return computedPairs(pairs, pairs.count, source, source.spectrumOptions());
+  tufted::Spectrum positive = readPositivePairs(pairs, source);
+  const int nulls = nullSpace(source.laplacian);
+  if (nulls == 0) return positive;
+  tufted::Spectrum all = tufted::spectrum(source.laplacian, nulls);  // constants alone, nothing is searched
+  const Eigen::Index count = nulls + positive.values.size();
+  all.values.conservativeResize(count);
+  all.vectors.conservativeResize(Eigen::NoChange, count);
+  all.values.tail(positive.values.size()) = positive.values;
+  all.vectors.rightCols(positive.values.size()) = positive.vectors;
+  all.report = positive.report;
+  all.report.null_space = nulls;
+  keepFirst(pairs, all);
+  return all;
+}
+
+int nullSpace(const tufted::Laplacian& laplacian) {
+  return tufted::mostEigenpairs(laplacian, true) - tufted::mostEigenpairs(laplacian, false);
+}
+
+void addNullSpace(int nulls, bool is_written, Results& results) {
+  results.report["null_space"] = nulls;
+  results.summary.add("null space", "%d, a constant on each connected component, %s", nulls,
+                      is_written ? "written first" : "not written");
+}
