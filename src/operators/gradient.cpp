@@ -1,28 +1,28 @@
-// Gradients at points by least squares in tangent planes (DiffusionNet; Sharp et al. 2022, Section 3.4).
+// Gradients at points by least squares in tangent planes (DiffusionNet; Sharp et al. 2022, Section 3.4), here with a
+// constant in the fit, and their adjoint.
 #include "tufted/gradient.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/Geometry>
-#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include "stars/tangent_frame.h"
+#include "base/parallel.h"
+#include "base/require.h"
+#include "base/stage_clock.h"
+#include "operators/slope_fit.h"
 #include "tufted/check.h"
 #include "tufted/errors.h"
 
 namespace tufted {
 namespace {
 
-/// A neighbourhood has two spreads in its tangent plane; the smaller counts as 0 below this part of the larger.
-constexpr double flat = 1e-10;
-/// If the smaller spread is below this part of the larger, the neighbours of the neighbours are used as well, as the
-/// neighbours alone hardly determine the slope across.
-constexpr double narrow = 1e-4;
+constexpr int cloud_neighbors = 30;
+constexpr int most_neighbors = 10'000;
+constexpr std::int64_t block_size = 256;
 
-void checkArguments(const Laplacian& laplacian, const Points& points, const Frames& frames) {
+void checkArguments(const Laplacian& laplacian, const Points& points, const Frames& frames,
+                    const GradientOptions& options) {
   checkSizes("gradients", laplacian);
   const auto n = static_cast<Eigen::Index>(laplacian.status.size());
   const auto check = [&](const char* name, Eigen::Index rows) {
@@ -34,129 +34,158 @@ void checkArguments(const Laplacian& laplacian, const Points& points, const Fram
   check("points", points.rows());
   check("frames.normals", frames.normals.rows());
   check("frames.tangents", frames.tangents.rows());
+  const int neighbors = options.neighbors.value_or(0);
+  if (neighbors != 0 && (neighbors < 3 || neighbors > most_neighbors))
+    throw InvalidInput("gradients: neighbors = " + std::to_string(neighbors) + ", must be 0 or in [3, " +
+                       std::to_string(most_neighbors) + "]");
+  if (!(options.regularization >= 0) || !std::isfinite(options.regularization))
+    throw InvalidInput("gradients: regularization = " + std::to_string(options.regularization) +
+                       ", must be finite and >= 0");
+  if (options.threads < 0)
+    throw InvalidInput("gradients: threads = " + std::to_string(options.threads) + ", must be >= 0");
 }
 
-/// Neighbours of a point with the coefficients of their differences to it.
-struct Stencil {
-  std::vector<int> neighbors;
-  Eigen::Matrix2Xd coefficients;
-  bool is_narrow = true;
+/// Rows of both matrices, one after the other.
+struct Rows {
+  std::vector<int> lengths;  ///< of each row
+  std::vector<int> columns;  ///< ascending in each row
+  std::vector<double> x, y;
+
+  void add(const SlopeFit& fit) {
+    lengths.push_back(static_cast<int>(fit.points.size()));
+    columns.insert(columns.end(), fit.points.begin(), fit.points.end());
+    for (Eigen::Index k = 0; k < std::ssize(fit.points); ++k) {
+      x.push_back(fit.coefficients(0, k));
+      y.push_back(fit.coefficients(1, k));
+    }
+  }
+  void append(const Rows& next) {
+    lengths.insert(lengths.end(), next.lengths.begin(), next.lengths.end());
+    columns.insert(columns.end(), next.columns.begin(), next.columns.end());
+    x.insert(x.end(), next.x.begin(), next.x.end());
+    y.insert(y.end(), next.y.begin(), next.y.end());
+  }
 };
 
-void addNeighbors(const SparseMatrix& L, int i, std::vector<int>& neighbors) {
-  for (SparseMatrix::InnerIterator entry(L, i); entry; ++entry) neighbors.push_back(static_cast<int>(entry.row()));
+/// A matrix whose row i has the values of row sources[i], of which there may be several.
+SparseMatrix matrixOf(const Rows& rows, const std::vector<int>& sources, const std::vector<double>& values) {
+  const auto n = static_cast<int>(sources.size());
+  std::vector<std::int64_t> starts(sources.size() + 1, 0);
+  for (int i = 0; i < n; ++i) starts[i + 1] = starts[i] + rows.lengths[i];
+  std::int64_t count = 0;
+  for (const int source : sources) count += rows.lengths[source];
+  requireAtMost(std::numeric_limits<int>::max(), count, "gradients", "entries");
+  Eigen::SparseMatrix<double, Eigen::RowMajor> matrix(n, n);
+  matrix.reserve(count);
+  for (int i = 0; i < n; ++i) {
+    matrix.startVec(i);
+    for (std::int64_t k = starts[sources[i]]; k < starts[sources[i] + 1]; ++k)
+      matrix.insertBack(i, rows.columns[k]) = values[k];
+  }
+  matrix.finalize();
+  return matrix;
 }
 
-/// @param neighbors ascending; the point itself among them does not count
-Stencil fitPlane(const Points& points, const Frames& frames, int i, std::vector<int> neighbors) {
-  std::erase(neighbors, i);
-  const auto count = static_cast<Eigen::Index>(neighbors.size());
-  double extent = 0;
-  for (const int j : neighbors) extent = std::max(extent, (points.row(j) - points.row(i)).cwiseAbs().maxCoeff());
-  Stencil stencil{std::move(neighbors), Eigen::Matrix2Xd::Zero(2, count)};
-  if (!(extent > 0) || !std::isfinite(extent)) return stencil;
-
-  const Eigen::RowVector3d normal = frames.normals.row(i), x = frames.tangents.row(i), y = normal.cross(x);
-  Eigen::Matrix2Xd edges(2, count);  // over their extent, so that no square underflows
-  for (Eigen::Index k = 0; k < count; ++k) {
-    const Eigen::RowVector3d edge = (points.row(stencil.neighbors[k]) - points.row(i)) / extent;
-    edges.col(k) << edge.dot(x), edge.dot(y);
+/// @param planes where the caller's frames, `frames`, do not bind: fitted planes
+Gradients fitGradients(const Laplacian& laplacian, const Points& points, const Frames& frames, Planes planes,
+                       const GradientOptions& options) {
+  checkArguments(laplacian, points, frames, options);
+  const Stopwatch watch;
+  const Workers workers(options.threads, options.progress);
+  const auto n = static_cast<int>(laplacian.status.size());
+  const SlopeOptions fits = {
+      .neighbors = options.neighbors.value_or(laplacian.kind == Kind::cloud ? cloud_neighbors : 0),
+      .regularization = options.regularization,
+      .planes = planes};
+  std::vector<SlopeFitter> fitters;
+  for (int worker = 0; worker < workers.count(); ++worker) fitters.emplace_back(laplacian.L, points, frames, fits);
+  Gradients result{SparseMatrix(n, n), SparseMatrix(n, n), frames, {}};
+  const auto has_surface = [&](int i) {
+    return laplacian.representative[i] == i && laplacian.status[i] == PointStatus::active;
+  };
+  std::vector<Rows> blocks((static_cast<std::size_t>(n) + block_size - 1) / block_size);
+  std::vector<GradientReport> reports(blocks.size());
+  workers.forBlocks("gradients", n, block_size, [&](std::int64_t begin, std::int64_t end, int worker) {
+    Rows& rows = blocks[begin / block_size];
+    GradientReport& report = reports[begin / block_size];
+    for (int i = static_cast<int>(begin); i < end; ++i) {
+      if (!has_surface(i)) {
+        rows.lengths.push_back(0);
+        continue;
+      }
+      const SlopeFit& fit = fitters[worker].fit(i);
+      result.frames.normals.row(i) = fit.normal;
+      result.frames.tangents.row(i) = fit.tangent;
+      report.widened += fit.is_widened;
+      report.on_a_line += fit.is_on_a_line;
+      report.mean_neighbors += static_cast<double>(fit.points.size()) - 1;
+      rows.add(fit);
+    }
+  });
+  Rows all;
+  for (Rows& block : blocks) {
+    all.append(block);
+    block = {};
   }
-  const Eigen::Matrix2d spread = edges * edges.transpose();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(spread);
-  const Eigen::Vector2d& spreads = solver.eigenvalues();  // ascending
-  Eigen::Vector2d inverse = Eigen::Vector2d::Zero();
-  for (int k = 0; k < 2; ++k) {
-    if (spreads[k] > flat * spreads[1]) inverse[k] = 1 / spreads[k];
+  std::int64_t active = 0;
+  for (int i = 0; i < n; ++i) {
+    const int source = laplacian.representative[i];
+    active += has_surface(i);
+    const bool is_on_surface = laplacian.status[source] == PointStatus::active;
+    result.frames.normals.row(i) =
+        is_on_surface ? Eigen::RowVector3d(result.frames.normals.row(source)) : Eigen::RowVector3d::UnitZ();
+    result.frames.tangents.row(i) =
+        is_on_surface ? Eigen::RowVector3d(result.frames.tangents.row(source)) : Eigen::RowVector3d::UnitX();
   }
-  const Eigen::Matrix2d pseudo = solver.eigenvectors() * inverse.asDiagonal() * solver.eigenvectors().transpose();
-  stencil.coefficients = pseudo * edges / extent;
-  stencil.is_narrow = !(spreads[0] > narrow * spreads[1]);
-  return stencil;
-}
-
-Stencil stencilOf(const SparseMatrix& L, const Points& points, const Frames& frames, int i) {
-  std::vector<int> neighbors;
-  addNeighbors(L, i, neighbors);
-  Stencil stencil = fitPlane(points, frames, i, neighbors);
-  if (!stencil.is_narrow) return stencil;
-  for (const int j : std::vector<int>(neighbors)) addNeighbors(L, j, neighbors);
-  std::sort(neighbors.begin(), neighbors.end());
-  neighbors.erase(std::unique(neighbors.begin(), neighbors.end()), neighbors.end());
-  return fitPlane(points, frames, i, std::move(neighbors));
+  result.X = matrixOf(all, laplacian.representative, all.x);
+  result.Y = matrixOf(all, laplacian.representative, all.y);
+  for (const GradientReport& report : reports) {
+    result.report.widened += report.widened;
+    result.report.on_a_line += report.on_a_line;
+    result.report.mean_neighbors += report.mean_neighbors;
+  }
+  if (active > 0) result.report.mean_neighbors /= static_cast<double>(active);
+  result.report.seconds = watch.seconds();
+  return result;
 }
 
 }  // namespace
 
-Frames meshFrames(const Points& points, const Triangles& triangles) {
-  std::vector<Eigen::Matrix3d> moments(points.rows(), Eigen::Matrix3d::Zero());
-  Points sums = Points::Zero(points.rows(), 3);
-  for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
-    for (int k = 0; k < 3; ++k) {
-      if (triangles(f, k) >= 0 && triangles(f, k) < points.rows()) continue;
-      throw InvalidInput("meshFrames: corner " + std::to_string(triangles(f, k)) + " of triangle " + std::to_string(f) +
-                         ", must lie in [0, " + std::to_string(points.rows()) + ")");
-    }
-    const Eigen::RowVector3d a = points.row(triangles(f, 0));
-    const Eigen::RowVector3d u = points.row(triangles(f, 1)) - a, v = points.row(triangles(f, 2)) - a;
-    const double size = std::max(u.cwiseAbs().maxCoeff(), v.cwiseAbs().maxCoeff());
-    if (!(size > 0) || !std::isfinite(size)) continue;
-    // The unit normal times the area over size, as the area itself may underflow.
-    const Eigen::RowVector3d normal = (u / size).cross(v / size) * size;
-    const double weight = normal.norm();
-    if (!(weight > 0)) continue;
-    for (int k = 0; k < 3; ++k) {
-      moments[triangles(f, k)] += normal.transpose() * (normal / weight);
-      sums.row(triangles(f, k)) += normal;
-    }
-  }
-  Frames frames{Points(points.rows(), 3), Points(points.rows(), 3), Orientation::given};
-  for (Eigen::Index i = 0; i < points.rows(); ++i) {
-    Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
-    const double scale = moments[i].trace();
-    if (scale > 0) {
-      normal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moments[i] / scale).eigenvectors().col(2);
-      if (normal.dot(sums.row(i)) < 0) normal = -normal;
-    }
-    frames.normals.row(i) = normal;
-    frames.tangents.row(i) = tangentOf(normal);
-  }
-  return frames;
-}
-
-Gradients gradients(const Laplacian& laplacian, const Points& points) {
+Gradients gradients(const Laplacian& laplacian, const Points& points, const GradientOptions& options) {
   checkSizes("gradients", laplacian);
   if (laplacian.frames.normals.rows() == 0 && !laplacian.status.empty()) {
     throw InvalidInput("gradients: the Laplacian has no frames, must be that of a cloud; meshes have meshFrames()");
   }
-  return gradients(laplacian, points, laplacian.frames);
+  return fitGradients(laplacian, points, laplacian.frames, Planes::fitted, options);
 }
 
-Gradients gradients(const Laplacian& laplacian, const Points& points, const Frames& frames) {
-  checkArguments(laplacian, points, frames);
-  const auto n = static_cast<int>(laplacian.status.size());
-  std::vector<Eigen::Triplet<double>> x, y;
-  Gradients result{SparseMatrix(n, n), SparseMatrix(n, n), frames};
-  for (int i = 0; i < n; ++i) {
-    const int source = laplacian.representative[i];
-    if (laplacian.status[source] != PointStatus::active) {
-      result.frames.normals.row(i) = Eigen::RowVector3d::UnitZ();
-      result.frames.tangents.row(i) = Eigen::RowVector3d::UnitX();
-      continue;
-    }
-    result.frames.normals.row(i) = frames.normals.row(source);
-    result.frames.tangents.row(i) = frames.tangents.row(source);
-    const Stencil stencil = stencilOf(laplacian.L, points, frames, source);
-    const Eigen::Vector2d sum = stencil.coefficients.rowwise().sum();
-    x.emplace_back(i, source, -sum.x());
-    y.emplace_back(i, source, -sum.y());
-    for (std::size_t k = 0; k < stencil.neighbors.size(); ++k) {
-      x.emplace_back(i, stencil.neighbors[k], stencil.coefficients(0, static_cast<Eigen::Index>(k)));
-      y.emplace_back(i, stencil.neighbors[k], stencil.coefficients(1, static_cast<Eigen::Index>(k)));
-    }
+Gradients gradients(const Laplacian& laplacian, const Points& points, const Frames& frames,
+                    const GradientOptions& options) {
+  return fitGradients(laplacian, points, frames, Planes::given, options);
+}
+
+VectorXd divergence(const Laplacian& laplacian, const Gradients& gradients,
+                    const Eigen::Ref<const Eigen::MatrixX2d>& vectors) {
+  checkSizes("divergence", laplacian);
+  const auto n = static_cast<Eigen::Index>(laplacian.status.size());
+  const auto check = [n](const char* name, Eigen::Index size) {
+    if (size != n)
+      throw InvalidInput("divergence: " + std::string(name) + " has " + std::to_string(size) + " rows, must have " +
+                         std::to_string(n) + ", one per point of the Laplacian");
+  };
+  check("gradients.X", gradients.X.rows());
+  check("gradients.Y", gradients.Y.rows());
+  check("vectors", vectors.rows());
+  Eigen::MatrixX2d weighted = Eigen::MatrixX2d::Zero(n, 2);
+  for (Eigen::Index i = 0; i < n; ++i) {
+    if (laplacian.status[i] != PointStatus::active) continue;
+    if (!vectors.row(i).allFinite())
+      throw InvalidInput("divergence: row " + std::to_string(i) + " of vectors is not finite, must be");
+    weighted.row(i) = laplacian.M[i] * vectors.row(i);
   }
-  result.X.setFromTriplets(x.begin(), x.end());
-  result.Y.setFromTriplets(y.begin(), y.end());
+  VectorXd result = -(gradients.X.transpose() * weighted.col(0) + gradients.Y.transpose() * weighted.col(1)).eval();
+  for (Eigen::Index i = 0; i < n; ++i) result[i] = laplacian.M[i] > 0 ? result[i] / laplacian.M[i] : 0;
+  for (Eigen::Index i = 0; i < n; ++i) result[i] = result[laplacian.representative[i]];
   return result;
 }
 

@@ -2,11 +2,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
-#include <cctype>
 #include <filesystem>
 
 #include "guarantees/guarantees.h"
+#include "guarantees/real_files.h"
 #include "tufted/errors.h"
 #include "tufted/io/read.h"
 
@@ -15,17 +14,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using testing::IsEmpty;
-
-/// The files of one folder, by name; the folder itself where it is absent.
-std::vector<fs::path> filesIn(const fs::path& folder) {
-  std::error_code error;
-  std::vector<fs::path> files;
-  for (const auto& entry : fs::directory_iterator(folder, error)) {
-    if (entry.is_regular_file()) files.push_back(entry.path());
-  }
-  std::sort(files.begin(), files.end());
-  return files.empty() ? std::vector{folder} : files;
-}
 
 class GuaranteesOfFile : public testing::TestWithParam<fs::path> {};
 
@@ -47,13 +35,6 @@ TEST_P(GuaranteesOfFile, AsCloudAndAsMesh) {
   EXPECT_THAT(brokenGuarantees(clean, points), IsEmpty()) << "cloud, preset clean";
   const Laplacian by_pairs = pointCloudLaplacian(points, {.gluing = Gluing::vertex_pair});
   EXPECT_THAT(brokenGuarantees(by_pairs, points), IsEmpty()) << "cloud, glued per vertex pair";
-}
-
-std::string testName(const testing::TestParamInfo<fs::path>& info) {
-  std::string name = info.param.filename().string();
-  std::replace_if(
-      name.begin(), name.end(), [](unsigned char c) { return std::isalnum(c) == 0; }, '_');
-  return std::to_string(info.index) + "_" + name;  // names may differ in signs only
 }
 
 INSTANTIATE_TEST_SUITE_P(Clouds, GuaranteesOfFile, testing::ValuesIn(filesIn(TUFTED_DATA_DIR "/clouds")), testName);

@@ -1,0 +1,51 @@
+// Tangent frames of a mesh's vertices.
+#include <Eigen/Eigenvalues>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "stars/tangent_frame.h"
+#include "tufted/errors.h"
+#include "tufted/gradient.h"
+
+namespace tufted {
+
+Frames meshFrames(const Points& points, const Triangles& triangles) {
+  std::vector<Eigen::Matrix3d> moments(points.rows(), Eigen::Matrix3d::Zero());
+  Points sums = Points::Zero(points.rows(), 3);
+  for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
+    for (int k = 0; k < 3; ++k) {
+      if (triangles(f, k) >= 0 && triangles(f, k) < points.rows()) continue;
+      throw InvalidInput("meshFrames: corner " + std::to_string(triangles(f, k)) + " of triangle " + std::to_string(f) +
+                         ", must lie in [0, " + std::to_string(points.rows()) + ")");
+    }
+    const Eigen::RowVector3d a = points.row(triangles(f, 0));
+    const Eigen::RowVector3d u = points.row(triangles(f, 1)) - a, v = points.row(triangles(f, 2)) - a;
+    const double size = std::max(u.cwiseAbs().maxCoeff(), v.cwiseAbs().maxCoeff());
+    if (!(size > 0) || !std::isfinite(size)) continue;
+    // The unit normal times the area over size, as the area itself may underflow.
+    const Eigen::RowVector3d normal = (u / size).cross(v / size) * size;
+    const double weight = normal.norm();
+    if (!(weight > 0)) continue;
+    for (int k = 0; k < 3; ++k) {
+      moments[triangles(f, k)] += normal.transpose() * (normal / weight);
+      sums.row(triangles(f, k)) += normal;
+    }
+  }
+  Frames frames{Points(points.rows(), 3), Points(points.rows(), 3), Orientation::given};
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
+    const double scale = moments[i].trace();
+    if (scale > 0) {
+      normal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(moments[i] / scale).eigenvectors().col(2);
+      if (normal.dot(sums.row(i)) < 0) normal = -normal;
+    }
+    frames.normals.row(i) = normal;
+    frames.tangents.row(i) = tangentOf(normal);
+  }
+  return frames;
+}
+
+}  // namespace tufted
