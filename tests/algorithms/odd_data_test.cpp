@@ -33,23 +33,23 @@ Points oddCloud() {
 
 class OddlyBuiltCloud : public testing::Test {
  protected:
-  static void SetUpTestSuite() { laplacian_ = new Laplacian(pointCloudLaplacian(oddCloud())); }
-  static void TearDownTestSuite() { delete laplacian_; }
+  static void SetUpTestSuite() { built = new Laplacian(pointCloudLaplacian(oddCloud())); }
+  static void TearDownTestSuite() { delete built; }
 
-  static void expectDefined(const MatrixXd& values) { support::expectDefined(*laplacian_, values, 0); }
+  static void expectDefined(const MatrixXd& values) { support::expectDefined(*built, values, 0); }
 
-  static const Laplacian* laplacian_;
+  static const Laplacian* built;
 };
-const Laplacian* OddlyBuiltCloud::laplacian_ = nullptr;
+const Laplacian* OddlyBuiltCloud::built = nullptr;
 
 TEST_F(OddlyBuiltCloud, HasWhatItIsSaidToHave) {
-  EXPECT_EQ(laplacian_->report.components, 5);
-  EXPECT_EQ(laplacian_->report.coincident, 500);
-  EXPECT_EQ(laplacian_->report.not_finite, 1000);
+  EXPECT_EQ(built->report.components, 5);
+  EXPECT_EQ(built->report.coincident, 500);
+  EXPECT_EQ(built->report.not_finite, 1000);
 }
 
 TEST_F(OddlyBuiltCloud, HasASpectrum) {
-  const Spectrum found = spectrum(*laplacian_, 40);
+  const Spectrum found = spectrum(*built, 40);
   EXPECT_EQ(found.report.null_space, 5);
   EXPECT_LE(found.report.residual, 1e-8);
   EXPECT_LE(found.report.orthogonality, 1e-10);
@@ -60,7 +60,7 @@ TEST_F(OddlyBuiltCloud, HasASpectrum) {
 }
 
 TEST_F(OddlyBuiltCloud, HasSignaturesAndAnEmbedding) {
-  const Spectrum found = spectrum(*laplacian_, 40);
+  const Spectrum found = spectrum(*built, 40);
   expectDefined(heatKernelSignature(found, heatTimes(found)));
   expectDefined(waveKernelSignature(found));
   expectDefined(spectralEmbedding(found));
@@ -68,13 +68,13 @@ TEST_F(OddlyBuiltCloud, HasSignaturesAndAnEmbedding) {
 }
 
 TEST_F(OddlyBuiltCloud, IsFilteredPartByPart) {
-  const Spectrum constants = spectrum(*laplacian_, 5);
+  const Spectrum constants = spectrum(*built, 5);
   MatrixXd part(5000, 1);
   for (int i = 0; i < 5000; ++i) part(i, 0) = i / 1000;
-  const MatrixXd kept = filterSignals(*laplacian_, constants, part);
+  const MatrixXd kept = filterSignals(*built, constants, part);
   for (int i = 0; i < 5000; ++i) EXPECT_NEAR(kept(i, 0), i / 1000, 1e-12);  // NaN points keep their value
   Points points = oddCloud();
-  const MatrixXd filtered = filterSignals(*laplacian_, spectrum(*laplacian_, 60), points);
+  const MatrixXd filtered = filterSignals(*built, spectrum(*built, 60), points);
   for (int i = 0; i < 5000; ++i) EXPECT_EQ(filtered.row(i).allFinite(), points.row(i).allFinite()) << i;
 }
 
@@ -83,7 +83,7 @@ TEST_F(OddlyBuiltCloud, IsSolvedPartByPart) {
   f(1000, 0) = 1;  // heat in one part alone
   f(3, 1) = NAN;   // of no consequence
   SolveReport report;
-  const MatrixXd x = Solver::laplacian(*laplacian_).solve(f, &report);
+  const MatrixXd x = Solver::laplacian(*built).solve(f, &report);
   EXPECT_LE(report.residual, 1e-10);
   EXPECT_TRUE(x.col(1).isZero(0));
   EXPECT_GT(x.col(0).segment(1000, 1000).cwiseAbs().maxCoeff(), 0.1);
@@ -91,7 +91,7 @@ TEST_F(OddlyBuiltCloud, IsSolvedPartByPart) {
 }
 
 TEST_F(OddlyBuiltCloud, IsSmoothed) {
-  const Points points = oddCloud(), smoothed = smooth(*laplacian_, points);
+  const Points points = oddCloud(), smoothed = smooth(*built, points);
   for (int i = 0; i < 5000; ++i) EXPECT_EQ(smoothed.row(i).allFinite(), points.row(i).allFinite()) << i;
 }
 
@@ -114,7 +114,7 @@ class OddMesh : public testing::Test {
     addVertex({0, INFINITY, 0});
     addVertex({4, 4, 4});  // of a triangle that names it twice
     addTriangle(last(), last(), corner);
-    laplacian_ = meshLaplacian(points_, triangles_);
+    built = meshLaplacian(points_, triangles_);
   }
 
   void add(const shapes::Mesh& mesh, double x) {
@@ -143,26 +143,26 @@ class OddMesh : public testing::Test {
   Points points_{0, 3};
   Triangles triangles_{0, 3};
   std::vector<int> component_, first_;  ///< by vertex, -1: none; first vertex by component
-  Laplacian laplacian_;
+  Laplacian built;
 };
 
 TEST_F(OddMesh, HasWhatItIsSaidToHave) {
-  EXPECT_EQ(laplacian_.report.components, count);
-  EXPECT_EQ(laplacian_.report.not_finite, 2);
-  EXPECT_EQ(laplacian_.report.isolated, 2);
-  for (int i = 0; i <= last(); ++i) EXPECT_EQ(support::takesPart(laplacian_, i), component_[i] >= 0) << i;
+  EXPECT_EQ(built.report.components, count);
+  EXPECT_EQ(built.report.not_finite, 2);
+  EXPECT_EQ(built.report.isolated, 2);
+  for (int i = 0; i <= last(); ++i) EXPECT_EQ(support::takesPart(built, i), component_[i] >= 0) << i;
   EXPECT_EQ(points_.row(first_[first_twin] + 5), points_.row(first_[second_twin] + 5));
 }
 
 TEST_F(OddMesh, HasASpectrumSignaturesAndEmbeddings) {
-  const Spectrum found = spectrum(laplacian_, 40);
+  const Spectrum found = spectrum(built, 40);
   EXPECT_EQ(found.report.null_space, count);
   EXPECT_LE(found.report.residual, 1e-8);
   EXPECT_LE(found.report.orthogonality, 1e-10);
   for (const MatrixXd& values :
        {found.vectors, heatKernelSignature(found, heatTimes(found)), waveKernelSignature(found),
         spectralEmbedding(found), spectralEmbedding(found, Embedding::biharmonic)})
-    support::expectDefined(laplacian_, values, 0);
+    support::expectDefined(built, values, 0);
   // The twins do not see each other. Late enough for multiple eigenvalues that the spectrum may have cut in two.
   const MatrixXd heat = heatKernelSignature(found, heatTimes(found)).rightCols(8);
   for (int i = 0; i < 42; ++i)
@@ -170,8 +170,8 @@ TEST_F(OddMesh, HasASpectrumSignaturesAndEmbeddings) {
 }
 
 TEST_F(OddMesh, IsFilteredAndSmoothedWhereItHasTriangles) {
-  const MatrixXd filtered = filterSignals(laplacian_, spectrum(laplacian_, count), points_);
-  const Points smoothed = smooth(laplacian_, points_);
+  const MatrixXd filtered = filterSignals(built, spectrum(built, count), points_);
+  const Points smoothed = smooth(built, points_);
   for (int i = 0; i <= last(); ++i) {
     if (component_[i] >= 0) {
       ASSERT_TRUE(filtered.row(i).isApprox(filtered.row(first_[component_[i]]), 1e-9)) << i;  // its component's mean
@@ -186,7 +186,7 @@ TEST_F(OddMesh, IsFilteredAndSmoothedWhereItHasTriangles) {
 }
 
 TEST_F(OddMesh, HasDistancesWhereSourcesAre) {
-  const VectorXd distance = DistanceSolver(laplacian_).query({first_[book], first_[first_twin], last()});
+  const VectorXd distance = DistanceSolver(built).query({first_[book], first_[first_twin], last()});
   for (int i = 0; i <= last(); ++i) {
     if (isOf(i, {book, first_twin})) {
       ASSERT_TRUE(distance[i] >= 0 && distance[i] < 4) << i;
@@ -199,8 +199,8 @@ TEST_F(OddMesh, HasDistancesWhereSourcesAre) {
 TEST_F(OddMesh, IsInterpolatedWherePinsAre) {
   const Pins pins{{first_[sphere], first_[square], first_[square] + 40, first_[double_rows], last()},
                   VectorXd{{1, 2, 3, 4, 5}}};
-  for (const MatrixXd& u : {harmonic(laplacian_, pins), biharmonic(laplacian_, pins),
-                            poisson(laplacian_, MatrixXd::Zero(last() + 1, 1), pins)}) {
+  for (const MatrixXd& u :
+       {harmonic(built, pins), biharmonic(built, pins), poisson(built, MatrixXd::Zero(last() + 1, 1), pins)}) {
     for (int i = 0; i <= last(); ++i) {
       ASSERT_EQ(std::isfinite(u(i, 0)), isOf(i, {sphere, square, double_rows}) || i == last()) << i;
       if (isOf(i, {sphere, double_rows})) {
@@ -212,20 +212,20 @@ TEST_F(OddMesh, IsInterpolatedWherePinsAre) {
 }
 
 TEST_F(OddMesh, HasGreensFunctionsAndPoissonSolutionsByComponent) {
-  const MatrixXd g = greensFunction(laplacian_, {first_[second_twin] + 3});
-  const MatrixXd u = poisson(laplacian_, MatrixXd::Constant(last() + 1, 1, 7));
-  support::expectDefined(laplacian_, g, NAN);
-  support::expectDefined(laplacian_, u, NAN);
+  const MatrixXd g = greensFunction(built, {first_[second_twin] + 3});
+  const MatrixXd u = poisson(built, MatrixXd::Constant(last() + 1, 1, 7));
+  support::expectDefined(built, g, NAN);
+  support::expectDefined(built, u, NAN);
   for (int i = 0; i <= last(); ++i) {
     if (component_[i] < 0) continue;
     ASSERT_EQ(g(i, 0) != 0, component_[i] == second_twin) << i;
     ASSERT_NEAR(u(i, 0), 0, 1e-12) << i;  // a constant has no part that could be solved for
   }
-  EXPECT_THROW(greensFunction(laplacian_, {last()}), InvalidInput);
+  EXPECT_THROW(greensFunction(built, {last()}), InvalidInput);
 }
 
 TEST_F(OddMesh, HasGradients) {
-  const Gradients operators = gradients(laplacian_, points_, meshFrames(points_, triangles_));
+  const Gradients operators = gradients(built, points_, meshFrames(points_, triangles_));
   ASSERT_TRUE(operators.X.coeffs().allFinite() && operators.Y.coeffs().allFinite());
   ASSERT_TRUE(operators.frames.normals.allFinite() && operators.frames.tangents.allFinite());
   VectorXd components(last() + 1);

@@ -139,11 +139,11 @@ Spectrum smallestEigenpairs(const SparseMatrix& L, const VectorXd& M, int k) {
       entries.emplace_back(place[entry.row()], place[column], entry.value());
     }
   }
-  SparseMatrix active_L(n, n);
-  active_L.setFromTriplets(entries.begin(), entries.end());
-  const VectorXd active_M = M(active);
+  SparseMatrix L_of_active(n, n);
+  L_of_active.setFromTriplets(entries.begin(), entries.end());
+  const VectorXd M_of_active = M(active);
 
-  Problem problem(active_L, active_M);
+  Problem problem(L_of_active, M_of_active);
   problem.findMore(std::min<Eigen::Index>(k + 4, n - 1));
   for (int round = 0;; ++round) {
     const Eigen::Index missing = problem.missing(k);

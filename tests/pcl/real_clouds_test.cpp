@@ -25,15 +25,15 @@ class RealClouds : public testing::TestWithParam<const char*> {
     const fs::path path = fs::path(TUFTED_DATA_DIR) / "clouds" / (std::string(GetParam()) + ".pcd");
     if (!fs::is_regular_file(path)) GTEST_SKIP() << path << " is absent";
     int code = 0;
-    consoleOf([&] { code = pcl::io::loadPCDFile(path.string(), *cloud); });  // names the fields a file lacks
+    consoleOf([&] { code = pcl::io::loadPCDFile(path.string(), *cloud_); });  // names the fields a file lacks
     ASSERT_EQ(code, 0);
-    points = pointsOf(*cloud);
+    points_ = pointsOf(*cloud_);
   }
 
   /// An eighth of the cloud in its midst: a window of an image, else a run of a scan.
   pcl::IndicesPtr window() const {
     pcl::IndicesPtr indices(new pcl::Indices);
-    const std::uint32_t columns = cloud->width, rows = cloud->height;
+    const std::uint32_t columns = cloud_->width, rows = cloud_->height;
     for (std::uint32_t row = rows / 4; row < std::max(rows / 2, 1U); ++row) {
       for (std::uint32_t column = columns / 4; column < columns / 2; ++column) {
         indices->push_back(static_cast<pcl::index_t>(row * columns + column));
@@ -42,16 +42,16 @@ class RealClouds : public testing::TestWithParam<const char*> {
     return indices;
   }
 
-  Cloud::Ptr cloud{new Cloud};
-  Points points;
+  Cloud::Ptr cloud_{new Cloud};
+  Points points_;
 };
 
 TEST_P(RealClouds, HaveTheCoresLaplacian) {
   LaplacianEstimation<Point> estimation;
-  estimation.setInputCloud(cloud);
+  estimation.setInputCloud(cloud_);
   Laplacian result;
   estimation.compute(result);
-  const Laplacian core = pointCloudLaplacian(points);
+  const Laplacian core = pointCloudLaplacian(points_);
   EXPECT_TRUE(support::sameBits(result.L, core.L));
   EXPECT_TRUE(support::sameBits(result.M, core.M));
   EXPECT_EQ(result.status, core.status);
@@ -61,43 +61,43 @@ TEST_P(RealClouds, HaveTheCoresLaplacian) {
 TEST_P(RealClouds, HaveTheCoresLaplacianInAWindow) {
   const pcl::IndicesPtr indices = window();
   LaplacianEstimation<Point> estimation;
-  estimation.setInputCloud(cloud);
+  estimation.setInputCloud(cloud_);
   estimation.setIndices(indices);
   Laplacian result;
   estimation.compute(result);
-  const Laplacian core = pointCloudLaplacian(points(*indices, Eigen::all));
+  const Laplacian core = pointCloudLaplacian(points_(*indices, Eigen::all));
   EXPECT_TRUE(support::sameBits(result.L, core.L));
   EXPECT_TRUE(support::sameBits(result.M, core.M));
   EXPECT_GT(result.report.active, 0);
 }
 
 TEST_P(RealClouds, AreSmoothedInPlaceAsByTheCore) {
-  const Cloud before = *cloud;
-  const Laplacian laplacian = pointCloudLaplacian(points, {.keep_cover = false});
-  const Points smoothed = smooth(laplacian, points, {.time_step = 4});
+  const Cloud before = *cloud_;
+  const Laplacian laplacian = pointCloudLaplacian(points_, {.keep_cover = false});
+  const Points smoothed = smooth(laplacian, points_, {.time_step = 4});
   LaplacianSmoothing<Point> smoothing;
-  smoothing.setInputCloud(cloud);
+  smoothing.setInputCloud(cloud_);
   smoothing.setTimeStep(4);
-  smoothing.filter(*cloud);
-  EXPECT_TRUE(samePositions(pointsOf(*cloud), rounded(smoothed)));
-  EXPECT_EQ(cloud->width, before.width);
-  EXPECT_EQ(cloud->height, before.height);
-  EXPECT_EQ(cloud->is_dense, points.allFinite());
-  for (std::size_t i = 0; i < before.size(); ++i) ASSERT_EQ((*cloud)[i].rgba, before[i].rgba) << i;
+  smoothing.filter(*cloud_);
+  EXPECT_TRUE(samePositions(pointsOf(*cloud_), rounded(smoothed)));
+  EXPECT_EQ(cloud_->width, before.width);
+  EXPECT_EQ(cloud_->height, before.height);
+  EXPECT_EQ(cloud_->is_dense, points_.allFinite());
+  for (std::size_t i = 0; i < before.size(); ++i) ASSERT_EQ((*cloud_)[i].rgba, before[i].rgba) << i;
 }
 
 TEST_P(RealClouds, MoveInAWindowAndNowhereElse) {
   const pcl::IndicesPtr indices = window();
   LaplacianSmoothing<Point> smoothing;
-  smoothing.setInputCloud(cloud);
+  smoothing.setInputCloud(cloud_);
   smoothing.setIndices(indices);
   Cloud output;
   smoothing.filter(output);
-  std::vector<bool> inside(cloud->size(), false);
+  std::vector<bool> inside(cloud_->size(), false);
   for (const pcl::index_t i : *indices) inside[i] = true;
   int moved = 0;
-  for (std::size_t i = 0; i < cloud->size(); ++i) {
-    const bool same = bytesOf(output[i].data) == bytesOf((*cloud)[i].data);
+  for (std::size_t i = 0; i < cloud_->size(); ++i) {
+    const bool same = bytesOf(output[i].data) == bytesOf((*cloud_)[i].data);
     ASSERT_TRUE(same || inside[i]) << i;
     moved += same ? 0 : 1;
   }

@@ -38,6 +38,7 @@ int runCommand(const Run& run) {
 
 }  // namespace
 
+// NOLINTNEXTLINE(bugprone-exception-escape): without memory for the options there is nothing to be done
 int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a file size limit is an error of the write, not a crash
   catchInterrupt();

@@ -61,6 +61,7 @@ class Child {
   Child(std::size_t number, std::vector<std::string> arguments) : number_(number), start_(Clock::now()) {
     arguments.insert(arguments.begin(), "tufted");
     std::vector<char*> argv;
+    argv.reserve(arguments.size() + 1);
     for (std::string& argument : arguments) argv.push_back(argument.data());
     argv.push_back(nullptr);
     posix_spawn_file_actions_t actions;
