@@ -16,11 +16,13 @@ Geometry readLas(const std::filesystem::path& path, std::string_view bytes);
 Geometry readObj(const std::filesystem::path& path, std::string_view bytes, const Progress& progress);
 Geometry readOff(const std::filesystem::path& path, std::string_view bytes, const Progress& progress);
 Geometry readStl(const std::filesystem::path& path, std::string_view bytes);
+Geometry readNpy(const std::filesystem::path& path, std::string_view bytes);
 
 /// Whether the bytes begin as a file of that format does. Text of numbers is anything else that begins with numbers.
 bool looksLikePcd(std::string_view bytes);
 bool looksLikeOff(std::string_view bytes);
 bool looksLikeStl(std::string_view bytes);
+bool looksLikeNpy(std::string_view bytes);
 bool looksLikeObj(std::string_view bytes);
 bool looksLikeXyz(std::string_view bytes);
 

@@ -89,13 +89,14 @@ std::size_t npyHeaderBytes(std::string_view beginning, const std::filesystem::pa
   return 8 + length_bytes + length;
 }
 
-NpyHeader parseNpyHeader(std::string_view bytes, std::uint64_t all, const std::filesystem::path& shown) {
+NpyHeader parseNpyHeader(std::string_view bytes, std::uint64_t all, const std::filesystem::path& shown,
+                         NpyOrder order) {
   NpyHeader header;
   header.bytes = npyHeaderBytes(bytes, shown);
   if (header.bytes > bytes.size()) refuse(shown, "ends within the header of the array");
   const std::string_view dictionary = bytes.substr(8, header.bytes - 8);
-  if (!entry(dictionary, "fortran_order", shown).starts_with("False"))
-    refuse(shown, "is an array in Fortran's order, must be in C's");
+  header.is_by_columns = !entry(dictionary, "fortran_order", shown).starts_with("False");
+  if (header.is_by_columns && order == NpyOrder::rows) refuse(shown, "is an array in Fortran's order, must be in C's");
   const std::string_view descr = entry(dictionary, "descr", shown);
   const std::size_t end = descr.find('\'', 1);
   if (!descr.starts_with('\'') || end == std::string_view::npos) refuse(shown, "is an array of structures");
@@ -110,8 +111,8 @@ NpyHeader parseNpyHeader(std::string_view bytes, std::uint64_t all, const std::f
   return header;
 }
 
-NpyArray parseNpy(std::string_view bytes, const std::filesystem::path& shown) {
-  const NpyHeader header = parseNpyHeader(bytes, bytes.size(), shown);
+NpyArray parseNpy(std::string_view bytes, const std::filesystem::path& shown, NpyOrder order) {
+  const NpyHeader header = parseNpyHeader(bytes, bytes.size(), shown, order);
   return {header, bytes.substr(header.bytes)};
 }
 

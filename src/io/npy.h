@@ -17,15 +17,19 @@ namespace tufted::io {
 /// @param shape empty for a single value
 std::string npyHeader(std::string_view descr, const std::vector<std::int64_t>& shape);
 
-/// The header of a .npy file, whose values are in C order.
+/// The header of a .npy file.
 struct NpyHeader {
   std::string descr;                ///< numpy's name of the type
   std::optional<FieldType> type;    ///< type of little-endian floats and integers; nullopt for others
   std::vector<std::int64_t> shape;  ///< empty: a single value
   std::size_t bytes = 0;            ///< size of the header; the values begin there
+  bool is_by_columns = false;       ///< values in Fortran's order
 
   std::int64_t size() const;
 };
+
+/// The orders of values that are taken: C's, by rows, or Fortran's as well, by columns.
+enum class NpyOrder { rows, any };
 
 constexpr std::size_t npy_beginning = 12;  ///< number of bytes that npyHeaderBytes() needs
 
@@ -36,8 +40,9 @@ std::size_t npyHeaderBytes(std::string_view beginning, const std::filesystem::pa
 /// @param bytes at least the header
 /// @param all how many bytes the file has
 /// @param shown the path to name in errors
-/// @throws IoError for another number of bytes, or a file that is not a .npy file of version 1 to 3 in C order
-NpyHeader parseNpyHeader(std::string_view bytes, std::uint64_t all, const std::filesystem::path& shown);
+/// @throws IoError for another number of bytes or another order, or a file that is not a .npy file of version 1 to 3
+NpyHeader parseNpyHeader(std::string_view bytes, std::uint64_t all, const std::filesystem::path& shown,
+                         NpyOrder order = NpyOrder::rows);
 
 /// A .npy file in memory.
 struct NpyArray : NpyHeader {
@@ -45,12 +50,12 @@ struct NpyArray : NpyHeader {
 };
 
 /// Parses a whole file. Errors are those of parseNpyHeader().
-NpyArray parseNpy(std::string_view bytes, const std::filesystem::path& shown);
+NpyArray parseNpy(std::string_view bytes, const std::filesystem::path& shown, NpyOrder order = NpyOrder::rows);
 
 /// The type of an array of numbers. @throws IoError for other arrays
 FieldType numberType(const NpyHeader& header, const std::filesystem::path& shown);
 
-/// The numbers as doubles, in C order. @throws IoError for an array that does not hold numbers
+/// The numbers as doubles, in the order of the file. @throws IoError for an array that does not hold numbers
 std::vector<double> numbersOf(const NpyArray& array, const std::filesystem::path& shown);
 
 }  // namespace tufted::io

@@ -23,7 +23,7 @@ constexpr Extension extensions[] = {
     {".pcd", FileFormat::pcd},  {".ply", FileFormat::ply},  {".xyz", FileFormat::xyz}, {".xyzn", FileFormat::xyz},
     {".pwn", FileFormat::xyz},  {".txt", FileFormat::xyz},  {".csv", FileFormat::xyz}, {".asc", FileFormat::xyz},
     {".pts", FileFormat::xyz},  {".las", FileFormat::las},  {".obj", FileFormat::obj}, {".off", FileFormat::off},
-    {".coff", FileFormat::off}, {".noff", FileFormat::off}, {".stl", FileFormat::stl},
+    {".coff", FileFormat::off}, {".noff", FileFormat::off}, {".stl", FileFormat::stl}, {".npy", FileFormat::npy},
 };
 
 std::string lowerExtension(const std::filesystem::path& path) {
@@ -43,6 +43,7 @@ FileFormat formatByExtension(const std::filesystem::path& path) {
 FileFormat formatByContent(std::string_view bytes) {
   if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return FileFormat::ply;
   if (bytes.starts_with("LASF")) return FileFormat::las;
+  if (io::looksLikeNpy(bytes)) return FileFormat::npy;
   if (io::looksLikePcd(bytes)) return FileFormat::pcd;
   if (io::looksLikeOff(bytes)) return FileFormat::off;
   if (io::looksLikeStl(bytes)) return FileFormat::stl;
@@ -78,6 +79,8 @@ Geometry readFormat(const std::filesystem::path& path, std::string_view bytes, b
       return io::readOff(path, bytes, progress);
     case FileFormat::stl:
       return io::readStl(path, bytes);
+    case FileFormat::npy:
+      return io::readNpy(path, bytes);
     case FileFormat::xyz:
     case FileFormat::automatic:
       break;

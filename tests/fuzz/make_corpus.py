@@ -140,6 +140,8 @@ SEEDS = {
     "las": ((b"1.%d-%d" % (minor, form), las(minor, form)) for minor, form in
             [(2, 0), (2, 1), (2, 2), (2, 3), (3, 4), (3, 5), (4, 6), (4, 7), (4, 8), (4, 9), (4, 10)]),
     "stl": stl(),
+    "npy": [(b"double", npy(FLOAT, [2, 3], range(6))), (b"float", npy(("<f4", "f"), [3, 3], range(9))),
+            (b"columns", npy(FLOAT, [2, 3], range(6)).replace(b"False", b"True "))],
     "off": off(),
     "obj": [(b"mesh", b"# seed\nv 0 0 0 1 0.5 0\nv 1 0 0 1 0 0\nv 0 1 0 0 0 0\nvn 0 0 1\nvt 0 0\nf 1/1/1 2//2 -1 \\\n 3\n"),
             (b"cloud", b"v 0 0 0\nvn 0 0 1\nv 1 0 0 1\nvn 0 0 1\n")],

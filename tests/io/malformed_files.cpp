@@ -23,6 +23,12 @@ std::string ply(const std::string& vertices, const std::string& faces, const std
          "\nproperty list uchar int vertex_indices\nend_header\n" + body;
 }
 
+std::string npy(const std::string& type, const std::string& shape, std::size_t bytes) {
+  const std::string header = "{'descr': '" + type + "', 'fortran_order': False, 'shape': (" + shape + "), }\n";
+  return std::string("\x93NUMPY\x01\x00", 8) + static_cast<char>(header.size()) + '\0' + header +
+         std::string(bytes, '\0');
+}
+
 /// A binary file's header, then fewer bytes than it announces.
 std::string compressed(std::uint32_t packed, std::uint32_t unpacked) {
   std::string bytes = pcd("1 1 1", "75", "1", "75", "binary_compressed");
@@ -170,6 +176,16 @@ std::vector<Malformed> malformedFiles() {
       {"bad_type.pcd", "FIELDS x y z\nSIZE 2 2 2\nTYPE F F F\nWIDTH 1\nHEIGHT 1\nDATA ascii\n1 2 3\n", "SIZE"},
       {"bad_data.pcd", pcd("1 1 1", "1", "1", "1", "zipped"), "line 10"},
       {"not_a.ply", "plywood\n", "line 1"},
+      {"not_a.npy", "\x93NUMPI", "is no array of numpy"},
+      {"flat.npy", npy("<f8", "3,", 24), "is an array of 3, must be N x 3"},
+      {"pairs.npy", npy("<f8", "2, 2", 32), "is an array of 2 x 2, must be N x 3"},
+      {"single.npy", npy("<f8", "", 8), "is an array of one value"},
+      {"integers.npy", npy("<i4", "1, 3", 12), "must be of float32 or float64"},
+      {"other_end.npy", npy(">f8", "1, 3", 24), "which are no numbers"},
+      {"objects.npy", npy("|O", "1, 3", 24), "which are no numbers"},
+      {"short.npy", npy("<f8", "2, 3", 47), "has 47 bytes of values"},
+      {"huge.npy", npy("<f4", "1000000000000, 3", 12), "bytes of values"},
+      {"header.npy", npy("<f4", "1, 3", 12).substr(0, 40), "ends within the header"},
       {"no_end.ply", "ply\nformat ascii 1.0\nelement vertex 1\n", "end_header"},
       {"negative.ply", ply("-1", "0", ""), "line 3"},
       {"huge.ply", ply("2000000000", "0", "1 2 3\n"), "at least"},

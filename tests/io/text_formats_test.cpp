@@ -14,6 +14,32 @@
 
 namespace {
 
+/// A .npy file of points, by rows or by columns.
+template <class T>
+std::string npyFile(const char* type, const std::vector<T>& values, const char* by_columns) {
+  const std::string header = std::string("{'descr': '") + type + "', 'fortran_order': " + by_columns + ", 'shape': (" +
+                             std::to_string(values.size() / 3) + ", 3), }\n";
+  std::string bytes("\x93NUMPY\x01\x00", 8);
+  bytes += static_cast<char>(header.size());
+  bytes += '\0' + header;
+  return bytes.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T));
+}
+
+TEST(Npy, HoldsPointsOfFloatsOrDoublesInEitherOrder) {
+  const TemporaryDir dir;
+  const tufted::Points expected{{0.1, 2, 3}, {4, 5, 6}};
+  const std::vector<double> rows = {0.1, 2, 3, 4, 5, 6}, columns = {0.1, 4, 2, 5, 3, 6};
+  EXPECT_EQ(tufted::read(dir.write("a.npy", npyFile("<f8", rows, "False"))).points, expected);
+  const auto by_columns = tufted::read(dir.write("b.npy", npyFile("<f8", columns, "True")));
+  EXPECT_EQ(by_columns.points, expected);
+  EXPECT_EQ(by_columns.format, "NPY, float64");
+  EXPECT_FALSE(by_columns.is_mesh);
+  const std::vector<float> floats(rows.begin(), rows.end());
+  const auto single = tufted::read(dir.write("unknown", npyFile("<f4", floats, "False")));  // told by the content
+  EXPECT_EQ(single.points, expected.cast<float>().cast<double>());
+  EXPECT_EQ(tufted::read(dir.write("c.npy", npyFile("<f8", std::vector<double>(), "False"))).points.rows(), 0);
+}
+
 TEST(Xyz, KeepsDoublesAndTakesEveryWayToWriteANumber) {
   const TemporaryDir dir;
   const auto path = dir.write("a.xyz",

@@ -54,9 +54,10 @@ Structures of scans:
          degrees or hundredths of degrees (the first whose turn, 6.28, 360 or 36000, holds all values), or else by the
          directions seen from there
 
-Reads PCD, PLY, LAS and text in columns (clouds), PLY, OBJ, OFF and STL (meshes; OBJ and OFF without faces are clouds).
-The format goes by the extension, .pcd .ply .las .xyz .xyzn .pwn .txt .csv .asc .pts .obj .off .coff .noff .stl, and
-where that is unknown by the content. Normals of a file are used for L and M with --normals alone; points.ply and
+Reads PCD, PLY, LAS, text in columns and NPY of N x 3 floats or doubles (clouds), PLY, OBJ, OFF and STL (meshes; OBJ and
+OFF without faces are clouds).
+The format goes by the extension, .pcd .ply .las .xyz .xyzn .pwn .txt .csv .asc .pts .obj .off .coff .noff .stl .npy,
+and where that is unknown by the content. Normals of a file are used for L and M with --normals alone; points.ply and
 points.pcd pass them on.
 
 Writes into DIR, renamed one after the other when all are complete; files of other formats there stay:

@@ -53,9 +53,10 @@ enum class ReadAs {
 };
 
 /// The formats that are read. Text of numbers in columns, whatever its name, is `xyz`.
-enum class FileFormat { automatic, pcd, ply, xyz, las, obj, off, stl };
+enum class FileFormat { automatic, pcd, ply, xyz, las, obj, off, stl, npy };
 
-/// Reads clouds (PCD, PLY, XYZ, LAS, OFF and OBJ without faces) and meshes (PLY, OBJ, OFF, STL).
+/// Reads clouds (PCD, PLY, XYZ, LAS, OFF and OBJ without faces, NPY of N x 3 floats or doubles) and meshes (PLY, OBJ,
+/// OFF, STL).
 ///
 /// The counts that a file announces are compared with its size before memory is taken for them. Reading takes less than
 /// 128 bytes for each byte of the file and twice what is returned.

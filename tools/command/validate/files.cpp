@@ -23,7 +23,8 @@ std::string list(const fs::path& folder, std::vector<Found>& found, std::deque<f
   for (const fs::directory_entry& entry : entries) {
     // A file that cannot be looked at is for the reader to refuse.
     if (!entry.is_directory(ignored)) {
-      if (tufted::isReadable(entry.path())) found.push_back({entry.path(), ""});
+      // Arrays of numpy are rarely points: results are such arrays.
+      if (tufted::isReadable(entry.path()) && entry.path().extension() != ".npy") found.push_back({entry.path(), ""});
     } else if (entry.is_symlink(ignored)) {
       folders.push_back(entry.path());
     } else {
