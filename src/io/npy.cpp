@@ -19,7 +19,7 @@ constexpr std::string_view magic = "\x93NUMPY";
 /// The text after `key` in the dictionary of a header, from the first character that is not a space.
 std::string_view entry(std::string_view dictionary, const std::string& key, const std::filesystem::path& shown) {
   const std::size_t at = dictionary.find("'" + key + "':");
-  if (at == std::string_view::npos) refuse(shown, "the header of the array has no " + quote(key));
+  if (at == std::string_view::npos) refuseByte(shown, npy_dictionary, "the header of the array has no " + quote(key));
   std::string_view rest = dictionary.substr(at + key.size() + 3);
   return rest.substr(std::min(rest.find_first_not_of(' '), rest.size()));
 }
@@ -27,21 +27,23 @@ std::string_view entry(std::string_view dictionary, const std::string& key, cons
 std::vector<std::int64_t> parseShape(std::string_view text, const std::filesystem::path& shown) {
   std::vector<std::int64_t> shape;
   const std::size_t end = text.find(')');
-  if (!text.starts_with('(') || end == std::string_view::npos) refuse(shown, "the array has no shape");
+  if (!text.starts_with('(') || end == std::string_view::npos)
+    refuseByte(shown, npy_dictionary, "the array has no shape");
   std::int64_t product = 1, number = -1;
   for (const char c : std::string(text.substr(1, end - 1)) + ",") {
     if (c >= '0' && c <= '9') {
       number = std::max<std::int64_t>(number, 0) * 10 + (c - '0');
-      if (number > std::int64_t(1) << 48) refuse(shown, "the shape of the array is too large");
+      if (number > std::int64_t(1) << 48) refuseByte(shown, npy_dictionary, "the shape of the array is too large");
     } else if (c == ',') {
       if (number >= 0) shape.push_back(number);
       number = -1;
     } else if (c != ' ') {
-      refuse(shown, "the shape of the array is " + quote(text.substr(0, end + 1)));
+      refuseByte(shown, npy_dictionary, "the shape of the array is " + quote(text.substr(0, end + 1)));
     }
   }
   for (const std::int64_t length : shape) {
-    if (length > 0 && product > (std::int64_t(1) << 48) / length) refuse(shown, "the shape of the array is too large");
+    if (length > 0 && product > (std::int64_t(1) << 48) / length)
+      refuseByte(shown, npy_dictionary, "the shape of the array is too large");
     product *= length;
   }
   return shape;
@@ -78,10 +80,10 @@ std::int64_t NpyHeader::size() const {
 }
 
 std::size_t npyHeaderBytes(std::string_view beginning, const std::filesystem::path& shown) {
-  if (!beginning.starts_with(magic) || beginning.size() < npy_beginning) refuse(shown, "is no array of numpy");
+  if (!beginning.starts_with(magic) || beginning.size() < npy_beginning) refuseByte(shown, 0, "is no array of numpy");
   const int version = static_cast<unsigned char>(beginning[6]);
   if (version < 1 || version > 3)
-    refuse(shown, "is an array of numpy in the unknown version " + std::to_string(version));
+    refuseByte(shown, 6, "is an array of numpy in the unknown version " + std::to_string(version));
   const std::size_t length_bytes = version == 1 ? 2 : 4;
   std::size_t length = 0;
   for (std::size_t i = 0; i < length_bytes; ++i)
@@ -93,20 +95,23 @@ NpyHeader parseNpyHeader(std::string_view bytes, std::uint64_t all, const std::f
                          NpyOrder order) {
   NpyHeader header;
   header.bytes = npyHeaderBytes(bytes, shown);
-  if (header.bytes > bytes.size()) refuse(shown, "ends within the header of the array");
+  if (header.bytes > bytes.size()) refuseByte(shown, bytes.size(), "ends within the header of the array");
   const std::string_view dictionary = bytes.substr(8, header.bytes - 8);
   header.is_by_columns = !entry(dictionary, "fortran_order", shown).starts_with("False");
-  if (header.is_by_columns && order == NpyOrder::rows) refuse(shown, "is an array in Fortran's order, must be in C's");
+  if (header.is_by_columns && order == NpyOrder::rows)
+    refuseByte(shown, npy_dictionary, "is an array in Fortran's order, must be in C's");
   const std::string_view descr = entry(dictionary, "descr", shown);
   const std::size_t end = descr.find('\'', 1);
-  if (!descr.starts_with('\'') || end == std::string_view::npos) refuse(shown, "is an array of structures");
+  if (!descr.starts_with('\'') || end == std::string_view::npos)
+    refuseByte(shown, npy_dictionary, "is an array of structures");
   header.descr = descr.substr(1, end - 1);
   header.shape = parseShape(entry(dictionary, "shape", shown), shown);
   const std::uint64_t values = all - header.bytes;
   if (const auto type = types.find(header.descr); type != types.end()) {
     header.type = type->second;
     if (values != static_cast<std::uint64_t>(header.size()) * sizeOf(type->second))
-      refuse(shown, "has " + std::to_string(values) + " bytes of values, its shape says another number");
+      refuseByte(shown, header.bytes,
+                 "has " + std::to_string(values) + " bytes of values, its shape says another number");
   }
   return header;
 }
@@ -117,7 +122,8 @@ NpyArray parseNpy(std::string_view bytes, const std::filesystem::path& shown, Np
 }
 
 FieldType numberType(const NpyHeader& header, const std::filesystem::path& shown) {
-  if (!header.type) refuse(shown, "is an array of " + quote(header.descr) + ", which are no numbers");
+  if (!header.type)
+    refuseByte(shown, npy_dictionary, "is an array of " + quote(header.descr) + ", which are no numbers");
   return *header.type;
 }
 

@@ -17,6 +17,9 @@ namespace tufted::io {
 /// @param shape empty for a single value
 std::string npyHeader(std::string_view descr, const std::vector<std::int64_t>& shape);
 
+/// Where the text of a header begins, for messages; two bytes later from version 2 on.
+constexpr std::size_t npy_dictionary = 10;
+
 /// The header of a .npy file.
 struct NpyHeader {
   std::string descr;                ///< numpy's name of the type

@@ -16,13 +16,15 @@ Geometry readNpy(const std::filesystem::path& path, std::string_view bytes) {
   const NpyArray array = parseNpy(bytes, path, NpyOrder::any);
   const FieldType type = numberType(array, path);
   if (type != FieldType::float32 && type != FieldType::float64)
-    refuse(path, "is an array of " + quote(array.descr) + ", must be of float32 or float64");
+    refuseByte(path, npy_dictionary, "is an array of " + quote(array.descr) + ", must be of float32 or float64");
   if (array.shape.size() != 2 || array.shape[1] != 3) {
     std::string shape;
     for (const std::int64_t length : array.shape) shape += (shape.empty() ? "" : " x ") + std::to_string(length);
-    refuse(path, "is an array of " + (shape.empty() ? "one value" : shape) + ", must be N x 3: a point per row");
+    refuseByte(path, npy_dictionary,
+               "is an array of " + (shape.empty() ? "one value" : shape) + ", must be N x 3: a point per row");
   }
-  if (array.shape[0] > std::numeric_limits<int>::max()) refuse(path, "has more than 2^31 - 1 points");
+  if (array.shape[0] > std::numeric_limits<int>::max())
+    refuseByte(path, npy_dictionary, "has more than 2^31 - 1 points");
   const std::vector<double> numbers = numbersOf(array, path);
   Geometry geometry;
   geometry.format = std::string("NPY, ") + (type == FieldType::float32 ? "float32" : "float64");

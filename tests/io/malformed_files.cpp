@@ -185,7 +185,7 @@ std::vector<Malformed> malformedFiles() {
       {"objects.npy", npy("|O", "1, 3", 24), "which are no numbers"},
       {"short.npy", npy("<f8", "2, 3", 47), "has 47 bytes of values"},
       {"huge.npy", npy("<f4", "1000000000000, 3", 12), "bytes of values"},
-      {"header.npy", npy("<f4", "1, 3", 12).substr(0, 40), "ends within the header"},
+      {"header.npy", npy("<f4", "1, 3", 12).substr(0, 40), "byte 40: ends within the header"},
       {"no_end.ply", "ply\nformat ascii 1.0\nelement vertex 1\n", "end_header"},
       {"negative.ply", ply("-1", "0", ""), "line 3"},
       {"huge.ply", ply("2000000000", "0", "1 2 3\n"), "at least"},
