@@ -12,7 +12,10 @@ namespace {
 constexpr const char* description = "Curvature: mean, Gaussian and principal, with their directions.";
 
 constexpr const char* footer =
-    R"(At each point a quadric is fitted to the heights of its neighbours over its tangent plane, in a window as wide as the
+    R"(Example:
+  tufted curvature scan.ply --out curvature
+
+At each point a quadric is fitted to the heights of its neighbours over its tangent plane, in a window as wide as the
 noise asks for. A curvature is positive where the surface bends away from the normal: that of a sphere of radius r, with
 normals that point outwards, is 1/r. Normals are those of `tufted normals`.
   --method laplacian  mean curvature alone, from L x = 2 H n M. It does not converge on random points: on a torus the mean
@@ -65,7 +68,7 @@ Results compute(Settings& settings, Operator& source) {
     Eigen::MatrixXd directions(found.mean.size(), 6);
     directions << found.first, found.second;
     results.arrays.push_back({.name = "principal_directions", .values = directions, .per_point = false});
-    results.summary.add("windows", "%.1f rings of neighbours on average", found.report.mean_rings);
+    results.summary.addDetail("windows", "%.1f rings of neighbours on average", found.report.mean_rings);
     if (found.report.undetermined > 0)
       results.summary.add("undetermined", "%lld points, whose neighbours lie on a line or a conic",
                           static_cast<long long>(found.report.undetermined));

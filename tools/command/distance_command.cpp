@@ -19,7 +19,10 @@ namespace {
 constexpr const char* description = "Geodesic distance from the nearest of some points, by the heat method.";
 
 constexpr const char* footer =
-    R"(Distances are in the file's unit: 0 at sources, infinite where no path leads (other components,
+    R"(Example:
+  tufted distance scan.ply --source 0 --out distance
+
+Distances are in the file's unit: 0 at sources, infinite where no path leads (other components,
 isolated points). --near takes the point nearest to a position, says which, and warns where that is farther from it
 than from its neighbours. On meshes --face names a point inside a triangle by its barycentric coordinates.
 

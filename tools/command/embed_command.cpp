@@ -13,7 +13,10 @@ namespace {
 constexpr const char* description = "Spectral embedding: coordinates of every point by the smoothest eigenvectors.";
 
 constexpr const char* footer =
-    R"(A coordinate for each of the D smallest positive eigenvalues, so that distances between embedded points are near
+    R"(Example:
+  tufted embed scan.ply --dimension 3 --out embedding
+
+A coordinate for each of the D smallest positive eigenvalues, so that distances between embedded points are near
   commute     commute times: eigenvectors over the roots of their eigenvalues (global point signature)
   biharmonic  the biharmonic distance: eigenvectors over their eigenvalues, in the points' unit
 Constants of components are left out; a coordinate is 0 on components that its eigenvector does not live on.

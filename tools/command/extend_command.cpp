@@ -15,7 +15,10 @@ namespace {
 constexpr const char* description = "Carry values of some points to all: nearly those of the nearest.";
 
 constexpr const char* footer =
-    R"(Pins are given as INDEX=V or X,Y,Z=V (the point nearest to a position), with V1,V2,... for several values at
+    R"(Example:
+  tufted extend scan.ply --pin 0=20 --pin 17=25 --out values
+
+Pins are given as INDEX=V or X,Y,Z=V (the point nearest to a position), with V1,V2,... for several values at
 once, or in text files. Every other point has the mean of the pins' values, each weighted by the heat that comes from
 it: that of the nearest pin, but for a seam a few spacings wide. `tufted interpolate` blends smoothly instead.
 

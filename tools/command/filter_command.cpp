@@ -21,7 +21,10 @@ namespace {
 constexpr const char* description = "Low-pass filter of fields of the points, of other values, or of the positions.";
 
 constexpr const char* footer =
-    R"(Keeps what the means over the connected components and the eigenvectors of the smallest positive eigenvalues
+    R"(Example:
+  tufted filter scan.ply --positions --count 100 --out filtered
+
+Keeps what the means over the connected components and the eigenvectors of the smallest positive eigenvalues
 hold: the first K, or those of waves at least W long (2 pi over the root of the eigenvalue, in the points' unit of
 length; a W that is longer than all of them, or shorter than the points can tell, is refused).
 

@@ -11,7 +11,10 @@ namespace {
 
 constexpr const char* description = "Green's function of points: L g = delta - M / area, with mean 0.";
 
-constexpr const char* footer = R"(Writes into DIR, renamed one after the other when all are complete:
+constexpr const char* footer = R"(Example:
+  tufted green scan.ply --source 0 --out green
+
+Writes into DIR, renamed one after the other when all are complete:
   green.npy    N values, or N x c for c points, float64; 0 in other components, NaN at points that take no part
   points.ply   the points with the field green, float32; points.pcd with --format pcd
   report.json  method, iterations, residual, backward error, seconds, and where parts are badly joined, which

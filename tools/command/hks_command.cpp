@@ -21,7 +21,10 @@ namespace {
 constexpr const char* description = "Heat kernel signatures, or wave kernel signatures with --wave, of every point.";
 
 constexpr const char* footer =
-    R"(Of the K smallest positive eigenvalues, and the constants on connected components.
+    R"(Example:
+  tufted hks scan.ply --out hks
+
+Of the K smallest positive eigenvalues, and the constants on connected components.
 Heat: sum of exp(-lambda_i t) phi_i(x)^2 at S times from 4 ln 10 / lambda_K to 4 ln 10 / lambda_1, or at those of
 --times, neither so short that heat stays at its point nor so long that it is even. Wave: means of phi_i(x)^2 around S
 energies from log lambda_1 to log lambda_K. Both in 1 / length^2.

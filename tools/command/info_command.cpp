@@ -7,6 +7,7 @@
 #include <string>
 
 #include "command.h"
+#include "console.h"
 #include "inactive.h"
 #include "input.h"
 #include "interrupt.h"
@@ -23,7 +24,11 @@ using Json = nlohmann::ordered_json;
 constexpr const char* description = "Say what a file holds, what is odd about it, and what building L and M will cost.";
 
 constexpr const char* footer =
-    R"(On clouds the nearest neighbours are found, nothing is built; meshes are built, which takes no longer. (So are clouds of
+    R"(Examples:
+  tufted info scan.ply
+  tufted info scan.ply --json
+
+On clouds the nearest neighbours are found, nothing is built; meshes are built, which takes no longer. (So are clouds of
 one or two points, or all on lines: whether any of their points is active shows only then.)
   spacing       median distance to the nearest neighbour (and its 5 % and 95 % quantiles)
   float step    distance of neighbouring floats at the farthest coordinate; above a tenth of the spacing it is odd
@@ -41,7 +46,7 @@ constexpr double coarse_step = 0.1;  ///< of the spacing; then rounding to float
 struct Settings {
   Input input;
   tufted::CloudOptions cloud;
-  bool json = false;
+  Console console;
 };
 
 const char* typeName(tufted::FieldType type) {
@@ -200,7 +205,7 @@ std::string findNothing(const Settings& settings, const tufted::Geometry& geomet
 }
 
 int runInfo(Settings settings) {
-  ProgressBar bar;
+  ProgressBar bar(settings.console.quiet);
   settings.cloud.progress = [&bar](std::string_view stage, double fraction) {
     bar.show(stage, fraction);
     return !interrupted();
@@ -225,9 +230,9 @@ int runInfo(Settings settings) {
   info["odd"] = findOddities(info);
   bar.clear();
   if (!nothing.empty()) warn(bar, settings.input.name() + ": " + nothing);
-  if (settings.json)
+  if (settings.console.json)
     std::printf("%s\n", info.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
-  else
+  else if (!settings.console.quiet)
     print(info);
   if (std::fflush(stdout) != 0) throw tufted::IoError("standard output: cannot be written");
   return exit_done;
@@ -245,6 +250,6 @@ void addInfo(CLI::App& app, Run& run) {
       ->type_name("K");
   addNumber(command, "--threads", settings->cloud.threads, 1, 1 << 16, "At most this many threads (all)")
       ->type_name("N");
-  command.add_flag("--json", settings->json, "Print one JSON object");
+  addConsole(command, settings->console);
   command.callback([&run, settings] { run = [=] { return runInfo(*settings); }; });
 }

@@ -13,7 +13,10 @@ namespace {
 constexpr const char* description = "Carry values of some points over to all others.";
 
 constexpr const char* footer =
-    R"(Pins are given as INDEX=V or X,Y,Z=V (the point nearest to a position), with V1,V2,... for several values at
+    R"(Example:
+  tufted interpolate scan.ply --pin 0=20 --pin 17=25 --out values
+
+Pins are given as INDEX=V or X,Y,Z=V (the point nearest to a position), with V1,V2,... for several values at
 once, or in text files. Several at one place give their mean.
   harmonic    L u = 0 elsewhere: within the range of the pins, with peaks at them
   biharmonic  least bending: smooth at the pins, not bounded by them

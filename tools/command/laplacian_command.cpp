@@ -13,6 +13,7 @@
 
 #include "build.h"
 #include "command.h"
+#include "console.h"
 #include "inactive.h"
 #include "input.h"
 #include "interrupt.h"
@@ -30,7 +31,11 @@ namespace {
 
 constexpr const char* description = "Build L and M for a point cloud or a mesh and write them into a directory.";
 
-constexpr const char* footer = R"(Sign and scale:
+constexpr const char* footer = R"(Examples:
+  tufted laplacian scan.ply --out laplacian
+  tufted laplacian mesh.off --format npz,mat --out laplacian
+
+Sign and scale:
   L is positive semidefinite: minus the Laplacian, integrated. libigl and PMP use the opposite sign.
   M holds an area per point in length^2; their sum approximates the surface area.
   Scale on clouds: 1/2 (front and back of the cover) times 1/3 (each triangle is found by its three corners).
@@ -96,6 +101,7 @@ struct Settings {
   std::filesystem::path out;
   Build build;
   tufted::WriteOptions write;
+  Console console;
 };
 
 const std::map<std::string, tufted::Format> formats = {
@@ -107,56 +113,60 @@ const std::map<std::string, tufted::Sign> signs = {{"psd", tufted::Sign::psd}, {
 
 /// What is written, and how.
 void addWriteOptions(CLI::App& command, tufted::WriteOptions& options) {
-  const auto check = [](const std::string& key) { return refuseName(key, formats); };
-  const auto set = [&options](const std::vector<std::string>& keys) {
-    options.formats.clear();
-    for (const std::string& key : keys) options.formats.push_back(formats.at(key));
-  };
-  command
-      .add_option_function<std::vector<std::string>>(
-          "--format", set,
-          "What to write, separated by commas: npz, mtx, mat, spmat, ply, pcd, cover, triangles (npz,ply)")
-      ->delimiter(',')
-      ->allow_extra_args(false)  // what follows may be FILE
-      ->check(check)
-      ->type_name("LIST");
+  addFormats(command, options.formats, formats,
+             "What to write, separated by commas: npz, mtx, mat, spmat, ply, pcd, cover, triangles, or none (npz,ply)");
   addChoice(command, "--sign", options.sign, signs, "Sign of L in the files, see below (psd)");
   command.add_flag("--dummy", options.dummy, "Dummy values for points that cannot take part, see below");
 }
 
-void printSummary(const Settings& settings, const tufted::Geometry& geometry, const tufted::Laplacian& laplacian,
+/// How many points there are, and which take no part.
+std::string pointsText(const tufted::Report& report) {
+  const std::int64_t left_out = report.points - report.active;
+  std::string text = std::to_string(report.points);
+  if (left_out == 0) return text + ", all take part";
+  text += ", " + std::to_string(report.active) + " take part";
+  const auto add = [&text](std::int64_t count, const char* why) {
+    if (count > 0) text += ", " + std::to_string(count) + " " + why;
+  };
+  add(report.not_finite, "not finite");
+  add(report.coincident, "equal to an earlier one");
+  add(report.isolated, "without a surface");
+  return text;
+}
+
+Summary summarize(const Settings& settings, const tufted::Geometry& geometry, const tufted::Laplacian& laplacian,
                   double seconds) {
   const tufted::Report& report = laplacian.report;
   const auto count = [](std::int64_t n) { return static_cast<long long>(n); };
   Summary summary;
   summary.add("file", "%s (%s)", settings.input.name().c_str(), geometry.is_mesh ? "mesh" : "cloud");
-  if (geometry.polygons > 0) summary.add("polygons", "%lld triangulated", count(geometry.polygons));
+  if (geometry.polygons > 0) summary.add("polygons", "%lld cut into triangles", count(geometry.polygons));
   if (geometry.merged_vertices > 0) summary.add("merged", "%lld equal corners", count(geometry.merged_vertices));
-  summary.add("points", "%lld, %lld active, %lld not finite, %lld coincident, %lld isolated", count(report.points),
-              count(report.active), count(report.not_finite), count(report.coincident), count(report.isolated));
+  summary.add("points", "%s", pointsText(report).c_str());
   if (report.rim_points + report.jump_points + report.lost_points > 0)
-    summary.add("boundary", "%lld on rims, %lld at jumps, %lld where triangles are missing", count(report.rim_points),
-                count(report.jump_points), count(report.lost_points));
+    summary.add("boundary", "%lld points on rims, %lld at depth jumps, %lld where triangles are missing",
+                count(report.rim_points), count(report.jump_points), count(report.lost_points));
   addNeighbors(report, settings.build, summary);
-  summary.add("triangles", "%lld", count(report.triangles));
-  summary.add("nonzeros/row", "%.2f",
-              static_cast<double>(report.nonzeros) / static_cast<double>(std::max<std::int64_t>(report.active, 1)));
-  summary.add("components", "%lld", count(report.components));
-  summary.add("sum of M", "%.17g", laplacian.M.sum());
-  summary.add("flips", "%lld", count(report.flips));
-  summary.add("clamped", "%lld weights", count(report.clamped_weights + report.clamped_large));
+  summary.add("area", "%.10g, the sum of M", laplacian.M.sum());
+  summary.add("components", "%lld connected", count(report.components));
+  summary.addDetail("triangles", "%lld", count(report.triangles));
+  summary.addDetail(
+      "nonzeros/row", "%.2f",
+      static_cast<double>(report.nonzeros) / static_cast<double>(std::max<std::int64_t>(report.active, 1)));
+  summary.addDetail("flips", "%lld", count(report.flips));
+  summary.addDetail("clamped", "%lld weights", count(report.clamped_weights + report.clamped_large));
   if (report.flip_failures + report.clamped_large > 0)
     summary.add("failures", "%lld edges not flipped, %lld large weights clamped", count(report.flip_failures),
                 count(report.clamped_large));
   summary.add("took", "%.3g s, peak memory %.0f MB", seconds, peakMemory());
   summary.add("written to", "%s", settings.out.c_str());
-  summary.print();
+  return summary;
 }
 
 int runLaplacian(Settings& settings) {
   const auto start = std::chrono::steady_clock::now();
   checkOutput(settings.input, settings.out, tufted::resultFiles(settings.write.formats));
-  ProgressBar bar;
+  ProgressBar bar(settings.console.quiet);
   const tufted::Progress progress = showOn(bar);
   progress("read", 0);
   const tufted::Geometry geometry = readInput(settings.input, progress);
@@ -166,7 +176,9 @@ int runLaplacian(Settings& settings) {
     return std::find(write.formats.begin(), write.formats.end(), format) != write.formats.end();
   };
   const bool keep_cover = isWanted(tufted::Format::cover) || isWanted(tufted::Format::triangles);
+  bar.setPoints(geometry.points.rows());
   const tufted::Laplacian laplacian = buildLaplacian(geometry, settings.input, settings.build, keep_cover, progress);
+  bar.setPoints(0);
   write.source = settings.input.name();
   write.progress = progress;
   if (geometry.is_mesh)
@@ -175,10 +187,12 @@ int runLaplacian(Settings& settings) {
     write.cloud = &settings.build.cloud;
   tufted::writeLaplacian(settings.out, laplacian, geometry, write);
   bar.clear();
+  std::vector<std::string> warnings;
   if (const std::string nothing = nothingActive(laplacian); !nothing.empty())
-    warn(bar, settings.input.name() + ": " + nothing);
-  printSummary(settings, geometry, laplacian,
-               std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    warnings.push_back(settings.input.name() + ": " + nothing);
+  for (const std::string& warning : warnings) warn(bar, warning);
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  sayResults(settings.console, summarize(settings, geometry, laplacian, seconds.count()), settings.out, warnings);
   return exit_done;
 }
 
@@ -198,6 +212,7 @@ void addLaplacian(CLI::App& app, Run& run) {
                 "Seed, only with --order random (0)")
           ->type_name("S");
   addWriteOptions(command, settings->write);
+  addVerboseConsole(command, settings->console);
   command.callback([&run, settings, seed] {
     if (seed->count() > 0 && settings->build.cloud.order != tufted::FaceOrder::random)
       throw CLI::RequiresError("--seed", "--order random");

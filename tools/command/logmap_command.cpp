@@ -15,7 +15,10 @@ namespace {
 constexpr const char* description = "Logarithmic map: in which direction, and how far, each point lies from one.";
 
 constexpr const char* footer =
-    R"(The two coordinates of a point are its geodesic distance from the source, in the direction in which the shortest
+    R"(Example:
+  tufted logmap scan.ply --source 0 --out logmap
+
+The two coordinates of a point are its geodesic distance from the source, in the direction in which the shortest
 path leaves it. The first axis is --axis, projected into the tangent plane of the source, or any tangent without;
 report.json says which, and the second is perpendicular to it, counterclockwise seen from the normal, which is that of
 `tufted normals`.

@@ -9,7 +9,10 @@ namespace {
 constexpr const char* description = "Normals, towards the sensor or consistently outwards.";
 
 constexpr const char* footer =
-    R"(Normals are those of the planes through each point's neighbours; of a mesh, those of its triangles.
+    R"(Example:
+  tufted normals scan.ply --out normals
+
+Normals are those of the planes through each point's neighbours; of a mesh, those of its triangles.
 Where the sensor's position is known, each faces it: --viewpoint, VIEWPOINT of a PCD file, or the origin of a depth
 image. Otherwise, and with --consistent, normals agree with their neighbours' on each component, and point outwards
 where it encloses a volume. On a plane the largest coordinate of the mean normal is positive.

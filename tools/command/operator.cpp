@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
+#include <chrono>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -13,13 +14,13 @@
 #include "interrupt.h"
 #include "options.h"
 #include "output.h"
+#include "peak_memory.h"
 #include "progress_bar.h"
 #include "tufted/errors.h"
 
 namespace {
 
-const std::map<std::string, std::vector<tufted::Format>> copies = {
-    {"ply", {tufted::Format::ply}}, {"pcd", {tufted::Format::pcd}}, {"none", {}}};
+const std::map<std::string, tufted::Format> copies = {{"ply", tufted::Format::ply}, {"pcd", tufted::Format::pcd}};
 
 const std::map<std::string, tufted::SolverMethod> methods = {{"automatic", tufted::SolverMethod::automatic},
                                                              {"cholesky", tufted::SolverMethod::cholesky},
@@ -129,10 +130,12 @@ void addOperatorOptions(CLI::App& command, OperatorSettings& settings) {
           ->check(notEmpty)
           ->type_name("DIR");
   addOut(command, settings.out);
-  addChoice(command, "--format", settings.copies, copies, "Format of the copy of the points with the results (ply)");
+  addFormats(command, settings.copies, copies,
+             "Copies of the points with the results, separated by commas: ply, pcd, or none (ply)");
   addBuildOptions(command, settings.build);
   addSolvingOptions(command, settings.solving);
   addComponentOptions(command, settings.components);
+  addVerboseConsole(command, settings.console);
   std::vector<const CLI::Option*> unused = {command.get_option("--as"), command.get_option("--weld")};
   unused.insert(unused.end(), settings.build.cloud_only.begin(), settings.build.cloud_only.end());
   command.parse_complete_callback([file, folder, unused] {
@@ -145,7 +148,8 @@ void addOperatorOptions(CLI::App& command, OperatorSettings& settings) {
 
 int runWithOperator(OperatorSettings& settings, std::vector<std::string> files, const Check& check,
                     const Compute& compute) {
-  ProgressBar bar;
+  const auto start = std::chrono::steady_clock::now();
+  ProgressBar bar(settings.console.quiet);
   Operator source;
   source.name = settings.name();
   source.solving = settings.solving;
@@ -163,9 +167,11 @@ int runWithOperator(OperatorSettings& settings, std::vector<std::string> files, 
     readFolder(settings, source);
   checkpoint();
   blameData(source, [&] { check(source); });
+  bar.setPoints(source.points());
   if (settings.folder.empty())
     source.laplacian =
         buildLaplacian(source.geometry, settings.input, settings.build, settings.needs_cover, source.progress);
+  bar.setPoints(0);
   checkpoint();
   Results chosen;
   chooseComponents(settings.components, source, chosen);
@@ -173,11 +179,16 @@ int runWithOperator(OperatorSettings& settings, std::vector<std::string> files, 
   if (!chosen.report.is_null()) results.report.update(chosen.report);
   write(settings, source, results);
   bar.clear();
-  if (const std::string why = whyNothing(source); !why.empty()) warn(bar, source.name + ": " + why);
-  for (const std::string& warning : results.warnings) warn(bar, warning);
-  addNeighbors(source.laplacian.report, settings.build, results.summary);
-  results.summary.add("written to", "%s", settings.out.c_str());
-  chosen.summary.print();
-  results.summary.print();
+  std::vector<std::string> warnings = results.warnings;
+  if (const std::string why = whyNothing(source); !why.empty())
+    warnings.insert(warnings.begin(), source.name + ": " + why);
+  for (const std::string& warning : warnings) warn(bar, warning);
+  Summary summary = chosen.summary;
+  summary.append(results.summary);
+  addNeighbors(source.laplacian.report, settings.build, summary);
+  const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
+  summary.add("took", "%.3g s, peak memory %.0f MB", seconds.count(), peakMemory());
+  summary.add("written to", "%s", settings.out.c_str());
+  sayResults(settings.console, summary, settings.out, warnings);
   return exit_done;
 }

@@ -12,6 +12,7 @@
 #include "build.h"
 #include "command.h"
 #include "component_options.h"
+#include "console.h"
 #include "input.h"
 #include "summary.h"
 #include "tufted/io/results.h"
@@ -36,6 +37,7 @@ struct OperatorSettings {
   Build build;
   Solving solving;
   ComponentOptions components;
+  Console console;
   std::vector<tufted::Format> copies = {tufted::Format::ply};
   bool needs_cover = false;  ///< whether the command needs the cover, not only L and M
 

@@ -17,7 +17,10 @@ namespace {
 
 constexpr const char* description = "Operators for learning on surfaces, in one .npz as DiffusionNet caches them.";
 
-constexpr const char* footer = R"(Writes into DIR, renamed one after the other when all are complete:
+constexpr const char* footer = R"(Example:
+  tufted operators scan.ply --count 128 --out operators
+
+Writes into DIR, renamed one after the other when all are complete:
   operators.npz  verts, faces, frames (N x 3 x 3: x axis, y axis, normal), k_eig, mass, evals, evecs, and L, gradX,
                  gradY as _data, _indices, _indptr, _shape of csc matrices; float64. The cache of DiffusionNet has
                  these names; its file names are hashes, so load this one and hand on its arrays.
@@ -70,7 +73,7 @@ Results compute(Settings& settings, Operator& source) {
                                  {"on_a_line", fits.on_a_line},
                                  {"regularization", fitting.regularization},
                                  {"seconds", fits.seconds}};
-  results.summary.add("gradients", "of %.3g neighbors on average, %.3g s", fits.mean_neighbors, fits.seconds);
+  results.summary.addDetail("gradients", "of %.3g neighbors on average, %.3g s", fits.mean_neighbors, fits.seconds);
   results.write = [&source, gradients, spectrum](const std::filesystem::path& dir,
                                                  const tufted::ResultOptions& options) {
     tufted::writeOperators(dir, source.laplacian, source.geometry, gradients, spectrum, options);

@@ -1,6 +1,7 @@
 #include "output.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <system_error>
 
 #include "options.h"
@@ -12,6 +13,31 @@ void addOut(CLI::App& command, std::filesystem::path& out) {
       ->required()
       ->check(notEmpty)
       ->type_name("DIR");
+}
+
+void addFormats(CLI::App& command, std::vector<tufted::Format>& target,
+                const std::map<std::string, tufted::Format>& formats, const std::string& help) {
+  std::vector<std::string> known = namesIn(formats);
+  known.emplace_back("none");
+  const auto check = [known](const std::string& key) {
+    if (std::find(known.begin(), known.end(), key) != known.end()) return std::string();
+    std::string all;
+    for (const std::string& name : known) all += (all.empty() ? "" : "|") + name;
+    return key + " is none of " + all + didYouMean(key, known);
+  };
+  const auto set = [&target, &formats](const std::vector<std::string>& keys) {
+    target.clear();
+    if (keys.size() == 1 && keys[0] == "none") return;
+    for (const std::string& key : keys) {
+      if (key == "none") throw CLI::ValidationError("--format", "none stands alone");
+      target.push_back(formats.at(key));
+    }
+  };
+  command.add_option_function<std::vector<std::string>>("--format", set, help)
+      ->delimiter(',')
+      ->allow_extra_args(false)  // what follows may be FILE
+      ->check(check)
+      ->type_name("LIST");
 }
 
 void checkOutput(const Input& input, const std::filesystem::path& out, const std::vector<std::string>& files) {

@@ -2,13 +2,19 @@
 
 #include <CLI/App.hpp>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "input.h"
+#include "tufted/io/write.h"
 
 /// Adds --out, also -o, which is required.
 void addOut(CLI::App& command, std::filesystem::path& out);
+
+/// Adds --format, which takes a list everywhere: names of `formats`, separated by commas; `none` stands alone.
+void addFormats(CLI::App& command, std::vector<tufted::Format>& target,
+                const std::map<std::string, tufted::Format>& formats, const std::string& help);
 
 /// Refuses what no results can be written to, before anything is computed.
 /// @param files that will be written into `out`

@@ -13,7 +13,10 @@ namespace {
 constexpr const char* description = "Solve Poisson's equation L u = M f: minus the Laplacian of u is f.";
 
 constexpr const char* footer =
-    R"(On a component that is only possible where f has mean 0, so its mean (weighted by M) is taken out, and u is made
+    R"(Example:
+  tufted poisson scan.ply --field x --out solution
+
+On a component that is only possible where f has mean 0, so its mean (weighted by M) is taken out, and u is made
 to have mean 0. With pins, as those of `tufted interpolate`, u has their values and the equation holds at all other
 points: nothing is taken out, and components without a pin are NaN.
 

@@ -7,7 +7,27 @@
 
 #include "interrupt.h"
 
-ProgressBar::ProgressBar() : terminal_(isatty(STDERR_FILENO) != 0) {}
+namespace {
+
+/// "48 s", "2 min 5 s".
+std::string duration(double seconds) {
+  const auto whole = static_cast<long>(seconds + 0.5);
+  return whole < 60 ? std::to_string(whole) + " s"
+                    : std::to_string(whole / 60) + " min " + std::to_string(whole % 60) + " s";
+}
+
+/// "1.3 M points/s", "520 k points/s".
+std::string rate(double points_per_second) {
+  char text[32];
+  const bool is_large = points_per_second >= 1e6;
+  std::snprintf(text, sizeof text, "%.3g %s points/s", points_per_second / (is_large ? 1e6 : 1e3),
+                is_large ? "M" : "k");
+  return text;
+}
+
+}  // namespace
+
+ProgressBar::ProgressBar(bool is_quiet) : terminal_(!is_quiet && isatty(STDERR_FILENO) != 0) {}
 
 void ProgressBar::show(std::string_view stage, double fraction) {
   if (!terminal_) return;
@@ -15,13 +35,25 @@ void ProgressBar::show(std::string_view stage, double fraction) {
   const auto now = Clock::now();
   if (stage == stage_ && now - last_ < interval) return;
   last_ = now;
+  if (stage != stage_ || fraction < fraction_) stage_start_ = now;
+  fraction_ = fraction;
   stage_ = stage;
   shown_ = true;
   constexpr int width = 30;
   const int done = std::clamp(static_cast<int>(fraction * width), 0, width);
   const std::string bar = std::string(done, '#') + std::string(width - done, '.');
+  const double elapsed = std::chrono::duration<double>(now - stage_start_).count();
+  std::string pace;
+  if (points_ > 0 && fraction > 0 && elapsed > 0.1)
+    pace += ", " + rate(fraction * static_cast<double>(points_) / elapsed);
+  // Too early it would jump.
+  if (elapsed > 1 && fraction > 0.01 && fraction < 1)
+    pace += ", " + duration(elapsed * (1 - fraction) / fraction) + " left";
+  else if (elapsed > 1)
+    pace += ", " + duration(elapsed);
   // Return to the first column, and erase what an earlier, longer stage left behind.
-  std::fprintf(stderr, "\r%s %3.0f %% %s\033[K", bar.c_str(), std::clamp(fraction, 0.0, 1.0) * 100, stage_.c_str());
+  std::fprintf(stderr, "\r%s %3.0f %% %s%s\033[K", bar.c_str(), std::clamp(fraction, 0.0, 1.0) * 100, stage_.c_str(),
+               pace.c_str());
   std::fflush(stderr);
 }
 

@@ -38,9 +38,9 @@ void addHeat(const Report& report, const tufted::SolverReport& solver, Results& 
   results.report["report"] = {{"rounds", report.rounds},     {"iterations", report.iterations},
                               {"residual", report.residual}, {"backward_error", report.backward_error},
                               {"seconds", report.seconds},   {"solver", toJson(solver)}};
-  results.summary.add("prepared", "%s, %.3g s", solver.method.c_str(), solver.seconds);
-  results.summary.add("query", "%d rounds of heat, residual %.1e, backward error %.1e, %.3g s", report.rounds,
-                      report.residual, report.backward_error, report.seconds);
+  results.summary.addDetail("prepared", "%s, %.3g s", solver.method.c_str(), solver.seconds);
+  results.summary.addDetail("query", "%d rounds of heat, residual %.1e, backward error %.1e, %.3g s", report.rounds,
+                            report.residual, report.backward_error, report.seconds);
 }
 
 }  // namespace
@@ -52,8 +52,8 @@ void addReport(const tufted::SolveReport& report, Results& results) {
                               {"backward_error", report.backward_error},
                               {"nearly_disconnected", toJson(report.weak_joint)},
                               {"seconds", report.seconds}};
-  results.summary.add("solve", "residual %.1e, backward error %.1e, %s, %.3g s", report.residual, report.backward_error,
-                      report.method.c_str(), report.seconds);
+  results.summary.addDetail("solve", "residual %.1e, backward error %.1e, %s, %.3g s", report.residual,
+                            report.backward_error, report.method.c_str(), report.seconds);
   addJoint(report.weak_joint, results);
 }
 
@@ -64,15 +64,14 @@ void addReport(const tufted::SpectrumReport& report, Results& results) {
                               {"weak_pair", report.weak_pair},   {"orthogonality", report.orthogonality},
                               {"seconds", report.seconds},       {"solver", toJson(report.solver)}};
   if (report.iterations > 0)
-    results.summary.add("iterations", "%d, residual %.1e, %s", report.iterations, report.residual,
-                        report.solver.method.c_str());
+    results.summary.addDetail("iterations", "%d, residual %.1e, %s", report.iterations, report.residual,
+                              report.solver.method.c_str());
   else if (!report.method.empty())
-    results.summary.add("method", "%s, residual %.1e", report.method.c_str(), report.residual);
+    results.summary.addDetail("method", "%s, residual %.1e", report.method.c_str(), report.residual);
   if (report.weak_pair >= 0)
     results.summary.add("nearly disconnected",
                         "pair %d, above and below 0: its residual is rounding, backward error %.1e", report.weak_pair,
                         report.backward_error);
-  results.summary.add("took", "%.3g s", report.seconds);
 }
 
 void addReport(const tufted::DistanceReport& report, const tufted::SolverReport& solver, Results& results) {

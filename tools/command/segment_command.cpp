@@ -18,7 +18,10 @@ namespace {
 constexpr const char* description = "Cut the surface into segments: cells around points, or parts between necks.";
 
 constexpr const char* footer =
-    R"(  voronoi   a point belongs to the seed that is nearest along the surface. Seeds are --seeds, or K points, each as far
+    R"(Example:
+  tufted segment scan.ply --count 6 --out segments
+
+  voronoi   a point belongs to the seed that is nearest along the surface. Seeds are --seeds, or K points, each as far
             as possible from those before it. Connected components that are small beside the cells get none.
   spectral  points that diffusion joins closely, by k-means on the first K eigenvectors: connected components first,
             then parts that narrow necks join

@@ -12,7 +12,10 @@ namespace {
 constexpr const char* description = "Eigenvalues and eigenvectors of L x = lambda M x, the smallest ones.";
 
 constexpr const char* footer =
-    R"(Eigenvalues are ascending, in 1 / length^2. Vectors are M-orthonormal, and of both signs
+    R"(Example:
+  tufted spectrum scan.ply --count 64 --out spectrum
+
+Eigenvalues are ascending, in 1 / length^2. Vectors are M-orthonormal, and of both signs
 that is taken which makes the largest entry positive. Each connected component also has the eigenvalue 0 once, exactly,
 with a constant on it: the null space, whose size is said. --with-null-space writes it in front of the K.
 

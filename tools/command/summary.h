@@ -1,14 +1,26 @@
 #pragma once
 
+#include <cstdarg>
 #include <string>
+#include <vector>
 
-/// Lines for standard output, of a name and what it says each.
+/// Lines for people, of a name and what it says each.
 class Summary {
  public:
   [[gnu::format(printf, 3, 4)]] void add(const char* name, const char* format, ...);
-  /// @throws IoError when standard output cannot be written
-  void print() const;
+  /// A line for those who ask for more.
+  [[gnu::format(printf, 3, 4)]] void addDetail(const char* name, const char* format, ...);
+  /// Adds all lines of another summary.
+  void append(const Summary& next);
+
+  std::string text(bool with_details) const;
 
  private:
-  std::string text_;
+  struct Line {
+    std::string text;
+    bool is_detail;
+  };
+  void addLine(bool is_detail, const char* name, const char* format, std::va_list values);
+
+  std::vector<Line> lines_;
 };

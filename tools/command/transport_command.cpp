@@ -17,7 +17,10 @@ namespace {
 constexpr const char* description = "Carry tangent vectors of some points to all, parallel along the surface.";
 
 constexpr const char* footer =
-    R"(Each --source, --near or line of --sources takes one --vector: the first vector belongs to the first of --source,
+    R"(Example:
+  tufted transport scan.ply --source 0 --vector 1,0,0 --out vectors
+
+Each --source, --near or line of --sources takes one --vector: the first vector belongs to the first of --source,
 those of --near and of --sources follow. Vectors are projected into the tangent planes of their points. Other points
 have, nearly, what the nearest source has, turned with the surface along the shortest path.
 

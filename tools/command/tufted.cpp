@@ -12,6 +12,7 @@
 #include "command_line.h"
 #include "interrupt.h"
 #include "tufted/errors.h"
+#include "version.h"
 
 namespace {
 
@@ -36,6 +37,45 @@ int runCommand(const Run& run) {
   }
 }
 
+constexpr const char* footer =
+    R"(Examples:
+  tufted info scan.ply
+  tufted laplacian scan.ply --out laplacian
+  tufted distance scan.ply --source 0 --out distance
+
+`tufted help SUBCOMMAND` explains one, with an example. Files are PCD, PLY, LAS, text in columns, NPY, OBJ, OFF or STL.
+Exit codes: 0 done, 1 data or numerics, 2 usage, 130 cancelled.)";
+
+/// What people want, and the subcommands that do it, in the order of the help.
+struct Purpose {
+  const char* name;
+  std::vector<void (*)(CLI::App& app, Run& run)> add;
+};
+
+const Purpose purposes[] = {{"Look at files", {addInfo, addValidate}},
+                            {"Matrices", {addLaplacian, addOperators}},
+                            {"Distances and directions along the surface", {addDistance, addLogmap, addTransport}},
+                            {"Values on the surface", {addInterpolate, addExtend, addPoisson, addGreen}},
+                            {"Frequencies", {addSpectrum, addHks, addEmbed, addFilter}},
+                            {"Shape", {addNormals, addCurvature, addSegment}}};
+
+void addSubcommands(CLI::App& app, Run& run) {
+  const auto is_new = [](const CLI::App* command) { return command->get_group() == "Subcommands"; };
+  for (const Purpose& purpose : purposes) {
+    for (const auto add : purpose.add) add(app, run);
+    for (CLI::App* const command : app.get_subcommands(is_new)) command->group(purpose.name);
+  }
+}
+
+/// `tufted`, `tufted help` and `tufted help SUBCOMMAND` are other words for --help.
+std::vector<std::string> withHelp(std::vector<std::string> words) {
+  if (words.empty()) return {"--help"};
+  if (words[0] != "help") return words;
+  words.erase(words.begin());
+  words.emplace_back("--help");
+  return words;
+}
+
 }  // namespace
 
 // NOLINTNEXTLINE(bugprone-exception-escape): without memory for the options there is nothing to be done
@@ -43,29 +83,12 @@ int main(int argc, char** argv) {
   std::signal(SIGXFSZ, SIG_IGN);  // a file size limit is an error of the write, not a crash
   catchInterrupt();
   CLI::App app("A Laplacian for point clouds and triangle meshes of any connectivity.", "tufted");
-  app.set_version_flag("--version", "tufted " TUFTED_VERSION);
+  app.set_version_flag("-V,--version", versionText(), "Print version, licence and what is built in, and exit");
   app.require_subcommand(1);
-  app.footer("Exit codes: 0 done, 1 data or numerics, 2 usage, 130 cancelled.");
+  app.footer(footer);
   Run run;
-  addLaplacian(app, run);
-  addSpectrum(app, run);
-  addHks(app, run);
-  addEmbed(app, run);
-  addFilter(app, run);
-  addDistance(app, run);
-  addInterpolate(app, run);
-  addPoisson(app, run);
-  addGreen(app, run);
-  addExtend(app, run);
-  addTransport(app, run);
-  addLogmap(app, run);
-  addSegment(app, run);
-  addNormals(app, run);
-  addCurvature(app, run);
-  addOperators(app, run);
-  addInfo(app, run);
-  addValidate(app, run);
-  const std::vector<std::string> words(argv + std::min(argc, 1), argv + argc);
+  addSubcommands(app, run);
+  const std::vector<std::string> words = withHelp({argv + std::min(argc, 1), argv + argc});
   const auto refuse = [&](const std::string& error) { return fail(explainArguments(app, words, error), exit_usage); };
   if (isMisleading(app, words)) return refuse("");
   try {

@@ -19,6 +19,7 @@
 #include <thread>
 #include <vector>
 
+#include "../console.h"
 #include "../inactive.h"
 #include "../options.h"
 #include "../progress_bar.h"
@@ -37,7 +38,10 @@ constexpr const char* name = "validate";
 constexpr const char* description = "Build L and M for files or whole folders and check everything that they promise.";
 
 constexpr const char* footer =
-    R"(Takes files, and folders with all that is below them and has a known extension; links to folders are followed.
+    R"(Example:
+  tufted validate scans --json
+
+Takes files, and folders with all that is below them and has a known extension; links to folders are followed.
 Each file has a process of its own, so that none can stop the run. Prints a line per file, in the order given:
 
   result   OK, EMPTY (nothing broke, but no point is active: L and M are zero), REFUSED (the reader gives its reason;
@@ -67,7 +71,7 @@ struct Settings {
   std::vector<std::filesystem::path> paths, operators;
   FileSettings file;
   int jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  bool json = false;
+  Console console;
 };
 
 /// How a process ended that gave no result.
@@ -109,7 +113,8 @@ Json describeRefusal(const Found& folder) {
 /// The rows in the order of the files, each as soon as all before it are known.
 class Results {
  public:
-  Results(std::size_t files, bool as_lines) : rows_(files), as_lines_(as_lines) {}
+  Results(std::size_t files, const Console& console)
+      : rows_(files), as_lines_(!console.json && !console.quiet), as_json_(console.json) {}
 
   void add(std::size_t number, Json row, ProgressBar& bar) {
     ++known_;
@@ -139,6 +144,7 @@ class Results {
       std::snprintf(end, sizeof(end), " FAILED, %.1f s", seconds);
       return print(text + end);
     }
+    if (!as_json_) return;
     const Json summary = {{"files", rows_.size()}, {"ok", ok_},         {"empty", empty_},
                           {"refused", refused_},   {"failed", failed_}, {"seconds", seconds}};
     const Json document = {{"tufted", TUFTED_VERSION}, {"files", rows_}, {"summary", summary}};
@@ -153,7 +159,7 @@ class Results {
   }
 
   std::vector<Json> rows_;
-  bool as_lines_;
+  bool as_lines_, as_json_;
   std::size_t known_ = 0, printed_ = 0;
   int ok_ = 0, empty_ = 0, refused_ = 0, failed_ = 0;
 };
@@ -183,9 +189,9 @@ int runValidate(Settings settings) {
   // Every further thread would allocate a stack, and so make a limit of memory depend on the machine.
   settings.file.threads = settings.file.memory ? 1 : std::max(1, processors / jobs);
 
-  Results results(files.size(), !settings.json);
+  Results results(files.size(), settings.console);
   results.printHeader();
-  ProgressBar bar;
+  ProgressBar bar(settings.console.quiet);
   std::vector<std::vector<std::string>> arguments;  // of each process
   std::vector<std::size_t> numbers;                 // and of its file
   for (std::size_t i = 0; i < files.size(); ++i) {
@@ -243,7 +249,7 @@ void addValidate(CLI::App& app, Run& run) {
             "Limit per file in MB: what one thread allocates for it (none)")
       ->type_name("MB");
   addChoice(command, "--as", settings->file.as, kinds, "Take files that may be either as one of them")->needs(paths);
-  command.add_flag("--json", settings->json, "One JSON document instead of lines, with all figures");
+  addConsole(command, settings->console);
   command.callback([&run, settings] {
     if (settings->paths.empty() && settings->operators.empty()) throw CLI::RequiredError("PATH or --operator");
     run = [=] { return runValidate(*settings); };

@@ -1,0 +1,36 @@
+#include "console.h"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "tufted/errors.h"
+
+void addConsole(CLI::App& command, Console& console) {
+  CLI::Option* const quiet = command.add_flag("-q,--quiet", console.quiet, "Say nothing but warnings and errors");
+  command.add_flag("--json", console.json, "Print one JSON object and no other lines")->excludes(quiet);
+}
+
+void addVerboseConsole(CLI::App& command, Console& console) {
+  addConsole(command, console);
+  command.add_flag("-v,--verbose", console.verbose, "Say more: how systems were solved, and how well")
+      ->excludes(command.get_option("--quiet"))
+      ->excludes(command.get_option("--json"));
+}
+
+void sayResults(const Console& console, const Summary& summary, const std::filesystem::path& out,
+                const std::vector<std::string>& warnings) {
+  if (console.quiet) return;
+  std::string text = summary.text(console.verbose);
+  if (console.json) {
+    std::ifstream file(out / "report.json");
+    nlohmann::ordered_json json = nlohmann::ordered_json::parse(file, nullptr, false);
+    if (json.is_discarded()) throw tufted::IoError((out / "report.json").string() + ": cannot be read again");
+    json["out"] = out.string();
+    json["warnings"] = warnings;
+    text = json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  }
+  if (std::fputs(text.c_str(), stdout) < 0 || std::fflush(stdout) != 0)
+    throw tufted::IoError("standard output: cannot be written");
+}
