@@ -23,6 +23,7 @@ ROOMS = {
     "pipeline": ["base", "cover", "neighbors", "stars", "direct"],
     "operators": ["base", "cover", "stars"],
     "algorithms": ["base", "cover", "neighbors", "operators"],
+    "view": [],
     "pcl": [],
 }
 FIXTURES = ["shapes", "oracles", "guarantees"]  # folders of tests/ that tools for developers may use
@@ -37,9 +38,9 @@ STREAM = re.compile(
 
 
 def part_of(name):
-    """Where a public header belongs: "core", "io" or "pcl"."""
+    """Where a public header belongs: "core", "io", "view" or "pcl"."""
     parts = name.split("/")
-    return parts[1] if len(parts) > 2 and parts[1] in ("io", "pcl") else "core"
+    return parts[1] if len(parts) > 2 and parts[1] in ("io", "pcl", "view") else "core"
 
 
 def is_standard(name):
@@ -50,7 +51,7 @@ def is_standard(name):
 def public_fault(header, name):
     own, other = part_of(header), part_of(name)
     if name.startswith("tufted/"):
-        visible = {"core": ["core"], "io": ["core", "io"], "pcl": ["core", "pcl"]}[own]
+        visible = {"core": ["core"], "io": ["core", "io"], "pcl": ["core", "pcl"], "view": ["core", "view"]}[own]
         return None if other in visible else f"{own} headers may not include {name}"
     if name == "iostream":
         return "public headers do not include <iostream>"

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tufted/types.h"
+
+namespace tufted {
+
+/// What the values of a field mean, and so how they are drawn.
+enum class FieldKind : std::uint8_t {
+  scalar,       ///< from the least to the greatest value: a sequential colour map
+  diverging,    ///< values around 0, which has the middle colour: eigenvectors, mean curvature
+  distance,     ///< a length from 0 on: a sequential colour map with isolines
+  label,        ///< integers that name things: a colour for each, negative ones grey
+  vector,       ///< three columns, vectors in space: arrows, coloured by their length
+  coordinates,  ///< two columns, coordinates on the surface, as of a logarithmic map: a grid of lines
+  color,        ///< three columns, red, green and blue from 0 to 255
+};
+
+/// Values at the points that can be looked at.
+struct SceneField {
+  std::string name;  ///< any text
+  FieldKind kind = FieldKind::scalar;
+  /// N x c; each column is a picture of its own but for the kinds of two or three columns. NaN and infinite values are
+  /// grey.
+  Eigen::MatrixXd values;
+  std::string unit = {};  ///< of the values, for the legend; may be empty
+};
+
+/// Points with what is known at them, for a page or a picture.
+struct Scene {
+  std::string title;         ///< any text
+  Points positions;          ///< N x 3, in the caller's order; rows that are not finite are not drawn
+  Triangles triangles = {};  ///< F x 3; 0 x 3: points alone
+  Points normals = {};       ///< N x 3, of any length and either sign, for light; 0 x 3 where nobody knows them
+  std::vector<SceneField> fields = {};
+  std::string unit = {};  ///< of the positions, "m"; may be empty
+};
+
+/// Checks that the parts of a scene fit together.
+/// @param function what the caller called, for the message
+/// @throws InvalidInput for rows that are not N, a number of columns that the kind does not allow, a corner of a
+///         triangle that is no point
+void checkScene(const Scene& scene, const char* function);
+
+}  // namespace tufted
