@@ -35,10 +35,8 @@ TEST_F(Command, WritesAllFilesForACloudAndSaysWhatHappened) {
   const Result result = runTufted({"laplacian", file, "--out", out()});
   ASSERT_EQ(result.code, 0) << result.err;
   for (const char* name : outputs) EXPECT_TRUE(std::filesystem::exists(dir_ / "out" / name)) << name;
-  for (const char* part : {"points", "active", "triangles", "nonzeros/row", "components", "sum of M", "flips",
-                           "clamped", "peak memory", "written to"})
+  for (const char* part : {"500, all take part", "12.", "the sum of M", "1 connected", "peak memory", "written to"})
     EXPECT_NE(result.out.find(part), std::string::npos) << part;
-  EXPECT_NE(result.out.find("500"), std::string::npos);
   EXPECT_NE(result.out.find(out()), std::string::npos);
 }
 
@@ -112,7 +110,6 @@ TEST_F(Command, PeakMemoryIsThatOfTheCommandAndNotOfWhoeverStartsIt) {
 
 TEST_F(Command, MistakesOnTheCommandLineAreOneLineAndTwo) {
   const std::string file = dir_.write("sphere.xyz", sphere(50));
-  expectUsageError({});
   expectUsageError({"laplacians"});
   expectUsageError({"laplacian"});
   expectUsageError({"laplacian", file});

@@ -126,3 +126,7 @@ Result interruptTufted(const std::vector<std::string>& arguments, int signal, co
   result.code = wait(pid);
   return result;
 }
+
+Result watchTufted(const std::vector<std::string>& arguments) {
+  return interruptTufted(arguments, 0);  // signal 0 is none
+}

@@ -43,3 +43,6 @@ Result runProgram(const std::vector<std::string>& words);
 /// Runs the command with a terminal as stderr, and sends a signal as soon as a text appears there.
 /// @param text such as the name of a stage; empty: anything
 Result interruptTufted(const std::vector<std::string>& arguments, int signal = SIGINT, const std::string& text = "");
+
+/// Runs the command with a terminal as stderr, and waits for it.
+Result watchTufted(const std::vector<std::string>& arguments);

@@ -8,6 +8,7 @@
 #include "tufted/errors.h"
 
 void addConsole(CLI::App& command, Console& console) {
+  command.option_defaults()->group("What is said");
   CLI::Option* const quiet = command.add_flag("-q,--quiet", console.quiet, "Say nothing but warnings and errors");
   command.add_flag("--json", console.json, "Print one JSON object and no other lines")->excludes(quiet);
 }

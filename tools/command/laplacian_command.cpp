@@ -204,6 +204,8 @@ void addLaplacian(CLI::App& app, Run& run) {
   const auto settings = std::make_shared<Settings>();
   addInput(command, settings->input);
   addOut(command, settings->out);
+  addWriteOptions(command, settings->write);
+  command.option_defaults()->group("Building the Laplacian");
   addBuildOptions(command, settings->build);
   addRareBuildOptions(command, settings->build);
   tufted::CloudOptions& options = settings->build.cloud;
@@ -211,7 +213,6 @@ void addLaplacian(CLI::App& app, Run& run) {
       addNumber(command, "--seed", options.seed, std::uint64_t(0), std::numeric_limits<std::uint64_t>::max(),
                 "Seed, only with --order random (0)")
           ->type_name("S");
-  addWriteOptions(command, settings->write);
   addVerboseConsole(command, settings->console);
   command.callback([&run, settings, seed] {
     if (seed->count() > 0 && settings->build.cloud.order != tufted::FaceOrder::random)

@@ -132,10 +132,13 @@ void addOperatorOptions(CLI::App& command, OperatorSettings& settings) {
   addOut(command, settings.out);
   addFormats(command, settings.copies, copies,
              "Copies of the points with the results, separated by commas: ply, pcd, or none (ply)");
+  command.option_defaults()->group("Building the Laplacian");
   addBuildOptions(command, settings.build);
+  command.option_defaults()->group("Solving");
   addSolvingOptions(command, settings.solving);
   addComponentOptions(command, settings.components);
   addVerboseConsole(command, settings.console);
+  command.option_defaults()->group("Options");  // those of the subcommand, which stand first
   std::vector<const CLI::Option*> unused = {command.get_option("--as"), command.get_option("--weld")};
   unused.insert(unused.end(), settings.build.cloud_only.begin(), settings.build.cloud_only.end());
   command.parse_complete_callback([file, folder, unused] {

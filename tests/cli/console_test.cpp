@@ -1,0 +1,190 @@
+// What the command says: help, the version, the summary in its three kinds, and progress.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "subcommands.h"
+
+namespace {
+
+namespace fs = std::filesystem;
+
+class ConsoleOutput : public Subcommands {
+ protected:
+  static std::string help(const std::vector<std::string>& arguments) {
+    const Result result = runTufted(arguments);
+    EXPECT_EQ(result.code, 0) << result.err;
+    EXPECT_EQ(result.err, "");
+    return result.out;
+  }
+
+  /// The names of all subcommands, as the help lists them: behind two spaces, under the line of a purpose.
+  static std::vector<std::string> names() {
+    std::vector<std::string> found;
+    bool is_list = false;
+    for (const std::string& line : linesOf(help({"--help"}))) {
+      if (line == "Examples:") break;
+      if (!line.empty() && line[0] != ' ') is_list = line != "Options:" && line.back() == ':';
+      if (is_list && line.starts_with("  ") && line[2] != ' ') found.push_back(line.substr(2, line.find(' ', 2) - 2));
+    }
+    return found;
+  }
+
+  /// The commands that a help has as examples, in words, without the first.
+  static std::vector<std::vector<std::string>> examples(const std::string& text) {
+    std::vector<std::vector<std::string>> found;
+    for (const std::string& line : linesOf(text)) {
+      if (!line.starts_with("  tufted ")) continue;
+      std::istringstream stream(line.substr(line.find("tufted ") + 7));
+      found.emplace_back();
+      for (std::string word; stream >> word;) found.back().push_back(word);
+    }
+    return found;
+  }
+
+  /// Runs an example; the files and folders that it names are in the folder of the test.
+  void tryExample(std::vector<std::string> words) {
+    for (std::size_t i = 1; i < words.size(); ++i)
+      if (words[i - 1] == "--out" || words[i] == "scans" || words[i].ends_with(".ply") || words[i].ends_with(".off"))
+        words[i] = in(words[i]);
+    const Result result = runTufted(words);
+    EXPECT_EQ(result.code, 0) << testing::PrintToString(words) << result.err;
+  }
+};
+
+TEST_F(ConsoleOutput, WithoutArgumentsIsTheHelpWithSubcommandsByPurposeAndThreeExamples) {
+  const std::string text = help({"--help"});
+  for (const std::vector<std::string>& other : {std::vector<std::string>{}, {"help"}, {"-h"}})
+    EXPECT_EQ(help(other), text);
+  for (const char* purpose : {"Look at files:", "Matrices:", "Distances and directions along the surface:",
+                              "Values on the surface:", "Frequencies:", "Shape:"})
+    EXPECT_TRUE(contains(text, purpose)) << purpose;
+  EXPECT_EQ(examples(text).size(), 3u);
+  std::set<std::string> expected = {"info", "validate"};
+  for (const std::vector<std::string>& command : commands) expected.insert(command[0]);
+  const std::vector<std::string> listed = names();
+  EXPECT_EQ(std::set<std::string>(listed.begin(), listed.end()), expected) << text;
+  EXPECT_EQ(listed.size(), expected.size()) << "one stands twice";
+}
+
+TEST_F(ConsoleOutput, HelpOfASubcommandIsThatOfItsOption) {
+  for (const std::string& name : names()) {
+    const std::string text = help({name, "--help"});
+    EXPECT_EQ(help({"help", name}), text);
+    EXPECT_EQ(help({name, "-h"}), text);
+    const auto shown = examples(text);
+    ASSERT_FALSE(shown.empty()) << name;
+    EXPECT_EQ(shown[0][0], name);
+  }
+  const Result unknown = runTufted({"help", "spectum"});
+  EXPECT_EQ(unknown.code, 2);
+  EXPECT_TRUE(contains(unknown.err, "did you mean `spectrum`?")) << unknown.err;
+}
+
+TEST_F(ConsoleOutput, EveryExampleOfEveryHelpRuns) {
+  fs::create_directory(dir_ / "scans");
+  dir_.write("scan.ply", "");
+  dir_.write("scan.xyz", sphere(400));
+  dir_.write("mesh.off", tetrahedron);
+  dir_.write("scans/mesh.off", tetrahedron);
+  run({"laplacian", in("scan.xyz"), "--out", in("made")});
+  fs::copy_file(dir_ / "made/points.ply", dir_ / "scan.ply", fs::copy_options::overwrite_existing);
+  std::vector<std::vector<std::string>> all = examples(help({"--help"}));
+  for (const std::string& name : names())
+    for (const std::vector<std::string>& example : examples(help({name, "--help"}))) all.push_back(example);
+  for (const std::vector<std::string>& example : all) tryExample(example);
+}
+
+TEST_F(ConsoleOutput, TheVersionSaysLicenceAndWhatIsBuiltIn) {
+  const std::string text = help({"--version"});
+  EXPECT_EQ(help({"-V"}), text);
+  EXPECT_TRUE(text.starts_with("tufted " TUFTED_VERSION "\n")) << text;
+  for (const char* part : {"BSD 3-clause", "GPL", "Factors:", "Reads:", "Writes:", "Eigen ", "CLI11 "})
+    EXPECT_TRUE(contains(text, part)) << part;
+}
+
+TEST_F(ConsoleOutput, QuietSaysNothingAndJsonSaysTheReport) {
+  const std::string file = dir_.write("sphere.xyz", sphere(300));
+  for (std::vector<std::string> command : commands) {
+    command.insert(command.begin() + 1, file);
+    command.insert(command.end(), {"--out", in("out"), "--quiet"});
+    const Result quiet = run(command);
+    EXPECT_EQ(quiet.out, "") << command[0];
+    command.back() = "--json";
+    nlohmann::json said = nlohmann::json::parse(run(command).out);
+    EXPECT_EQ(said["out"], in("out"));
+    EXPECT_TRUE(said["warnings"].is_array());
+    said.erase("out");
+    said.erase("warnings");
+    EXPECT_EQ(said, report("out")) << command[0];
+    command.emplace_back("-q");
+    EXPECT_EQ(runTufted(command).code, 2) << command[0];
+  }
+  EXPECT_EQ(run({"info", file, "-q"}).out, "");
+  EXPECT_EQ(run({"validate", file, "-q"}).out, "");
+  EXPECT_EQ(nlohmann::json::parse(run({"validate", file, "--json"}).out)["summary"]["ok"], 1);
+}
+
+TEST_F(ConsoleOutput, JsonHasTheWarningsThatStderrHas) {
+  const std::string file = dir_.write("line.xyz", "0 0 0\n1 0 0\n2 0 0\n3 0 0\n");
+  for (const char* option : {"--json", "--quiet"}) {
+    const Result result = runTufted({"laplacian", file, "--out", in("out"), option});
+    EXPECT_EQ(result.code, 0);
+    EXPECT_TRUE(isOneLine(result.err)) << result.err;
+    if (std::string(option) == "--quiet") continue;
+    const nlohmann::json said = nlohmann::json::parse(result.out);
+    ASSERT_EQ(said["warnings"].size(), 1u);
+    EXPECT_TRUE(contains(result.err, said["warnings"][0].get<std::string>())) << result.err;
+  }
+}
+
+TEST_F(ConsoleOutput, DetailsAreForThoseWhoAskForThem) {
+  const std::string file = dir_.write("sphere.xyz", sphere(300));
+  const std::string usual = run({"laplacian", file, "--out", in("out")}).out;
+  const std::string verbose = run({"laplacian", file, "--out", in("out"), "-v"}).out;
+  for (const char* detail : {"flips", "clamped", "nonzeros/row"}) {
+    EXPECT_FALSE(contains(usual, detail)) << usual;
+    EXPECT_TRUE(contains(verbose, detail)) << verbose;
+  }
+  for (const std::string& line : linesOf(usual))
+    EXPECT_TRUE(line.starts_with("took ") || contains(verbose, line)) << line;
+  EXPECT_FALSE(contains(run({"green", file, "--source", "0", "--out", in("green")}).out, "residual"));
+  EXPECT_TRUE(contains(run({"green", file, "--source", "0", "--out", in("green"), "--verbose"}).out, "residual"));
+}
+
+TEST_F(ConsoleOutput, FormatsAreListsInAllSubcommands) {
+  const std::string file = dir_.write("sphere.xyz", sphere(300));
+  for (std::vector<std::string> command : commands) {
+    const auto format = std::find(command.begin(), command.end(), "--format");
+    if (format != command.end()) command.erase(format, format + 2);
+    command.insert(command.begin() + 1, file);
+    const auto written = [&](const std::string& list, const std::string& folder) {
+      std::vector<std::string> words = command;
+      words.insert(words.end(), {"--out", in(folder), "--format", list});
+      return runTufted(words).code;
+    };
+    fs::remove_all(dir_ / "both");
+    fs::remove_all(dir_ / "neither");
+    EXPECT_EQ(written("pcd,ply", "both"), 0) << command[0];
+    EXPECT_TRUE(fs::exists(dir_ / "both/points.ply") && fs::exists(dir_ / "both/points.pcd")) << command[0];
+    EXPECT_EQ(written("none", "neither"), 0) << command[0];
+    EXPECT_TRUE(fs::exists(dir_ / "neither/report.json")) << command[0];
+    EXPECT_FALSE(fs::exists(dir_ / "neither/points.ply") || fs::exists(dir_ / "neither/points.pcd")) << command[0];
+    for (const char* wrong : {"none,ply", "ply,none", "ply,,pcd", "pyl", ""})
+      EXPECT_EQ(written(wrong, "refused"), 2) << command[0] << wrong;
+    EXPECT_FALSE(fs::exists(dir_ / "refused"));
+  }
+}
+
+TEST_F(ConsoleOutput, OnATerminalProgressShowsStagesAndTheirPaceAndQuietShowsNone) {
+  const std::string file = dir_.write("sphere.xyz", sphere(60000));
+  const std::string shown = watchTufted({"laplacian", file, "--out", in("out"), "--threads", "1"}).err;
+  for (const char* part : {"read", "points/s", "%"}) EXPECT_TRUE(contains(shown, part)) << part;
+  EXPECT_TRUE(shown.ends_with("\033[K")) << "the bar is left behind";
+  EXPECT_EQ(watchTufted({"laplacian", file, "--out", in("out"), "-q"}).err, "");
+}
+
+}  // namespace
