@@ -238,7 +238,7 @@ TEST_F(ApplicationCommands, TellThatTwoPartsAreBadlyJoined) {
   for (const double weight : {1e-9, 1e-12, 1e-13}) {
     write(weight);
     for (std::vector<std::string> command : commands) {
-      command.insert(command.end(), {"--operator", in("joined"), "--out", in("out")});
+      command.insert(command.end(), {"--operator", in("joined"), "--out", in("out"), "--verbose"});
       const std::string said = run(command).out;
       const auto made = report("out")["report"];
       ASSERT_TRUE(made["backward_error"].is_number()) << command[0];
@@ -273,7 +273,7 @@ TEST_F(ApplicationCommands, TellWhichPairIsAllRounding) {
         {{"embed"}, 0},
         {{"filter", "--count", "5", "--values", in("f/green.npy")}, 0}};
     for (auto [command, pair] : commands) {
-      command.insert(command.end(), {"--operator", in("joined"), "--out", in("out")});
+      command.insert(command.end(), {"--operator", in("joined"), "--out", in("out"), "--verbose"});
       const std::string said = run(command).out;
       const auto made = report("out")["report"];
       EXPECT_EQ(made["weak_pair"], weight == 1 ? -1 : pair) << command[0];

@@ -28,7 +28,7 @@ TEST_F(SpectrumCommand, WritesEigenpairsAndACopyOfThePoints) {
 TEST_F(SpectrumCommand, HasItsResidualsWhereMostOfTheSpaceIsAskedFor) {
   const std::string file = dir_.write("sphere.xyz", sphere(400));
   for (const char* count : {"200", "268", "398"}) {
-    const Result result = run({"spectrum", file, "--out", in("out"), "--count", count, "--format", "none"});
+    const Result result = run({"spectrum", file, "--out", in("out"), "--count", count, "--format", "none", "-v"});
     EXPECT_NE(result.out.find("dense, residual "), std::string::npos) << result.out;
     const auto json = report("out");
     EXPECT_EQ(json["report"]["method"], "dense");
