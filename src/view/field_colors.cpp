@@ -6,6 +6,7 @@
 #include <string>
 
 #include "tufted/errors.h"
+#include "tufted/view/colors.h"
 #include "view/ticks.h"
 
 namespace tufted::view {
@@ -137,3 +138,20 @@ FieldColors colorsOf(const Scene& scene, const PictureOptions& options) {
 }
 
 }  // namespace tufted::view
+
+namespace tufted {
+
+std::vector<Rgb> pointColors(const Scene& scene, const PictureOptions& options) {
+  checkScene(scene, "pointColors");
+  const view::FieldColors colors = view::colorsOf(scene, options);
+  std::vector<Rgb> all;
+  for (Eigen::Index i = 0; i < scene.positions.rows(); ++i) {
+    const auto point = static_cast<std::size_t>(i);
+    const auto channel = [&](std::size_t c) { return c < colors.channels.size() ? colors.channels[c][point] : 0; };
+    all.push_back(colors.isBlended() ? colors.colorOf({channel(0), channel(1)})
+                                     : colors.colorOfPoint(static_cast<int>(i)));
+  }
+  return all;
+}
+
+}  // namespace tufted
