@@ -14,6 +14,7 @@ packages=(
   libsuitesparse-dev libopenblas-dev  # CHOLMOD, and the BLAS that it finds through Debian's alternatives: the reference
                                       # BLAS, which it takes otherwise, makes a factorisation 2 to 4 times slower
   libpcl-dev libzip-dev libmatio-dev nlohmann-json3-dev libcli11-dev  # files and the command
+  zlib1g-dev  # pages to look at
   libgtest-dev libspectra-dev libbenchmark-dev libnanoflann-dev python3 python3-scipy  # tests and benchmark
 )
 
