@@ -91,7 +91,7 @@ def test_labels_colors_and_lines(page, dir):
 def test_picking(page, dir):
     page.open(dir / "plane.html")
     row = row_at(0.5, -0.24)
-    x, y = page.run("return tufted.place(arguments[0])", row)
+    x, y = page.run("return tufted.place(arguments[0])", row)[:2]
     picked = page.run("return tufted.pick(arguments[0], arguments[1])", x, y)
     assert picked["index"] == row, picked
     assert math.dist(picked["position"], [0.5, -0.24, 0]) < 2e-5 and abs(picked["number"] - 0.5) < 2e-5, picked
@@ -150,7 +150,7 @@ def test_mesh(page, dir):
 def test_vectors(page, dir):
     page.open(dir / "whirl.html")
     count = page.run("return tufted.stage.arrows.geometry.instanceCount")
-    assert 300 < count <= 2500, count
+    assert 300 < count <= 1500, count
     plain = page.run("return tufted.stage.uniforms.plain.value.toArray().map((c) => Math.round(255 * c))")
     colors = page.color(*range(0, side * side, 7))
     others = [color for color in colors if max(abs(a - b) for a, b in zip(color, plain)) > 20]

@@ -4,25 +4,31 @@ import {
 } from 'three';
 import { arrowFragment, arrowVertex } from './shaders.js';
 
-const most_arrows = 2500;
+const most_arrows = 1500;
 
-/** Rows that lie in different cells of a lattice, so fine that there are at most `most_arrows`. */
+/** Rows in different cells of a lattice, so fine that there are at most `most_arrows`; of each cell the middle one. */
 function spreadRows(positions, values) {
   const { shown, drawn, count } = positions;
   for (let cells = 64; ; cells /= 1.25) {
     const taken = new Map();
     for (let i = 0; i < count && taken.size <= most_arrows; ++i) {
       if (!drawn[i] || !values.known[i]) continue;
-      const cell = [0, 1, 2].map((axis) => Math.floor((shown[3 * i + axis] + 0.5) * cells)).join();
-      if (!taken.has(cell)) taken.set(cell, i);
+      let cell = 0;
+      let away = 0;
+      for (let axis = 0; axis < 3; ++axis) {
+        const place = (shown[3 * i + axis] + 0.5) * cells;
+        cell = cell * 4096 + Math.floor(place);
+        away += (place - Math.floor(place) - 0.5) ** 2;
+      }
+      if (!(taken.get(cell)?.away <= away)) taken.set(cell, { row: i, away });
     }
-    if (taken.size <= most_arrows) return { rows: [...taken.values()], cell: 1 / cells };
+    if (taken.size <= most_arrows) return { rows: Array.from(taken.values(), ({ row }) => row), cell: 1 / cells };
   }
 }
 
 function shape() {
-  const shaft = new CylinderGeometry(0.035, 0.035, 0.7, 6).translate(0, 0.35, 0);
-  const head = new ConeGeometry(0.11, 0.34, 8).translate(0, 0.83, 0);
+  const shaft = new CylinderGeometry(0.05, 0.05, 0.7, 8).translate(0, 0.35, 0);
+  const head = new ConeGeometry(0.15, 0.34, 10).translate(0, 0.83, 0);
   const geometry = new InstancedBufferGeometry();
   const places = [];
   for (const part of [shaft, head]) {
@@ -50,7 +56,7 @@ export function makeArrows(positions, values, spacing, uniforms, colorAt) {
   geometry.setAttribute('arrow', new InstancedBufferAttribute(arrow, 3));
   geometry.setAttribute('shade', new InstancedBufferAttribute(shade, 3));
   geometry.instanceCount = rows.length;
-  uniforms.arrow_scale.value = Math.max(1.3 * cell, 2 * spacing);
+  uniforms.arrow_scale.value = Math.max(1.5 * cell, 2 * spacing);
   const material = new ShaderMaterial({ vertexShader: arrowVertex, fragmentShader: arrowFragment, uniforms, side: DoubleSide });
   const mesh = new Mesh(geometry, material);
   mesh.frustumCulled = false;

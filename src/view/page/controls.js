@@ -25,8 +25,9 @@ export class Controls {
     }, { passive: false });
   }
 
-  /** Looks at the middle from the direction `eye` so that a ball of this radius is in view. */
-  look(eye, up, radius) {
+  /** Looks at the middle from the direction `eye`, from as far as `distanceOf(matrix)` says; its columns are the axes of
+   *  the screen. */
+  look(eye, up, distanceOf) {
     const back = new Vector3(...eye).normalize();
     let right = new Vector3(...up).cross(back);
     if (right.length() < 1e-6) right = new Vector3().crossVectors(Math.abs(back.y) < 0.9 ? y_axis : z_axis, back);
@@ -34,8 +35,7 @@ export class Controls {
     const matrix = this.camera.matrix.clone().makeBasis(right, new Vector3().crossVectors(back, right), back);
     this.turned.setFromRotationMatrix(matrix);
     this.target.set(0, 0, 0);
-    const half = Math.tan((this.camera.fov * Math.PI) / 360) * Math.min(1, this.camera.aspect);
-    this.distance = Math.max(1e-4, (radius / Math.sin(Math.atan(half))) * 0.92);
+    this.distance = distanceOf(matrix);
     this.place();
   }
 

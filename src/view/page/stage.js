@@ -153,9 +153,25 @@ export class Stage {
   look(eye = null, up = null) {
     const [x, y, z] = this.positions.sides;
     const is_ground = z < 0.5 * Math.max(x, y);
-    const radius = Math.max(0.55 * Math.hypot(x, y, z), this.spacing, 1e-3);
     this.controls.look(eye ?? (is_ground ? [-0.35, -0.9, 0.85] : [0.45, 0.3, 1]), up ?? (is_ground ? [0, 0, 1] : [0, 1, 0]),
-                       radius);
+                       (toEye) => this.distanceToSee(toEye));
+  }
+
+  /** How far the eye must be from the middle of the box to see all points in it, by the rows of the matrix `toEye`. */
+  distanceToSee(toEye) {
+    const { shown, drawn, count } = this.positions;
+    const m = toEye.elements;
+    const height = Math.tan((this.camera.fov * Math.PI) / 360);
+    const width = height * this.camera.aspect;
+    let distance = 0;
+    for (let i = 0; i < count; ++i) {
+      const [x, y, z] = [shown[3 * i], shown[3 * i + 1], shown[3 * i + 2]];
+      if (!drawn[i] || Math.max(Math.abs(x), Math.abs(y), Math.abs(z)) > 0.501) continue;
+      const right = Math.abs(m[0] * x + m[1] * y + m[2] * z) / width;
+      const up = Math.abs(m[4] * x + m[5] * y + m[6] * z) / height;
+      distance = Math.max(distance, Math.max(right, up) + m[8] * x + m[9] * y + m[10] * z);
+    }
+    return Math.max(1.2 * distance, 6 * this.spacing, 1e-3);
   }
 
   resize() {
@@ -184,7 +200,8 @@ export class Stage {
     this.camera.far = away + Math.max(4, this.controls.distance);
     this.camera.updateProjectionMatrix();
     this.set({
-      is_lit: this.is_lit, size: 1.35 * this.spacing * this.size_factor, least_size: 1.5 * Math.min(2, this.size_factor) * this.renderer.getPixelRatio(),
+      is_lit: this.is_lit, size: 1.5 * this.spacing * this.size_factor,
+      least_size: 1.5 * Math.min(2, this.size_factor) * this.renderer.getPixelRatio(),
       pixels: size.y / (2 * Math.tan((this.camera.fov * Math.PI) / 360)),
     });
     const is_domed = this.points.visible;
