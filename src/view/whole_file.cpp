@@ -2,7 +2,6 @@
 
 #include <fcntl.h>
 #include <stdlib.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <cerrno>
@@ -19,26 +18,25 @@ namespace {
   throw IoError(path.string() + ": cannot write: " + std::system_category().message(error));
 }
 
-/// The permissions of a new file, which mkstemp does not ask the process for.
-mode_t permissions() {
-  const mode_t mask = ::umask(0);
-  ::umask(mask);
-  return 0666 & ~mask;
-}
-
-/// A file that is removed again unless it is renamed.
+/// A file in a hidden folder of its own beside `path`; both are removed again unless the file gets its name.
 class HiddenFile {
  public:
   explicit HiddenFile(const std::filesystem::path& path) : shown_(path) {
-    name_ = (path.parent_path() / ("." + path.filename().string() + "-XXXXXX")).string();
-    file_ = ::mkstemp(name_.data());
-    if (file_ < 0) refuse(shown_, errno);
+    folder_ = (path.parent_path() / ".tufted-XXXXXX").string();
+    if (::mkdtemp(folder_.data()) == nullptr) refuse(shown_, errno);
+    name_ = folder_ + "/file";
+    file_ = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (file_ >= 0) return;
+    const int error = errno;
+    ::rmdir(folder_.c_str());
+    refuse(shown_, error);
   }
   HiddenFile(const HiddenFile&) = delete;
   HiddenFile& operator=(const HiddenFile&) = delete;
   ~HiddenFile() {
     if (file_ >= 0) ::close(file_);
-    if (!is_renamed_) ::unlink(name_.c_str());
+    ::unlink(name_.c_str());  // which is gone where the file has its name
+    ::rmdir(folder_.c_str());
   }
 
   void write(std::string_view bytes) {
@@ -49,19 +47,17 @@ class HiddenFile {
     }
   }
 
-  void rename() {
-    if (::fchmod(file_, permissions()) != 0 || ::fsync(file_) != 0) refuse(shown_, errno);
+  void giveName() {
+    if (::fsync(file_) != 0) refuse(shown_, errno);
     const int closed = ::close(file_);
     file_ = -1;
     if (closed != 0 || ::rename(name_.c_str(), shown_.c_str()) != 0) refuse(shown_, errno);
-    is_renamed_ = true;
   }
 
  private:
   std::filesystem::path shown_;
-  std::string name_;
+  std::string folder_, name_;
   int file_ = -1;
-  bool is_renamed_ = false;
 };
 
 }  // namespace
@@ -69,7 +65,7 @@ class HiddenFile {
 void writeWholeFile(const std::filesystem::path& path, std::string_view bytes) {
   HiddenFile file(path);
   file.write(bytes);
-  file.rename();
+  file.giveName();
 }
 
 }  // namespace tufted::view
