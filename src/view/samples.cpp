@@ -1,8 +1,10 @@
 #include "view/samples.h"
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cmath>
+#include <utility>
 
 #include "view/spacing.h"
 #include "view/threads.h"
@@ -23,6 +25,14 @@ constexpr float least_radius = 0.75F;
 constexpr float least_cosine = 0.25F;
 /// Near its middle a disc stands forward, by this share of its radius: where discs overlap the nearest point is seen.
 constexpr float bulge = 1;
+/// Samples from a hole to where the surface around it is looked up; the farther ones only between discs so wide that
+/// this share of their radius reaches there.
+constexpr int hole_reaches[] = {2, 4, 8};
+constexpr float hole_share = 1.5F;
+/// How many of eight directions must meet that surface.
+constexpr int hole_neighbors = 7;
+/// How far behind a disc something is seen through a hole, in its radii.
+constexpr float hole_depth = 4;
 
 void put(Sample& target, float depth, std::uint32_t number) {
   const Sample sample = static_cast<Sample>(std::bit_cast<std::uint32_t>(depth)) << 32 | number;
@@ -116,6 +126,49 @@ void drawTriangle(SeenScene& seen, std::int64_t t) {
     }
 }
 
+/// Whether a sample lies so far behind a point that it is not of its surface, nor of the next disc.
+bool isBehind(const SeenScene& seen, Sample sample, int point) {
+  const float radius = seen.radii[static_cast<std::size_t>(point)];
+  return sample == nothing || depthOf(sample) > seen.views[static_cast<std::size_t>(point)].z() + hole_depth * radius;
+}
+
+/// What is seen at a sample through a hole between discs: a disc in front, where those around are nearly all before it;
+/// otherwise the sample itself.
+Sample overHole(const SeenScene& seen, int x, int y) {
+  static constexpr std::array<std::array<int, 2>, 8> directions = {
+      {{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {-1, -1}, {1, -1}, {-1, 1}}};
+  const Sample own = seen.samples[static_cast<std::size_t>(y) * seen.width + x];
+  const auto n = static_cast<std::uint32_t>(seen.scene.positions.rows());
+  for (const int reach : hole_reaches) {
+    int in_front = 0;
+    Sample first = own;
+    for (const auto& [i, j] : directions) {
+      const int u = x + reach * i;
+      const int v = y + reach * j;
+      if (u < 0 || v < 0 || u >= seen.width || v >= seen.height) continue;
+      const Sample other = seen.samples[static_cast<std::size_t>(v) * seen.width + u];
+      if (other == nothing || numberOf(other) >= n || other >= own) continue;
+      const int point = static_cast<int>(numberOf(other));
+      const bool is_wide =
+          reach == hole_reaches[0] || hole_share * seen.screenRadius(point) >= static_cast<float>(reach);
+      if (!is_wide || !isBehind(seen, own, point)) continue;
+      if (in_front++ == 0) first = other;
+    }
+    if (in_front >= hole_neighbors) return first;
+  }
+  return own;
+}
+
+/// Closes the holes that random points leave between discs.
+void closeHoles(SeenScene& seen, int threads) {
+  std::vector<Sample> closed(seen.samples.size());
+  forBlocks(threads, seen.height, 16, [&](std::int64_t begin, std::int64_t end) {
+    for (int y = static_cast<int>(begin); y < end; ++y)
+      for (int x = 0; x < seen.width; ++x) closed[static_cast<std::size_t>(y) * seen.width + x] = overHole(seen, x, y);
+  });
+  seen.samples = std::move(closed);
+}
+
 }  // namespace
 
 float SeenScene::screenRadius(int point) const {
@@ -153,6 +206,7 @@ SeenScene look(const Scene& scene, const NormalizedPoints& points, const Project
   forBlocks(threads, static_cast<std::int64_t>(discs.size()), block_size, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t k = begin; k < end; ++k) drawDisc(seen, discs[static_cast<std::size_t>(k)]);
   });
+  if (!discs.empty()) closeHoles(seen, threads);
   forBlocks(threads, scene.triangles.rows(), 256, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t t = begin; t < end; ++t) drawTriangle(seen, t);
   });

@@ -12,7 +12,7 @@
 
 namespace tufted {
 
-/// From where a picture is seen, in perspective. What is left out is chosen: flat scenes are seen from above at an
+/// From where a picture is seen, in perspective: its height is seen under 0.62 radians. What is left out is chosen: flat scenes are seen from above at an
 /// angle, or in front where they stand upright, all others at their broad side; the distance is such that the scene
 /// fits, without the few points far from all others.
 struct Camera {
