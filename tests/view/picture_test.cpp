@@ -206,7 +206,7 @@ TEST(PictureOf, HasALegendOnRequest) {
 
 TEST(PictureOf, OddDataIsDefined) {
   const auto draw = [](const Points& positions, FieldKind kind, int columns) {
-    Scene scene = {.positions = positions};
+    Scene scene = {.title = "", .positions = positions};
     scene.fields = {{"f", kind, Eigen::MatrixXd::Constant(positions.rows(), columns, 1)}};
     return tufted::drawPicture(scene, {.width = 64, .height = 48});
   };
