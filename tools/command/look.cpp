@@ -204,15 +204,15 @@ void checkColor(const Look& look, const tufted::Geometry& geometry, const std::v
 }
 
 FieldKind kindOfResult(const std::string& name, Eigen::Index columns) {
-  static const std::map<std::string, FieldKind> kinds = {
+  static const std::map<std::string, FieldKind> meanings = {
       {"evecs", FieldKind::diverging},      {"embedding", FieldKind::diverging}, {"curvature", FieldKind::diverging},
       {"green", FieldKind::diverging},      {"u", FieldKind::diverging},         {"distance", FieldKind::distance},
       {"labels", FieldKind::label},         {"label", FieldKind::label},         {"component", FieldKind::label},
       {"components", FieldKind::label},     {"boundary", FieldKind::label},      {"status", FieldKind::label},
       {"classification", FieldKind::label}, {"vectors", FieldKind::vector},      {"normals", FieldKind::vector},
       {"logmap", FieldKind::coordinates},   {"color", FieldKind::color}};
-  const auto kind = kinds.find(name);
-  if (kind == kinds.end()) return FieldKind::scalar;
+  const auto kind = meanings.find(name);
+  if (kind == meanings.end()) return FieldKind::scalar;
   const bool fits = (kind->second != FieldKind::vector && kind->second != FieldKind::color) || columns == 3;
   return fits && (kind->second != FieldKind::coordinates || columns == 2) ? kind->second : FieldKind::scalar;
 }

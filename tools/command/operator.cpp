@@ -84,7 +84,7 @@ void readFolder(const OperatorSettings& settings, Operator& source) {
 }
 
 /// What a look shows: the results, on the points where they are now.
-tufted::Scene sceneOf(const OperatorSettings& settings, const Operator& source, const Results& results) {
+tufted::Scene shownScene(const OperatorSettings& settings, const Operator& source, const Results& results) {
   const std::string title = settings.command + ": " + std::filesystem::path(source.name).filename().string();
   return sceneOf(title, source.geometry, source.laplacian, results.shown.empty() ? results.arrays : results.shown);
 }
@@ -198,7 +198,7 @@ int runWithOperator(OperatorSettings& settings, std::vector<std::string> files, 
   Results results = blameData(source, [&] { return compute(source); });
   if (!chosen.report.is_null()) results.report.update(chosen.report);
   if (settings.look.isWanted() || !settings.look.color.empty()) {
-    const tufted::Scene scene = sceneOf(settings, source, results);
+    const tufted::Scene scene = shownScene(settings, source, results);
     colorCopies(scene, settings.look, source.geometry);
     write(settings, source, results);
     lookFromSensor(source.geometry, settings.look);

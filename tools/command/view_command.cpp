@@ -129,7 +129,8 @@ int runView(Settings& settings) {
   Look& look = settings.look;
   std::error_code error;
   const bool is_folder = std::filesystem::is_directory(settings.what, error);
-  if (!look.isWanted()) look.page = is_folder ? settings.what / "view.html" : settings.what.string() + ".html";
+  if (!look.isWanted())
+    look.page = is_folder ? (settings.what / "view.html").string() : settings.what.string() + ".html";
   for (const std::filesystem::path& file : {look.png, look.page})
     if (!file.empty() && std::filesystem::equivalent(file, settings.what, error))
       throw tufted::InvalidInput(file.string() + ": is the input, which would be overwritten");
