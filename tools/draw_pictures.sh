@@ -26,7 +26,7 @@ building=$samples/points_3/building.ply
 bunny=$samples/meshes/bunny00.off
 draw distance distance "$building" --source 0 --size 700x500
 draw eigenvector spectrum "$bunny" --as cloud --count 8 --column 5 --up y --camera 20,12 --size 560x500
-draw depth_image distance datasets/depth_camera.ply --source 0 --component largest --size 700x500
+draw depth_image distance datasets/depth_camera.ply --source 8320 --component largest --size 700x500
 draw logmap_bunny logmap "$bunny" --as cloud --source 200 --up y --camera 20,12 --size 560x500
 draw parts segment "$bunny" --as cloud --count 12 --up y --camera 20,12 --size 560x500
 draw boundary_kinds laplacian datasets/depth_camera.ply --color boundary --size 700x500

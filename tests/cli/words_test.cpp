@@ -31,8 +31,8 @@ TEST_F(Words, AnUnknownCommandIsNamedWithTheNearest) {
   expectSaid({"help"}, said("help", "--help"));
   expectSaid({"validate-fil"}, said("validate-fil", "validate"));
   expectSaid({"xyz"},
-             "unknown command `xyz`, must be one of laplacian, spectrum, hks, embed, filter, distance, interpolate, "
-             "poisson, green, extend, transport, logmap, segment, normals, curvature, operators, info, validate (see "
+             "unknown command `xyz`, must be one of info, view, validate, laplacian, operators, distance, logmap, transport, "
+             "interpolate, extend, poisson, green, spectrum, hks, embed, filter, normals, curvature, segment (see "
              "tufted --help)");
   expectSaid({"--hlep"}, "unknown option `--hlep`; did you mean `--help`? (see tufted --help)");
   expectSaid({}, "A subcommand is required (see tufted --help)");

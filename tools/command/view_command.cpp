@@ -70,6 +70,8 @@ void addArrays(const std::filesystem::path& folder, Scene& scene) {
     });
   };
   std::erase_if(scene.fields, is_copy);
+  for (SceneField& field : scene.fields)
+    if (field.name == "boundary") field.values.array() -= 1;
   std::erase_if(scene.fields,
                 [](const SceneField& field) { return field.name == "status" || field.name == "representative"; });
   scene.fields.insert(scene.fields.begin(), std::make_move_iterator(fields.begin()),
