@@ -16,6 +16,8 @@ namespace {
 
 using Eigen::Vector3d;
 
+/// The share of the picture that the scene fills: discs reach beyond their points.
+constexpr double fill = 0.93;
 /// Points that a camera is chosen by, at most.
 constexpr int most_samples = 100000;
 /// Half the angle of view upwards, in radians: that of a photograph of 50 mm or so.
@@ -169,8 +171,8 @@ void checkCamera(const Camera& camera) {
 /// Moves the target and the eye so that the points just fit, with a margin.
 void fit(const NormalizedPoints& points, const std::vector<int>& inside, const Viewport& port, bool keeps_target,
          Projection& projection) {
-  const double half_width = 0.5 * std::max(port.right - port.left, 1) / projection.focal * 0.96;
-  const double half_height = 0.5 * std::max(port.bottom - port.top, 1) / projection.focal * 0.96;
+  const double half_width = 0.5 * std::max(port.right - port.left, 1) / projection.focal * fill;
+  const double half_height = 0.5 * std::max(port.bottom - port.top, 1) / projection.focal * fill;
   projection.distance = 0;
   for (int round = 0; round < 4; ++round) {
     double distance = 0;

@@ -19,9 +19,9 @@ constexpr std::ptrdiff_t window = 14;
 constexpr int neighbor = 8;
 /// The radius of a disc in that distance. Less leaves holes where points are random.
 constexpr float disc_share = 0.85F;
-/// No disc is larger than this share of the scene's half size, nor this many times the 95th percentile.
+/// No disc is larger than this share of the scene's half size, nor this many times the median.
 constexpr float most_of_scene = 0.12F;
-constexpr float most_of_others = 3;
+constexpr float most_of_others = 4;
 /// The radius of points without enough neighbours, in the scene's half size.
 constexpr float lone_radius = 0.025F;
 
@@ -98,7 +98,7 @@ std::vector<float> discRadii(const NormalizedPoints& points, int threads) {
   }
   std::vector<float> sorted;
   for (const int i : points.finite) sorted.push_back(radii[static_cast<std::size_t>(i)]);
-  const auto at = sorted.begin() + static_cast<std::ptrdiff_t>(0.95 * static_cast<double>(count - 1));
+  const auto at = sorted.begin() + static_cast<std::ptrdiff_t>(0.5 * static_cast<double>(count - 1));
   std::nth_element(sorted.begin(), at, sorted.end());
   const float most = std::min(most_of_scene, most_of_others * *at);
   for (float& radius : radii) radius = std::isfinite(radius) ? std::min(radius, most) : lone_radius;
