@@ -117,7 +117,7 @@ TEST_F(View, MistakesAreRefusedBeforeTheBuild) {
     return more;
   };
   expectRefusal(with({"--png", in("none/a.png")}), "there is no directory", 1);
-  expectRefusal(with({"--png", dir_.write("a.txt", "") + "/b.png"}), "there is no directory", 1);
+  expectRefusal(with({"--png", dir_.write("a.txt", "").string() + "/b.png"}), "there is no directory", 1);
   expectRefusal(with({"--view", in(".")}), "is a directory");
   expectRefusal(with({"--png", in("a"), "--view", in("a")}), "one file");
   expectRefusal(with({"--png", in("a.png"), "--size", "10x900"}), "WIDTHxHEIGHT");
