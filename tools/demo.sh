@@ -19,7 +19,12 @@ else
 fi
 
 echo
-build/release/tufted laplacian "$input" --out out/demo
+build/release/tufted laplacian "$input" --out out/demo --png out/demo/area.png
+echo
+build/release/tufted spectrum "$input" --count 8 --out out/demo/spectrum --png out/demo/eigenvector.png
+echo
+build/release/tufted distance "$input" --source 0 --out out/demo/distance --png out/demo/distance.png \
+  --view out/demo/view.html
 cat <<END
 
 The results are in $PWD/out/demo:
@@ -32,4 +37,9 @@ The results are in $PWD/out/demo:
                       where lengths are measured: noisy points are put back onto the surface
   points.ply          the points with all of this as fields, for CloudCompare, MeshLab or pcl_viewer
   report.json         what happened, with the options, the sign and the scale
+Please open:
+  view.html           distances along the surface, in a browser: turn, zoom, pick points
+  distance.png        the same as a picture
+  eigenvector.png     the first eigenvector; others by \`tufted view out/demo/spectrum --png FILE --column K\`
+  area.png            the area of each point, the diagonal of M
 END

@@ -63,7 +63,7 @@ TEST_F(ConsoleOutput, WithoutArgumentsIsTheHelpWithSubcommandsByPurposeAndThreeE
                               "Values on the surface:", "Frequencies:", "Shape:"})
     EXPECT_TRUE(contains(text, purpose)) << purpose;
   EXPECT_EQ(examples(text).size(), 3u);
-  std::set<std::string> expected = {"info", "validate"};
+  std::set<std::string> expected = {"info", "validate", "view"};
   for (const std::vector<std::string>& command : commands) expected.insert(command[0]);
   const std::vector<std::string> listed = names();
   EXPECT_EQ(std::set<std::string>(listed.begin(), listed.end()), expected) << text;

@@ -70,5 +70,7 @@ std::string threadsName(int threads);
 
 void registerClouds();
 void registerMeshes();
+/// Pictures of points, written as PNG.
+void registerPictures();
 
 }  // namespace tufted::bench

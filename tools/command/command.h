@@ -35,6 +35,7 @@ void addNormals(CLI::App& app, Run& run);
 void addOperators(CLI::App& app, Run& run);
 void addInfo(CLI::App& app, Run& run);
 void addValidate(CLI::App& app, Run& run);
+void addView(CLI::App& app, Run& run);
 
 /// CLI11 takes an argument "[a,b]" of an option that may have several for a list of two. Before it parses, such paths
 /// of validate become "./[a,b]", which names the same; validate shows them without the "./" again.

@@ -129,6 +129,8 @@ Results compute(Settings& settings, Operator& source) {
   results.summary.add("eigenvectors", "%lld, the shortest wave %.6g", static_cast<long long>(count), shortest);
   addReport(spectrum.report, results);
   if (settings.positions) {
+    const Eigen::MatrixXd moved = (filtered - Eigen::MatrixXd(source.geometry.points)).rowwise().norm();
+    results.shown = {{.name = "displacement", .values = moved}};
     source.geometry.points = filtered;
     source.geometry.normals.resize(0, 3);
     source.laplacian.frames = {};

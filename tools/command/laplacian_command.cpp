@@ -17,6 +17,7 @@
 #include "inactive.h"
 #include "input.h"
 #include "interrupt.h"
+#include "look.h"
 #include "options.h"
 #include "output.h"
 #include "peak_memory.h"
@@ -102,6 +103,7 @@ struct Settings {
   Build build;
   tufted::WriteOptions write;
   Console console;
+  Look look;
 };
 
 const std::map<std::string, tufted::Format> formats = {
@@ -160,16 +162,19 @@ Summary summarize(const Settings& settings, const tufted::Geometry& geometry, co
                 count(report.clamped_large));
   summary.add("took", "%.3g s, peak memory %.0f MB", seconds, peakMemory());
   summary.add("written to", "%s", settings.out.c_str());
+  addLook(settings.look, summary);
   return summary;
 }
 
 int runLaplacian(Settings& settings) {
   const auto start = std::chrono::steady_clock::now();
+  checkLook(settings.look);
   checkOutput(settings.input, settings.out, tufted::resultFiles(settings.write.formats));
   ProgressBar bar(settings.console.quiet);
   const tufted::Progress progress = showOn(bar);
   progress("read", 0);
-  const tufted::Geometry geometry = readInput(settings.input, progress);
+  tufted::Geometry geometry = readInput(settings.input, progress);
+  checkColor(settings.look, geometry, {});
   if (interrupted()) throw tufted::Cancelled("cancelled");
   tufted::WriteOptions& write = settings.write;
   const auto isWanted = [&write](tufted::Format format) {
@@ -185,7 +190,16 @@ int runLaplacian(Settings& settings) {
     write.mesh = &settings.build.mesh;
   else
     write.cloud = &settings.build.cloud;
-  tufted::writeLaplacian(settings.out, laplacian, geometry, write);
+  if (settings.look.isWanted() || !settings.look.color.empty()) {
+    const std::string title = "laplacian: " + std::filesystem::path(settings.input.name()).filename().string();
+    const tufted::Scene scene = sceneOf(title, geometry, laplacian, {});
+    colorCopies(scene, settings.look, geometry);
+    tufted::writeLaplacian(settings.out, laplacian, geometry, write);
+    lookFromSensor(geometry, settings.look);
+    show(scene, settings.look);
+  } else {
+    tufted::writeLaplacian(settings.out, laplacian, geometry, write);
+  }
   bar.clear();
   std::vector<std::string> warnings;
   if (const std::string nothing = nothingActive(laplacian); !nothing.empty())
@@ -213,6 +227,8 @@ void addLaplacian(CLI::App& app, Run& run) {
       addNumber(command, "--seed", options.seed, std::uint64_t(0), std::numeric_limits<std::uint64_t>::max(),
                 "Seed, only with --order random (0)")
           ->type_name("S");
+  command.option_defaults()->group("Looking at the result");
+  addLookOptions(command, settings->look);
   addVerboseConsole(command, settings->console);
   command.callback([&run, settings, seed] {
     if (seed->count() > 0 && settings->build.cloud.order != tufted::FaceOrder::random)

@@ -83,6 +83,20 @@ void readFolder(const OperatorSettings& settings, Operator& source) {
                           ", and L has " + std::to_string(n) + " rows");
 }
 
+/// What a look shows: the results, on the points where they are now.
+tufted::Scene shownScene(const OperatorSettings& settings, const Operator& source, const Results& results) {
+  const std::string title = settings.command + ": " + std::filesystem::path(source.name).filename().string();
+  return sceneOf(title, source.geometry, source.laplacian, results.shown.empty() ? results.arrays : results.shown);
+}
+
+/// Names of the results that are arrays.
+std::vector<std::string> arraysIn(const std::vector<std::string>& files) {
+  std::vector<std::string> names;
+  for (const std::string& file : files)
+    if (const std::filesystem::path path = file; path.extension() == ".npy") names.push_back(path.stem().string());
+  return names;
+}
+
 void write(const OperatorSettings& settings, const Operator& source, const Results& results) {
   nlohmann::ordered_json json = {{"tufted", TUFTED_VERSION}, {"command", settings.command}, {"source", source.name}};
   json.update(results.report);
@@ -137,6 +151,8 @@ void addOperatorOptions(CLI::App& command, OperatorSettings& settings) {
   command.option_defaults()->group("Solving");
   addSolvingOptions(command, settings.solving);
   addComponentOptions(command, settings.components);
+  command.option_defaults()->group("Looking at the result");
+  addLookOptions(command, settings.look);
   addVerboseConsole(command, settings.console);
   command.option_defaults()->group("Options");  // those of the subcommand, which stand first
   std::vector<const CLI::Option*> unused = {command.get_option("--as"), command.get_option("--weld")};
@@ -163,12 +179,17 @@ int runWithOperator(OperatorSettings& settings, std::vector<std::string> files, 
   };
   source.progress("read", 0);
   for (const std::string& name : tufted::resultFiles({}, {.copies = settings.copies})) files.push_back(name);
+  const std::vector<std::string> arrays = arraysIn(files);
+  checkLook(settings.look);
   checkOutput(settings.input, settings.out, files);
   if (settings.folder.empty())
     source.geometry = readInput(settings.input, source.progress);
   else
     readFolder(settings, source);
   checkpoint();
+  checkColor(settings.look, source.geometry, arrays);
+  if (settings.look.isWanted() && source.geometry.points.rows() == 0 && source.points() > 0)
+    throw tufted::IoError(source.name + ": has no points to look at, which `tufted laplacian --format npz,ply` writes");
   blameData(source, [&] { check(source); });
   bar.setPoints(source.points());
   if (settings.folder.empty())
@@ -180,7 +201,15 @@ int runWithOperator(OperatorSettings& settings, std::vector<std::string> files, 
   chooseComponents(settings.components, source, chosen);
   Results results = blameData(source, [&] { return compute(source); });
   if (!chosen.report.is_null()) results.report.update(chosen.report);
-  write(settings, source, results);
+  if (settings.look.isWanted() || !settings.look.color.empty()) {
+    const tufted::Scene scene = shownScene(settings, source, results);
+    colorCopies(scene, settings.look, source.geometry);
+    write(settings, source, results);
+    lookFromSensor(source.geometry, settings.look);
+    show(scene, settings.look);
+  } else {
+    write(settings, source, results);
+  }
   bar.clear();
   std::vector<std::string> warnings = results.warnings;
   if (const std::string why = whyNothing(source); !why.empty())
@@ -192,6 +221,7 @@ int runWithOperator(OperatorSettings& settings, std::vector<std::string> files, 
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   summary.add("took", "%.3g s, peak memory %.0f MB", seconds.count(), peakMemory());
   summary.add("written to", "%s", settings.out.c_str());
+  addLook(settings.look, summary);
   sayResults(settings.console, summary, settings.out, warnings);
   return exit_done;
 }

@@ -14,6 +14,7 @@
 #include "component_options.h"
 #include "console.h"
 #include "input.h"
+#include "look.h"
 #include "summary.h"
 #include "tufted/io/results.h"
 #include "tufted/laplacian.h"
@@ -38,6 +39,7 @@ struct OperatorSettings {
   Solving solving;
   ComponentOptions components;
   Console console;
+  Look look;
   std::vector<tufted::Format> copies = {tufted::Format::ply};
   bool needs_cover = false;  ///< whether the command needs the cover, not only L and M
 
@@ -74,6 +76,8 @@ struct Results {  // NOLINT(bugprone-exception-escape): moves of its json, which
   nlohmann::ordered_json report;  ///< members of report.json beside "tufted", "command" and "source"
   Summary summary;
   std::vector<std::string> warnings = {};  ///< one line for each warning
+  /// What is looked at, where it is not the arrays.
+  std::vector<tufted::ResultArray> shown = {};
   /// Writes the results in place of writeResults, if set.
   std::function<void(const std::filesystem::path& dir, const tufted::ResultOptions& options)> write = {};
 };

@@ -74,6 +74,7 @@ Results compute(Settings& settings, Operator& source) {
                                  {"regularization", fitting.regularization},
                                  {"seconds", fits.seconds}};
   results.summary.addDetail("gradients", "of %.3g neighbors on average, %.3g s", fits.mean_neighbors, fits.seconds);
+  results.shown = {{.name = "evecs", .values = spectrum.vectors}};
   results.write = [&source, gradients, spectrum](const std::filesystem::path& dir,
                                                  const tufted::ResultOptions& options) {
     tufted::writeOperators(dir, source.laplacian, source.geometry, gradients, spectrum, options);

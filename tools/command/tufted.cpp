@@ -52,7 +52,7 @@ struct Purpose {
   std::vector<void (*)(CLI::App& app, Run& run)> add;
 };
 
-const Purpose purposes[] = {{"Look at files", {addInfo, addValidate}},
+const Purpose purposes[] = {{"Look at files", {addInfo, addView, addValidate}},
                             {"Matrices", {addLaplacian, addOperators}},
                             {"Distances and directions along the surface", {addDistance, addLogmap, addTransport}},
                             {"Values on the surface", {addInterpolate, addExtend, addPoisson, addGreen}},

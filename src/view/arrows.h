@@ -1,0 +1,12 @@
+#pragma once
+
+#include "view/field_colors.h"
+#include "view/samples.h"
+#include "view/text.h"
+
+namespace tufted::view {
+
+/// Draws the vectors of a field as arrows: of the points that are seen one in each cell of a grid on the screen.
+void drawArrows(const SeenScene& seen, const FieldColors& colors, Canvas& canvas);
+
+}  // namespace tufted::view

@@ -1,0 +1,32 @@
+#pragma once
+
+#include <array>
+#include <vector>
+
+#include "tufted/view/picture.h"
+#include "view/color_maps.h"
+
+namespace tufted::view {
+
+/// How the values of a field become colours.
+struct FieldColors {
+  const SceneField* field = nullptr;             ///< null: none, all is grey
+  const ColorMap* map = nullptr;                 ///< null for colours
+  double low = 0, high = 1;                      ///< the values at the ends of the map
+  bool is_cut_low = false, is_cut_high = false;  ///< whether there are values beyond an end
+  bool lacks_values = false;                     ///< whether some are not finite
+  double step = 0;                               ///< from isoline to isoline; 0: there are none
+  /// N for each channel: what is drawn, one number or, for coordinates, two; NaN where there is no value.
+  std::vector<std::vector<float>> channels;
+
+  /// The colour of values of all channels; for labels and colours of a point.
+  Rgb colorOf(const std::array<float, 2>& values) const;
+  /// The colour of a point whose values are not blended: labels, colours.
+  Rgb colorOfPoint(int point) const;
+  bool isBlended() const { return field != nullptr && !channels.empty(); }
+};
+
+/// @throws InvalidInput for a field or column that there is not, a map or a range that does not fit
+FieldColors colorsOf(const Scene& scene, const PictureOptions& options);
+
+}  // namespace tufted::view

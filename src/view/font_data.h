@@ -1,0 +1,11 @@
+#pragma once
+
+#include <cstddef>
+
+namespace tufted::view {
+
+/// The file fonts/labels.ttf, which src/view/CMakeLists.txt turns into a source.
+extern const unsigned char font_data[];
+extern const std::size_t font_size;
+
+}  // namespace tufted::view

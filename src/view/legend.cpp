@@ -1,0 +1,115 @@
+#include "view/legend.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <iterator>
+#include <set>
+#include <string>
+
+#include "view/ticks.h"
+
+namespace tufted::view {
+
+namespace {
+
+/// Smaller pictures have no room for words.
+constexpr int least_width = 240;
+constexpr int least_height = 160;
+constexpr std::size_t most_swatches = 20;
+/// The legend's width and parts in the size of its letters.
+constexpr double legend_width = 9;
+constexpr double bar_width = 1.3;
+
+/// Labels that occur, ascending; one more than are shown if there are more.
+std::set<long long> labelsIn(const SceneField& field, int column) {
+  std::set<long long> labels;
+  for (Eigen::Index i = 0; i < field.values.rows(); ++i) {
+    const double value = field.values(i, column);
+    if (std::isfinite(value) && value >= 0 && value < 1e15) labels.insert(static_cast<long long>(value));
+    if (labels.size() > most_swatches) labels.erase(std::prev(labels.end()));
+  }
+  return labels;
+}
+
+std::string headingOf(const FieldColors& colors, const PictureOptions& options) {
+  std::string text = colors.field->name;
+  const bool is_scalar = colors.field->kind == FieldKind::scalar || colors.field->kind == FieldKind::diverging ||
+                         colors.field->kind == FieldKind::distance;
+  if (is_scalar && colors.field->values.cols() > 1) text.append(" ").append(std::to_string(options.column));
+  return text;
+}
+
+}  // namespace
+
+Layout layoutOf(const Scene& scene, const FieldColors& colors, const PictureOptions& options) {
+  Layout layout = {.text_size = std::clamp(0.021 * std::min(options.height, options.width), 10.0, 60.0),
+                   .top = 0,
+                   .right = options.width};
+  if (!options.legend || options.width < least_width || options.height < least_height) return layout;
+  const double em = layout.text_size;
+  if (!scene.title.empty()) layout.top = static_cast<int>(2.6 * em);
+  layout.has_legend = colors.field != nullptr && colors.field->kind != FieldKind::color;
+  if (layout.has_legend) layout.right = options.width - static_cast<int>(legend_width * em);
+  return layout;
+}
+
+void drawLegend(const Scene& scene, const FieldColors& colors, const PictureOptions& options, const Layout& layout,
+                Canvas& canvas) {
+  const double em = layout.text_size;
+  const Rgb ink = options.background == Background::dark ? Rgb{232, 232, 232} : Rgb{32, 32, 32};
+  if (layout.top > 0)
+    canvas.text(canvas.shorten(scene.title, 1.2 * em, options.width - 2 * em), em, 1.9 * em, 1.2 * em, ink);
+  if (!layout.has_legend) return;
+  const int left = layout.right + static_cast<int>(0.7 * em);
+  const double width = options.width - left - 0.4 * em;
+  double y = layout.top + 2 * em;
+  canvas.text(canvas.shorten(headingOf(colors, options), em, width), left, y, em, ink);
+  const bool is_bar = colors.map->use != MapUse::categorical;
+  const Ticks ticks = is_bar ? ticksOf(colors.low, colors.high) : Ticks{};
+  std::string scale = ticks.exponent == 0 ? "" : "\u00d7 10" + raised(ticks.exponent) + " ";
+  scale += colors.field->unit;
+  if (!scale.empty()) canvas.text(canvas.shorten(scale, em, width), left, y += 1.4 * em, em, ink);
+  y += em;
+  if (!is_bar) {
+    const std::set<long long> labels = labelsIn(*colors.field, options.column);
+    const auto room = static_cast<std::size_t>(std::max(1.0, (options.height - y - 3 * em) / (1.5 * em)));
+    std::size_t count = 0;
+    for (const long long label : labels) {
+      if (count++ == std::min(room, most_swatches)) break;
+      canvas.fill(left, static_cast<int>(y), left + static_cast<int>(bar_width * em), static_cast<int>(y + em),
+                  labelColor(*colors.map, static_cast<double>(label)));
+      canvas.text(std::to_string(label), left + (bar_width + 0.5) * em, y + 0.86 * em, em, ink);
+      y += 1.5 * em;
+    }
+    if (labels.size() > count) canvas.text("\u2026", left, y + 0.5 * em, em, ink);
+    y += labels.size() > count ? 1.5 * em : 0;
+  } else {
+    const int top = static_cast<int>(y);
+    const int bottom = static_cast<int>(std::min(y + 0.55 * options.height, options.height - 3.5 * em));
+    const int bar_right = left + static_cast<int>(bar_width * em);
+    for (int row = top; row < bottom; ++row)
+      canvas.fill(left, row, bar_right, row + 1, colorAt(*colors.map, (bottom - row - 0.5) / (bottom - top)));
+    for (std::size_t i = 0; i < ticks.values.size(); ++i) {
+      const double span = colors.high - colors.low;
+      const double share = span > 0 ? (ticks.values[i] - colors.low) / span : 0.5;
+      const double at = bottom - share * (bottom - top);
+      canvas.line(bar_right, at, bar_right + 0.35 * em, at, 1, ink);
+      canvas.text(ticks.texts[i], bar_right + 0.6 * em, at + 0.36 * em, em, ink);
+    }
+    y = bottom + 0.8 * em;
+    if (colors.step > 0) {
+      char text[64];
+      std::snprintf(text, sizeof text, "lines: %.3g", colors.step);
+      canvas.text(canvas.shorten(text, 0.85 * em, width), left, y + em, 0.85 * em, ink);
+      y += 1.7 * em;
+    }
+  }
+  if (!colors.lacks_values) return;
+  canvas.fill(left, static_cast<int>(y), left + static_cast<int>(bar_width * em), static_cast<int>(y + em),
+              no_value_color);
+  canvas.text(canvas.shorten("no value", 0.85 * em, width), left + (bar_width + 0.5) * em, y + 0.82 * em, 0.85 * em,
+              ink);
+}
+
+}  // namespace tufted::view

@@ -1,0 +1,280 @@
+#include "view/shading.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "view/threads.h"
+
+namespace tufted::view {
+
+namespace {
+
+using Eigen::Vector3d;
+using Eigen::Vector3f;
+using Values = std::array<float, 2>;
+
+constexpr std::int64_t rows_per_block = 16;
+/// Discs that are larger, in samples, have their values blended with those of their neighbours.
+constexpr float blended_radius = 1.5F;
+/// Steps on each side at which neighbouring discs are looked up, within a radius.
+constexpr int blend_steps = 3;
+/// The width of the bell by which their values count, in radii.
+constexpr float blend_width = 0.5F;
+/// Samples belong to one surface if their depths differ by less, in radii of the disc.
+constexpr float same_surface = 4;
+/// Light on a surface that is seen at a right angle to it, and on one seen along it.
+constexpr float full_light = 1;
+constexpr float least_light = 0.42F;
+/// How strongly depth shades: where there are normals, and where depth alone tells the shape.
+constexpr float weak_edges = 18;
+constexpr float strong_edges = 60;
+/// Samples to those whose depth is compared.
+constexpr int edge_reach = 3;
+/// The share of its colour that a surface keeps under an isoline.
+constexpr float line_share = 0.35F;
+constexpr float no_value = std::numeric_limits<float>::quiet_NaN();
+/// The colour of a surface under arrows.
+constexpr Rgb plain_color = {205, 205, 205};
+
+class Shader {
+ public:
+  Shader(const SeenScene& seen, const FieldColors& colors, const PictureOptions& options)
+      : seen_(seen),
+        colors_(colors),
+        options_(options),
+        points_(static_cast<std::uint32_t>(seen.scene.positions.rows())) {}
+
+  Picture run() {
+    const std::size_t size = seen_.samples.size();
+    const auto rows = [this](const auto& work) {
+      forBlocks(options_.threads, seen_.height, rows_per_block, [&](std::int64_t begin, std::int64_t end) {
+        for (int y = static_cast<int>(begin); y < end; ++y)
+          for (int x = 0; x < seen_.width; ++x) work(x, y);
+      });
+    };
+    const bool draws_values = colors_.isBlended() && colors_.field->kind != FieldKind::vector;
+    if (draws_values) {
+      values_.assign(size, {no_value, no_value});
+      rows([&](int x, int y) { values_[at(x, y)] = valuesAt(x, y); });
+    }
+    shaded_.resize(size);
+    rows([&](int x, int y) { shaded_[at(x, y)] = colorAt(x, y); });
+    return average();
+  }
+
+ private:
+  std::size_t at(int x, int y) const { return static_cast<std::size_t>(y) * seen_.width + x; }
+  bool isInside(int x, int y) const { return x >= 0 && y >= 0 && x < seen_.width && y < seen_.height; }
+
+  SeenTriangle triangleOf(std::uint32_t t) const {
+    const auto corner = [&](int k) {
+      return seen_.views[static_cast<std::size_t>(seen_.scene.triangles(t, k))].cast<double>().eval();
+    };
+    return {corner(0), corner(1), corner(2)};
+  }
+  /// The shares of the corners of a triangle at a sample.
+  Vector3d sharesAt(std::uint32_t t, int x, int y) const {
+    const Vector3d shares = triangleOf(t).shares(rayThrough(seen_.projection, x, y));
+    const double sum = shares.sum();
+    return std::abs(sum) > 0 ? Vector3d(shares / sum) : Vector3d(1, 0, 0);
+  }
+
+  Values valuesOfPoint(std::uint32_t point) const {
+    return {colors_.channels[0][point], colors_.channels.size() > 1 ? colors_.channels[1][point] : 0};
+  }
+
+  Values valuesAt(int x, int y) const {
+    const Sample sample = seen_.samples[at(x, y)];
+    if (sample == nothing) return {no_value, no_value};
+    const std::uint32_t number = numberOf(sample);
+    if (number >= points_) {
+      const std::uint32_t t = number - points_;
+      const Vector3d shares = sharesAt(t, x, y);
+      Values values = {0, 0};
+      for (int k = 0; k < 3; ++k) {
+        const Values corner = valuesOfPoint(static_cast<std::uint32_t>(seen_.scene.triangles(t, k)));
+        for (std::size_t c = 0; c < 2; ++c) values[c] += static_cast<float>(shares[k]) * corner[c];
+      }
+      return values;
+    }
+    return blendedValues(x, y, sample);
+  }
+
+  /// The mean of the values of the points around a sample, by a bell as wide as the disc that is seen there.
+  Values blendedValues(int x, int y, Sample sample) const {
+    const Values own = valuesOfPoint(numberOf(sample));
+    const float radius = seen_.screenRadius(static_cast<int>(numberOf(sample)));
+    if (!(radius > blended_radius) || !std::isfinite(own[0])) return own;
+    const float depth = depthOf(sample);
+    const float tolerance = same_surface * radius * depth / static_cast<float>(seen_.projection.focal);
+    const float step = std::max(radius / blend_steps, 1.0F);
+    std::array<int, 2 * blend_steps + 1> offsets;
+    std::array<float, 2 * blend_steps + 1> bell;
+    for (int k = -blend_steps; k <= blend_steps; ++k) {
+      const auto index = static_cast<std::size_t>(k + blend_steps);
+      offsets[index] = static_cast<int>(std::floor(static_cast<float>(k) * step + 0.5F));
+      const float far = static_cast<float>(offsets[index]) / (blend_width * radius);
+      bell[index] = std::exp(-0.5F * far * far);
+    }
+    float weights = 0;
+    Values sum = {0, 0};
+    for (std::size_t j = 0; j < offsets.size(); ++j)
+      for (std::size_t i = 0; i < offsets.size(); ++i) {
+        const int u = x + offsets[i];
+        const int v = y + offsets[j];
+        if (!isInside(u, v)) continue;
+        const Sample other = seen_.samples[at(u, v)];
+        if (other == nothing || numberOf(other) >= points_ || std::abs(depthOf(other) - depth) > tolerance) continue;
+        const Values values = valuesOfPoint(numberOf(other));
+        if (!std::isfinite(values[0])) continue;
+        const float weight = bell[i] * bell[j];
+        weights += weight;
+        for (std::size_t c = 0; c < 2; ++c) sum[c] += weight * values[c];
+      }
+    for (float& value : sum) value /= weights;
+    return sum;
+  }
+
+  Rgb baseColor(int x, int y, std::uint32_t number) const {
+    if (colors_.field == nullptr) return no_value_color;
+    if (colors_.field->kind == FieldKind::vector) return plain_color;
+    if (!values_.empty()) return colors_.colorOf(values_[at(x, y)]);
+    if (number < points_) return colors_.colorOfPoint(static_cast<int>(number));
+    const std::uint32_t t = number - points_;
+    int corner = 0;
+    sharesAt(t, x, y).maxCoeff(&corner);
+    return colors_.colorOfPoint(seen_.scene.triangles(t, corner));
+  }
+
+  /// The normal towards the eye; 0 where it is unknown.
+  Vector3f normalAt(int x, int y, std::uint32_t number) const {
+    if (number < points_) return seen_.normals.empty() ? Vector3f::Zero().eval() : seen_.normals[number];
+    const std::uint32_t t = number - points_;
+    const auto corner = [&](int k) { return static_cast<std::size_t>(seen_.scene.triangles(t, k)); };
+    const Vector3f flat = (seen_.views[corner(1)] - seen_.views[corner(0)])
+                              .cross(seen_.views[corner(2)] - seen_.views[corner(0)])
+                              .stableNormalized();
+    Vector3f normal = Vector3f::Zero();
+    if (!seen_.normals.empty()) {
+      const Vector3f shares = sharesAt(t, x, y).cast<float>();
+      for (int k = 0; k < 3; ++k) {
+        const Vector3f& n = seen_.normals[corner(k)];
+        normal += shares[k] * (n.dot(flat) < 0 ? Vector3f(-n) : n);
+      }
+    }
+    normal = normal.squaredNorm() > 0 ? normal.stableNormalized() : flat;
+    return normal.dot(rayThrough(seen_.projection, x, y).cast<float>()) > 0 ? Vector3f(-normal) : normal;
+  }
+
+  /// The share of light at a sample.
+  float lightAt(int x, int y, Sample sample) const {
+    const Vector3f normal = normalAt(x, y, numberOf(sample));
+    const bool is_known = normal.squaredNorm() > 0;
+    float light = full_light;
+    if (is_known) {
+      // From the left and above the eye; depth grows away from it.
+      static const Vector3f source = Vector3f(-0.35F, 0.45F, -1).normalized();
+      light = least_light + (full_light - least_light) * std::max(normal.dot(source), 0.0F);
+    }
+    return light * std::exp(-(is_known ? weak_edges : strong_edges) * depthBelowNeighbors(x, y, sample));
+  }
+
+  /// How far the neighbours of a sample stand before it, as the mean of logarithms of depths (Boucheny 2009,
+  /// Section 3.3).
+  float depthBelowNeighbors(int x, int y, Sample sample) const {
+    static constexpr std::array<std::array<int, 2>, 8> steps = {
+        {{3, 0}, {2, 2}, {0, 3}, {-2, 2}, {-3, 0}, {-2, -2}, {0, -3}, {2, -2}}};
+    static_assert(edge_reach == steps[0][0]);
+    const float depth = std::log2(depthOf(sample));
+    float sum = 0;
+    for (const auto& step : steps) {
+      if (!isInside(x + step[0], y + step[1])) continue;
+      const Sample other = seen_.samples[at(x + step[0], y + step[1])];
+      if (other != nothing) sum += std::max(0.0F, depth - std::log2(depthOf(other)) - slack_);
+    }
+    return sum / static_cast<float>(steps.size());
+  }
+
+  bool isOnLine(int x, int y, Sample sample) const {
+    if (!(colors_.step > 0) || values_.empty()) return false;
+    const Values& own = values_[at(x, y)];
+    if (!std::isfinite(own[0])) return false;
+    const auto level = [this](float value) { return std::floor(value / static_cast<float>(colors_.step)); };
+    for (std::size_t c = 0; c < colors_.channels.size(); ++c)
+      for (const auto& [i, j] : {std::pair(1, 0), std::pair(0, 1), std::pair(-1, 0), std::pair(0, -1)}) {
+        if (!isInside(x + i, y + j)) continue;
+        const Sample other = seen_.samples[at(x + i, y + j)];
+        const float value = values_[at(x + i, y + j)][c];
+        if (other == nothing || !std::isfinite(value) || level(value) == level(own[c])) continue;
+        const bool is_step = std::abs(value - own[c]) < 2 * static_cast<float>(colors_.step);
+        if (is_step && std::abs(depthOf(other) / depthOf(sample) - 1) < 0.03F) return true;
+      }
+    return false;
+  }
+
+  std::array<std::uint8_t, 4> colorAt(int x, int y) const {
+    const Sample sample = seen_.samples[at(x, y)];
+    if (sample == nothing) return backgroundColor(options_.background);
+    const Rgb base = baseColor(x, y, numberOf(sample));
+    float share = options_.light ? lightAt(x, y, sample) : 1;
+    if (isOnLine(x, y, sample)) share *= line_share;
+    std::array<std::uint8_t, 4> color = {0, 0, 0, 255};
+    for (std::size_t k = 0; k < 3; ++k)
+      color[k] = static_cast<std::uint8_t>(std::lround(std::clamp(share * static_cast<float>(base[k]), 0.0F, 255.0F)));
+    return color;
+  }
+
+  Picture average() const {
+    Picture picture = {seen_.width / samples_per_pixel, seen_.height / samples_per_pixel, {}};
+    picture.pixels.resize(4 * static_cast<std::size_t>(picture.width) * picture.height);
+    forBlocks(options_.threads, picture.height, rows_per_block, [&](std::int64_t begin, std::int64_t end) {
+      for (int y = static_cast<int>(begin); y < end; ++y)
+        for (int x = 0; x < picture.width; ++x) {
+          std::array<int, 4> sum = {0, 0, 0, 0};
+          for (int j = 0; j < samples_per_pixel; ++j)
+            for (int i = 0; i < samples_per_pixel; ++i) {
+              const auto& color = shaded_[at(samples_per_pixel * x + i, samples_per_pixel * y + j)];
+              for (std::size_t k = 0; k < 3; ++k) sum[k] += color[k] * color[3];
+              sum[3] += color[3];
+            }
+          std::uint8_t* const pixel = &picture.pixels[4 * (static_cast<std::size_t>(y) * picture.width + x)];
+          if (sum[3] == 0) continue;
+          for (std::size_t k = 0; k < 3; ++k) pixel[k] = static_cast<std::uint8_t>((sum[k] + sum[3] / 2) / sum[3]);
+          constexpr int count = samples_per_pixel * samples_per_pixel;
+          pixel[3] = static_cast<std::uint8_t>((sum[3] + count / 2) / count);
+        }
+    });
+    return picture;
+  }
+
+  const SeenScene& seen_;
+  const FieldColors& colors_;
+  const PictureOptions& options_;
+  std::uint32_t points_;
+  /// Differences of logarithms of depth that the bulges of discs make and that do not shade.
+  float slack_ = 0.0005F;
+  std::vector<Values> values_;
+  std::vector<std::array<std::uint8_t, 4>> shaded_;
+};
+
+}  // namespace
+
+Picture shade(const SeenScene& seen, const FieldColors& colors, const PictureOptions& options) {
+  return Shader(seen, colors, options).run();
+}
+
+std::array<std::uint8_t, 4> backgroundColor(Background background) {
+  switch (background) {
+    case Background::dark:
+      return {24, 26, 30, 255};
+    case Background::transparent:
+      return {255, 255, 255, 0};
+    default:
+      return {255, 255, 255, 255};
+  }
+}
+
+}  // namespace tufted::view

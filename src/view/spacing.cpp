@@ -1,0 +1,108 @@
+#include "view/spacing.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <utility>
+
+#include "view/threads.h"
+
+namespace tufted::view {
+
+namespace {
+
+/// How many points before and after in the order along a curve are looked at.
+constexpr std::ptrdiff_t window = 14;
+/// The distance to this neighbour, counted from 1, is taken for the spacing: on a square grid that of the diagonal.
+constexpr int neighbor = 8;
+/// The radius of a disc in that distance. Less leaves holes where points are random.
+constexpr float disc_share = 0.85F;
+/// No disc is larger than this share of the scene's half size, nor this many times the median.
+constexpr float most_of_scene = 0.12F;
+constexpr float most_of_others = 4;
+/// The radius of points without enough neighbours, in the scene's half size.
+constexpr float lone_radius = 0.025F;
+
+/// Spreads 21 bits so that two others fit between each and the next.
+std::uint64_t spread(std::uint64_t x) {
+  x = (x | x << 32) & 0x1f00000000ffff;
+  x = (x | x << 16) & 0x1f0000ff0000ff;
+  x = (x | x << 8) & 0x100f00f00f00f00f;
+  x = (x | x << 4) & 0x10c30c30c30c30c3;
+  return (x | x << 2) & 0x1249249249249249;
+}
+
+/// The place of a point on Morton's curve through a cube that is moved by `shift`.
+std::uint64_t placeOf(const Eigen::Vector3d& position, double shift) {
+  std::uint64_t place = 0;
+  for (int k = 0; k < 3; ++k) {
+    const double share = std::clamp((position[k] + 4 + shift) / 9, 0.0, 1.0);
+    place |= spread(static_cast<std::uint64_t>(share * 0x1fffff)) << k;
+  }
+  return place;
+}
+
+/// The least distances that were met, ascending.
+class Nearest {
+ public:
+  Nearest() { squares_.fill(std::numeric_limits<float>::infinity()); }
+  void add(float square) {
+    if (square >= squares_.back()) return;
+    std::size_t k = squares_.size() - 1;
+    for (; k > 0 && squares_[k - 1] > square; --k) squares_[k] = squares_[k - 1];
+    squares_[k] = square;
+  }
+  float farthest() const { return std::sqrt(squares_.back()); }
+
+ private:
+  std::array<float, neighbor> squares_;
+};
+
+}  // namespace
+
+std::vector<float> discRadii(const NormalizedPoints& points, int threads) {
+  const auto count = static_cast<std::int64_t>(points.finite.size());
+  std::vector<float> radii(static_cast<std::size_t>(points.positions.rows()), std::numeric_limits<float>::infinity());
+  // Neighbours in space may be far on the curve where it passes between large cells; on one of two curves that are
+  // moved against each other they are near.
+  const std::array<double, 2> shifts = {0, 0.618};
+  std::array<std::vector<std::pair<std::uint64_t, int>>, 2> orders;
+  forBlocks(threads, 2, 1, [&](std::int64_t begin, std::int64_t) {
+    auto& order = orders[static_cast<std::size_t>(begin)];
+    order.reserve(points.finite.size());
+    for (const int i : points.finite)
+      order.emplace_back(placeOf(points.positions.row(i).transpose(), shifts[static_cast<std::size_t>(begin)]), i);
+    std::sort(order.begin(), order.end());
+  });
+  for (const auto& order : orders)
+    forBlocks(threads, count, 8192, [&](std::int64_t begin, std::int64_t end) {
+      for (std::int64_t a = begin; a < end; ++a) {
+        const int i = order[static_cast<std::size_t>(a)].second;
+        const Eigen::Vector3f p = points.positions.row(i).cast<float>();
+        Nearest nearest;
+        for (std::int64_t b = std::max<std::int64_t>(0, a - window); b <= std::min(count - 1, a + window); ++b) {
+          const float square =
+              (points.positions.row(order[static_cast<std::size_t>(b)].second).cast<float>().transpose() - p)
+                  .squaredNorm();
+          if (square > 0) nearest.add(square);
+        }
+        radii[static_cast<std::size_t>(i)] =
+            std::min(radii[static_cast<std::size_t>(i)], disc_share * nearest.farthest());
+      }
+    });
+  if (count <= neighbor) {
+    std::fill(radii.begin(), radii.end(), lone_radius);
+    return radii;
+  }
+  std::vector<float> sorted;
+  for (const int i : points.finite) sorted.push_back(radii[static_cast<std::size_t>(i)]);
+  const auto at = sorted.begin() + static_cast<std::ptrdiff_t>(0.5 * static_cast<double>(count - 1));
+  std::nth_element(sorted.begin(), at, sorted.end());
+  const float most = std::min(most_of_scene, most_of_others * *at);
+  for (float& radius : radii) radius = std::isfinite(radius) ? std::min(radius, most) : lone_radius;
+  return radii;
+}
+
+}  // namespace tufted::view

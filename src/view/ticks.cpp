@@ -1,0 +1,63 @@
+#include "view/ticks.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+namespace tufted::view {
+
+namespace {
+
+constexpr int most_steps = 6;
+
+/// A number with `digits` after the point and a true minus sign.
+std::string numberText(double value, int digits) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.*f", digits, std::abs(value));
+  const bool is_zero = std::string(text).find_first_not_of("0.") == std::string::npos;
+  std::string signed_text = value < 0 && !is_zero ? "\u2212" : "";
+  return signed_text += text;
+}
+
+}  // namespace
+
+double niceStep(double span, int count) {
+  if (!(span > 0) || !std::isfinite(span)) return 0;
+  const double rough = span / count;
+  const double power = std::pow(10.0, std::floor(std::log10(rough)));
+  if (!(power > 0)) return 0;  // below the least number
+  const double share = rough / power;
+  return power * (share <= 1.0001 ? 1 : share <= 2.0001 ? 2 : share <= 5.0001 ? 5 : 10);
+}
+
+Ticks ticksOf(double low, double high) {
+  Ticks ticks;
+  const double most = std::max(std::abs(low), std::abs(high));
+  if (most > 0 && (most >= 1e5 || most < 1e-2)) {
+    ticks.exponent = static_cast<int>(std::floor(std::log10(most)));
+    ticks.exponent -= ((ticks.exponent % 3) + 3) % 3;
+  }
+  const double step = niceStep(high - low, most_steps);
+  const bool is_one_value = step == 0 || high - low < 1e-9 * most;
+  if (is_one_value) {
+    ticks.values = {low};
+  } else {
+    for (double k = std::ceil(low / step - 1e-6); k <= high / step + 1e-6; ++k) ticks.values.push_back(k * step);
+  }
+  const double shift = ticks.exponent;
+  const double shown = std::log10(is_one_value ? std::max(most, 1e-300) / 1e3 : step) - shift;
+  const int digits = std::clamp(static_cast<int>(std::ceil(-shown - 1e-6)), 0, 12);
+  for (const double value : ticks.values)
+    ticks.texts.push_back(numberText(value * std::pow(10.0, -shift / 2) * std::pow(10.0, -shift / 2), digits));
+  return ticks;
+}
+
+std::string raised(int exponent) {
+  static const char* const digits[] = {"\u2070", "\u00b9", "\u00b2", "\u00b3", "\u2074",
+                                       "\u2075", "\u2076", "\u2077", "\u2078", "\u2079"};
+  std::string text = exponent < 0 ? "\u207b" : "";
+  for (const char digit : std::to_string(std::abs(exponent))) text += digits[digit - '0'];
+  return text;
+}
+
+}  // namespace tufted::view

@@ -1,0 +1,133 @@
+// A look at results: --png, --view and --color of all subcommands, and the subcommand view.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "subcommands.h"
+
+namespace {
+
+class View : public Subcommands {
+ protected:
+  /// Width and height of a whole PNG file.
+  std::pair<int, int> sizeOf(const std::string& name) const {
+    const std::string bytes = readAll(dir_ / name);
+    EXPECT_EQ(bytes.substr(0, 8), "\x89PNG\r\n\x1a\n") << name;
+    EXPECT_EQ(bytes.substr(bytes.size() - 8, 4), "IEND") << name;
+    const auto number = [&](std::size_t at) {
+      int value = 0;
+      for (std::size_t k = 0; k < 4; ++k) value = 256 * value + static_cast<unsigned char>(bytes.at(at + k));
+      return value;
+    };
+    return {number(16), number(20)};
+  }
+  void expectPage(const std::string& name) const {
+    const std::string page = readAll(dir_ / name);
+    EXPECT_TRUE(contains(page.substr(0, 100), "<!doctype html>") || contains(page.substr(0, 100), "<!DOCTYPE html>"));
+    EXPECT_TRUE(contains(page.substr(page.size() - 20), "</html>"));
+  }
+  bool exists(const std::string& name) const { return std::filesystem::exists(dir_ / name); }
+
+  /// A sphere whose points have a value.
+  std::string warmSphere() const {
+    std::string text =
+        "ply\nformat ascii 1.0\nelement vertex 200\nproperty float x\nproperty float y\nproperty float z\n"
+        "property float heat\nend_header\n";
+    int number = 0;
+    for (const std::string& line : linesOf(sphere(200))) text += line + ' ' + std::to_string(number++) + '\n';
+    return text;
+  }
+
+  const std::string cloud_ = dir_.write("sphere.ply", warmSphere());
+  const std::string mesh_ = dir_.write("tetrahedron.off", tetrahedron);
+};
+
+TEST_F(View, EverySubcommandShowsItsResult) {
+  int number = 0;
+  for (std::vector<std::string> arguments : commands) {
+    const std::string name = std::to_string(number++) + arguments[0];
+    std::replace(arguments.begin(), arguments.end(), std::string("x"), std::string("heat"));  // poisson's field
+    arguments.insert(arguments.end(), {cloud_, "--out", in(name), "--png", in(name + ".png"), "--view",
+                                       in(name + ".html"), "--size", "200x150"});
+    const Result result = run(arguments);
+    EXPECT_TRUE(contains(result.out, "picture")) << result.out;
+    EXPECT_TRUE(contains(result.out, "page")) << result.out;
+    EXPECT_EQ(sizeOf(name + ".png"), (std::pair{200, 150})) << name;
+    expectPage(name + ".html");
+  }
+}
+
+TEST_F(View, OfAFolderShowsWhatASubcommandWrote) {
+  run({"spectrum", cloud_, "--count", "3", "--out", in("modes")});
+  run({"view", in("modes")});
+  expectPage("modes/view.html");
+  const nlohmann::json said = nlohmann::json::parse(run({"view", in("modes"), "--png", in("a.png"), "--json"}).out);
+  EXPECT_EQ(said["fields"][0], "evecs");
+  EXPECT_EQ(said["points"], 200);
+  EXPECT_EQ(said["picture"], in("a.png"));
+  run({"view", in("modes"), "--png", in("b.png"), "--column", "2"});
+  EXPECT_NE(readAll(dir_ / "a.png"), readAll(dir_ / "b.png"));
+  run({"distance", mesh_, "--source", "0", "--out", in("mesh")});
+  EXPECT_TRUE(contains(run({"view", in("mesh")}).out, "triangles       4"));
+}
+
+TEST_F(View, OfAFileShowsItsFields) {
+  const std::string ply = dir_.write("colored.ply",
+                                     "ply\nformat ascii 1.0\nelement vertex 4\nproperty float x\nproperty float y\n"
+                                     "property float z\nproperty float heat\nproperty uchar red\n"
+                                     "property uchar green\nproperty uchar blue\nend_header\n0 0 0 1 255 0 0\n"
+                                     "1 0 0 2 0 255 0\n0 1 0 3 0 0 255\n1 1 0 4 9 9 9\n");
+  const nlohmann::json said = nlohmann::json::parse(run({"view", ply, "--out", in("c.html"), "--json"}).out);
+  EXPECT_EQ(said["fields"], (nlohmann::json{"color", "heat"}));
+  expectPage("c.html");
+  run({"view", ply, "--field", "heat", "--png", in("heat.png"), "--background", "dark", "--colormap", "magma"});
+  EXPECT_EQ(sizeOf("heat.png"), (std::pair{1200, 900}));
+  run({"view", ply});
+  expectPage("colored.ply.html");
+  for (const auto& [word, arguments] : std::vector<std::pair<std::string, std::vector<std::string>>>{
+           {"did you mean `heat`", {"view", ply, "--field", "heta"}},
+           {"--column 1", {"view", ply, "--field", "heat", "--column", "1"}},
+           {"overwritten", {"view", ply, "--out", ply}},
+           {"no directory", {"view", ply, "--out", in("none/a.html")}},
+           {"report.json", {"view", in("")}}}) {
+    const Result result = runTufted(arguments);
+    EXPECT_NE(result.code, 0) << word;
+    EXPECT_TRUE(contains(result.err, word)) << result.err;
+  }
+}
+
+TEST_F(View, CopiesOfThePointsHaveColoursAndQuality) {
+  run({"distance", cloud_, "--source", "0", "--out", in("colored"), "--format", "ply,pcd", "--color", "distance"});
+  const std::string ply = readAll(dir_ / "colored/points.ply");
+  for (const char* property : {"uchar red", "uchar green", "uchar blue", "float quality"})
+    EXPECT_TRUE(contains(ply.substr(0, ply.find("end_header")), std::string("property ") + property)) << property;
+  const std::string pcd = readAll(dir_ / "colored/points.pcd");
+  EXPECT_TRUE(contains(pcd.substr(0, pcd.find("DATA")), " rgb "));
+  run({"laplacian", cloud_, "--out", in("mass"), "--color", "mass"});
+  EXPECT_TRUE(contains(readAll(dir_ / "mass/points.ply").substr(0, 3000), "property uchar red"));
+  run({"distance", cloud_, "--source", "0", "--out", in("plain")});
+  EXPECT_FALSE(contains(readAll(dir_ / "plain/points.ply").substr(0, 3000), "quality"));
+}
+
+TEST_F(View, MistakesAreRefusedBeforeTheBuild) {
+  const std::vector<std::string> distance = {"distance", cloud_, "--source", "0"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.begin(), distance.begin(), distance.end());
+    return more;
+  };
+  expectRefusal(with({"--png", in("none/a.png")}), "there is no directory", 1);
+  expectRefusal(with({"--png", dir_.write("a.txt", "").string() + "/b.png"}), "there is no directory", 1);
+  expectRefusal(with({"--view", in(".")}), "is a directory");
+  expectRefusal(with({"--png", in("a"), "--view", in("a")}), "one file");
+  expectRefusal(with({"--png", in("a.png"), "--size", "10x900"}), "WIDTHxHEIGHT");
+  expectRefusal(with({"--png", in("a.png"), "--size", "800"}), "WIDTHxHEIGHT");
+  expectRefusal(with({"--png", in("a.png"), "--colormap", "viridsi"}), "did you mean `viridis`");
+  expectRefusal(with({"--png", in("a.png"), "--camera", "10"}), "AZIMUTH,ELEVATION");
+  expectRefusal(with({"--png", in("a.png"), "--camera", "10,91"}), "AZIMUTH,ELEVATION");
+  expectRefusal(with({"--png", in("a.png"), "--color", "distanec"}), "did you mean `distance`");
+  expectRefusal(with({"--png", in("a.png"), "--up", "w"}), "is none of");
+  EXPECT_FALSE(exists("a.png"));
+}
+
+}  // namespace

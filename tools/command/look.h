@@ -1,0 +1,63 @@
+#pragma once
+
+#include <CLI/App.hpp>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "summary.h"
+#include "tufted/io/read.h"
+#include "tufted/io/results.h"
+#include "tufted/laplacian.h"
+#include "tufted/view/picture.h"
+#include "tufted/view/scene.h"
+
+// A look at results: pages, pictures, and colours of the copies of the points.
+
+/// What a command shows, as its options state it.
+struct Look {
+  std::filesystem::path png;   ///< empty: no picture
+  std::filesystem::path page;  ///< empty: no page
+  std::string color;           ///< name of the field that is shown; empty: the first
+  tufted::PictureOptions picture;
+
+  bool isWanted() const { return !png.empty() || !page.empty(); }
+};
+
+/// Adds --png and the options of what it shows.
+void addPictureOptions(CLI::App& command, Look& look);
+/// Adds these, and --view.
+void addLookOptions(CLI::App& command, Look& look);
+
+/// Refuses files that cannot be written, before anything is computed.
+/// @throws InvalidInput, IoError
+void checkLook(const Look& look);
+/// Refuses a name of --color that is none of the fields that there will be.
+/// @param results names of results per point
+/// @throws InvalidInput
+void checkColor(const Look& look, const tufted::Geometry& geometry, const std::vector<std::string>& results);
+
+/// What the values of a result of a command mean, by its name.
+tufted::FieldKind kindOfResult(const std::string& name, Eigen::Index columns);
+
+/// The fields of a file, with its colours as one field `color`.
+std::vector<tufted::SceneField> fieldsOf(const tufted::Geometry& geometry);
+
+/// The scene of results: arrays per point first, then mass, boundary and components of the Laplacian, then the fields
+/// of the file. Points that take no part have no value.
+tufted::Scene sceneOf(const std::string& title, const tufted::Geometry& geometry, const tufted::Laplacian& laplacian,
+                      const std::vector<tufted::ResultArray>& arrays);
+
+/// Looks from where the sensor of a depth image stood, where the command line does not say from where.
+void lookFromSensor(const tufted::Geometry& geometry, Look& look);
+
+/// Writes the page and the picture that are wanted.
+/// @throws InvalidInput for a field or a column that there is not, IoError
+void show(const tufted::Scene& scene, const Look& look);
+
+/// Gives the copies of the points the colours of the field that --color names: fields red, green and blue, and
+/// MeshLab's quality, in place of those that they have.
+void colorCopies(const tufted::Scene& scene, const Look& look, tufted::Geometry& geometry);
+
+/// Says where a look was written to.
+void addLook(const Look& look, Summary& summary);

@@ -1,0 +1,188 @@
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "command.h"
+#include "console.h"
+#include "look.h"
+#include "options.h"
+#include "progress_bar.h"
+#include "suggestion.h"
+#include "tufted/errors.h"
+
+namespace {
+
+constexpr const char* description = "A page and a picture of results, or of a file.";
+
+constexpr const char* footer =
+    R"(Example:
+  tufted view distance --png distance.png
+
+WHAT is a folder that another subcommand has written, with points.ply or points.pcd in it: its arrays of a
+row per point are shown, the first of them first. Or it is a file of points or a mesh, whose fields are shown; its
+colours are the field `color`. Without --out and --png the page is written to view.html in the folder, or beside the
+file with `.html` behind its name.
+
+The page is complete: it works from disk, without a network, in any browser with WebGL 2.)";
+
+struct Settings {
+  std::filesystem::path what;
+  std::vector<std::string> fields;
+  Look look;
+  Console console;
+};
+
+using tufted::Scene;
+using tufted::SceneField;
+
+/// Whether an array of a folder is shown first: results are, and what belongs to the Laplacian is not.
+int orderOf(const std::string& name) {
+  const char* const last[] = {"M", "boundary", "components", "status"};
+  return std::find(std::begin(last), std::end(last), name) == std::end(last) ? 0 : 1;
+}
+
+/// Adds the arrays of a row per point, in place of the fields of the copy of the points that they are also in.
+void addArrays(const std::filesystem::path& folder, Scene& scene) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().extension() == ".npy") files.push_back(entry.path());
+  std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) {
+    return std::pair(orderOf(a.stem().string()), a) < std::pair(orderOf(b.stem().string()), b);
+  });
+  std::vector<SceneField> fields;
+  for (const std::filesystem::path& file : files) {
+    const std::string name = file.stem().string();
+    if (name == "frames" || name == "measured_positions" || name == "representative" || name == "filtered_positions")
+      continue;
+    Eigen::MatrixXd values = tufted::readArray(file);
+    if (values.rows() != scene.positions.rows() || values.cols() == 0) continue;
+    if (name == "boundary") values.array() -= 1;  // none is grey
+    const std::string shown = name == "M" ? "mass" : name == "components" ? "component" : name;
+    fields.push_back({shown, kindOfResult(shown, values.cols()), std::move(values)});
+  }
+  const auto is_copy = [&](const SceneField& field) {
+    return std::any_of(fields.begin(), fields.end(), [&](const SceneField& array) {
+      const std::string rest = field.name.substr(std::min(array.name.size(), field.name.size()));
+      return field.name.rfind(array.name, 0) == 0 &&
+             (rest.empty() || (rest[0] == '_' && rest.find_first_not_of("0123456789", 1) == std::string::npos));
+    });
+  };
+  std::erase_if(scene.fields, is_copy);
+  for (SceneField& field : scene.fields)
+    if (field.name == "boundary") field.values.array() -= 1;
+  std::erase_if(scene.fields,
+                [](const SceneField& field) { return field.name == "status" || field.name == "representative"; });
+  scene.fields.insert(scene.fields.begin(), std::make_move_iterator(fields.begin()),
+                      std::make_move_iterator(fields.end()));
+}
+
+Scene sceneOfFile(const std::filesystem::path& file, tufted::Geometry& geometry, const tufted::Progress& progress) {
+  geometry = tufted::read(file, tufted::ReadAs::automatic, tufted::FileFormat::automatic, progress);
+  Scene scene = {.title = file.filename().string(), .positions = geometry.points};
+  if (geometry.is_mesh) scene.triangles = geometry.triangles;
+  if (geometry.normals.rows() == geometry.points.rows()) scene.normals = geometry.normals;
+  scene.fields = fieldsOf(geometry);
+  return scene;
+}
+
+Scene sceneOfFolder(const std::filesystem::path& folder, tufted::Geometry& geometry, const tufted::Progress& progress) {
+  std::ifstream file(folder / "report.json");
+  const nlohmann::json report = nlohmann::json::parse(file, nullptr, false);
+  if (!report.is_object())
+    throw tufted::IoError(folder.string() + ": has no report.json that a subcommand has written");
+  std::error_code error;
+  for (const char* name : {"points.ply", "points.pcd"}) {
+    if (!std::filesystem::exists(folder / name, error)) continue;
+    Scene scene = sceneOfFile(folder / name, geometry, progress);
+    const std::string command = report.value("command", "laplacian");
+    scene.title = command + ": " + std::filesystem::path(report.value("source", "")).filename().string();
+    addArrays(folder, scene);
+    if (scene.triangles.rows() == 0 && std::filesystem::exists(folder / "triangles.ply", error)) {
+      const tufted::Geometry surface = tufted::read(folder / "triangles.ply");
+      if (surface.points.rows() == scene.positions.rows()) scene.triangles = surface.triangles;
+    }
+    return scene;
+  }
+  throw tufted::IoError(folder.string() + ": has neither points.ply nor points.pcd, which --format ply writes");
+}
+
+/// Keeps the fields that are named, in this order.
+void choose(const std::vector<std::string>& names, Scene& scene) {
+  if (names.empty()) return;
+  std::vector<std::string> known;
+  for (const SceneField& field : scene.fields) known.push_back(field.name);
+  std::vector<SceneField> chosen;
+  for (const std::string& name : names) {
+    const auto at = std::find(known.begin(), known.end(), name);
+    if (at == known.end()) {
+      std::string all;
+      for (const std::string& field : known) all += (all.empty() ? "" : ", ") + field;
+      throw tufted::InvalidInput("--field " + name + (known.empty() ? ": there are no fields" : " is none of " + all) +
+                                 didYouMean(name, known));
+    }
+    chosen.push_back(scene.fields[static_cast<std::size_t>(at - known.begin())]);
+  }
+  scene.fields = std::move(chosen);
+}
+
+int runView(Settings& settings) {
+  Look& look = settings.look;
+  std::error_code error;
+  const bool is_folder = std::filesystem::is_directory(settings.what, error);
+  if (!look.isWanted())
+    look.page = is_folder ? (settings.what / "view.html").string() : settings.what.string() + ".html";
+  for (const std::filesystem::path& file : {look.png, look.page})
+    if (!file.empty() && std::filesystem::equivalent(file, settings.what, error))
+      throw tufted::InvalidInput(file.string() + ": is the input, which would be overwritten");
+  checkLook(look);
+  ProgressBar bar(settings.console.quiet);
+  const tufted::Progress progress = showOn(bar);
+  progress("read", 0);
+  tufted::Geometry geometry;
+  Scene scene =
+      is_folder ? sceneOfFolder(settings.what, geometry, progress) : sceneOfFile(settings.what, geometry, progress);
+  choose(settings.fields, scene);
+  lookFromSensor(geometry, look);
+  show(scene, look);
+  bar.clear();
+  Summary summary;
+  summary.add("points", "%lld", static_cast<long long>(scene.positions.rows()));
+  if (scene.triangles.rows() > 0) summary.add("triangles", "%lld", static_cast<long long>(scene.triangles.rows()));
+  std::string names;
+  for (const SceneField& field : scene.fields) names.append(names.empty() ? "" : ", ").append(field.name);
+  summary.add("fields", "%s", names.empty() ? "none" : names.c_str());
+  addLook(look, summary);
+  if (settings.console.quiet) return exit_done;
+  std::string text = summary.text(false);
+  if (settings.console.json) {
+    nlohmann::ordered_json json = {{"tufted", TUFTED_VERSION}, {"command", "view"}, {"source", settings.what.string()}};
+    json["points"] = scene.positions.rows();
+    json["triangles"] = scene.triangles.rows();
+    json["fields"] = nlohmann::ordered_json::array();
+    for (const SceneField& field : scene.fields) json["fields"].push_back(field.name);
+    if (!look.page.empty()) json["page"] = look.page.string();
+    if (!look.png.empty()) json["picture"] = look.png.string();
+    text = json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  }
+  if (std::fputs(text.c_str(), stdout) < 0 || std::fflush(stdout) != 0)
+    throw tufted::IoError("standard output: cannot be written");
+  return exit_done;
+}
+
+}  // namespace
+
+void addView(CLI::App& app, Run& run) {
+  CLI::App& command = *app.add_subcommand("view", description);
+  command.footer(footer);
+  const auto settings = std::make_shared<Settings>();
+  command.add_option("WHAT", settings->what, "A folder of results, or points or a mesh")->required()->check(notEmpty);
+  command.add_option("--out,-o,--view", settings->look.page, "The page")->check(notEmpty)->type_name("FILE.html");
+  command.add_option("--field", settings->fields, "Show only these fields, in this order (all)")
+      ->allow_extra_args(false)
+      ->type_name("NAME");
+  addPictureOptions(command, settings->look);
+  addConsole(command, settings->console);
+  command.callback([&run, settings] { run = [settings] { return runView(*settings); }; });
+}
