@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Installs what tufted, its tests and its benchmark need, on Debian 12 and Ubuntu 22.04 and 24.04. Does nothing, and
 # asks for no rights, where all of it is there already.
-#   --tests  also what the checks of tools/test.sh need: clang with its sanitizers, clang-format, doxygen,
-#           pytest
+#   --tests  also what the checks of tools/test.sh need: clang with its sanitizers, clang-format, doxygen, pytest, and a
+#            browser where it is a package (on Ubuntu it is none, and the tests of pages in a browser skip themselves)
 #   --all    that, and clang-tidy
 #
 # The names are the same on all three. What differs: Ubuntu keeps most of them in `universe` (on by default); 22.04 has
@@ -16,6 +16,7 @@ packages=(
                                       # BLAS, which it takes otherwise, makes a factorisation 2 to 4 times slower
   libpcl-dev                                                        # the classes for PCL
   liblzf-dev libzip-dev libmatio-dev nlohmann-json3-dev libcli11-dev  # files and the command
+  zlib1g-dev  # pages to look at
   python3 python3-dev pybind11-dev python3-numpy python3-scipy python3-pip python3-venv  # the package for Python
   libgtest-dev libspectra-dev libbenchmark-dev libnanoflann-dev  # tests and benchmark
 )
@@ -67,4 +68,7 @@ command -v dpkg-query >/dev/null || fail "knows Debian and Ubuntu only; please i
 install "${packages[@]}"
 if $sanitizers && ! can_sanitize; then
   install libclang-rt-dev
+fi
+if $sanitizers && apt-cache show chromium-driver >/dev/null 2>&1; then
+  install chromium chromium-driver python3-selenium
 fi

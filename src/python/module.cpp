@@ -14,4 +14,5 @@ PYBIND11_MODULE(_tufted, module) {  // NOLINT
   addShape(module);
   addOperators(module);
   addFiles(module);
+  addView(module);
 }

@@ -16,5 +16,6 @@ void addVectorHeat(pybind11::module_& module);
 void addShape(pybind11::module_& module);
 void addOperators(pybind11::module_& module);
 void addFiles(pybind11::module_& module);
+void addView(pybind11::module_& module);
 
 }  // namespace tufted::python

@@ -8,6 +8,9 @@ from . import _tufted
 from ._results import Curvature, Gradients, LogMap, Segments, Spectrum
 from ._tufted import InvalidInput
 
+# Points that a notebook shows: a page of more would make its file larger than some ten megabytes.
+_LARGEST_PAGE = 500_000
+
 
 def _frames(normals, tangents):
     """N x 3 x 3: of each point the x axis, the y axis and the normal."""
@@ -99,17 +102,17 @@ class Surface:
                 f"area {report['area']:.6g}>")
 
     def _repr_html_(self):
-        report = self.report
-        rows = {"points": f"{len(self):,}", "take part": f"{report['active']:,}",
-                "components": f"{report['components']:,}", "area": f"{report['area']:.6g}",
-                "mean edge": f"{report['mean_edge']:.6g}", "entries of L": f"{report['nonzeros']:,}"}
-        if self._faces is not None:
-            rows["faces"] = f"{len(self._faces):,}"
-        if self._source:
-            rows["file"] = self._source
-        body = "".join(f"<tr><th>{html.escape(name)}</th><td>{html.escape(value)}</td></tr>"
-                       for name, value in rows.items())
-        return f"<table><caption>tufted.{type(self).__name__}</caption>{body}</table>"
+        if len(self) > _LARGEST_PAGE:
+            return f"<pre>{html.escape(repr(self))}</pre>"
+        labels = self.components.astype(np.float64).reshape(-1, 1)
+        fields = [("area of a point", "scalar", self.M.reshape(-1, 1), ""), ("component", "label", labels, ""),
+                  ("boundary", "label", self.boundary.astype(np.float64).reshape(-1, 1), "")]
+        faces = np.zeros((0, 3), np.int32) if self._faces is None else self._faces
+        page = _tufted.page(self._source or f"tufted.{type(self).__name__}", self._points, faces,
+                            self._frame_parts()[0], fields)
+        # The page runs by itself: what it may do in a notebook ends at its frame.
+        return (f'<iframe srcdoc="{html.escape(page)}" sandbox="allow-scripts allow-downloads" width="100%" height="480" '
+                f'style="border: 0" title="{html.escape(repr(self))}"></iframe>')
 
     def __getstate__(self):
         return {"laplacian": _tufted.state_of(self._laplacian), "points": self._points, "faces": self._faces,

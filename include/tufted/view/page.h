@@ -1,0 +1,40 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <filesystem>
+#include <string>
+
+#include "tufted/view/scene.h"
+
+namespace tufted {
+
+/// What a page shows when it is opened. All of it can be changed there.
+struct PageOptions {
+  int field = 0;               ///< the field shown first, counted from 0
+  int column = 0;              ///< and its column, counted from 0
+  std::string color_map = {};  ///< its colour map, one of colorMapNames(); empty: that of its kind
+  /// The direction in which the eye lies, of any length, and that which is up on the screen; 0: the page chooses.
+  Eigen::Vector3d eye = Eigen::Vector3d::Zero(), up = Eigen::Vector3d::Zero();
+};
+
+/// One HTML page that shows a scene in any browser with WebGL 2. It is complete: it loads nothing, works from disk and
+/// without a network, and sends nothing.
+///
+/// Positions, vectors and scalar values are stored with 16 bits each, normals with 16 bits together. The step of a
+/// column is its range divided by 65534, so a value is off by at most half of that. The range runs from least to
+/// greatest, but no farther than six times the distance of the 1st and the 99th percentile beyond these; values farther
+/// out are stored whole, so that few outliers cost the others no digits. Labels are stored whole, colours with 8 bits.
+/// Points keep their order: the page counts them from 0 as the caller does.
+/// @param scene its texts may hold any bytes; what is not UTF-8 is shown as U+FFFD
+/// @throws InvalidInput as checkScene() does, for a field or column that there is not, an unknown colour map, or a
+///         direction that is not finite
+std::string pageOf(const Scene& scene, const PageOptions& options = {});
+
+/// Writes pageOf() to a file. It appears whole or not at all: it is written beside `path` under another name, which is
+/// then changed. A file of that name is replaced.
+/// @param path the name of the file, in a directory that exists
+/// @throws InvalidInput as pageOf()
+/// @throws IoError naming `path`
+void writePage(const std::filesystem::path& path, const Scene& scene, const PageOptions& options = {});
+
+}  // namespace tufted

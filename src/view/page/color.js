@@ -1,0 +1,42 @@
+// Colour maps, which come with the data, and the range that they are spread over.
+import { ClampToEdgeWrapping, DataTexture, LinearFilter } from 'three';
+import { bytesOf } from './data.js';
+
+export const cssColor = (rgb) => `rgb(${rgb.join(' ')})`;
+
+/** The maps of the page: name, use, and colours as a list of [red, green, blue]. */
+export function colorMaps(scene) {
+  return scene.maps.map((map) => {
+    const bytes = bytesOf(map.colors);
+    const colors = [];
+    for (let i = 0; i < bytes.length; i += 3) colors.push([...bytes.subarray(i, i + 3)]);
+    return { name: map.name, use: map.use, colors };
+  });
+}
+
+export function mapTexture(map) {
+  const bytes = new Uint8Array(4 * map.colors.length);
+  map.colors.forEach((color, i) => bytes.set([...color, 255], 4 * i));
+  const texture = new DataTexture(bytes, map.colors.length, 1);
+  texture.minFilter = texture.magFilter = LinearFilter;
+  texture.wrapS = texture.wrapT = ClampToEdgeWrapping;
+  texture.needsUpdate = true;
+  return texture;
+}
+
+/** The values that have the first and the last colour. */
+export function colorRange(values, kind, is_middle) {
+  let [low, high] = is_middle ? [values.low, values.high] : [values.minimum, values.maximum];
+  if (kind === 'distance' || kind === 'vector' || kind === 'coordinates') low = Math.min(0, low);
+  if (kind === 'diverging') {
+    high = Math.max(Math.abs(low), Math.abs(high));
+    low = -high;
+  }
+  return [low, high];
+}
+
+/** The colour of a label, which the map gives again where it ends; null for negative ones and none. */
+export function labelColor(map, label) {
+  if (!(label >= 0) || !Number.isFinite(label)) return null;
+  return map.colors[Math.round(label) % map.colors.length];
+}

@@ -1,0 +1,42 @@
+// Numbers and texts for people.
+
+/** A number with at most `digits` digits that matter, without trailing zeros. */
+export function number(value, digits = 4) {
+  if (Number.isNaN(value)) return 'no value';
+  if (!Number.isFinite(value)) return value > 0 ? '∞' : '−∞';
+  const size = Math.abs(value);
+  let text;
+  if (size === 0) text = '0';
+  else if (size >= 1e6 || size < 1e-4) text = value.toExponential(digits - 1).replace(/\.?0+e/, 'e').replace('e+', 'e');
+  else {
+    text = value.toPrecision(digits);
+    text = text.includes('e') ? String(Number(text)) : text.includes('.') ? text.replace(/\.?0+$/, '') : text;
+  }
+  return text.replaceAll('-', '−');
+}
+
+/** A number with as many decimals as its step has a meaning for. */
+export function stepped(value, step) {
+  if (!Number.isFinite(value)) return number(value);
+  const decimals = Math.ceil(-Math.log10(step));
+  if (!(step > 0) || decimals > 8 || Math.abs(value) >= 1e15) return number(value, 6);
+  return value.toFixed(Math.max(0, decimals)).replace('-', '−');
+}
+
+export const count = (value) => value.toLocaleString('en');
+export const withUnit = (text, unit) => (unit ? `${text} ${unit}` : text);
+
+/** The nearest of 1, 2 and 5 times a power of ten, not below `value`. */
+export function roundUp(value) {
+  const power = 10 ** Math.floor(Math.log10(value));
+  return power * [1, 2, 5, 10].find((factor) => factor * power >= value * (1 - 1e-9));
+}
+
+/** Round numbers in a range, about `wanted` of them. */
+export function ticks(low, high, wanted = 4) {
+  if (!(high > low)) return [low];
+  const step = roundUp((high - low) / wanted);
+  const found = [];
+  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + step * 1e-9 && found.length < 20; ++k) found.push(k * step);
+  return found.map((value) => Number(value.toPrecision(12)));
+}

@@ -1,0 +1,229 @@
+// The points, triangles and arrows in space, and how they get onto the screen.
+import {
+  BufferAttribute, BufferGeometry, Color, ColorManagement, DepthTexture, DoubleSide, LinearSRGBColorSpace, Mesh,
+  NearestFilter, OrthographicCamera, PerspectiveCamera, Points, Scene, ShaderMaterial, UnsignedIntType, Vector2, Vector4,
+  WebGLRenderTarget, WebGLRenderer,
+} from 'three';
+import { makeArrows } from './arrows.js';
+import { Controls } from './controls.js';
+import { domeFragment, domeVertex, pointFragment, pointVertex, triangleFragment, triangleVertex } from './shaders.js';
+
+ColorManagement.enabled = false; // colours of the maps go to the screen as they are
+
+/** The distance of neighbouring points, that of the middle one of some: as a surface, its points would lie on a grid. */
+function spacingOf({ shown, drawn, count }) {
+  const queries = 24;
+  const nearest = 6; // on a square grid the fourth of these is at the distance of the grid
+  const found = [];
+  for (let q = 0; q < queries; ++q) {
+    const row = Math.floor(((q + 0.5) * count) / queries);
+    if (!drawn[row]) continue;
+    const [x, y, z] = shown.subarray(3 * row, 3 * row + 3);
+    const least = new Array(nearest).fill(Infinity);
+    for (let i = 0, k = 0; i < count; ++i, k += 3) {
+      const square = (shown[k] - x) ** 2 + (shown[k + 1] - y) ** 2 + (shown[k + 2] - z) ** 2;
+      if (square < least[nearest - 1] && square > 0 && drawn[i]) {
+        least[nearest - 1] = square;
+        least.sort((a, b) => a - b);
+      }
+    }
+    if (Number.isFinite(least[3])) found.push(Math.sqrt(least[3]));
+  }
+  found.sort((a, b) => a - b);
+  return found[Math.floor(found.length / 2)] ?? 0.02;
+}
+
+export class Stage {
+  constructor(element, positions, directions, triangles, events) {
+    Object.assign(this, { element, positions, has_normals: Boolean(directions), events });
+    this.renderer = new WebGLRenderer({ canvas: element, antialias: true, powerPreference: 'high-performance' });
+    this.renderer.outputColorSpace = LinearSRGBColorSpace;
+    this.camera = new PerspectiveCamera(30, 1, 0.01, 100);
+    this.scene = new Scene();
+    this.controls = new Controls(this.camera, element, { ...events, changed: () => { this.draw(); events.changed(); } });
+    this.spacing = spacingOf(positions);
+    this.is_lit = true;
+    this.size_factor = 1;
+    this.makeUniforms();
+    this.makeGeometry(directions, triangles);
+    this.makeDome();
+    new ResizeObserver(() => this.resize()).observe(element);
+    element.addEventListener('webglcontextrestored', () => this.draw());
+  }
+
+  makeUniforms() {
+    const list = {
+      mode: 0, map: null, range: new Vector2(0, 1), plain: new Color(), no_value: new Color(), line_color: new Color(),
+      interval: 0, start: 0, grid: 0, is_lit: true, is_flat: false, clip: new Vector4(0, 0, 0, 1), size: 0, least_size: 1.5,
+      pixels: 1, arrow_scale: 1,
+    };
+    this.uniforms = {};
+    for (const [name, value] of Object.entries(list)) this.uniforms[name] = { value };
+  }
+
+  set(values) {
+    for (const [name, value] of Object.entries(values)) this.uniforms[name].value = value;
+  }
+
+  makeGeometry(directions, triangles) {
+    const { shown, drawn, count } = this.positions;
+    const attributes = { position: new BufferAttribute(shown, 3) };
+    if (directions) attributes.direction = new BufferAttribute(directions, 2);
+    attributes.drawn = new BufferAttribute(drawn, 1);
+    this.points = new Points(new BufferGeometry(), this.material(pointVertex, pointFragment));
+    for (const [name, attribute] of Object.entries(attributes)) this.points.geometry.setAttribute(name, attribute);
+    this.corners = new Uint32Array(0);
+    this.objects = [this.points];
+    if (triangles) {
+      this.corners = this.drawnTriangles(triangles, drawn);
+      const geometry = new BufferGeometry();
+      geometry.setAttribute('position', attributes.position);
+      geometry.setIndex(new BufferAttribute(this.corners, 1));
+      this.triangles = new Mesh(geometry, this.material(triangleVertex, triangleFragment, DoubleSide));
+      this.objects.push(this.triangles);
+      this.points.visible = false;
+    }
+    for (const object of this.objects) {
+      object.frustumCulled = false;
+      this.scene.add(object);
+    }
+    this.empty = { value: new Float32Array(count), known: new Uint8Array(count) };
+    this.is_empty = !drawn.includes(1);
+  }
+
+  drawnTriangles(corners, drawn) {
+    const kept = new Uint32Array(corners.length);
+    let size = 0;
+    for (let t = 0; t < corners.length; t += 3)
+      if (drawn[corners[t]] && drawn[corners[t + 1]] && drawn[corners[t + 2]]) {
+        kept.set(corners.subarray(t, t + 3), size);
+        size += 3;
+      }
+    return kept.subarray(0, size);
+  }
+
+  material(vertexShader, fragmentShader, side = undefined) {
+    return new ShaderMaterial({ vertexShader, fragmentShader, uniforms: this.uniforms, ...(side && { side }) });
+  }
+
+  makeDome() {
+    this.target = new WebGLRenderTarget(1, 1, { minFilter: NearestFilter, magFilter: NearestFilter });
+    this.target.depthTexture = new DepthTexture(1, 1, UnsignedIntType);
+    this.dome_uniforms = {
+      colors: { value: this.target.texture }, depths: { value: this.target.depthTexture }, pixel: { value: new Vector2() },
+      near_far: { value: new Vector2() }, strength: { value: 0 },
+    };
+    const geometry = new BufferGeometry();
+    geometry.setAttribute('position', new BufferAttribute(new Float32Array([-1, -1, 0, 3, -1, 0, -1, 3, 0]), 3));
+    const material = new ShaderMaterial({
+      vertexShader: domeVertex, fragmentShader: domeFragment, uniforms: this.dome_uniforms, depthTest: false,
+      depthWrite: false,
+    });
+    this.dome = new Scene();
+    const mesh = new Mesh(geometry, material);
+    mesh.frustumCulled = false;
+    this.dome.add(mesh);
+    this.dome_camera = new OrthographicCamera();
+  }
+
+  /** Gives the points values: `scaled` and `known` of Values, `tints` (4 bytes each), `pairs` (2 floats each). */
+  show({ scaled = this.empty.value, known = this.empty.known, tints = null, pairs = null }) {
+    const attributes = {
+      value: new BufferAttribute(scaled, 1), known: new BufferAttribute(known, 1, true),
+      tint: tints && new BufferAttribute(tints, 4, true), pair: pairs && new BufferAttribute(pairs, 2),
+    };
+    for (const object of this.objects)
+      for (const [name, attribute] of Object.entries(attributes))
+        if (attribute) object.geometry.setAttribute(name, attribute);
+        else object.geometry.deleteAttribute(name);
+  }
+
+  showArrows(values, colorAt) {
+    if (this.arrows) {
+      this.scene.remove(this.arrows);
+      this.arrows.geometry.dispose();
+      this.arrows = null;
+    }
+    if (!values) return;
+    this.arrows = makeArrows(this.positions, values, this.spacing, this.uniforms, colorAt);
+    this.scene.add(this.arrows);
+  }
+
+  /** Looks from a direction; by default one that suits the shape of the box. */
+  look(eye = null, up = null) {
+    const [x, y, z] = this.positions.sides;
+    const is_ground = z < 0.5 * Math.max(x, y);
+    this.controls.look(eye ?? (is_ground ? [-0.35, -0.9, 0.85] : [0.45, 0.3, 1]), up ?? (is_ground ? [0, 0, 1] : [0, 1, 0]),
+                       (toEye) => this.distanceToSee(toEye));
+  }
+
+  /** How far the eye must be from the middle of the box to see all points in it, by the rows of the matrix `toEye`. */
+  distanceToSee(toEye) {
+    const { shown, drawn, count } = this.positions;
+    const m = toEye.elements;
+    const height = Math.tan((this.camera.fov * Math.PI) / 360);
+    const width = height * this.camera.aspect;
+    let distance = 0;
+    for (let i = 0; i < count; ++i) {
+      const [x, y, z] = [shown[3 * i], shown[3 * i + 1], shown[3 * i + 2]];
+      if (!drawn[i] || Math.max(Math.abs(x), Math.abs(y), Math.abs(z)) > 0.501) continue;
+      const right = Math.abs(m[0] * x + m[1] * y + m[2] * z) / width;
+      const up = Math.abs(m[4] * x + m[5] * y + m[6] * z) / height;
+      distance = Math.max(distance, Math.max(right, up) + m[8] * x + m[9] * y + m[10] * z);
+    }
+    return Math.max(1.28 * distance, 6 * this.spacing, 1e-3);
+  }
+
+  resize() {
+    const { clientWidth: width, clientHeight: height } = this.element;
+    if (width === 0 || height === 0) return;
+    this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
+    this.renderer.setSize(width, height, false);
+    const size = this.renderer.getDrawingBufferSize(new Vector2());
+    this.target.setSize(size.x, size.y);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+    this.drawNow();
+    this.events.changed();
+  }
+
+  draw() {
+    this.waiting ??= requestAnimationFrame(() => this.drawNow());
+  }
+
+  drawNow() {
+    cancelAnimationFrame(this.waiting);
+    this.waiting = null;
+    const size = this.renderer.getDrawingBufferSize(new Vector2());
+    const away = this.camera.position.length();
+    this.camera.near = Math.max(this.controls.distance * 0.01, away - 2);
+    this.camera.far = away + Math.max(4, this.controls.distance);
+    this.camera.updateProjectionMatrix();
+    this.set({
+      is_lit: this.is_lit, size: 1.5 * this.spacing * this.size_factor,
+      least_size: 1.5 * Math.min(2, this.size_factor) * this.renderer.getPixelRatio(),
+      pixels: size.y / (2 * Math.tan((this.camera.fov * Math.PI) / 360)),
+    });
+    const is_domed = this.points.visible;
+    this.renderer.setRenderTarget(is_domed ? this.target : null);
+    this.renderer.render(this.scene, this.camera);
+    if (is_domed) {
+      this.renderer.setRenderTarget(null);
+      this.dome_uniforms.pixel.value.set(1 / size.x, 1 / size.y).multiplyScalar(this.renderer.getPixelRatio());
+      this.dome_uniforms.near_far.value.set(this.camera.near, this.camera.far);
+      // Large points are steps themselves; full light would draw each of them like a scale.
+      const splat = (this.uniforms.size.value * this.uniforms.pixels.value) / this.controls.distance;
+      const softness = Math.min(1, Math.max(0.2, 4 / splat));
+      this.dome_uniforms.strength.value = this.is_lit ? (this.has_normals ? 60 : 160) * softness : 0;
+      this.renderer.render(this.dome, this.dome_camera);
+    }
+    this.drawn_pictures = (this.drawn_pictures ?? 0) + 1;
+  }
+
+  /** Whether a point is cut away. */
+  clipTest() {
+    const { x, y, z, w } = this.uniforms.clip.value;
+    const { shown } = this.positions;
+    return (row) => x * shown[3 * row] + y * shown[3 * row + 1] + z * shown[3 * row + 2] > w;
+  }
+}

@@ -1,0 +1,130 @@
+// Writes the pages that the tests in a browser look at: page_sample DIR, and page_sample DIR N for one of N points.
+#include <tufted/view/page.h>
+
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <string>
+
+namespace {
+
+using tufted::FieldKind;
+using tufted::Points;
+using tufted::Scene;
+
+constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+const tufted::PageOptions from_above = {.eye = {0, 0, 1}, .up = {0, 1, 0}};
+
+/// A square of side 2 around 0 at z = 0, of side * side points, row after row from y = -1 and x = -1 on.
+Points square(int side) {
+  Points points(side * side, 3);
+  for (int row = 0; row < side; ++row)
+    for (int column = 0; column < side; ++column)
+      points.row(row * side + column) << 2.0 * column / (side - 1) - 1, 2.0 * row / (side - 1) - 1, 0;
+  return points;
+}
+
+/// Points of a square with x as a field, four columns of constants, labels by quadrant, and no value in a corner.
+Scene plane() {
+  const Points points = square(101);
+  Scene scene = {.title = "plane", .positions = points, .unit = "m"};
+  Eigen::MatrixXd x = points.col(0);
+  Eigen::MatrixXd columns(points.rows(), 4), labels(points.rows(), 1), colors(points.rows(), 3);
+  for (Eigen::Index row = 0; row < points.rows(); ++row) {
+    columns.row(row) << -1, 0, 0.5, 1;
+    labels(row, 0) = (points(row, 0) > 0) + 2 * (points(row, 1) > 0);
+    colors.row(row) << 255 * (points(row, 0) > 0), 0, 255;
+    if (points(row, 0) < -0.5 && points(row, 1) < -0.5) x(row, 0) = nan;
+  }
+  columns(0, 0) = 1;  // so that the first column is not all the same
+  columns(0, 1) = columns(0, 2) = columns(0, 3) = -1;
+  scene.fields = {{"x", FieldKind::scalar, x, "m"},
+                  {"steps", FieldKind::diverging, columns},
+                  {"quadrant", FieldKind::label, labels},
+                  {"paint", FieldKind::color, colors},
+                  {"around 0", FieldKind::coordinates, points.leftCols<2>(), "m"},
+                  {"far", FieldKind::distance, points.rowwise().norm(), "m"}};
+  return scene;
+}
+
+/// The unit sphere as a mesh, z as a field.
+Scene sphere() {
+  const int rings = 48, sectors = 96;
+  Scene scene = {.title = "sphere", .positions = Points((rings + 1) * sectors, 3)};
+  scene.triangles.resize(2 * rings * sectors, 3);
+  for (int ring = 0; ring <= rings; ++ring)
+    for (int sector = 0; sector < sectors; ++sector) {
+      const double polar = M_PI * ring / rings, angle = 2 * M_PI * sector / sectors;
+      scene.positions.row(ring * sectors + sector) << std::sin(polar) * std::cos(angle),
+          std::sin(polar) * std::sin(angle), std::cos(polar);
+      if (ring == rings) continue;
+      const int next = (sector + 1) % sectors, face = 2 * (ring * sectors + sector);
+      scene.triangles.row(face) << ring * sectors + sector, (ring + 1) * sectors + sector, ring * sectors + next;
+      scene.triangles.row(face + 1) << ring * sectors + next, (ring + 1) * sectors + sector,
+          (ring + 1) * sectors + next;
+    }
+  scene.normals = scene.positions;
+  scene.fields = {
+      {"height", FieldKind::diverging, scene.positions.col(2)},
+      {"distance", FieldKind::distance, scene.positions.col(2).array().min(1).max(-1).acos().matrix(), "m"}};
+  return scene;
+}
+
+/// A square whose vectors go around its middle.
+Scene whirl() {
+  const Points points = square(101);
+  Points vectors = Points::Zero(points.rows(), 3);
+  vectors.col(0) = -points.col(1);
+  vectors.col(1) = points.col(0);
+  return {.title = "whirl", .positions = points, .fields = {{"around", FieldKind::vector, vectors, "m/s"}}};
+}
+
+/// Names that would do harm as HTML or script.
+Scene hostile() {
+  Scene scene = plane();
+  scene.title = "</script><script>window.harm = 1</script><img src=x onerror='window.harm = 2'>\"'&\xff\xfe\x00z";
+  scene.fields[0].name = "</script><script>window.harm = 3</script><!--<script>";
+  scene.fields[1].name = "<b onmouseover=\"window.harm = 4\">\xc3\x28";
+  scene.fields[0].unit = "</option><script>window.harm = 5</script>";
+  scene.unit = "&lt;\"><svg onload='window.harm = 6'>";
+  return scene;
+}
+
+/// Random points of a cube with a field, the worst case for the size of a page.
+Scene noise(Eigen::Index count) {
+  Scene scene = {.title = "random points", .positions = Points(count, 3)};
+  Eigen::VectorXd values(count);
+  std::uint64_t state = 1;
+  const auto random = [&state] {  // Vigna's splitmix64
+    std::uint64_t z = state += 0x9e3779b97f4a7c15u;
+    z = (z ^ z >> 30) * 0xbf58476d1ce4e5b9u;
+    z = (z ^ z >> 27) * 0x94d049bb133111ebu;
+    return static_cast<double>((z ^ z >> 31) >> 11) * 0x1p-53;
+  };
+  for (Eigen::Index i = 0; i < count; ++i) {
+    scene.positions.row(i) << random(), random(), random();
+    values[i] = random();
+  }
+  scene.fields = {{"value", FieldKind::scalar, values}};
+  return scene;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  if (argc < 2) return 2;
+  const std::filesystem::path dir = argv[1];
+  std::filesystem::create_directories(dir);
+  if (argc > 2) {
+    tufted::writePage(dir / (std::string(argv[2]) + ".html"), noise(std::stol(argv[2])));
+    return 0;
+  }
+  tufted::writePage(dir / "plane.html", plane(), from_above);
+  tufted::writePage(dir / "sphere.html", sphere());
+  tufted::writePage(dir / "whirl.html", whirl(), from_above);
+  tufted::writePage(dir / "hostile.html", hostile(), from_above);
+  tufted::writePage(dir / "empty.html", {.title = "empty", .positions = Points(0, 3)});
+} catch (const std::exception& error) {
+  std::fprintf(stderr, "%s\n", error.what());
+  return 1;
+}
