@@ -108,7 +108,7 @@ def test_files_that_are_bad_are_named(tmp_path):
     with pytest.raises(tufted.IoError, match="nowhere.ply"):
         tufted.read(tmp_path / "nowhere.ply")
     (tmp_path / "bad.ply").write_text("ply\nformat ascii 1.0\nelement vertex x\n")
-    with pytest.raises(OSError, match="bad.ply:3"):
+    with pytest.raises(OSError, match="bad.ply: line 3"):
         tufted.read(tmp_path / "bad.ply")
     with pytest.raises(tufted.IoError):
         tufted.load(tmp_path)

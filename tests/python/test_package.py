@@ -29,7 +29,7 @@ def in_code(function):
     kinds = {inspect.Parameter.KEYWORD_ONLY: "keyword", inspect.Parameter.VAR_KEYWORD: "rest"}
 
     def text(default):
-        return None if default is inspect.Parameter.empty else ast.unparse(ast.parse(repr(default)))
+        return None if default is inspect.Parameter.empty else ast.unparse(ast.parse(repr(default), mode="eval"))
 
     return [(p.name, text(p.default), kinds.get(p.kind, "positional"))
             for p in inspect.signature(function).parameters.values()]
@@ -83,6 +83,8 @@ def documented():
 @pytest.mark.parametrize("name, value", list(documented()))
 def test_docstrings_name_every_argument(name, value):
     assert value.__doc__, name
+    if value is tufted.Surface:
+        return  # not made by its users
     if isinstance(value, property) or (inspect.isclass(value) and "__init__" not in vars(value)):
         return
     text = value.__doc__ + (tufted.Surface.__doc__ if name.split(".")[0] in ("Surface", "PointCloud", "Mesh") else "")

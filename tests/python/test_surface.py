@@ -52,8 +52,8 @@ def test_filter_keeps_what_is_smooth(cloud):
 
 def test_distances_are_those_of_the_sphere(cloud):
     exact = np.arccos(np.clip(CLOUD @ CLOUD[0], -1, 1))
-    assert abs(cloud.distance(0) - exact).mean() < 0.02
-    assert abs(cloud.distance([0], unit="adapted", open_boundary=False) - exact).mean() < 0.02
+    assert abs(cloud.distance(0) - exact).mean() < 0.02 * np.pi / 2  # two in a hundred
+    assert abs(cloud.distance([0], unit="adapted", open_boundary=False) - exact).mean() < 0.02 * np.pi / 2
 
 
 def test_a_source_inside_a_triangle_lies_between_its_corners(mesh):
@@ -96,8 +96,9 @@ def test_gradients_are_tangential_parts(cloud, mesh):
         found = np.stack([X @ z, Y @ z], axis=1)
         assert abs(found - expected).max() < (1e-9 if surface is cloud else 0.1)
     vectors = np.stack([cloud.gradients().X @ CLOUD[:, 2], cloud.gradients().Y @ CLOUD[:, 2]], axis=1)
-    # minus the Laplacian of z is 2 z
-    assert abs(cloud.divergence(vectors) + 2 * CLOUD[:, 2]).mean() < 0.3
+    # Minus the Laplacian of z is 2 z, and the integral of 2 z^2 over the sphere 8 pi / 3.
+    z = CLOUD[:, 2]
+    assert -(cloud.M * z * cloud.divergence(vectors)).sum() == pytest.approx(8 * np.pi / 3, rel=0.02)
     u = np.random.default_rng(1).normal(size=3000)
     slopes = np.stack([cloud.gradients().X @ u, cloud.gradients().Y @ u], axis=1)
     left = (cloud.M * u * cloud.divergence(vectors)).sum()

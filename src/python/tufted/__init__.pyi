@@ -11,7 +11,6 @@ _Floats = npt.NDArray[np.float64]
 _Integers = npt.NDArray[np.int32]
 _Bytes = npt.NDArray[np.uint8]
 _Progress = Callable[[str, float], Any] | None
-_Sparse = scipy.sparse.csc_matrix
 _Path = str | PathLike[str]
 
 __version__: str
@@ -27,8 +26,8 @@ class Spectrum(NamedTuple):
     vectors: _Floats
 
 class Gradients(NamedTuple):
-    X: _Sparse
-    Y: _Sparse
+    X: scipy.sparse.csc_matrix
+    Y: scipy.sparse.csc_matrix
     frames: _Floats
 
 class Curvature(NamedTuple):
@@ -50,7 +49,7 @@ class Surface:
     @property
     def points(self) -> _Floats: ...
     @property
-    def L(self) -> _Sparse: ...
+    def L(self) -> scipy.sparse.csc_matrix: ...
     @property
     def M(self) -> _Floats: ...
     @property

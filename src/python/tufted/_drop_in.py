@@ -41,6 +41,7 @@ def point_cloud_laplacian(points, mollify_factor=1e-5, n_neighbors=30, return_ma
     preset: "scan", "clean" or "lidar", see PointCloud.
     dummy: whether points that take no part get 1 on the diagonal of L and a small mass, so that solvers never meet a
     singular matrix; otherwise they have zeros.
+    threads: at most this many; 0: all.
     Returns L and M, N x N csc_matrix; L is positive semidefinite, minus the Laplacian, and M diagonal, length^2.
     """
     with _named("point_cloud_laplacian", mollify="mollify_factor", neighbors="n_neighbors"):

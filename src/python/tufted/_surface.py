@@ -111,8 +111,8 @@ class Surface:
         page = _tufted.page(self._source or f"tufted.{type(self).__name__}", self._points, faces,
                             self._frame_parts()[0], fields)
         # The page runs by itself: what it may do in a notebook ends at its frame.
-        return (f'<iframe srcdoc="{html.escape(page)}" sandbox="allow-scripts allow-downloads" width="100%" height="480" '
-                f'style="border: 0" title="{html.escape(repr(self))}"></iframe>')
+        return (f'<iframe srcdoc="{html.escape(page)}" sandbox="allow-scripts allow-downloads" width="100%" '
+                f'height="480" style="border: 0" title="{html.escape(repr(self))}"></iframe>')
 
     def __getstate__(self):
         return {"laplacian": _tufted.state_of(self._laplacian), "points": self._points, "faces": self._faces,
