@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # Installs what tufted, its tests and its benchmark need, on Debian 12 and Ubuntu 22.04 and 24.04. Does nothing, and
 # asks for no rights, where all of it is there already.
-#   --tests  also what the checks of tools/test.sh need: clang with its sanitizers, clang-format, doxygen, and a browser
-#            where it is a package (on Ubuntu it is none, and the tests of pages in a browser skip themselves)
+#   --tests  also what the checks of tools/test.sh need: clang with its sanitizers, clang-format, doxygen, pytest, and a
+#            browser where it is a package (on Ubuntu it is none, and the tests of pages in a browser skip themselves)
 #   --all    that, and clang-tidy
 #
 # The names are the same on all three. What differs: Ubuntu keeps most of them in `universe` (on by default); 22.04 has
@@ -14,10 +14,12 @@ packages=(
   libeigen3-dev libflann-dev liblz4-dev libcgal-dev libtbb-dev      # the core
   libsuitesparse-dev libopenblas-dev  # CHOLMOD, and the BLAS that it finds through Debian's alternatives: the reference
                                       # BLAS, which it takes otherwise, makes a factorisation 2 to 4 times slower
-  libpcl-dev libzip-dev libmatio-dev nlohmann-json3-dev libcli11-dev  # files and the command
+  libpcl-dev                                                        # the classes for PCL
+  liblzf-dev libzip-dev libmatio-dev nlohmann-json3-dev libcli11-dev  # files and the command
   help2man                                                            # its manual pages
   zlib1g-dev libpng-dev libfreetype-dev  # pages and pictures to look at
-  libgtest-dev libspectra-dev libbenchmark-dev libnanoflann-dev python3 python3-scipy  # tests and benchmark
+  python3 python3-dev pybind11-dev python3-numpy python3-scipy python3-pip python3-venv  # the package for Python
+  libgtest-dev libspectra-dev libbenchmark-dev libnanoflann-dev  # tests and benchmark
 )
 
 sanitizers=false
@@ -25,7 +27,7 @@ case "${1-}" in
   '') ;;
   --tests | --all)
     sanitizers=true
-    packages+=(clang clang-format-14 doxygen)
+    packages+=(clang clang-format-14 doxygen python3-pytest)
     [[ $1 == --tests ]] || packages+=(clang-tidy)
     ;;
   *)

@@ -48,7 +48,7 @@ struct Gradients {
 /// Vertices of no triangle get z as their normal.
 /// @param triangles F x 3 indices into `points`; triangles with a corner that is not finite are left out
 /// @throws InvalidInput for indices out of range
-Frames meshFrames(const Points& points, const Triangles& triangles);
+Frames meshFrames(const PointsRef& points, const TrianglesRef& triangles);
 
 /// Gradients by least squares with equal weights: at each point, the slope of the linear function with a constant that
 /// fits u best at the point and its neighbours, in the plane that fits their positions best. So the coordinates x, y
@@ -62,10 +62,10 @@ Frames meshFrames(const Points& points, const Triangles& triangles);
 /// @throws InvalidInput for arrays of different sizes, options out of range, or a Laplacian without frames, such as a
 ///         mesh's
 /// @throws Cancelled when `options.progress` returns false
-Gradients gradients(const Laplacian& laplacian, const Points& points, const GradientOptions& options = {});
+Gradients gradients(const Laplacian& laplacian, const PointsRef& points, const GradientOptions& options = {});
 /// Gradients in the planes of the caller's frames, otherwise as above.
 /// @param frames N x 3, orthonormal at active points; for meshes meshFrames()
-Gradients gradients(const Laplacian& laplacian, const Points& points, const Frames& frames,
+Gradients gradients(const Laplacian& laplacian, const PointsRef& points, const Frames& frames,
                     const GradientOptions& options = {});
 
 /// The divergence of tangent vectors, the adjoint of the gradients by the masses: for all functions u the sum of

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <memory>
 #include <vector>
 
 #include "tufted/laplacian.h"
@@ -74,5 +75,35 @@ Eigen::MatrixXd poisson(const Laplacian& laplacian, const Eigen::MatrixXd& f, co
 /// @throws SolverFailure when the system cannot be solved; Cancelled when `options.progress` returns false
 Eigen::MatrixXd greensFunction(const Laplacian& laplacian, const std::vector<int>& points,
                                const SolverOptions& options = {}, SolveReport* report = nullptr);
+
+/// poisson() without pins and greensFunction(), factored once and queried often; queries may run side by side. The
+/// results are theirs bit for bit.
+class PoissonSolver {
+ public:
+  /// @param laplacian shared, as every query looks at its masses; it must not change
+  /// @throws InvalidInput for a null pointer, options out of range or arrays of the wrong size
+  /// @throws SolverFailure when L cannot be factorised
+  /// @throws Cancelled when `options.progress` returns false
+  explicit PoissonSolver(std::shared_ptr<const Laplacian> laplacian, const SolverOptions& options = {});
+
+  /// As poisson().
+  Eigen::MatrixXd poisson(const Eigen::MatrixXd& f, SolveReport* report = nullptr, const Progress& progress = {}) const;
+  /// As greensFunction().
+  Eigen::MatrixXd green(const std::vector<int>& points, SolveReport* report = nullptr,
+                        const Progress& progress = {}) const;
+
+  /// What the constructor did.
+  const SolverReport& report() const;
+
+  /// What is moved from may be assigned to or destroyed, and nothing else.
+  PoissonSolver(PoissonSolver&&) noexcept;
+  /// What is moved from may be assigned to or destroyed, and nothing else.
+  PoissonSolver& operator=(PoissonSolver&&) noexcept;
+  ~PoissonSolver();
+
+ private:
+  struct State;
+  std::unique_ptr<const State> state_;
+};
 
 }  // namespace tufted

@@ -86,13 +86,13 @@ struct Laplacian {
 /// structure beside neighborhoods or one that is not valid (see ScanStructure), Delaunay::cgal without TUFTED_WITH_GPL,
 /// more than about 58 million points
 /// @throws Cancelled when `options.progress` returns false
-Laplacian pointCloudLaplacian(const Points& points, const CloudOptions& options = {});
+Laplacian pointCloudLaplacian(const PointsRef& points, const CloudOptions& options = {});
 
 /// Builds the mesh Laplacian (Sharp and Crane 2020, Algorithm 3), for triangles of any connectivity.
 /// @param points V x 3; coincident vertices stay separate.
 /// @param triangles F x 3 indices into `points`; triangles with a repeated vertex are dropped and counted.
 /// @throws InvalidInput for indices or options out of range, more than 357 million triangles or 2^31 entries of L
 /// @throws Cancelled when `options.progress` returns false
-Laplacian meshLaplacian(const Points& points, const Triangles& triangles, const MeshOptions& options = {});
+Laplacian meshLaplacian(const PointsRef& points, const TrianglesRef& triangles, const MeshOptions& options = {});
 
 }  // namespace tufted

@@ -30,12 +30,12 @@ class LaplacianBuilder {
   /// Builds the Laplacian of a cloud; arguments and errors are those of pointCloudLaplacian().
   /// @returns the builder's own result, until the next call; copies last, and so do their covers. After an exception
   /// the result is that of no points. A cover() that is asked for takes new memory
-  const Laplacian& pointCloud(const Points& points, const CloudOptions& options = {});
+  const Laplacian& pointCloud(const PointsRef& points, const CloudOptions& options = {});
 
   /// Builds the Laplacian of a mesh; arguments and errors are those of meshLaplacian(). The cover's memory is used
   /// again only with `keep_cover`.
   /// @returns the builder's own result, until the next call, as pointCloud() does
-  const Laplacian& mesh(const Points& points, const Triangles& triangles, const MeshOptions& options = {});
+  const Laplacian& mesh(const PointsRef& points, const TrianglesRef& triangles, const MeshOptions& options = {});
 
   /// Forgets the result and gives all memory back.
   void release();

@@ -12,12 +12,12 @@ namespace tufted {
 /// @param points N x 3, those that the Laplacian was built from
 /// @throws InvalidInput for positions or active points that are not finite, arrays of different sizes, or no active
 ///         point
-int nearestPoint(const Laplacian& laplacian, const Points& points, const Eigen::Vector3d& position);
+int nearestPoint(const Laplacian& laplacian, const PointsRef& points, const Eigen::Vector3d& position);
 
 /// The active points nearest to many positions, found by a search tree: O(N log N), then O(log N) for each position
 /// that is near the points. Errors are those of nearestPoint().
 /// @param positions P x 3
 /// @return P indices
-std::vector<int> nearestPoints(const Laplacian& laplacian, const Points& points, const Points& positions);
+std::vector<int> nearestPoints(const Laplacian& laplacian, const PointsRef& points, const PointsRef& positions);
 
 }  // namespace tufted

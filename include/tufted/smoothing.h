@@ -32,6 +32,6 @@ struct SmoothingOptions {
 /// @throws InvalidInput for options out of range, arrays of the wrong size, or active points that are not finite
 /// @throws SolverFailure when the matrix is not positive definite
 /// @throws Cancelled when `options.progress` returns false
-Points smooth(const Laplacian& laplacian, const Points& points, const SmoothingOptions& options = {});
+Points smooth(const Laplacian& laplacian, const PointsRef& points, const SmoothingOptions& options = {});
 
 }  // namespace tufted

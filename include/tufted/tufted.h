@@ -6,6 +6,7 @@
 #include "tufted/curvature.h"
 #include "tufted/describe.h"
 #include "tufted/distance.h"
+#include "tufted/dummy_values.h"
 #include "tufted/errors.h"
 #include "tufted/gradient.h"
 #include "tufted/interpolation.h"

@@ -11,6 +11,11 @@ namespace tufted {
 using Points = Eigen::Matrix<double, Eigen::Dynamic, 3, Eigen::RowMajor>;
 /// F x 3 vertex indices, one row per triangle.
 using Triangles = Eigen::Matrix<int, Eigen::Dynamic, 3, Eigen::RowMajor>;
+/// Positions that somebody else holds, borrowed for a call. A Points, an Eigen::Map<const Points> of any other memory
+/// with three doubles per row, and contiguous rows of either are not copied; other expressions of Eigen are.
+using PointsRef = Eigen::Ref<const Points, Eigen::Unaligned, Eigen::OuterStride<3>>;
+/// Triangles that somebody else holds, borrowed for a call; see PointsRef.
+using TrianglesRef = Eigen::Ref<const Triangles, Eigen::Unaligned, Eigen::OuterStride<3>>;
 /// N x k neighbour indices, one row per point; negative entries are padding.
 using Neighborhoods = Eigen::Matrix<int, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 /// Vertex indices of each polygon, in order around it.

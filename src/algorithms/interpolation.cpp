@@ -89,17 +89,40 @@ void checkRight(const std::string& function, const Laplacian& laplacian, const E
   }
 }
 
+LinearSystem systemOf(const std::string& function, const Laplacian& laplacian, const SolverOptions& options) {
+  return LinearSystem::laplacian({.function = function, .matrix = "L"}, laplacian, options);
+}
+
 /// Solves L u = b by components, with mean 0.
-Eigen::MatrixXd solveBalanced(const std::string& function, const Laplacian& laplacian, const Eigen::MatrixXd& b,
-                              const SolverOptions& options, SolveReport* report) {
-  const Stopwatch watch;
+/// @param watch runs since the system began to be made, or, where it was there, the solve
+Eigen::MatrixXd solveBalanced(const std::string& function, const Laplacian& laplacian, const LinearSystem& system,
+                              const Eigen::MatrixXd& b, const Stopwatch& watch, const Progress& progress,
+                              SolveReport* report) {
   SolveReport made;
-  Eigen::MatrixXd u = LinearSystem::laplacian({.function = function, .matrix = "L"}, laplacian, options)
-                          .solve(function, b, &made, options.progress, Refine::always);
+  Eigen::MatrixXd u = system.solve(function, b, &made, progress, Refine::always);
   for (Eigen::Index i = 0; i < u.rows(); ++i) {
     if (laplacian.status[i] != PointStatus::active) u.row(i).setConstant(std::numeric_limits<double>::quiet_NaN());
   }
   return finish(laplacian, std::move(u), watch, made, report);
+}
+
+/// The right sides of Green's functions, which must be of points on a component.
+Eigen::MatrixXd unitSources(const std::string& function, const Laplacian& laplacian, const std::vector<int>& points) {
+  const int n = static_cast<int>(laplacian.status.size());
+  if (points.empty()) throw InvalidInput(function + ": points is empty, must name at least one");
+  Eigen::MatrixXd b = Eigen::MatrixXd::Zero(n, static_cast<Eigen::Index>(points.size()));
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (points[k] < 0 || points[k] >= n) {
+      throw InvalidInput(function + ": point " + std::to_string(points[k]) + ", must lie in [0, " + std::to_string(n) +
+                         ")");
+    }
+    const int i = laplacian.representative[points[k]];
+    if (laplacian.status[i] != PointStatus::active) {
+      throw InvalidInput(function + ": point " + std::to_string(points[k]) + " lies on no component, must be active");
+    }
+    b(i, static_cast<Eigen::Index>(k)) = 1;
+  }
+  return b;
 }
 
 }  // namespace
@@ -157,8 +180,10 @@ Eigen::MatrixXd componentMeans(const Laplacian& laplacian, const Eigen::MatrixXd
 
 Eigen::MatrixXd poisson(const Laplacian& laplacian, const Eigen::MatrixXd& f, const SolverOptions& options,
                         SolveReport* report) {
+  const Stopwatch watch;
   checkRight("poisson", laplacian, f);
-  return solveBalanced("poisson", laplacian, weighted(laplacian, f), options, report);
+  return solveBalanced("poisson", laplacian, systemOf("poisson", laplacian, options), weighted(laplacian, f), watch,
+                       options.progress, report);
 }
 
 Eigen::MatrixXd poisson(const Laplacian& laplacian, const Eigen::MatrixXd& f, const Pins& pins,
@@ -174,22 +199,46 @@ Eigen::MatrixXd poisson(const Laplacian& laplacian, const Eigen::MatrixXd& f, co
 Eigen::MatrixXd greensFunction(const Laplacian& laplacian, const std::vector<int>& points, const SolverOptions& options,
                                SolveReport* report) {
   const std::string function = "greensFunction";
+  const Stopwatch watch;
   checkSizes(function, laplacian);
-  const int n = static_cast<int>(laplacian.status.size());
-  if (points.empty()) throw InvalidInput(function + ": points is empty, must name at least one");
-  Eigen::MatrixXd b = Eigen::MatrixXd::Zero(n, static_cast<Eigen::Index>(points.size()));
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    if (points[k] < 0 || points[k] >= n) {
-      throw InvalidInput(function + ": point " + std::to_string(points[k]) + ", must lie in [0, " + std::to_string(n) +
-                         ")");
-    }
-    const int i = laplacian.representative[points[k]];
-    if (laplacian.status[i] != PointStatus::active) {
-      throw InvalidInput(function + ": point " + std::to_string(points[k]) + " lies on no component, must be active");
-    }
-    b(i, static_cast<Eigen::Index>(k)) = 1;
-  }
-  return solveBalanced(function, laplacian, b, options, report);
+  const Eigen::MatrixXd b = unitSources(function, laplacian, points);
+  return solveBalanced(function, laplacian, systemOf(function, laplacian, options), b, watch, options.progress, report);
 }
+
+struct PoissonSolver::State {
+  std::shared_ptr<const Laplacian> laplacian;
+  LinearSystem system;
+};
+
+PoissonSolver::PoissonSolver(std::shared_ptr<const Laplacian> laplacian, const SolverOptions& options) {
+  constexpr const char* function = "PoissonSolver";
+  if (laplacian == nullptr) throw InvalidInput(std::string(function) + ": laplacian is null, must not be");
+  checkSizes(function, *laplacian);
+  LinearSystem system = systemOf(function, *laplacian, options);
+  state_ = std::make_unique<const State>(State{std::move(laplacian), std::move(system)});
+}
+
+Eigen::MatrixXd PoissonSolver::poisson(const Eigen::MatrixXd& f, SolveReport* report, const Progress& progress) const {
+  const Stopwatch watch;
+  const Laplacian& laplacian = *state_->laplacian;
+  checkRight("poisson", laplacian, f);
+  return solveBalanced("poisson", laplacian, state_->system, weighted(laplacian, f), watch, progress, report);
+}
+
+Eigen::MatrixXd PoissonSolver::green(const std::vector<int>& points, SolveReport* report,
+                                     const Progress& progress) const {
+  const Stopwatch watch;
+  const Laplacian& laplacian = *state_->laplacian;
+  const Eigen::MatrixXd b = unitSources("greensFunction", laplacian, points);
+  return solveBalanced("greensFunction", laplacian, state_->system, b, watch, progress, report);
+}
+
+const SolverReport& PoissonSolver::report() const {
+  return state_->system.report();
+}
+
+PoissonSolver::PoissonSolver(PoissonSolver&&) noexcept = default;
+PoissonSolver& PoissonSolver::operator=(PoissonSolver&&) noexcept = default;
+PoissonSolver::~PoissonSolver() = default;
 
 }  // namespace tufted

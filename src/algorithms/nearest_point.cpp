@@ -15,7 +15,7 @@ namespace {
 constexpr Eigen::Index worth_a_tree = 16;
 
 /// The active points, ascending.
-std::vector<int> activePoints(const std::string& function, const Laplacian& laplacian, const Points& points) {
+std::vector<int> activePoints(const std::string& function, const Laplacian& laplacian, const PointsRef& points) {
   checkSizes(function, laplacian);
   const auto n = static_cast<Eigen::Index>(laplacian.status.size());
   if (points.rows() != n) {
@@ -39,7 +39,8 @@ std::vector<int> activePoints(const std::string& function, const Laplacian& lapl
 /// The nearest point seen so far, the first one if several are equally near.
 class Nearest {
  public:
-  explicit Nearest(const Points& points, const Eigen::RowVector3d& position) : points_(points), position_(position) {}
+  explicit Nearest(const PointsRef& points, const Eigen::RowVector3d& position)
+      : points_(points), position_(position) {}
 
   void consider(int i) {
     const double distance = (points_.row(i) - position_).stableNorm();
@@ -50,13 +51,13 @@ class Nearest {
   int index() const { return index_; }
 
  private:
-  const Points& points_;
+  PointsRef points_;
   Eigen::RowVector3d position_;
   int index_ = -1;
   double least_ = std::numeric_limits<double>::infinity();
 };
 
-int nearestOfAll(const Points& points, const std::vector<int>& active, const Eigen::RowVector3d& position) {
+int nearestOfAll(const PointsRef& points, const std::vector<int>& active, const Eigen::RowVector3d& position) {
   Nearest nearest(points, position);
   for (const int i : active) nearest.consider(i);
   return nearest.index();
@@ -64,13 +65,13 @@ int nearestOfAll(const Points& points, const std::vector<int>& active, const Eig
 
 }  // namespace
 
-int nearestPoint(const Laplacian& laplacian, const Points& points, const Eigen::Vector3d& position) {
+int nearestPoint(const Laplacian& laplacian, const PointsRef& points, const Eigen::Vector3d& position) {
   const std::vector<int> active = activePoints("nearestPoint", laplacian, points);
   if (!position.allFinite()) throw InvalidInput("nearestPoint: position is not finite, must be");
   return nearestOfAll(points, active, position.transpose());
 }
 
-std::vector<int> nearestPoints(const Laplacian& laplacian, const Points& points, const Points& positions) {
+std::vector<int> nearestPoints(const Laplacian& laplacian, const PointsRef& points, const PointsRef& positions) {
   const std::vector<int> active = activePoints("nearestPoints", laplacian, points);
   for (Eigen::Index k = 0; k < positions.rows(); ++k) {
     if (!positions.row(k).allFinite())

@@ -18,7 +18,7 @@ namespace {
 /// definite and an M-matrix, so the maximum principle survives any step and any two components of unlike size.
 constexpr double least_mass = 1e-13;
 
-void checkArguments(const Laplacian& laplacian, const Points& points, const SmoothingOptions& options) {
+void checkArguments(const Laplacian& laplacian, const PointsRef& points, const SmoothingOptions& options) {
   checkSizes("smooth", laplacian);
   const std::string name = "smooth: ";
   const auto n = static_cast<Eigen::Index>(laplacian.status.size());
@@ -79,7 +79,7 @@ SparseMatrix systemMatrix(const Laplacian& laplacian, const std::vector<bool>& i
 
 /// The right side -L (x + moved) at the free points. It comes from differences of neighbours alone, as the rows of L
 /// sum to 0, so distance from the origin costs no digits.
-Eigen::MatrixXd pull(const Laplacian& laplacian, const std::vector<bool>& is_free, const Points& points,
+Eigen::MatrixXd pull(const Laplacian& laplacian, const std::vector<bool>& is_free, const PointsRef& points,
                      const Eigen::MatrixXd& moved) {
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(points.rows(), 3);
   for (int i = 0; i < points.rows(); ++i) {
@@ -94,7 +94,7 @@ Eigen::MatrixXd pull(const Laplacian& laplacian, const std::vector<bool>& is_fre
 
 }  // namespace
 
-Points smooth(const Laplacian& laplacian, const Points& points, const SmoothingOptions& options) {
+Points smooth(const Laplacian& laplacian, const PointsRef& points, const SmoothingOptions& options) {
   checkArguments(laplacian, points, options);
   const Workers workers(options.threads, options.progress);
   const std::vector<bool> is_free = freePoints(laplacian, options.fixed);

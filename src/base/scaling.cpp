@@ -44,7 +44,7 @@ double select(RawBuffer<double>& values, std::size_t rank) {
 
 }  // namespace
 
-Scaling measureScaling(const Points& points, std::vector<PointStatus>& status, const Workers& workers) {
+Scaling measureScaling(const PointsRef& points, std::vector<PointStatus>& status, const Workers& workers) {
   const Eigen::Index n = points.rows();
   status.resize(static_cast<std::size_t>(n));
   const auto forAll = [&](const auto& visit) {

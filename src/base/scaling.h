@@ -21,6 +21,6 @@ struct Scaling {
 
 /// Scaling of the finite rows. Rows that are not finite, or more than 1e70 median spreads or 1e152 from the centre,
 /// get PointStatus::not_finite in `status` (resized to N; all others active).
-Scaling measureScaling(const Points& points, std::vector<PointStatus>& status, const Workers& workers);
+Scaling measureScaling(const PointsRef& points, std::vector<PointStatus>& status, const Workers& workers);
 
 }  // namespace tufted

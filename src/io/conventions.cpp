@@ -1,7 +1,7 @@
 #include "io/conventions.h"
 
 #include "io/number.h"
-#include "io/output_matrices.h"
+#include "tufted/dummy_values.h"
 
 namespace tufted::io {
 namespace {
@@ -10,7 +10,7 @@ std::string inactive(const Laplacian& laplacian, const WriteOptions& options) {
   const std::string who = "points of status other than 0 keep their index; ";
   if (!options.dummy) return who + "their row and column of L and their mass are zero";
   return who + "dummy values: " + (options.sign == Sign::psd ? "1" : "-1") + " on the diagonal of L, mass " +
-         shortestText(dummyMass(laplacian)) + " (a thousandth of the smallest positive mass, 1 if there is none)";
+         shortestText(dummyMass(laplacian.M)) + " (a thousandth of the smallest positive mass, 1 if there is none)";
 }
 
 }  // namespace

@@ -22,8 +22,4 @@ class OutputMatrices {
   std::optional<VectorXd> M_;
 };
 
-/// The mass of points that are not active when WriteOptions::dummy is set: a thousandth of the smallest positive mass,
-/// 1 if there is none.
-double dummyMass(const Laplacian& laplacian);
-
 }  // namespace tufted::io

@@ -1,13 +1,13 @@
 #include "io/pcd_binary.h"
 
-#include <pcl/io/lzf.h>
+#include <lzf.h>
 
 #include <cstring>
 
 #include "io/errors.h"
 
-// PCL inflates; the rest is a copy. Its own reader takes a file name, so standard input would be out of its reach, and
-// prints to a console that all threads share.
+// liblzf inflates; the rest is a copy. PCL has a reader, which takes a file name, so that standard input would be out
+// of its reach, prints to a console that all threads share, and brings the libraries of VTK.
 namespace tufted::io {
 
 void readPcdBinary(const std::filesystem::path& path, std::string_view bytes, PcdHeader& header) {
@@ -54,7 +54,7 @@ void readPcdCompressed(const std::filesystem::path& path, std::string_view bytes
 
   std::vector<char> columns(sizes[1]);
   if (sizes[1] > 0 &&
-      pcl::lzfDecompress(bytes.data() + header.body + sizeof(sizes), sizes[0], columns.data(), sizes[1]) != sizes[1])
+      lzf_decompress(bytes.data() + header.body + sizeof(sizes), sizes[0], columns.data(), sizes[1]) != sizes[1])
     refuseByte(path, header.body + sizeof(sizes), "the compressed data are damaged");
   allocate(header);
   const char* column = columns.data();

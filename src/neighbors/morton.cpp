@@ -119,12 +119,12 @@ void mergeCoincident(RankedCloud& cloud, std::vector<PointStatus>& status, std::
 
 }  // namespace
 
-RankedCloud rankPoints(const Points& points, std::vector<PointStatus>& status, std::vector<int>& representative) {
+RankedCloud rankPoints(const PointsRef& points, std::vector<PointStatus>& status, std::vector<int>& representative) {
   const Progress silent;
   return rankPoints(points, status, representative, Workers(1, silent));
 }
 
-RankedCloud rankPoints(const Points& points, std::vector<PointStatus>& status, std::vector<int>& representative,
+RankedCloud rankPoints(const PointsRef& points, std::vector<PointStatus>& status, std::vector<int>& representative,
                        const Workers& workers) {
   RankedCloud cloud;
   const Scaling scaling = measureScaling(points, status, workers);

@@ -20,9 +20,9 @@ struct RankedCloud {
 };
 
 /// Scales, sorts and merges. Fills `status` (not_finite, coincident, else active) and `representative` (N each).
-RankedCloud rankPoints(const Points& points, std::vector<PointStatus>& status, std::vector<int>& representative,
+RankedCloud rankPoints(const PointsRef& points, std::vector<PointStatus>& status, std::vector<int>& representative,
                        const Workers& workers);
 /// rankPoints() on one thread.
-RankedCloud rankPoints(const Points& points, std::vector<PointStatus>& status, std::vector<int>& representative);
+RankedCloud rankPoints(const PointsRef& points, std::vector<PointStatus>& status, std::vector<int>& representative);
 
 }  // namespace tufted

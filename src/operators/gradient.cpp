@@ -21,7 +21,7 @@ constexpr int cloud_neighbors = 30;
 constexpr int most_neighbors = 10'000;
 constexpr std::int64_t block_size = 256;
 
-void checkArguments(const Laplacian& laplacian, const Points& points, const Frames& frames,
+void checkArguments(const Laplacian& laplacian, const PointsRef& points, const Frames& frames,
                     const GradientOptions& options) {
   checkSizes("gradients", laplacian);
   const auto n = static_cast<Eigen::Index>(laplacian.status.size());
@@ -87,7 +87,7 @@ SparseMatrix matrixOf(const Rows& rows, const std::vector<int>& sources, const s
 }
 
 /// @param planes where the caller's frames, `frames`, do not bind: fitted planes
-Gradients fitGradients(const Laplacian& laplacian, const Points& points, const Frames& frames, Planes planes,
+Gradients fitGradients(const Laplacian& laplacian, const PointsRef& points, const Frames& frames, Planes planes,
                        const GradientOptions& options) {
   checkArguments(laplacian, points, frames, options);
   const Stopwatch watch;
@@ -151,7 +151,7 @@ Gradients fitGradients(const Laplacian& laplacian, const Points& points, const F
 
 }  // namespace
 
-Gradients gradients(const Laplacian& laplacian, const Points& points, const GradientOptions& options) {
+Gradients gradients(const Laplacian& laplacian, const PointsRef& points, const GradientOptions& options) {
   checkSizes("gradients", laplacian);
   if (laplacian.frames.normals.rows() == 0 && !laplacian.status.empty()) {
     throw InvalidInput("gradients: the Laplacian has no frames, must be that of a cloud; meshes have meshFrames()");
@@ -159,7 +159,7 @@ Gradients gradients(const Laplacian& laplacian, const Points& points, const Grad
   return fitGradients(laplacian, points, laplacian.frames, Planes::fitted, options);
 }
 
-Gradients gradients(const Laplacian& laplacian, const Points& points, const Frames& frames,
+Gradients gradients(const Laplacian& laplacian, const PointsRef& points, const Frames& frames,
                     const GradientOptions& options) {
   return fitGradients(laplacian, points, frames, Planes::given, options);
 }

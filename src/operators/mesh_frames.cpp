@@ -12,7 +12,7 @@
 
 namespace tufted {
 
-Frames meshFrames(const Points& points, const Triangles& triangles) {
+Frames meshFrames(const PointsRef& points, const TrianglesRef& triangles) {
   std::vector<Eigen::Matrix3d> moments(points.rows(), Eigen::Matrix3d::Zero());
   Points sums = Points::Zero(points.rows(), 3);
   for (Eigen::Index f = 0; f < triangles.rows(); ++f) {

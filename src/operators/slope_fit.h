@@ -32,7 +32,7 @@ struct SlopeFit {
 class SlopeFitter {
  public:
   /// @param L, points and frames borrowed
-  SlopeFitter(const SparseMatrix& L, const Points& points, const Frames& frames, const SlopeOptions& options)
+  SlopeFitter(const SparseMatrix& L, const PointsRef& points, const Frames& frames, const SlopeOptions& options)
       : points_(points), frames_(frames), options_(options), rings_(L) {}
 
   /// @return valid until the next fit
@@ -44,7 +44,7 @@ class SlopeFitter {
   void choosePlane(int p);
   bool fitSlopes(int p, double scale);
 
-  const Points& points_;
+  PointsRef points_;
   const Frames& frames_;
   SlopeOptions options_;
   Rings rings_;

@@ -12,11 +12,11 @@ enum class CloudBuild {
 
 /// See pointCloudLaplacian().
 /// @param[out] result of no use after an exception; what it was before does not matter, but its memory is used again
-void buildCloudLaplacian(const Points& points, const CloudOptions& options, CloudBuild build, Laplacian& result);
+void buildCloudLaplacian(const PointsRef& points, const CloudOptions& options, CloudBuild build, Laplacian& result);
 
 /// See meshLaplacian().
 /// @param[out] result as above
-void buildMeshLaplacian(const Points& points, const Triangles& triangles, const MeshOptions& options,
+void buildMeshLaplacian(const PointsRef& points, const TrianglesRef& triangles, const MeshOptions& options,
                         Laplacian& result);
 
 }  // namespace tufted

@@ -8,7 +8,7 @@
 
 namespace tufted {
 
-void checkCloudOptions(const char* function, const Points& points, const CloudOptions& options) {
+void checkCloudOptions(const char* function, const PointsRef& points, const CloudOptions& options) {
   const auto name = [&] { return std::string(function); };
   checkBuild(function, options.mollify, options.threads);
   if (options.neighbors < 3) {

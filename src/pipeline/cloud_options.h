@@ -6,6 +6,6 @@
 namespace tufted {
 
 /// @throws InvalidInput in the name of `function` for options out of range, or arrays that do not fit the points
-void checkCloudOptions(const char* function, const Points& points, const CloudOptions& options);
+void checkCloudOptions(const char* function, const PointsRef& points, const CloudOptions& options);
 
 }  // namespace tufted

@@ -34,11 +34,12 @@ LaplacianBuilder::~LaplacianBuilder() = default;
 LaplacianBuilder::LaplacianBuilder(LaplacianBuilder&&) noexcept = default;
 LaplacianBuilder& LaplacianBuilder::operator=(LaplacianBuilder&&) noexcept = default;
 
-const Laplacian& LaplacianBuilder::pointCloud(const Points& points, const CloudOptions& options) {
+const Laplacian& LaplacianBuilder::pointCloud(const PointsRef& points, const CloudOptions& options) {
   return state_->run([&] { buildCloudLaplacian(points, options, CloudBuild::automatic, state_->result); });
 }
 
-const Laplacian& LaplacianBuilder::mesh(const Points& points, const Triangles& triangles, const MeshOptions& options) {
+const Laplacian& LaplacianBuilder::mesh(const PointsRef& points, const TrianglesRef& triangles,
+                                        const MeshOptions& options) {
   return state_->run([&] { buildMeshLaplacian(points, triangles, options, state_->result); });
 }
 

@@ -21,8 +21,8 @@ namespace {
 constexpr const char* function_name = "meshLaplacian";
 
 /// Indices of the triangles that can be used; the others are counted.
-Buffer<int> usableTriangles(const Points& points, const Triangles& triangles, const std::vector<PointStatus>& status,
-                            Report& report) {
+Buffer<int> usableTriangles(const PointsRef& points, const TrianglesRef& triangles,
+                            const std::vector<PointStatus>& status, Report& report) {
   Buffer<int> usable;
   usable.reserve(static_cast<std::size_t>(triangles.rows()));
   for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
@@ -47,13 +47,13 @@ Buffer<int> usableTriangles(const Points& points, const Triangles& triangles, co
 
 }  // namespace
 
-Laplacian meshLaplacian(const Points& points, const Triangles& triangles, const MeshOptions& options) {
+Laplacian meshLaplacian(const PointsRef& points, const TrianglesRef& triangles, const MeshOptions& options) {
   Laplacian result;
   buildMeshLaplacian(points, triangles, options, result);
   return result;
 }
 
-void buildMeshLaplacian(const Points& points, const Triangles& triangles, const MeshOptions& options,
+void buildMeshLaplacian(const PointsRef& points, const TrianglesRef& triangles, const MeshOptions& options,
                         Laplacian& result) {
   checkBuild(function_name, options.mollify, options.threads);
   requireAtMost(INT32_MAX, points.rows(), function_name, "points");

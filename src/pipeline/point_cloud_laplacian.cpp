@@ -56,13 +56,13 @@ OwnAreas finishFromWholeCover(SurfaceStars built, const RankedCloud& cloud, cons
 
 }  // namespace
 
-Laplacian pointCloudLaplacian(const Points& points, const CloudOptions& options) {
+Laplacian pointCloudLaplacian(const PointsRef& points, const CloudOptions& options) {
   Laplacian result;
   buildCloudLaplacian(points, options, CloudBuild::automatic, result);
   return result;
 }
 
-void buildCloudLaplacian(const Points& points, const CloudOptions& options, CloudBuild build, Laplacian& result) {
+void buildCloudLaplacian(const PointsRef& points, const CloudOptions& options, CloudBuild build, Laplacian& result) {
   checkCloudOptions(function_name, points, options);
   if (points.rows() > INT32_MAX) tooMany(points.rows(), 6 * points.rows());
   const Workers workers(options.threads, options.progress);

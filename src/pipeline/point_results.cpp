@@ -33,7 +33,7 @@ void setBoundaryAndNormals(const Buffer<Boundary>& boundary, const PointsView& n
   }
 }
 
-void setPositions(const Points& points, const PointBuffer& displacement, const RankedCloud& cloud,
+void setPositions(const PointsRef& points, const PointBuffer& displacement, const RankedCloud& cloud,
                   const Workers& workers, Laplacian& result) {
   result.positions.resize(points.rows(), 3);
   workers.forBlocks("boundary", points.rows(), block_size, [&](std::int64_t begin, std::int64_t end, int) {

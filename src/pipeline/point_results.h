@@ -19,7 +19,7 @@ void setBoundaryAndNormals(const Buffer<Boundary>& boundary, const PointsView& n
 
 /// Sets where lengths are measured: the caller's points, of which noisy ones are displaced.
 /// @param displacement n x 3, by rank, in units of 2^exponent of the caller's; 0 x 3: nothing moves
-void setPositions(const Points& points, const PointBuffer& displacement, const RankedCloud& cloud,
+void setPositions(const PointsRef& points, const PointBuffer& displacement, const RankedCloud& cloud,
                   const Workers& workers, Laplacian& result);
 
 /// Turns normals towards the viewpoint.

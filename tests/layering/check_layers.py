@@ -2,7 +2,7 @@
 """Reads the includes of the project and names every one that runs backwards.
 
     rooms of src/ know those that ROOMS says, which lie before them; cover/, which is the paper, knows base/ only
-    io knows public headers only; tools know public headers and the fixtures of the tests,
+    io knows public headers only; python those of io and view as well; tools know public headers and the fixtures of the tests,
     the benchmark (tools/bench) also the rooms that it measures
     public headers know Eigen and the standard library only (those in tufted/pcl also PCL)
     nothing in the library writes to a stream
@@ -25,6 +25,7 @@ ROOMS = {
     "algorithms": ["base", "cover", "neighbors", "operators"],
     "view": [],
     "pcl": [],
+    "python": [],
 }
 FIXTURES = ["shapes", "oracles", "guarantees"]  # folders of tests/ that tools for developers may use
 SUFFIXES = {".h", ".hpp", ".cpp"}
@@ -63,7 +64,8 @@ def public_fault(header, name):
 def source_fault(room, name, quoted):
     if name.startswith("tufted/"):
         other = part_of(name)
-        return None if other in ("core", room) else f"{room} may not include {name}"
+        visible = ["core", "io", "view"] if room == "python" else ["core", room]
+        return None if other in visible else f"{room} may not include {name}"
     if name == "iostream":
         return "the library does not include <iostream>"
     if not quoted:

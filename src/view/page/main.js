@@ -60,7 +60,9 @@ const hasLines = (one) => state.lines[state.field] ?? (one.kind === 'distance' |
 /** The interval of isolines: a round number, finer or coarser by the slider. */
 function intervalOf(one, [low, high]) {
   if (!hasLines(one) || ['label', 'color', 'vector'].includes(one.kind) || !(high > low)) return 0;
-  return roundUp((high - low) / (one.kind === 'coordinates' ? 8 : 16) * 2 ** -state.line_step);
+  // Lines of points are as wide as these, so at least this far apart; distances have the unit of positions.
+  const points = state.shown === 'points' && one.kind !== 'scalar' && one.kind !== 'diverging' ? 8 * stage.spacing * stage.positions.unit : 0;
+  return roundUp(Math.max((high - low) / (one.kind === 'coordinates' ? 8 : 16), Math.min(points, (high - low) / 3)) * 2 ** -state.line_step);
 }
 
 let wanted = 0;
@@ -146,7 +148,7 @@ async function set(changes) {
   if (has('field')) state.column = 0;
   if (has('clip', 'clip_at', 'is_flipped')) applyClip();
   if (has('field', 'column')) await showField();
-  else if (field() && has('map', 'is_middle', 'lines', 'line_step', 'arrows')) {
+  else if (field() && has('map', 'is_middle', 'lines', 'line_step', 'arrows', 'shown')) {
     if (field().kind === 'label') await showField();
     else if (current) applyColors();
   } else refresh();

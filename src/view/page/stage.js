@@ -171,7 +171,7 @@ export class Stage {
       const up = Math.abs(m[4] * x + m[5] * y + m[6] * z) / height;
       distance = Math.max(distance, Math.max(right, up) + m[8] * x + m[9] * y + m[10] * z);
     }
-    return Math.max(1.2 * distance, 6 * this.spacing, 1e-3);
+    return Math.max(1.28 * distance, 6 * this.spacing, 1e-3);
   }
 
   resize() {
@@ -211,7 +211,10 @@ export class Stage {
       this.renderer.setRenderTarget(null);
       this.dome_uniforms.pixel.value.set(1 / size.x, 1 / size.y).multiplyScalar(this.renderer.getPixelRatio());
       this.dome_uniforms.near_far.value.set(this.camera.near, this.camera.far);
-      this.dome_uniforms.strength.value = this.is_lit ? (this.has_normals ? 60 : 160) : 0;
+      // Large points are steps themselves; full light would draw each of them like a scale.
+      const splat = (this.uniforms.size.value * this.uniforms.pixels.value) / this.controls.distance;
+      const softness = Math.min(1, Math.max(0.2, 4 / splat));
+      this.dome_uniforms.strength.value = this.is_lit ? (this.has_normals ? 60 : 160) * softness : 0;
       this.renderer.render(this.dome, this.dome_camera);
     }
     this.drawn_pictures = (this.drawn_pictures ?? 0) + 1;

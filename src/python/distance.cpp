@@ -1,0 +1,53 @@
+// Geodesic distances.
+#include "tufted/distance.h"
+
+#include <string>
+#include <vector>
+
+#include "python/arrays.h"
+#include "python/module.h"
+#include "python/running.h"
+
+namespace py = pybind11;
+
+namespace tufted::python {
+namespace {
+
+DistanceSolver solverOf(const Laplacian& laplacian, double time_step, const std::string& unit, bool open_boundary,
+                        const Solving& solving, const py::object& progress) {
+  DistanceOptions options = {
+      .time_step = time_step,
+      .unit = chosen<TimeUnit>("distance: unit", unit,
+                               {{"mean", TimeUnit::mean_edge}, {"adapted", TimeUnit::adapted_edge}}),
+      .open_boundary = open_boundary};
+  return run(progress, [&](const Progress& called) {
+    options.solver = solving.options(called);
+    return DistanceSolver(laplacian, options);
+  });
+}
+
+/// @param faces, barycentric S rows: sources inside triangles of a mesh, beside the points `sources`
+VectorXd query(const DistanceSolver& solver, const Integers& sources, const Doubles& points, const Integers& triangles,
+               const Integers& faces, const Doubles& barycentric, const py::object& progress) {
+  std::vector<SurfacePoint> places;
+  for (const int source : indicesOf(sources)) places.push_back(SurfacePoint::vertex(source));
+  if (faces.size() > 0) {
+    const Points mesh_points = pointsOf(points);
+    const Triangles mesh_triangles = trianglesOf(triangles);
+    for (py::ssize_t k = 0; k < faces.size(); ++k)
+      places.push_back(SurfacePoint::inFace(mesh_points, mesh_triangles, faces.at(k),
+                                            {barycentric.at(k, 0), barycentric.at(k, 1), barycentric.at(k, 2)}));
+  }
+  return run(progress, [&](const Progress& called) { return solver.queryAt(places, nullptr, called); });
+}
+
+}  // namespace
+
+void addDistance(py::module_& module) {
+  py::class_<DistanceSolver>(module, "DistanceSolver")
+      .def(py::init(&solverOf))
+      .def("query", &query)
+      .def_property_readonly("time_step", &DistanceSolver::timeStep);
+}
+
+}  // namespace tufted::python

@@ -1,0 +1,96 @@
+// Files in and out.
+#include <pybind11/stl/filesystem.h>
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "python/arrays.h"
+#include "python/module.h"
+#include "python/running.h"
+#include "tufted/io/read.h"
+#include "tufted/io/results.h"
+#include "tufted/io/write.h"
+
+namespace py = pybind11;
+
+namespace tufted::python {
+namespace {
+
+const std::map<std::string, Format> formats = {
+    {"npz", Format::npz}, {"mtx", Format::mtx}, {"mat", Format::mat},     {"spmat", Format::spmat},
+    {"ply", Format::ply}, {"pcd", Format::pcd}, {"cover", Format::cover}, {"triangles", Format::triangles}};
+
+const char* typeOf(FieldType type) {
+  constexpr const char* names[] = {"i1", "u1", "i2", "u2", "i4", "u4", "i8", "u8", "f4", "f8"};
+  return names[static_cast<int>(type)];
+}
+
+/// The further values of a file, by name; N values each, or N x count.
+py::dict fieldsOf(const Geometry& geometry) {
+  py::dict fields;
+  for (const Field& field : geometry.fields) {
+    Shape shape = {geometry.points.rows()};
+    if (field.count != 1) shape.push_back(field.count);
+    fields[py::str(field.name)] = py::array(py::dtype(typeOf(field.type)), shape, field.bytes.data());
+  }
+  return fields;
+}
+
+Geometry readFile(const std::filesystem::path& path, const std::string& kind, bool welded, const py::object& progress) {
+  const auto as = chosen<ReadAs>("read: kind", kind,
+                                 {{"automatic", ReadAs::automatic}, {"cloud", ReadAs::cloud}, {"mesh", ReadAs::mesh}});
+  Geometry geometry =
+      run(progress, [&](const Progress& called) { return read(path, as, FileFormat::automatic, called); });
+  if (welded && !geometry.is_mesh)
+    throw InvalidInput("read: weld = True, must be False for a cloud, whose coincident points are merged in any case");
+  if (welded) weld(geometry);
+  return geometry;
+}
+
+/// What save() writes of points that were not read from a file.
+/// @param faces none for a cloud
+Geometry geometryOf(const Doubles& points, const std::optional<Integers>& faces) {
+  Geometry geometry;
+  geometry.points = pointsOf(points);
+  geometry.width = static_cast<int>(geometry.points.rows());
+  geometry.is_mesh = faces.has_value();
+  if (faces) geometry.triangles = trianglesOf(*faces);
+  return geometry;
+}
+
+void saveTo(const std::filesystem::path& dir, const Laplacian& laplacian, const Geometry& geometry,
+            const std::vector<std::string>& names, const std::string& source, bool dummy, const py::object& progress) {
+  WriteOptions options = {.formats = {}, .dummy = dummy, .source = source};
+  for (const std::string& name : names) options.formats.push_back(chosen<Format>("save: formats", name, formats));
+  run(progress, [&](const Progress& called) {
+    options.progress = called;
+    writeLaplacian(dir, laplacian, geometry, options);
+  });
+}
+
+}  // namespace
+
+void addFiles(py::module_& module) {
+  py::class_<Geometry>(module, "Geometry")
+      .def(py::init(&geometryOf))
+      .def_readonly("points", &Geometry::points)
+      .def_readonly("normals", &Geometry::normals)
+      .def_readonly("triangles", &Geometry::triangles)
+      .def_readonly("is_mesh", &Geometry::is_mesh)
+      .def_readonly("width", &Geometry::width)
+      .def_readonly("height", &Geometry::height)
+      .def_readonly("viewpoint", &Geometry::viewpoint)
+      .def_readonly("format", &Geometry::format)
+      .def_property_readonly("fields", &fieldsOf);
+  module.def("read_file", &readFile);
+  module.def("save", &saveTo);
+  module.def("load", [](const std::filesystem::path& dir, bool with_cover) {
+    const py::gil_scoped_release release;
+    return std::make_shared<Laplacian>(readLaplacian(dir, with_cover));
+  });
+}
+
+}  // namespace tufted::python

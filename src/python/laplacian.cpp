@@ -1,0 +1,142 @@
+// Building L and M, and what is known about each point.
+#include "tufted/laplacian.h"
+
+#include <optional>
+#include <string>
+#include <utility>
+#include <variant>
+
+#include "python/arrays.h"
+#include "python/module.h"
+#include "python/report.h"
+#include "python/running.h"
+#include "tufted/components.h"
+#include "tufted/dummy_values.h"
+
+namespace py = pybind11;
+
+namespace tufted::python {
+namespace {
+
+FaceOrder orderOf(const char* argument, const std::string& name) {
+  return chosen<FaceOrder>(argument, name,
+                           {{"angle", FaceOrder::angle}, {"area", FaceOrder::area}, {"random", FaceOrder::random}});
+}
+
+Shared buildCloud(const Doubles& points, const std::string& preset, int neighbors, const std::optional<Points>& normals,
+                  const std::optional<Neighborhoods>& neighborhoods, const std::optional<ScanStructure>& structure,
+                  const std::optional<Eigen::Vector3d>& viewpoint, double mollify, const std::string& gluing,
+                  const std::string& order, std::uint64_t seed, const std::string& delaunay, int threads,
+                  const py::object& progress) {
+  CloudOptions options = cloudOptions(chosen<Preset>(
+      "PointCloud: preset", preset, {{"clean", Preset::clean}, {"scan", Preset::scan}, {"lidar", Preset::lidar}}));
+  options.neighbors = neighbors;
+  options.mollify = mollify;
+  options.gluing =
+      chosen<Gluing>("PointCloud: gluing", gluing, {{"star", Gluing::star}, {"vertex-pair", Gluing::vertex_pair}});
+  options.order = orderOf("PointCloud: order", order);
+  options.seed = seed;
+  options.delaunay =
+      chosen<Delaunay>("PointCloud: delaunay", delaunay, {{"star", Delaunay::star}, {"cgal", Delaunay::cgal}});
+  options.threads = threads;
+  if (normals) options.normals = &*normals;
+  if (neighborhoods) options.neighborhoods = &*neighborhoods;
+  if (structure) options.structure = &*structure;
+  if (viewpoint) options.viewpoint = &*viewpoint;
+  const auto view = pointsOf(points);
+  return run(progress, [&](const Progress& called) {
+    options.progress = called;
+    return std::make_shared<Laplacian>(pointCloudLaplacian(view, options));
+  });
+}
+
+Shared buildMesh(const Doubles& points, const Integers& faces, double mollify, const std::string& order,
+                 std::uint64_t seed, int threads, const py::object& progress) {
+  MeshOptions options = {.order = orderOf("Mesh: order", order), .seed = seed, .mollify = mollify, .threads = threads};
+  const auto view = pointsOf(points);
+  const auto triangles = trianglesOf(faces);
+  return run(progress, [&](const Progress& called) {
+    options.progress = called;
+    return std::make_shared<Laplacian>(meshLaplacian(view, triangles, options));
+  });
+}
+
+/// The report as a dict with a key per member.
+py::dict dictOf(const Report& report) {
+  py::dict dict;
+  visitNumbers(report, [&](const char* name, const auto& value) { dict[name] = value; });
+  dict["votes"] = report.votes;
+  py::list stages;
+  for (const StageCost& stage : report.stages)
+    stages.append(
+        py::dict(py::arg("name") = stage.name, py::arg("seconds") = stage.seconds, py::arg("bytes") = stage.bytes));
+  dict["stages"] = stages;
+  return dict;
+}
+
+/// L, as its three arrays, and the diagonal of M, taken out of a Laplacian that nobody else uses.
+py::tuple takeMatrices(Laplacian& laplacian, bool dummy) {
+  if (dummy) setDummyValues(laplacian.L, laplacian.M, laplacian.status);
+  SparseMatrix L;
+  L.swap(laplacian.L);
+  VectorXd M = std::move(laplacian.M);
+  laplacian = {};
+  return py::make_tuple(ownedSparse(std::move(L)), std::move(M));
+}
+
+template <class T>
+py::array_t<T> bytesOf(const std::vector<T>& values, const py::object& self) {
+  return shown(values.data(), {std::ssize(values)}, self);
+}
+
+py::array_t<double> rowsOf(const Points& rows, const py::object& self) {
+  return shown(rows.data(), {rows.rows(), 3}, self);
+}
+
+void addMembers(py::class_<Laplacian, Shared>& type) {
+  const auto member = [&](const char* name, const auto& get) {
+    type.def_property_readonly(name, [get](const py::object& self) { return get(self.cast<Laplacian&>(), self); });
+  };
+  member("L", [](const Laplacian& l, const py::object& self) { return shownSparse(l.L, self); });
+  member("M", [](const Laplacian& l, const py::object& self) { return shown(l.M.data(), {l.M.size()}, self); });
+  member("status", [](const Laplacian& l, const py::object& self) {
+    return shown(reinterpret_cast<const std::uint8_t*>(l.status.data()), {std::ssize(l.status)}, self);
+  });
+  member("boundary", [](const Laplacian& l, const py::object& self) {
+    return shown(reinterpret_cast<const std::uint8_t*>(l.boundary.data()), {std::ssize(l.boundary)}, self);
+  });
+  member("representative", [](const Laplacian& l, const py::object& self) { return bytesOf(l.representative, self); });
+  member("normals", [](const Laplacian& l, const py::object& self) { return rowsOf(l.frames.normals, self); });
+  member("tangents", [](const Laplacian& l, const py::object& self) { return rowsOf(l.frames.tangents, self); });
+  member("positions", [](const Laplacian& l, const py::object& self) { return rowsOf(l.positions, self); });
+  member("orientation", [](const Laplacian& l, const py::object&) { return static_cast<int>(l.frames.orientation); });
+  member("component", [](const Laplacian& l, const py::object& self) {
+    return l.component.empty() ? owned(componentLabels(l)) : bytesOf(l.component, self);
+  });
+  member("report", [](const Laplacian& l, const py::object&) { return dictOf(l.report); });
+  member("is_cloud", [](const Laplacian& l, const py::object&) { return l.kind == Kind::cloud; });
+  member("has_cover", [](const Laplacian& l, const py::object&) { return l.hasCover(); });
+  type.def("take_matrices", &takeMatrices);
+  type.def("restricted_to", [](const Laplacian& laplacian, const std::vector<int>& components) {
+    const py::gil_scoped_release release;
+    return std::make_shared<Laplacian>(restrictedTo(laplacian, components));
+  });
+}
+
+}  // namespace
+
+void addLaplacian(py::module_& module) {
+  py::class_<Laplacian, Shared> type(module, "Laplacian");
+  addMembers(type);
+  py::class_<ScanStructure>(module, "ScanStructure");
+  module.def("build_cloud", &buildCloud);
+  module.def("build_mesh", &buildMesh);
+  module.def("image_structure", &imageStructure);
+  module.def("ring_structure", [](const Doubles& points, const Integers& rings, const Eigen::Vector3d& origin) {
+    return ringStructure(pointsOf(points), indicesOf(rings), origin);
+  });
+  module.def("find_rings",
+             [](const Doubles& points, const Eigen::Vector3d& origin) { return findRings(pointsOf(points), origin); });
+}
+
+}  // namespace tufted::python

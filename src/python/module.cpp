@@ -1,0 +1,18 @@
+#include "python/module.h"
+
+PYBIND11_MODULE(_tufted, module) {  // NOLINT
+  using namespace tufted::python;
+  module.doc() = "The library behind the package tufted, which checks arguments before it calls what is here.";
+  module.attr("version") = TUFTED_VERSION;
+  addErrors(module);
+  addLaplacian(module);
+  addPickling(module);
+  addSpectrum(module);
+  addDistance(module);
+  addInterpolation(module);
+  addVectorHeat(module);
+  addShape(module);
+  addOperators(module);
+  addFiles(module);
+  addView(module);
+}

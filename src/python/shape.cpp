@@ -1,0 +1,111 @@
+// What a surface is like: normals, curvature, triangles, segments; and smoothing.
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "python/arrays.h"
+#include "python/module.h"
+#include "python/running.h"
+#include "tufted/curvature.h"
+#include "tufted/gradient.h"
+#include "tufted/nearest_point.h"
+#include "tufted/normals.h"
+#include "tufted/segments.h"
+#include "tufted/smoothing.h"
+#include "tufted/surface_triangles.h"
+
+namespace py = pybind11;
+
+namespace tufted::python {
+namespace {
+
+Frames framesFrom(Points normals, Points tangents, int orientation) {
+  return {std::move(normals), std::move(tangents), static_cast<Orientation>(orientation)};
+}
+
+py::tuple tupleOf(Frames frames) {
+  return py::make_tuple(std::move(frames.normals), std::move(frames.tangents));
+}
+
+py::tuple oriented(const Laplacian& laplacian, Points normals, Points tangents, int orientation,
+                   const std::optional<Eigen::Vector3d>& viewpoint, const py::object& progress) {
+  const Frames frames = framesFrom(std::move(normals), std::move(tangents), orientation);
+  return tupleOf(run(progress, [&](const Progress& called) {
+    return orientedFrames(laplacian, frames, {.viewpoint = viewpoint ? &*viewpoint : nullptr, .progress = called});
+  }));
+}
+
+py::tuple curvature(const Laplacian& laplacian, Points normals, Points tangents, const std::string& method, int threads,
+                    const py::object& progress) {
+  const Frames frames = framesFrom(std::move(normals), std::move(tangents), static_cast<int>(Orientation::consistent));
+  CurvatureOptions options = {
+      .method = chosen<CurvatureMethod>("curvature: method", method,
+                                        {{"fit", CurvatureMethod::fit}, {"laplacian", CurvatureMethod::laplacian}}),
+      .threads = threads};
+  Curvatures found = run(progress, [&](const Progress& called) {
+    options.progress = called;
+    return curvatures(laplacian, frames, options);
+  });
+  return py::make_tuple(std::move(found.mean), std::move(found.gaussian), std::move(found.principal),
+                        std::move(found.first), std::move(found.second));
+}
+
+py::tuple segmentsOf(const Laplacian& laplacian, const std::string& method, int count, const Integers& seeds,
+                     const Solving& solving, const py::object& progress) {
+  SegmentOptions options = {
+      .method = chosen<SegmentMethod>("segments: method", method,
+                                      {{"voronoi", SegmentMethod::voronoi}, {"spectral", SegmentMethod::spectral}}),
+      .count = count,
+      .seeds = indicesOf(seeds)};
+  Segments found = run(progress, [&](const Progress& called) {
+    options.solver = solving.options(called);
+    return segments(laplacian, options);
+  });
+  return py::make_tuple(owned(std::move(found.labels)), std::move(found.areas), owned(std::move(found.seeds)));
+}
+
+Points smoothed(const Laplacian& laplacian, const Doubles& points, double time_step, int iterations,
+                const std::optional<py::array_t<std::uint8_t, py::array::c_style>>& fixed, int threads,
+                const py::object& progress) {
+  std::vector<std::uint8_t> stays;
+  if (fixed) stays.assign(fixed->data(), fixed->data() + fixed->size());
+  SmoothingOptions options = {
+      .time_step = time_step, .iterations = iterations, .fixed = fixed ? &stays : nullptr, .threads = threads};
+  const auto view = pointsOf(points);
+  return run(progress, [&](const Progress& called) {
+    options.progress = called;
+    return smooth(laplacian, view, options);
+  });
+}
+
+}  // namespace
+
+void addShape(py::module_& module) {
+  module.def("mesh_frames", [](const Doubles& points, const Integers& faces) {
+    const auto view = pointsOf(points);
+    const auto triangles = trianglesOf(faces);
+    return tupleOf([&] {
+      const py::gil_scoped_release release;
+      return meshFrames(view, triangles);
+    }());
+  });
+  module.def("oriented_frames", &oriented);
+  module.def("curvature", &curvature);
+  module.def("segments", &segmentsOf);
+  module.def("smooth", &smoothed);
+  module.def("triangles", [](const Laplacian& laplacian, const py::object& progress) {
+    return run(progress, [&](const Progress& called) {
+      return surfaceTriangles(laplacian, TriangleOptions{.progress = called});
+    });
+  });
+  module.def("nearest", [](const Laplacian& laplacian, const Doubles& points, const Doubles& positions) {
+    const auto view = pointsOf(points), targets = pointsOf(positions);
+    return owned([&] {
+      const py::gil_scoped_release release;
+      return nearestPoints(laplacian, view, targets);
+    }());
+  });
+}
+
+}  // namespace tufted::python

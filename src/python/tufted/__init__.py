@@ -1,0 +1,22 @@
+"""Laplacians of point clouds and triangle meshes, and what is computed from them.
+
+PointCloud, Mesh and read build L and M, and have all algorithms as methods. point_cloud_laplacian, mesh_laplacian,
+PointCloudHeatSolver and the mesh solvers have the names and arguments of robust_laplacian and potpourri3d.
+
+L is minus the Laplacian, integrated: positive semidefinite. M holds areas. L u = M f; L x = lambda M x.
+"""
+from ._clouds import Mesh, PointCloud, load, read
+from ._drop_in import (MeshHeatMethodDistanceSolver, MeshVectorHeatSolver, PointCloudHeatSolver, compute_distance,
+                       compute_distance_multisource, mesh_laplacian, point_cloud_laplacian, read_mesh,
+                       read_point_cloud)
+from ._results import Curvature, Gradients, LogMap, Segments, Spectrum
+from ._surface import Surface
+from ._tufted import Cancelled, FileTooLarge, InvalidInput, IoError, SolverFailure
+from ._tufted import version as __version__
+
+__all__ = [
+    "Cancelled", "Curvature", "FileTooLarge", "Gradients", "InvalidInput", "IoError", "LogMap", "Mesh",
+    "MeshHeatMethodDistanceSolver", "MeshVectorHeatSolver", "PointCloud", "PointCloudHeatSolver", "Segments",
+    "SolverFailure", "Spectrum", "Surface", "compute_distance", "compute_distance_multisource", "load",
+    "mesh_laplacian", "point_cloud_laplacian", "read", "read_mesh", "read_point_cloud",
+]

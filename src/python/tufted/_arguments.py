@@ -1,0 +1,134 @@
+"""Arguments as callers give them, checked and turned into the arrays that the library takes. Messages name the function
+and the argument."""
+import numpy as np
+import scipy.sparse
+
+from ._tufted import InvalidInput
+
+_LARGEST = 2**31 - 1
+
+
+def _array(function, name, value):
+    try:
+        return np.asarray(value)
+    except ValueError as error:  # rows of unlike length
+        raise InvalidInput(f"{function}: {name} is no array: {error}") from None
+
+
+def _numbers(function, name, value):
+    array = _array(function, name, value)
+    if array.size == 0 and array.dtype == object:
+        array = array.astype(np.float64)
+    if array.dtype.kind not in "fiu":
+        raise InvalidInput(f"{function}: {name} has dtype {array.dtype}, must be real numbers")
+    return np.ascontiguousarray(array, dtype=np.float64) if array.ndim else array.astype(np.float64)
+
+
+def _shape(array):
+    return " x ".join(str(length) for length in array.shape) or "()"
+
+
+def rows_of_three(function, name, value, rows=None):
+    """N x 3 float64 in C order; an array that is one already is not copied."""
+    array = _numbers(function, name, value)
+    if array.size == 0 and array.ndim < 2:
+        array = array.reshape(0, 3)
+    if array.ndim != 2 or array.shape[1] != 3 or rows not in (None, array.shape[0]):
+        wanted = "N" if rows is None else rows
+        raise InvalidInput(f"{function}: {name} has the shape {_shape(array)}, must be {wanted} x 3")
+    return array
+
+
+def vector_of_three(function, name, value):
+    array = _numbers(function, name, value)
+    if array.shape != (3,):
+        raise InvalidInput(f"{function}: {name} has the shape {_shape(array)}, must be 3")
+    return array
+
+
+def integers(function, name, value):
+    """Integers of any type as int32, whatever their shape."""
+    array = _array(function, name, value)
+    if array.size == 0:
+        return array.astype(np.int32)
+    if array.dtype.kind not in "iu":
+        raise InvalidInput(f"{function}: {name} has dtype {array.dtype}, must be integers")
+    lowest, highest = array.min(), array.max()
+    if lowest < -_LARGEST - 1 or highest > _LARGEST:
+        raise InvalidInput(f"{function}: {name} has {lowest if lowest < 0 else highest}, must fit into 32 bits")
+    return np.ascontiguousarray(array, dtype=np.int32) if array.ndim else array.astype(np.int32)
+
+
+def indices(function, name, value, count, empty=False):
+    """One or several indices of `count` points, as an array."""
+    array = integers(function, name, value)
+    if array.ndim > 1:
+        raise InvalidInput(f"{function}: {name} has the shape {_shape(array)}, must be one index or a list")
+    array = array.reshape(-1)
+    if array.size == 0 and not empty:
+        raise InvalidInput(f"{function}: {name} is empty, must name at least one point")
+    wrong = array[(array < 0) | (array >= count)]
+    if wrong.size:
+        raise InvalidInput(f"{function}: {name} has {wrong[0]}, must lie in [0, {count})")
+    return array
+
+
+def triangles(function, name, value):
+    """F x 3 int32 in C order."""
+    array = integers(function, name, value)
+    if array.size == 0 and array.ndim < 2:
+        array = array.reshape(0, 3)
+    if array.ndim != 2 or array.shape[1] != 3:
+        raise InvalidInput(f"{function}: {name} has the shape {_shape(array)}, must be F x 3")
+    return array
+
+
+def columns(function, name, value, rows):
+    """`rows` values or `rows` x c. Returns an array of two dimensions, and whether the caller gave one."""
+    array = _numbers(function, name, value)
+    if array.ndim == 0 and rows == 1:
+        array = array.reshape(1)
+    if array.ndim not in (1, 2) or array.shape[0] != rows:
+        raise InvalidInput(f"{function}: {name} has the shape {_shape(array)}, must be {rows} or {rows} x c")
+    return array.reshape(rows, -1) if array.ndim == 1 else array, array.ndim == 1
+
+
+def pins(function, pins_given, values, count):
+    """Indices and values of pins: a dict, or indices with `values` beside them."""
+    if values is None:
+        if not isinstance(pins_given, dict):
+            raise InvalidInput(f"{function}: values is None, must be given unless pins is a dict of values by index")
+        pins_given, values = list(pins_given.keys()), list(pins_given.values())
+    where = indices(function, "pins", pins_given, count)
+    table, flat = columns(function, "values", values, where.size)
+    return where, table, flat
+
+
+def number(function, name, value):
+    """A real number."""
+    if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, float, np.integer, np.floating)):
+        raise InvalidInput(f"{function}: {name} = {value!r}, must be a number")
+    return float(value)
+
+
+def whole(function, name, value, least):
+    """An integer of at least `least`."""
+    if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, np.integer)):
+        raise InvalidInput(f"{function}: {name} = {value!r}, must be an integer")
+    if not least <= value <= _LARGEST:
+        raise InvalidInput(f"{function}: {name} = {value}, must be at least {least}"
+                           if value < least else f"{function}: {name} = {value}, must fit into 32 bits")
+    return int(value)
+
+
+def callback(function, value):
+    if value is not None and not callable(value):
+        raise InvalidInput(f"{function}: progress = {value!r}, must be None or a function of stage and fraction")
+    return value
+
+
+def sparse(parts, size):
+    """A csc_matrix that shares the three arrays."""
+    matrix = scipy.sparse.csc_matrix(parts, shape=(size, size), copy=False)
+    matrix.has_sorted_indices = matrix.has_canonical_format = True
+    return matrix

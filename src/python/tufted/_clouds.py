@@ -1,0 +1,177 @@
+"""Clouds and meshes, from arrays and from files."""
+import os
+
+import numpy as np
+
+from . import _arguments as check
+from . import _tufted
+from ._surface import Surface
+from ._tufted import InvalidInput
+
+
+def _solving(function, threads, solver, memory_limit):
+    if solver not in ("automatic", "cholesky", "multigrid"):
+        raise InvalidInput(f"{function}: solver = {solver!r}, must be one of 'automatic', 'cholesky', 'multigrid'")
+    return {"solver": solver, "memory_limit": check.whole(function, "memory_limit", memory_limit, 0),
+            "threads": check.whole(function, "threads", threads, 0)}
+
+
+class PointCloud(Surface):
+    """The Laplacian of a point cloud, which is built at once.
+
+    points: N x 3, float32 or float64 (not copied if contiguous); rows with NaN keep their index and are skipped.
+    preset: "scan" for real scans, "clean" for exact samples, "lidar" for spinning scanners.
+    neighbors: k >= 3, of each point.
+    normals: N x 3, used for the tangent planes, of any length; None: planes are fitted.
+    viewpoint: where the sensor stood, 3 values; normals then face it.
+    image: (width, height) of an organized cloud, whose rows then give the neighbours.
+    rings: N numbers of the scanner's ring that a point lies on, or "find"; the rings then give the neighbours.
+    neighborhoods: N x k indices used as they are; negative ones are padding.
+    mollify: in mean edge lengths, 0 to 1.
+    gluing: "star" or "vertex-pair". order: "angle", "area" or "random" (by seed). delaunay: "star" or "cgal".
+    threads: at most this many; 0: all. solver: "automatic", "cholesky" or "multigrid". memory_limit: bytes for factors,
+    0: half of what is available. These three are for all methods, too.
+    progress: a function of stage and fraction.
+    """
+
+    def __init__(self, points, preset="scan", neighbors=30, normals=None, *, viewpoint=None, image=None, rings=None,
+                 neighborhoods=None, mollify=1e-5, gluing="star", order="angle", seed=0, delaunay="star", threads=0,
+                 solver="automatic", memory_limit=0, progress=None):
+        name = "PointCloud"
+        solving = _solving(name, threads, solver, memory_limit)
+        points = check.rows_of_three(name, "points", points)
+        if normals is not None:
+            normals = check.rows_of_three(name, "normals", normals, len(points))
+        if viewpoint is not None:
+            viewpoint = check.vector_of_three(name, "viewpoint", viewpoint)
+        if neighborhoods is not None:
+            neighborhoods = check.integers(name, "neighborhoods", neighborhoods)
+            if neighborhoods.ndim != 2 or len(neighborhoods) != len(points):
+                raise InvalidInput(f"{name}: neighborhoods must be {len(points)} x k, one row per point")
+        laplacian = _tufted.build_cloud(
+            points, preset, check.whole(name, "neighbors", neighbors, 3), normals, neighborhoods,
+            self._structure(name, points, image, rings, viewpoint), viewpoint, check.number(name, "mollify", mollify),
+            gluing, order, check.whole(name, "seed", seed, 0), delaunay, solving["threads"],
+            check.callback(name, progress))
+        super().__init__(laplacian, points, None, solving)
+
+    @staticmethod
+    def _structure(name, points, image, rings, viewpoint):
+        origin = np.zeros(3) if viewpoint is None else viewpoint
+        if image is not None and rings is not None:
+            raise InvalidInput(f"{name}: image and rings are both given, must be one at most")
+        if image is not None:
+            size = check.integers(name, "image", image)
+            if size.shape != (2,) or size[0] * size[1] != len(points):
+                raise InvalidInput(f"{name}: image = {image!r}, must be (width, height) of {len(points)} points")
+            return _tufted.image_structure(int(size[0]), int(size[1]), origin)
+        if isinstance(rings, str):
+            if rings != "find":
+                raise InvalidInput(f"{name}: rings = '{rings}', must be numbers or 'find'")
+            return _tufted.find_rings(points, origin)
+        if rings is not None:
+            return _tufted.ring_structure(points, check.integers(name, "rings", rings), origin)
+        return None
+
+    def triangles(self, *, progress=None):
+        """Triangles of the surface to look at, and for programs that take meshes; their corners lie at `positions`.
+
+        Returns F x 3 int32; every edge has one or two triangles, which are oriented alike.
+        """
+        self._need_cover("triangles")
+        return _tufted.triangles(self._laplacian, check.callback("triangles", progress))
+
+
+class Mesh(Surface):
+    """The Laplacian of a triangle mesh of any connectivity, which is built at once.
+
+    points: V x 3, float32 or float64 (not copied if contiguous). faces: F x 3, integers of any type.
+    mollify: in mean edge lengths, 0 to 1. order, seed, threads, solver, memory_limit, progress: as in PointCloud.
+    """
+
+    def __init__(self, points, faces, *, mollify=1e-6, order="angle", seed=0, threads=0, solver="automatic",
+                 memory_limit=0, progress=None):
+        name = "Mesh"
+        solving = _solving(name, threads, solver, memory_limit)
+        points = check.rows_of_three(name, "points", points)
+        faces = check.triangles(name, "faces", faces)
+        laplacian = _tufted.build_mesh(points, faces, check.number(name, "mollify", mollify), order,
+                                       check.whole(name, "seed", seed, 0), solving["threads"],
+                                       check.callback(name, progress))
+        super().__init__(laplacian, points, faces, solving)
+
+    @property
+    def faces(self):
+        """The triangles, F x 3 int32."""
+        return self._faces
+
+    def triangles(self):
+        """The triangles of the mesh, F x 3 int32, as those of a cloud."""
+        return self._faces
+
+    def _frame_parts(self):
+        return self._keep("mesh frames", lambda: _tufted.mesh_frames(self._points, self._faces))
+
+    def _orientation(self):
+        return 1  # given, by the triangles
+
+    def _fitted_frames(self):
+        return self._frame_parts()
+
+
+def _set_geometry(surface, geometry, source):
+    surface._geometry = geometry
+    surface._source = source
+    return surface
+
+
+def read(path, *, kind="automatic", weld=False, image=False, normals=False, progress=None, **options):
+    """Reads a cloud or a mesh from a file and builds its Laplacian, as `tufted laplacian` does.
+
+    path: PCD, PLY, LAS, text in columns, NPY, OBJ, OFF or STL.
+    kind: "automatic", "cloud" (faces are ignored) or "mesh" (a file without faces is an error).
+    weld: whether vertices of a mesh that coincide get one number.
+    image: whether the rows of an organized cloud give the neighbours.
+    normals: whether the file's normals are used for the tangent planes.
+    options: those of PointCloud or Mesh.
+    """
+    path = os.fspath(path)
+    geometry = _tufted.read_file(path, kind, bool(weld), check.callback("read", progress))
+    if geometry.is_mesh:
+        if image or normals:
+            raise InvalidInput(f"read: {'image' if image else 'normals'} = True, must be False for a mesh")
+        return _set_geometry(Mesh(geometry.points, geometry.triangles, progress=progress, **options), geometry, path)
+    position = np.array(geometry.viewpoint[:3])
+    if geometry.height > 1 or position.any():
+        options.setdefault("viewpoint", position)
+    if image:
+        options["image"] = (geometry.width, geometry.height)
+    if normals:
+        if len(geometry.normals) == 0 and len(geometry.points) > 0:
+            raise _tufted.IoError(f"{path}: has no normals, which normals=True asks for")
+        options["normals"] = geometry.normals
+    return _set_geometry(PointCloud(geometry.points, progress=progress, **options), geometry, path)
+
+
+def load(directory, *, threads=0, solver="automatic", memory_limit=0, progress=None):
+    """Loads what `save` or `tufted laplacian` wrote: npz with ply or pcd, and the cover where it is there.
+
+    Without the cover, distances, log_map, Voronoi segments and triangles are refused.
+    """
+    directory = os.fspath(directory)
+    solving = _solving("load", threads, solver, memory_limit)
+    laplacian = _tufted.load(directory, True)
+    for name in ("points.ply", "points.pcd"):
+        path = os.path.join(directory, name)
+        if os.path.exists(path):
+            break
+    else:
+        raise _tufted.IoError(f"{directory}: has no points.ply and no points.pcd, must have one of them")
+    geometry = _tufted.read_file(path, "cloud" if laplacian.is_cloud else "mesh", False,
+                                 check.callback("load", progress))
+    if len(geometry.points) != len(laplacian.status):
+        raise _tufted.IoError(f"{path}: has {len(geometry.points)} points, and L has {len(laplacian.status)} rows")
+    surface = PointCloud.__new__(PointCloud) if laplacian.is_cloud else Mesh.__new__(Mesh)
+    faces = None if laplacian.is_cloud else np.ascontiguousarray(geometry.triangles)
+    Surface.__init__(surface, laplacian, geometry.points, faces, solving, None, directory)
+    return surface

@@ -1,0 +1,39 @@
+"""What methods return beside plain arrays."""
+from typing import NamedTuple
+
+import numpy as np
+import scipy.sparse
+
+
+class Spectrum(NamedTuple):
+    """The first eigenpairs of L x = lambda M x."""
+    values: np.ndarray
+    vectors: np.ndarray
+
+
+class Gradients(NamedTuple):
+    """Slopes of functions on the points: X @ u along the first axis of `frames`, Y @ u along the second."""
+    X: scipy.sparse.csc_matrix
+    Y: scipy.sparse.csc_matrix
+    frames: np.ndarray
+
+
+class Curvature(NamedTuple):
+    """Curvature of the surface at each point, positive where it bends away from the normal."""
+    mean: np.ndarray
+    gaussian: np.ndarray
+    principal: np.ndarray
+    directions: np.ndarray
+
+
+class Segments(NamedTuple):
+    """Segments of a surface."""
+    labels: np.ndarray
+    areas: np.ndarray
+    seeds: np.ndarray
+
+
+class LogMap(NamedTuple):
+    """Coordinates around a point."""
+    coordinates: np.ndarray
+    axes: np.ndarray

@@ -1,0 +1,41 @@
+// Pages to look at points with values.
+#include <map>
+#include <string>
+#include <tuple>
+#include <utility>
+#include <vector>
+
+#include "python/arrays.h"
+#include "python/module.h"
+#include "tufted/view/page.h"
+
+namespace py = pybind11;
+
+namespace tufted::python {
+namespace {
+
+using FieldTuple = std::tuple<std::string, std::string, Eigen::MatrixXd, std::string>;
+
+std::string page(std::string title, const Doubles& points, const Integers& faces, Points normals,
+                 std::vector<FieldTuple> fields) {
+  const std::map<std::string, FieldKind> kinds = {
+      {"scalar", FieldKind::scalar}, {"diverging", FieldKind::diverging}, {"distance", FieldKind::distance},
+      {"label", FieldKind::label},   {"vector", FieldKind::vector},       {"coordinates", FieldKind::coordinates},
+      {"color", FieldKind::color}};
+  Scene scene = {.title = std::move(title),
+                 .positions = pointsOf(points),
+                 .triangles = trianglesOf(faces),
+                 .normals = std::move(normals)};
+  for (auto& [name, kind, values, unit] : fields)
+    scene.fields.push_back({name, chosen<FieldKind>("page: kind", kind, kinds), std::move(values), unit});
+  const py::gil_scoped_release release;
+  return pageOf(scene);
+}
+
+}  // namespace
+
+void addView(py::module_& module) {
+  module.def("page", &page);
+}
+
+}  // namespace tufted::python

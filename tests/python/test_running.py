@@ -1,0 +1,103 @@
+"""Ctrl-C, progress, the interpreter's lock, and memory."""
+import pathlib
+import resource
+import signal
+import subprocess
+import sys
+import threading
+import time
+
+import numpy as np
+import pytest
+
+import tufted
+from support import sphere
+
+LONG = """
+import numpy, sys, tufted
+points = numpy.random.default_rng(1).normal(size=(2000000, 3))
+points /= numpy.linalg.norm(points, axis=1, keepdims=True)
+print("begins", flush=True)
+try:
+    tufted.PointCloud(points)
+except KeyboardInterrupt:
+    print("interrupted", flush=True)
+    assert len(tufted.PointCloud(points[:500]).M) == 500  # all goes on
+    sys.exit(7)
+"""
+
+
+def test_ctrl_c_stops_a_build():
+    child = subprocess.Popen([sys.executable, "-c", LONG], stdout=subprocess.PIPE, text=True)
+    assert child.stdout.readline() == "begins\n"
+    time.sleep(0.7)
+    start = time.monotonic()
+    child.send_signal(signal.SIGINT)
+    out, _ = child.communicate(timeout=60)
+    assert out == "interrupted\n" and child.returncode == 7
+    assert time.monotonic() - start < 20
+
+
+def test_progress_is_called_and_may_stop():
+    seen = []
+    tufted.PointCloud(sphere(3000), progress=lambda stage, fraction: seen.append((stage, fraction)))
+    assert len({stage for stage, _ in seen}) > 3
+    assert all(isinstance(stage, str) and 0 <= fraction <= 1 for stage, fraction in seen)
+    with pytest.raises(tufted.Cancelled):
+        tufted.PointCloud(sphere(3000), progress=lambda stage, fraction: False)
+    cloud = tufted.PointCloud(sphere(3000))
+    for call in (cloud.distance, cloud.green):
+        with pytest.raises(tufted.Cancelled):
+            call(0, progress=lambda stage, fraction: False)
+    assert np.isfinite(cloud.distance(0)).all()
+
+
+def test_what_progress_raises_arrives():
+    with pytest.raises(KeyError, match="stop"):
+        tufted.PointCloud(sphere(3000), progress=lambda stage, fraction: {}["stop"])
+
+
+def test_other_threads_go_on_meanwhile():
+    ticks, done = [], threading.Event()
+
+    def tick():
+        while not done.is_set():
+            ticks.append(time.monotonic())
+            time.sleep(0.005)
+
+    thread = threading.Thread(target=tick)
+    thread.start()
+    start = time.monotonic()
+    tufted.PointCloud(sphere(100_000), threads=1)
+    end = time.monotonic()
+    done.set()
+    thread.join()
+    assert sum(start < t < end for t in ticks) > 5
+
+
+def memory():
+    pages = int(pathlib.Path("/proc/self/statm").read_text().split()[1])
+    return pages * resource.getpagesize()
+
+
+def test_memory_is_flat_over_a_thousand_builds():
+    points = sphere(200)
+    faces = np.array([[0, 1, 2], [1, 2, 3]])
+
+    def use():
+        L, M = tufted.point_cloud_laplacian(points, threads=1)
+        cloud = tufted.PointCloud(points, threads=1)
+        cloud.spectrum(3)
+        cloud.distance(0)
+        cloud.validate()
+        tufted.Mesh(points, faces, threads=1).report
+        with pytest.raises(tufted.InvalidInput):
+            cloud.harmonic({0: np.nan})
+        return L, M
+
+    for _ in range(100):
+        use()
+    before = memory()
+    for _ in range(1000):
+        use()
+    assert memory() - before < 8e6

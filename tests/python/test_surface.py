@@ -1,0 +1,249 @@
+"""Methods of clouds and meshes against what is known of spheres and tori."""
+import pickle
+import threading
+import xml.etree.ElementTree
+
+import numpy as np
+import pytest
+
+import tufted
+from support import same, sphere, torus_mesh
+
+CLOUD = sphere(3000)
+
+
+@pytest.fixture(scope="module")
+def cloud():
+    return tufted.PointCloud(CLOUD)
+
+
+@pytest.fixture(scope="module")
+def mesh():
+    return tufted.Mesh(*torus_mesh(60, 30))
+
+
+def test_the_spectrum_is_that_of_the_sphere(cloud):
+    values, vectors = cloud.spectrum(9)
+    np.testing.assert_allclose(values, [0, 2, 2, 2, 6, 6, 6, 6, 6], atol=1e-8, rtol=0.02)
+    np.testing.assert_allclose(vectors.T @ (cloud.M[:, None] * vectors), np.eye(9), atol=1e-9)
+    assert abs(cloud.L @ vectors - cloud.M[:, None] * vectors * values).max() < 1e-6
+    np.testing.assert_array_equal(cloud.spectrum(8, null_space=False).values > 0, True)
+
+
+def test_signatures_are_those_of_a_homogeneous_surface(cloud):
+    pairs = cloud.spectrum(49)
+    hks = cloud.hks([0.5], spectrum=pairs)
+    l = np.arange(0, 7)
+    assert hks.mean() == pytest.approx(sum((2 * l + 1) * np.exp(-l * (l + 1) * 0.5)) / (4 * np.pi), rel=0.02)
+    assert cloud.hks(k=40).shape == (3000, 16) and cloud.wks(k=40).shape == (3000, 100)
+    assert cloud.wks([0.7, 1.8], spectrum=pairs).shape == (3000, 2)
+    assert cloud.embed(3).shape == (3000, 3)
+
+
+def test_filter_keeps_what_is_smooth(cloud):
+    z = CLOUD[:, 2]
+    rough = z + 0.1 * np.random.default_rng(3).normal(size=3000)
+    assert abs(cloud.filter(rough, k=8) - z).mean() < 0.02
+    halved = cloud.filter(z, k=3, gain=lambda eigenvalue: 0.5)
+    np.testing.assert_allclose(halved, z / 2, atol=0.05)
+    with pytest.raises(ZeroDivisionError):
+        cloud.filter(z, k=3, gain=lambda eigenvalue: 1 / 0)
+
+
+def test_distances_are_those_of_the_sphere(cloud):
+    exact = np.arccos(np.clip(CLOUD @ CLOUD[0], -1, 1))
+    assert abs(cloud.distance(0) - exact).mean() < 0.02 * np.pi / 2  # two in a hundred
+    assert abs(cloud.distance([0], unit="adapted", open_boundary=False) - exact).mean() < 0.02 * np.pi / 2
+
+
+def test_a_source_inside_a_triangle_lies_between_its_corners(mesh):
+    corners = mesh.faces[7]
+    distance = mesh.distance(faces=7, barycentric=[1, 1, 1])
+    centre = mesh.points[corners].mean(axis=0)
+    np.testing.assert_allclose(distance[corners], np.linalg.norm(mesh.points[corners] - centre, axis=1), atol=1e-12)
+    np.testing.assert_array_equal(mesh.distance(faces=[7], barycentric=[[1, 0, 0]])[corners[0]], 0)
+
+
+def test_interpolation_has_the_values_and_stays_within_them(cloud):
+    u = cloud.harmonic({0: 1.0, 5: 3.0})
+    assert u[0] == 1 and u[5] == 3 and u.min() >= 1 - 1e-11 and u.max() <= 3 + 1e-11
+    np.testing.assert_array_equal(cloud.harmonic([0, 5], [1.0, 3.0]), u)
+    assert cloud.harmonic([0, 5], [[1.0, 2], [3, 4]]).shape == (3000, 2)
+    smooth = cloud.biharmonic({0: 1.0, 5: 3.0, 9: 2.0})
+    np.testing.assert_allclose(smooth[[0, 5, 9]], [1, 3, 2])
+
+
+def test_equations_are_solved(cloud):
+    z = CLOUD[:, 2]
+    u = cloud.poisson(2 * z)  # a spherical harmonic of eigenvalue 2
+    assert abs(u - z).max() < 0.05
+    np.testing.assert_array_equal(cloud.poisson(np.stack([2 * z, z], axis=1))[:, 0].shape, u.shape)
+    pinned = cloud.poisson(np.zeros(3000), {0: 1.0, 5: 3.0})
+    np.testing.assert_allclose(pinned, cloud.harmonic({0: 1.0, 5: 3.0}), atol=1e-9)
+    green = cloud.green(0)
+    cosine = CLOUD @ CLOUD[0]
+    far = cosine < 0.9
+    exact = -(np.log((1 - cosine[far]) / 2) + 1) / (4 * np.pi)
+    assert green.shape == (3000,) and abs(green[far] - exact).max() < 0.02
+    assert cloud.green([0, 5]).shape == (3000, 2)
+
+
+def test_gradients_are_tangential_parts(cloud, mesh):
+    for surface in (cloud, mesh):
+        X, Y, frames = surface.gradients()
+        z = surface.points[:, 2]
+        expected = frames[:, :2, 2]
+        found = np.stack([X @ z, Y @ z], axis=1)
+        assert abs(found - expected).max() < (1e-9 if surface is cloud else 0.1)
+    vectors = np.stack([cloud.gradients().X @ CLOUD[:, 2], cloud.gradients().Y @ CLOUD[:, 2]], axis=1)
+    # Minus the Laplacian of z is 2 z, and the integral of 2 z^2 over the sphere 8 pi / 3.
+    z = CLOUD[:, 2]
+    assert -(cloud.M * z * cloud.divergence(vectors)).sum() == pytest.approx(8 * np.pi / 3, rel=0.02)
+    u = np.random.default_rng(1).normal(size=3000)
+    slopes = np.stack([cloud.gradients().X @ u, cloud.gradients().Y @ u], axis=1)
+    left = (cloud.M * u * cloud.divergence(vectors)).sum()
+    assert left == pytest.approx(-(cloud.M[:, None] * slopes * vectors).sum(), rel=1e-9)
+
+
+def test_operators_have_the_names_of_diffusionnet(mesh):
+    found = mesh.operators(16)
+    assert set(found) == {"frames", "mass", "L", "evals", "evecs", "gradX", "gradY"}
+    assert found["evecs"].shape == (len(mesh), 16)
+
+
+def test_normals_point_outwards_and_curvature_is_one(cloud):
+    assert (np.einsum("ij,ij->i", cloud.normals(), CLOUD) > 0.9).all()
+    inward = cloud.normals(viewpoint=[0, 0, 0])
+    assert (np.einsum("ij,ij->i", inward, CLOUD) < -0.9).all()
+    found = cloud.curvature()
+    np.testing.assert_allclose(found.mean, 1, atol=0.1)
+    np.testing.assert_allclose(found.gaussian, 1, atol=0.2)
+    assert found.directions.shape == (3000, 2, 3)
+    assert cloud.curvature(method="laplacian").gaussian.size == 0
+
+
+def test_curvature_of_a_mesh_has_the_sign_of_its_faces(mesh):
+    outer = np.linalg.norm(mesh.points[:, :2], axis=1) > 1.39
+    np.testing.assert_allclose(mesh.curvature().gaussian[outer], 1 / (0.4 * 1.4), rtol=0.1)
+
+
+def test_triangles_close_the_sphere(cloud):
+    faces = cloud.triangles()
+    edges = np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1)
+    _, counts = np.unique(edges, axis=0, return_counts=True)
+    assert counts.max() == 2 and (counts == 2).mean() > 0.99
+    outward = np.einsum("ij,ij->i", np.cross(CLOUD[faces[:, 1]] - CLOUD[faces[:, 0]],
+                                             CLOUD[faces[:, 2]] - CLOUD[faces[:, 0]]), CLOUD[faces[:, 0]])
+    assert (outward > 0).mean() > 0.99
+
+
+def test_segments_cover_the_sphere(cloud):
+    labels, areas, seeds = cloud.segments(5)
+    assert set(labels) == set(range(5)) and len(seeds) == 5
+    assert areas.sum() == pytest.approx(cloud.M.sum())
+    assert (np.diff(areas) <= 0).all()
+    assert set(cloud.segments(seeds=[0, 1]).labels) == {0, 1}
+    assert set(cloud.segments(3, method="spectral").labels) == {0, 1, 2}
+
+
+def test_smoothing_shrinks_and_keeps_fixed_points(cloud):
+    fixed = np.zeros(3000, bool)
+    fixed[:10] = True
+    smooth = cloud.smooth(time_step=5, iterations=2, fixed=fixed)
+    np.testing.assert_array_equal(smooth[:10], CLOUD[:10])
+    assert np.linalg.norm(smooth[10:], axis=1).mean() < 1
+
+
+def test_transport_of_a_tangent_vector(cloud):
+    tangent = cloud.frames[0, 0]
+    carried = cloud.transport(0, tangent)
+    assert abs(np.einsum("ij,ij->i", carried, CLOUD)).max() < 0.2
+    np.testing.assert_allclose(np.linalg.norm(carried, axis=1), 1, rtol=1e-6)
+
+
+def test_nearest(cloud):
+    assert cloud.nearest(CLOUD[17]) == 17
+    np.testing.assert_array_equal(cloud.nearest(2 * CLOUD[:50]), np.arange(50))
+
+
+def test_components_are_labelled_and_taken():
+    points = np.vstack([sphere(300), 5 + 0.5 * sphere(800)])
+    cloud = tufted.PointCloud(points)
+    assert (cloud.components[300:] == 0).all() and (cloud.components[:300] == 1).all()
+    largest = cloud.restricted_to()
+    assert (largest.status[:300] == 3).all() and largest.M[:300].sum() == 0
+    assert largest.spectrum(2, null_space=True).values[0] == 0
+    assert np.isinf(cloud.distance(300)[:300]).all()
+    assert same(cloud.restricted_to([0, 1]).L, cloud.L)
+
+
+def test_the_checks_hold(cloud, mesh):
+    for surface in (cloud, mesh):
+        found = surface.validate()
+        assert found["ok"] and found["faults"] == [] and found["masses_compared"]
+
+
+@pytest.mark.parametrize("threads", [1, 2, 5])
+def test_threads_do_not_change_the_bits(cloud, threads):
+    other = tufted.PointCloud(CLOUD, threads=threads)
+    assert same(other.L, cloud.L) and np.array_equal(other.M, cloud.M)
+    np.testing.assert_array_equal(other.distance(0), cloud.distance(0))
+
+
+def test_several_threads_at_once(cloud):
+    expected, found = cloud.distance(3), [None] * 4
+
+    def ask(k):
+        found[k] = tufted.PointCloud(CLOUD).distance(3) if k % 2 else cloud.distance(3)
+
+    threads = [threading.Thread(target=ask, args=(k,)) for k in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join()
+    for values in found:
+        np.testing.assert_array_equal(values, expected)
+
+
+@pytest.mark.parametrize("which", ["cloud", "mesh"])
+def test_pickling_keeps_all(which, request):
+    surface = request.getfixturevalue(which)
+    again = pickle.loads(pickle.dumps(surface, protocol=5))
+    assert type(again) is type(surface) and repr(again) == repr(surface)
+    assert same(again.L, surface.L) and np.array_equal(again.M, surface.M)
+    assert again.report == surface.report
+    np.testing.assert_array_equal(again.distance(0), surface.distance(0))
+    np.testing.assert_array_equal(again.frames, surface.frames)
+    np.testing.assert_array_equal(again.smooth(), surface.smooth())
+    assert again.validate()["ok"]
+
+
+def test_methods_keep_their_factors(cloud):
+    for call in (lambda: cloud.distance(0), lambda: cloud.green(0), lambda: cloud.extend(0, 1.0),
+                 lambda: cloud.transport(0, [1, 2, 3]), lambda: cloud.log_map(0), lambda: cloud.gradients()):
+        call()
+        kept = dict(cloud._kept)
+        call()
+        assert cloud._kept == kept
+
+
+def test_texts(cloud, mesh):
+    assert repr(cloud) == f"<tufted.PointCloud: 3,000 points, 1 component, area {cloud.M.sum():.6g}>"
+    assert "3,600 faces" in repr(mesh)
+    for surface in (cloud, mesh):
+        frame = xml.etree.ElementTree.fromstring(surface._repr_html_())
+        assert frame.tag == "iframe" and "<canvas" in frame.get("srcdoc") and "component" in frame.get("srcdoc")
+    assert len(cloud) == 3000
+
+
+def test_structures_of_scans():
+    u, v = np.meshgrid(np.linspace(-1, 1, 40), np.linspace(-1, 1, 30))
+    image = np.stack([u, v, 3 + 0.1 * u * u], axis=-1).reshape(-1, 3)
+    cloud = tufted.PointCloud(image, image=(40, 30), viewpoint=[0, 0, 0])
+    assert cloud.report["active"] == 1200 and (cloud.frames[:, 2, 2] < 0).all()
+    azimuth = np.linspace(-np.pi, np.pi, 200, endpoint=False)
+    rings = [np.stack([5 * np.cos(azimuth), 5 * np.sin(azimuth), np.full(200, 0.4 * z)], axis=1) for z in range(8)]
+    points, numbers = np.concatenate(rings), np.repeat(np.arange(8), 200)
+    by_number = tufted.PointCloud(points, "lidar", rings=numbers)
+    assert by_number.report["components"] == 1
+    assert same(tufted.PointCloud(points, "lidar", rings="find").L, by_number.L)
