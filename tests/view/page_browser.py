@@ -79,10 +79,10 @@ def test_labels_colors_and_lines(page, dir):
     page.set(field=3)
     close(page.color(row_at(0.5, 0))[0], [255, 0, 255])
     page.set(field=5)
-    interval = 0.2
+    interval = 0.1
     on, off = page.color(row_at(0.6, 0), row_at(0.6 + interval / 2, 0))
     assert sum(on) < 0.75 * sum(off), f"an isoline at 0.6 has {on}, beside it {off}"
-    assert "lines every 0.2 m" in page.run("return document.getElementById('legend').getAttribute('aria-label')")
+    assert "lines every 0.1 m" in page.run("return document.getElementById('legend').getAttribute('aria-label')")
     page.key("i", "KeyI")
     page.run("return new Promise((done) => setTimeout(done, 100))")
     assert sum(page.color(row_at(0.6, 0))[0]) > 0.85 * sum(off)

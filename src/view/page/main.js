@@ -61,7 +61,7 @@ const hasLines = (one) => state.lines[state.field] ?? (one.kind === 'distance' |
 function intervalOf(one, [low, high]) {
   if (!hasLines(one) || ['label', 'color', 'vector'].includes(one.kind) || !(high > low)) return 0;
   // Lines of points are as wide as these, so at least this far apart; distances have the unit of positions.
-  const points = state.shown === 'points' && one.kind !== 'scalar' && one.kind !== 'diverging' ? 8 * stage.spacing * stage.positions.unit : 0;
+  const points = state.shown === 'points' && one.kind !== 'scalar' && one.kind !== 'diverging' ? 4.5 * stage.spacing * stage.positions.unit : 0;
   return roundUp(Math.max((high - low) / (one.kind === 'coordinates' ? 8 : 16), Math.min(points, (high - low) / 3)) * 2 ** -state.line_step);
 }
 
@@ -105,6 +105,10 @@ function applyColors() {
     // All values equal: the middle colour.
     stage.uniforms.range.value.set(width > 0 ? low : low - 0.5, width > 0 ? 1 / width : 1);
     stage.set({ mode: 1, start: current.toScaled(0) });
+    // Distances and coordinates have the unit of positions: their lines are as wide as a point.
+    const width_of_point = (0.65 * stage.spacing * stage.positions.unit) / interval;
+    const is_length = one.kind === 'distance' || one.kind === 'coordinates';
+    stage.set({ thickness: is_length ? Math.min(Math.max(width_of_point, 0.03), 0.11) : 0.08 });
     if (one.kind === 'coordinates') stage.set({ grid: interval });
     else stage.set({ interval: interval > 0 ? interval / 2 / current.half_span : 0 });
     if (one.kind === 'vector' && state.arrows) {
@@ -349,6 +353,7 @@ async function start() {
   stage.resize();
   reset();
   await showField();
+  stage.is_waiting = false;
   stage.drawNow();
   addEventListener('keydown', key);
   matchMedia('(prefers-color-scheme: dark)').addEventListener('change', () => { refresh(); fillPanel(); });

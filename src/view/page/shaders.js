@@ -8,6 +8,7 @@ const shared = `
   uniform float interval;  // between isolines, scaled; 0: none
   uniform float start;     // the scaled value of 0, where an isoline runs
   uniform float grid;      // between grid lines of coordinates; 0: none
+  uniform float thickness; // half of that of a line through points, in intervals
   uniform bool is_lit;
 `;
 
@@ -70,9 +71,9 @@ export const pointFragment = `
     vec3 color = colorOfValue(v_tint);
     // A point has one value: those near a line are dark.
     float part = 0.0;
-    if (interval > 0.0 && v_known > 0.5) part = 1.0 - smoothstep(0.05, 0.11, toWhole((v_value - start) / interval));
+    if (interval > 0.0 && v_known > 0.5) part = 1.0 - smoothstep(0.7 * thickness, 1.3 * thickness, toWhole((v_value - start) / interval));
     if (grid > 0.0 && v_known > 0.5)
-      part = 1.0 - smoothstep(0.04, 0.09, min(toWhole(v_pair.x / grid), toWhole(v_pair.y / grid)));
+      part = 1.0 - smoothstep(0.7 * thickness, 1.3 * thickness, min(toWhole(v_pair.x / grid), toWhole(v_pair.y / grid)));
     color = mix(color, line_color, 0.75 * part);
     gl_FragColor = vec4(is_lit ? color * (0.35 + 0.65 * v_light) : color, 1.0);
   }`;

@@ -43,6 +43,7 @@ export class Stage {
     this.controls = new Controls(this.camera, element, { ...events, changed: () => { this.draw(); events.changed(); } });
     this.spacing = spacingOf(positions);
     this.is_lit = true;
+    this.is_waiting = true; // nothing is drawn before there is all that the first picture shows
     this.size_factor = 1;
     this.makeUniforms();
     this.makeGeometry(directions, triangles);
@@ -54,7 +55,7 @@ export class Stage {
   makeUniforms() {
     const list = {
       mode: 0, map: null, range: new Vector2(0, 1), plain: new Color(), no_value: new Color(), line_color: new Color(),
-      interval: 0, start: 0, grid: 0, is_lit: true, is_flat: false, clip: new Vector4(0, 0, 0, 1), size: 0, least_size: 1.5,
+      interval: 0, start: 0, grid: 0, thickness: 0.08, is_lit: true, is_flat: false, clip: new Vector4(0, 0, 0, 1), size: 0, least_size: 1.5,
       pixels: 1, arrow_scale: 1,
     };
     this.uniforms = {};
@@ -188,10 +189,12 @@ export class Stage {
   }
 
   draw() {
+    if (this.is_waiting) return;
     this.waiting ??= requestAnimationFrame(() => this.drawNow());
   }
 
   drawNow() {
+    if (this.is_waiting) return;
     cancelAnimationFrame(this.waiting);
     this.waiting = null;
     const size = this.renderer.getDrawingBufferSize(new Vector2());
