@@ -31,6 +31,6 @@ draw logmap_bunny logmap "$bunny" --as cloud --source 200 --up y --camera 20,12 
 draw parts segment "$bunny" --as cloud --count 12 --up y --camera 20,12 --size 560x500
 draw boundary_kinds laplacian datasets/depth_camera.ply --color boundary --size 700x500
 noisy=datasets/sphere_uniform_noise_1pct.ply
-draw before filter "$noisy" --positions --count 1000 --size 500x450
+draw before filter "$noisy" --positions --count 600 --size 500x450
 draw after filter "$noisy" --positions --count 60 --size 500x450
 ls -l "$figures"/*.png
