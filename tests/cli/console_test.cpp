@@ -47,9 +47,11 @@ class ConsoleOutput : public Subcommands {
 
   /// Runs an example; the files and folders that it names are in the folder of the test.
   void tryExample(std::vector<std::string> words) {
+    const auto isFile = [](const std::string& word) {
+      return word == "scans" || word.ends_with(".ply") || word.ends_with(".off") || word.ends_with(".png");
+    };
     for (std::size_t i = 1; i < words.size(); ++i)
-      if (words[i - 1] == "--out" || words[i] == "scans" || words[i].ends_with(".ply") || words[i].ends_with(".off"))
-        words[i] = in(words[i]);
+      if (words[i - 1] == "--out" || words[i - 1] == "view" || isFile(words[i])) words[i] = in(words[i]);
     const Result result = runTufted(words);
     EXPECT_EQ(result.code, 0) << testing::PrintToString(words) << result.err;
   }

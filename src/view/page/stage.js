@@ -16,8 +16,10 @@ function spacingOf({ shown, drawn, count }) {
   const nearest = 6; // on a square grid the fourth of these is at the distance of the grid
   const found = [];
   for (let q = 0; q < queries; ++q) {
-    const row = Math.floor(((q + 0.5) * count) / queries);
-    if (!drawn[row]) continue;
+    // The golden ratio spreads the rows, and steps over no whole columns of a depth image, which may be missing.
+    let row = Math.floor(((q * 0.6180339887498949) % 1) * count);
+    while (row < count && !drawn[row]) ++row;
+    if (row === count) continue;
     const [x, y, z] = shown.subarray(3 * row, 3 * row + 3);
     const least = new Array(nearest).fill(Infinity);
     for (let i = 0, k = 0; i < count; ++i, k += 3) {
