@@ -12,9 +12,9 @@
 
 namespace tufted {
 
-/// From where a picture is seen, in perspective: its height is seen under 0.62 radians. What is left out is chosen: flat scenes are seen from above at an
-/// angle, or in front where they stand upright, all others at their broad side; the distance is such that the scene
-/// fits, without the few points far from all others.
+/// From where a picture is seen, in perspective: its height is seen under 0.62 radians. What is left out is chosen:
+/// flat scenes are seen from above at an angle, or in front where they stand upright, all others at their broad side;
+/// the distance is such that the scene fits, without the few points far from all others.
 struct Camera {
   /// The direction in which the eye lies, of any length; 0: chosen.
   Eigen::Vector3d eye = Eigen::Vector3d::Zero();
@@ -36,24 +36,26 @@ enum class Background : std::uint8_t { white, dark, transparent };
 
 /// How a picture is drawn.
 struct PictureOptions {
-  int width = 1200, height = 900;  ///< pixels, from 16 to 8192 each
-  int field = 0;                   ///< the field shown, counted from 0; -1: none
-  int column = 0;                  ///< and its column, counted from 0
-  std::string color_map = {};      ///< one of colorMapNames(); empty: that of the field's kind
+  int width = 1200;            ///< pixels, from 16 to 8192
+  int height = 900;            ///< pixels, from 16 to 8192
+  int field = 0;               ///< the field shown, counted from 0; -1: none
+  int column = 0;              ///< and its column, counted from 0
+  std::string color_map = {};  ///< one of colorMapNames(); empty: that of the field's kind
   /// The values at both ends of the colour map; by default the least and the greatest, but no farther than half the
   /// distance of the 1st and the 99th percentile beyond these. Values around 0 have the same range on both sides.
   std::optional<std::array<double, 2>> range = {};
-  Background background = Background::white;
-  bool light = true;                  ///< shades the surface; false: colours are exactly those of the map
-  std::optional<bool> isolines = {};  ///< lines of equal values; by default for distances
-  bool legend = true;                 ///< title, and the colours with their values
-  Camera camera = {};
+  Background background = Background::white;  ///< where there is no surface
+  bool light = true;                          ///< shades the surface; false: colours are exactly those of the map
+  std::optional<bool> isolines = {};          ///< lines of equal values; by default for distances
+  bool legend = true;                         ///< title, and the colours with their values
+  Camera camera = {};                         ///< from where it is seen
   int threads = 0;  ///< at most this many; 0: one per processor. The picture has the same bits for any number.
 };
 
 /// Pixels.
 struct Picture {
-  int width = 0, height = 0;
+  int width = 0;                     ///< columns
+  int height = 0;                    ///< rows
   std::vector<std::uint8_t> pixels;  ///< red, green, blue and alpha, rows from the top
 };
 

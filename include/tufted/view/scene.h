@@ -22,8 +22,8 @@ enum class FieldKind : std::uint8_t {
 
 /// Values at the points that can be looked at.
 struct SceneField {
-  std::string name;  ///< any text
-  FieldKind kind = FieldKind::scalar;
+  std::string name;                    ///< any text
+  FieldKind kind = FieldKind::scalar;  ///< what the values mean
   /// N x c; each column is a picture of its own but for the kinds of two or three columns. NaN and infinite values are
   /// grey.
   Eigen::MatrixXd values;
@@ -36,8 +36,8 @@ struct Scene {
   Points positions;          ///< N x 3, in the caller's order; rows that are not finite are not drawn
   Triangles triangles = {};  ///< F x 3; 0 x 3: points alone
   Points normals = {};       ///< N x 3, of any length and either sign, for light; 0 x 3 where nobody knows them
-  std::vector<SceneField> fields = {};
-  std::string unit = {};  ///< of the positions, "m"; may be empty
+  std::vector<SceneField> fields = {};  ///< what can be shown, the first one first
+  std::string unit = {};                ///< of the positions, "m"; may be empty
 };
 
 /// Checks that the parts of a scene fit together.
