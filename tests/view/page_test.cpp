@@ -182,7 +182,8 @@ TEST(Page, LoadsNothing) {
 TEST(Page, OfHostileNamesHasTheElementsOfHarmlessOnes) {
   Scene scene = randomScene(10);
   const std::string harmless = pageOf(scene);
-  const std::string hostile("</script><script>alert(1)</script><!--<script>\"'\\&\xff\xc3(\0\n", 59);
+  constexpr char text[] = "</script><script>alert(1)</script><!--<script>\"'\\&\xff\xc3(\0\n";
+  const std::string hostile(text, sizeof(text) - 1);  // with the 0 inside
   scene.title = scene.unit = scene.fields[0].name = scene.fields[0].unit = hostile;
   const std::string page = pageOf(scene);
   for (const char* part : {"<script", "</script", "<!--"}) EXPECT_EQ(count(page, part), count(harmless, part)) << part;
