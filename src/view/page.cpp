@@ -144,7 +144,11 @@ Json sceneJson(const Scene& scene, const PageOptions& options, PageBlocks& block
                  {"map", options.color_map},
                  {"eye", {options.eye.x(), options.eye.y(), options.eye.z()}},
                  {"up", {options.up.x(), options.up.y(), options.up.z()}}}}};
-  for (int axis = 0; axis < 3; ++axis) json["positions"].push_back(levelColumn(scene.positions.col(axis), blocks));
+  for (int axis = 0; axis < 3; ++axis) {
+    Eigen::VectorXd coordinates;  // of no points a column would be an offset to nothing
+    if (scene.positions.rows() > 0) coordinates = scene.positions.col(axis);
+    json["positions"].push_back(levelColumn(coordinates, blocks));
+  }
   if (scene.normals.rows() > 0) json["normals"] = normalBlock(scene.normals, blocks);
   if (scene.triangles.rows() > 0)
     json["triangles"] =
