@@ -86,9 +86,9 @@ class PoissonSolver {
   /// @throws Cancelled when `options.progress` returns false
   explicit PoissonSolver(std::shared_ptr<const Laplacian> laplacian, const SolverOptions& options = {});
 
-  /// As poisson().
+  /// Solves for one or several f; values and errors are those of poisson().
   Eigen::MatrixXd poisson(const Eigen::MatrixXd& f, SolveReport* report = nullptr, const Progress& progress = {}) const;
-  /// As greensFunction().
+  /// A column for each point; values and errors are those of greensFunction().
   Eigen::MatrixXd green(const std::vector<int>& points, SolveReport* report = nullptr,
                         const Progress& progress = {}) const;
 

@@ -7,6 +7,7 @@
 
 #include "tufted/errors.h"
 #include "tufted/view/colors.h"
+#include "view/percentile.h"
 #include "view/ticks.h"
 
 namespace tufted::view {
@@ -22,12 +23,6 @@ constexpr double reach = 0.5;
 
 [[noreturn]] void refuse(const std::string& what) {
   throw InvalidInput("drawPicture: " + what);
-}
-
-double percentile(std::vector<double>& values, double share) {
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1) + 0.5);
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
 }
 
 void setRange(const PictureOptions& options, bool is_around_0, bool is_from_0, std::vector<double> values,

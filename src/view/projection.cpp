@@ -8,6 +8,7 @@
 #include <string>
 
 #include "tufted/errors.h"
+#include "view/percentile.h"
 #include "view/threads.h"
 
 namespace tufted::view {
@@ -29,12 +30,6 @@ constexpr double flatness = 0.12;
 
 [[noreturn]] void refuse(const std::string& what) {
   throw InvalidInput("drawPicture: " + what);
-}
-
-double percentile(std::vector<double>& values, double share) {
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size() - 1) + 0.5);
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
 }
 
 struct Box {

@@ -16,7 +16,7 @@ struct Console {
 
 /// Adds -q, --quiet and --json, one of which may be given.
 void addConsole(CLI::App& command, Console& console);
-/// The same with -v, --verbose, for commands that have details.
+/// Adds -q, --json and -v, --verbose, for commands that have details.
 void addVerboseConsole(CLI::App& command, Console& console);
 
 /// Says what a run has done: the lines of the summary or, with --json, what report.json holds, with the members "out",
