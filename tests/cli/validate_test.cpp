@@ -58,6 +58,11 @@ int ticksOf(pid_t process) {
   return ticks;
 }
 
+/// Waits up to ten seconds until `process` has used that much processor time.
+void awaitTicks(pid_t process, int ticks) {
+  for (int i = 0; i < 10000 && ticksOf(process) < ticks; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+}
+
 class Validate : public testing::Test {
  protected:
   std::string writeTetrahedron(const std::string& name = "good.off") const { return dir_.write(name, tetrahedron); }
@@ -231,13 +236,15 @@ TEST_F(Validate, ACrashIsNamedAndTheOthersGoOn) {
 
 TEST_F(Validate, AWorkerThatIsAskedToEndDoesSo) {  // as daemons do that watch over the memory
   const std::string large = writeLarge();
-  Process tufted = startTufted({"validate", large});
-  for (const pid_t worker : awaitWorkers(large, true)) {
-    for (int i = 0; i < 10000 && ticksOf(worker) < 10; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
-    kill(worker, SIGTERM);
+  for (const int ticks : {0, 2, 10}) {  // as it starts, and while it works
+    Process tufted = startTufted({"validate", large});
+    for (const pid_t worker : awaitWorkers(large, true)) {
+      awaitTicks(worker, ticks);
+      kill(worker, SIGTERM);
+    }
+    const Result result = tufted.finish();
+    EXPECT_TRUE(contains(result.out, large + ": its process was ended by signal 15 (Terminated)")) << result.out;
   }
-  const Result result = tufted.finish();
-  EXPECT_TRUE(contains(result.out, large + ": its process was ended by signal 15 (Terminated)")) << result.out;
 }
 
 TEST_F(Validate, NoWorkerOutlivesTheCommand) {
@@ -245,7 +252,7 @@ TEST_F(Validate, NoWorkerOutlivesTheCommand) {
   Process tufted = startTufted({"validate", large});
   const std::vector<pid_t> workers = awaitWorkers(large, true);
   ASSERT_EQ(workers.size(), 1u);
-  for (int i = 0; i < 10000 && ticksOf(workers[0]) < 10; ++i) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+  awaitTicks(workers[0], 10);
   kill(workers[0], SIGSTOP);  // it would not end by itself any more
   kill(tufted.pid(), SIGKILL);
   tufted.finish();

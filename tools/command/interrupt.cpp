@@ -4,12 +4,12 @@
 
 namespace {
 
-volatile std::sig_atomic_t flag = 0;
+volatile std::sig_atomic_t received = 0;  // number of the signal
 
 constexpr int signals[] = {SIGINT, SIGTERM, SIGHUP};
 
-void onInterrupt(int) {
-  flag = 1;
+void onInterrupt(int signal) {
+  received = signal;
 }
 
 void handleWith(void (*handler)(int)) {
@@ -30,8 +30,9 @@ void catchInterrupt() {
 
 void releaseInterrupt() {
   handleWith(SIG_DFL);
+  if (received != 0) std::raise(received);
 }
 
 bool interrupted() {
-  return flag != 0;
+  return received != 0;
 }
