@@ -55,7 +55,7 @@ void drawDisc(SeenScene& seen, int i) {
   const Vector3f& p = seen.views[static_cast<std::size_t>(i)];
   if (!(p.z() > nearest_depth)) return;
   const Vector3d view = p.cast<double>();
-  const float reach = seen.screenRadius(i);
+  const float reach = seen.screen_radii[static_cast<std::size_t>(i)];
   const float per_sample = p.z() / static_cast<float>(seen.projection.focal);
   const float radius = reach * per_sample;
   const double x = seen.projection.screenX(view);
@@ -149,8 +149,8 @@ Sample overHole(const SeenScene& seen, int x, int y) {
       const Sample other = seen.samples[static_cast<std::size_t>(v) * seen.width + u];
       if (other == nothing || numberOf(other) >= n || other >= own) continue;
       const int point = static_cast<int>(numberOf(other));
-      const bool is_wide =
-          reach == hole_reaches[0] || hole_share * seen.screenRadius(point) >= static_cast<float>(reach);
+      const bool is_wide = reach == hole_reaches[0] ||
+                           hole_share * seen.screen_radii[static_cast<std::size_t>(point)] >= static_cast<float>(reach);
       if (!is_wide || !isBehind(seen, own, point)) continue;
       if (in_front++ == 0) first = other;
     }
@@ -169,26 +169,33 @@ void closeHoles(SeenScene& seen, int threads) {
   seen.samples = std::move(closed);
 }
 
-}  // namespace
-
-float SeenScene::screenRadius(int point) const {
-  const auto i = static_cast<std::size_t>(point);
-  const float wanted = radii[i] * static_cast<float>(projection.focal) / views[i].z();
-  return std::clamp(wanted, least_radius, std::max(least_radius, most_of_picture * static_cast<float>(height)));
+/// How wide the disc of a point is on the screen, halved.
+float screenRadius(const SeenScene& seen, std::size_t i) {
+  const float wanted = seen.radii[i] * static_cast<float>(seen.projection.focal) / seen.views[i].z();
+  return std::clamp(wanted, least_radius, std::max(least_radius, most_of_picture * static_cast<float>(seen.height)));
 }
+
+}  // namespace
 
 SeenScene look(const Scene& scene, const NormalizedPoints& points, const Projection& projection, int width, int height,
                int threads) {
   const Eigen::Index n = scene.positions.rows();
-  SeenScene seen = {scene, points, projection, width, height, {}, {}, {}, {}};
+  SeenScene seen = {scene, points, projection, width, height, {}, {}, {}, {}, {}};
   seen.views.assign(static_cast<std::size_t>(n), Vector3f::Zero());
   if (scene.normals.rows() == n && n > 0) seen.normals.assign(static_cast<std::size_t>(n), Vector3f::Zero());
   std::vector<bool> is_corner(static_cast<std::size_t>(n), false);
   for (Eigen::Index t = 0; t < scene.triangles.rows(); ++t)
     for (int k = 0; k < 3; ++k) is_corner[static_cast<std::size_t>(scene.triangles(t, k))] = true;
+  const auto is_disc = [&](int i) { return !is_corner[static_cast<std::size_t>(i)]; };
   std::vector<int> discs;
-  for (const int i : points.finite)
-    if (!is_corner[static_cast<std::size_t>(i)]) discs.push_back(i);
+  seen.radii.assign(static_cast<std::size_t>(n), 0);
+  if (std::any_of(points.finite.begin(), points.finite.end(), is_disc)) {
+    Discs all = discsOf(points, threads);
+    seen.radii = std::move(all.radii);
+    discs = std::move(all.order);
+    std::erase_if(discs, [&](int i) { return !is_disc(i); });
+  }
+  seen.screen_radii.assign(static_cast<std::size_t>(n), 0);
   forBlocks(threads, static_cast<std::int64_t>(points.finite.size()), block_size,
             [&](std::int64_t begin, std::int64_t end) {
               for (std::int64_t k = begin; k < end; ++k) {
@@ -196,12 +203,12 @@ SeenScene look(const Scene& scene, const NormalizedPoints& points, const Project
                 const auto at = static_cast<std::size_t>(i);
                 const Vector3d view = projection.toView(points.positions.row(i).transpose());
                 seen.views[at] = view.cast<float>();
+                seen.screen_radii[at] = screenRadius(seen, at);
                 if (seen.normals.empty() || !scene.normals.row(i).allFinite()) continue;
                 const Vector3d normal = projection.turn(Vector3d(scene.normals.row(i)).stableNormalized());
                 seen.normals[at] = (normal.dot(view) > 0 ? Vector3d(-normal) : normal).cast<float>();
               }
             });
-  seen.radii = discs.empty() ? std::vector<float>(static_cast<std::size_t>(n), 0) : discRadii(points, threads);
   seen.samples.assign(static_cast<std::size_t>(width) * height, nothing);
   forBlocks(threads, static_cast<std::int64_t>(discs.size()), block_size, [&](std::int64_t begin, std::int64_t end) {
     for (std::int64_t k = begin; k < end; ++k) drawDisc(seen, discs[static_cast<std::size_t>(k)]);

@@ -31,11 +31,9 @@ struct SeenScene {
   int width = 0, height = 0;             ///< in samples
   std::vector<Eigen::Vector3f> views;    ///< N, right, up and away from the eye; 0 where not finite
   std::vector<Eigen::Vector3f> normals;  ///< N of length 1 towards the eye, 0 where unknown; empty where all are
-  std::vector<float> radii;              ///< N
+  std::vector<float> radii;              ///< N, of discs
+  std::vector<float> screen_radii;       ///< N, of discs in samples
   std::vector<Sample> samples;           ///< rows from the top
-
-  /// How many samples wide the disc of a point is, halved.
-  float screenRadius(int point) const;
 };
 
 /// Finds what is seen.

@@ -57,8 +57,17 @@ class Shader {
     };
     const bool draws_values = colors_.isBlended() && colors_.field->kind != FieldKind::vector;
     if (draws_values) {
-      values_.assign(size, {no_value, no_value});
-      rows([&](int x, int y) { values_[at(x, y)] = valuesAt(x, y); });
+      std::vector<Values> unblended(size);
+      rows([&](int x, int y) { unblended[at(x, y)] = valuesAt(x, y); });
+      values_.resize(size);
+      rows([&](int x, int y) { values_[at(x, y)] = blendedValues(unblended, x, y); });
+    }
+    if (options_.light) {
+      log_depths_.resize(size);
+      rows([&](int x, int y) {
+        const Sample sample = seen_.samples[at(x, y)];
+        log_depths_[at(x, y)] = sample == nothing ? no_value : std::log2(depthOf(sample));
+      });
     }
     shaded_.resize(size);
     rows([&](int x, int y) { shaded_[at(x, y)] = colorAt(x, y); });
@@ -100,13 +109,16 @@ class Shader {
       }
       return values;
     }
-    return blendedValues(x, y, sample);
+    return valuesOfPoint(number);
   }
 
-  /// The mean of the values of the points around a sample, by a bell as wide as the disc that is seen there.
-  Values blendedValues(int x, int y, Sample sample) const {
-    const Values own = valuesOfPoint(numberOf(sample));
-    const float radius = seen_.screenRadius(static_cast<int>(numberOf(sample)));
+  /// The mean of the values of the points around a sample, by a bell as wide as the disc that is seen there. Triangles
+  /// keep their values.
+  Values blendedValues(const std::vector<Values>& unblended, int x, int y) const {
+    const Sample sample = seen_.samples[at(x, y)];
+    const Values own = unblended[at(x, y)];
+    if (sample == nothing || numberOf(sample) >= points_) return own;
+    const float radius = seen_.screen_radii[numberOf(sample)];
     if (!(radius > blended_radius) || !std::isfinite(own[0])) return own;
     const float depth = depthOf(sample);
     const float tolerance = same_surface * radius * depth / static_cast<float>(seen_.projection.focal);
@@ -128,7 +140,7 @@ class Shader {
         if (!isInside(u, v)) continue;
         const Sample other = seen_.samples[at(u, v)];
         if (other == nothing || numberOf(other) >= points_ || std::abs(depthOf(other) - depth) > tolerance) continue;
-        const Values values = valuesOfPoint(numberOf(other));
+        const Values& values = unblended[at(u, v)];
         if (!std::isfinite(values[0])) continue;
         const float weight = bell[i] * bell[j];
         weights += weight;
@@ -179,21 +191,21 @@ class Shader {
       static const Vector3f source = Vector3f(-0.35F, 0.45F, -1).normalized();
       light = least_light + (full_light - least_light) * std::max(normal.dot(source), 0.0F);
     }
-    return light * std::exp(-(is_known ? weak_edges : strong_edges) * depthBelowNeighbors(x, y, sample));
+    return light * std::exp(-(is_known ? weak_edges : strong_edges) * depthBelowNeighbors(x, y));
   }
 
   /// How far the neighbours of a sample stand before it, as the mean of logarithms of depths (Boucheny 2009,
   /// Section 3.3).
-  float depthBelowNeighbors(int x, int y, Sample sample) const {
+  float depthBelowNeighbors(int x, int y) const {
     static constexpr std::array<std::array<int, 2>, 8> steps = {
         {{3, 0}, {2, 2}, {0, 3}, {-2, 2}, {-3, 0}, {-2, -2}, {0, -3}, {2, -2}}};
     static_assert(edge_reach == steps[0][0]);
-    const float depth = std::log2(depthOf(sample));
+    const float depth = log_depths_[at(x, y)];
     float sum = 0;
     for (const auto& step : steps) {
       if (!isInside(x + step[0], y + step[1])) continue;
-      const Sample other = seen_.samples[at(x + step[0], y + step[1])];
-      if (other != nothing) sum += std::max(0.0F, depth - std::log2(depthOf(other)) - slack_);
+      const float other = log_depths_[at(x + step[0], y + step[1])];
+      if (!std::isnan(other)) sum += std::max(0.0F, depth - other - slack_);
     }
     return sum / static_cast<float>(steps.size());
   }
@@ -257,6 +269,7 @@ class Shader {
   /// Differences of logarithms of depth that the bulges of discs make and that do not shade.
   float slack_ = 0.0005F;
   std::vector<Values> values_;
+  std::vector<float> log_depths_;  // not a number where nothing is seen
   std::vector<std::array<std::uint8_t, 4>> shaded_;
 };
 

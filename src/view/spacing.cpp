@@ -44,6 +44,24 @@ std::uint64_t placeOf(const Eigen::Vector3d& position, double shift) {
   return place;
 }
 
+/// A point on the curve. The position is kept beside it, so that those of a window lie together in memory.
+struct Placed {
+  int point;
+  Eigen::Vector3f position;
+};
+
+/// The finite points in their order along the curve through the cube moved by `shift`; ties by their numbers.
+std::vector<Placed> alongCurve(const NormalizedPoints& points, double shift) {
+  std::vector<std::pair<std::uint64_t, int>> places;
+  places.reserve(points.finite.size());
+  for (const int i : points.finite) places.emplace_back(placeOf(points.positions.row(i).transpose(), shift), i);
+  std::sort(places.begin(), places.end());
+  std::vector<Placed> order;
+  order.reserve(places.size());
+  for (const auto& [place, i] : places) order.push_back({i, points.positions.row(i).transpose().cast<float>()});
+  return order;
+}
+
 /// The least distances that were met, ascending.
 class Nearest {
  public:
@@ -62,39 +80,35 @@ class Nearest {
 
 }  // namespace
 
-std::vector<float> discRadii(const NormalizedPoints& points, int threads) {
+Discs discsOf(const NormalizedPoints& points, int threads) {
   const auto count = static_cast<std::int64_t>(points.finite.size());
   std::vector<float> radii(static_cast<std::size_t>(points.positions.rows()), std::numeric_limits<float>::infinity());
   // Neighbours in space may be far on the curve where it passes between large cells; on one of two curves that are
   // moved against each other they are near.
   const std::array<double, 2> shifts = {0, 0.618};
-  std::array<std::vector<std::pair<std::uint64_t, int>>, 2> orders;
+  std::array<std::vector<Placed>, 2> orders;
   forBlocks(threads, 2, 1, [&](std::int64_t begin, std::int64_t) {
-    auto& order = orders[static_cast<std::size_t>(begin)];
-    order.reserve(points.finite.size());
-    for (const int i : points.finite)
-      order.emplace_back(placeOf(points.positions.row(i).transpose(), shifts[static_cast<std::size_t>(begin)]), i);
-    std::sort(order.begin(), order.end());
+    orders[static_cast<std::size_t>(begin)] = alongCurve(points, shifts[static_cast<std::size_t>(begin)]);
   });
-  for (const auto& order : orders)
+  for (const std::vector<Placed>& placed : orders)
     forBlocks(threads, count, 8192, [&](std::int64_t begin, std::int64_t end) {
       for (std::int64_t a = begin; a < end; ++a) {
-        const int i = order[static_cast<std::size_t>(a)].second;
-        const Eigen::Vector3f p = points.positions.row(i).cast<float>();
+        const Placed& own = placed[static_cast<std::size_t>(a)];
         Nearest nearest;
         for (std::int64_t b = std::max<std::int64_t>(0, a - window); b <= std::min(count - 1, a + window); ++b) {
-          const float square =
-              (points.positions.row(order[static_cast<std::size_t>(b)].second).cast<float>().transpose() - p)
-                  .squaredNorm();
+          const float square = (placed[static_cast<std::size_t>(b)].position - own.position).squaredNorm();
           if (square > 0) nearest.add(square);
         }
-        radii[static_cast<std::size_t>(i)] =
-            std::min(radii[static_cast<std::size_t>(i)], disc_share * nearest.farthest());
+        float& radius = radii[static_cast<std::size_t>(own.point)];
+        radius = std::min(radius, disc_share * nearest.farthest());
       }
     });
+  std::vector<int> order;
+  order.reserve(points.finite.size());
+  for (const Placed& along : orders[0]) order.push_back(along.point);
   if (count <= neighbor) {
     std::fill(radii.begin(), radii.end(), lone_radius);
-    return radii;
+    return {std::move(radii), std::move(order)};
   }
   std::vector<float> sorted;
   for (const int i : points.finite) sorted.push_back(radii[static_cast<std::size_t>(i)]);
@@ -102,7 +116,7 @@ std::vector<float> discRadii(const NormalizedPoints& points, int threads) {
   std::nth_element(sorted.begin(), at, sorted.end());
   const float most = std::min(most_of_scene, most_of_others * *at);
   for (float& radius : radii) radius = std::isfinite(radius) ? std::min(radius, most) : lone_radius;
-  return radii;
+  return {std::move(radii), std::move(order)};
 }
 
 }  // namespace tufted::view

@@ -6,9 +6,16 @@
 
 namespace tufted::view {
 
-/// For each point the radius of a disc that, together with its neighbours', leaves no hole in the surface; at most a
-/// share of the scene, and not much more than others have, so that a point far from all others is a dot.
-/// @returns N radii in the coordinates of `points`
-std::vector<float> discRadii(const NormalizedPoints& points, int threads);
+/// The discs that points are drawn as.
+struct Discs {
+  /// N, in the coordinates of the points: discs so wide that, together with their neighbours', they leave no hole in
+  /// the surface; at most a share of the scene, and not much more than others have, so that a point far from all others
+  /// is a dot.
+  std::vector<float> radii;
+  /// The finite points along a curve on which neighbours are near each other, so that memory is when they are drawn.
+  std::vector<int> order;
+};
+
+Discs discsOf(const NormalizedPoints& points, int threads);
 
 }  // namespace tufted::view
