@@ -87,7 +87,7 @@ struct DistanceSolver::State {
 
   std::vector<SurfacePoint> checked(const std::vector<SurfacePoint>& sources) const;
   NearestSources nearestByHeat(const std::vector<SurfacePoint>& sources, const Progress& progress,
-                               DistanceReport& report) const;
+                               DistanceReport& made) const;
   void finish(const std::vector<SurfacePoint>& sources, NearestSources& found) const;
 };
 
@@ -154,13 +154,13 @@ void DistanceSolver::State::finish(const std::vector<SurfacePoint>& sources, Nea
 }
 
 NearestSources DistanceSolver::State::nearestByHeat(const std::vector<SurfacePoint>& sources, const Progress& progress,
-                                                    DistanceReport& report) const {
+                                                    DistanceReport& made) const {
   const auto n = static_cast<Eigen::Index>(representative.size());
   NearestSources found{VectorXd::Constant(n, infinity), std::vector<int>(representative.size(), -1)};
   for (std::size_t s = 0; s < sources.size(); ++s) {
     const auto isActive = [&](int corner) { return is_active[corner]; };
     if (std::none_of(sources[s].corners.begin(), sources[s].corners.end(), isActive)) continue;
-    const VectorXd distance = heat->query(query_name, {sources[s]}, progress, report);
+    const VectorXd distance = heat->query(query_name, {sources[s]}, progress, made);
     for (const int i : components.points) {
       if (!(distance[i] < found.distance[i])) continue;
       found.distance[i] = distance[i];
