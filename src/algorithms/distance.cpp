@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "algorithms/connected.h"
+#include "algorithms/greater.h"
 #include "algorithms/heat_distance.h"
 #include "algorithms/marching_distance.h"
 #include "base/number_text.h"
@@ -160,7 +161,13 @@ NearestSources DistanceSolver::State::nearestByHeat(const std::vector<SurfacePoi
   for (std::size_t s = 0; s < sources.size(); ++s) {
     const auto isActive = [&](int corner) { return is_active[corner]; };
     if (std::none_of(sources[s].corners.begin(), sources[s].corners.end(), isActive)) continue;
-    const VectorXd distance = heat->query(query_name, {sources[s]}, progress, made);
+    DistanceReport one;
+    const VectorXd distance = heat->query(query_name, {sources[s]}, progress, one);
+    made.rounds += one.rounds;
+    made.iterations = std::max(made.iterations, one.iterations);
+    made.residual = greater(made.residual, one.residual);
+    made.backward_error = greater(made.backward_error, one.backward_error);
+    if (one.weak_joint) made.weak_joint = one.weak_joint;
     for (const int i : components.points) {
       if (!(distance[i] < found.distance[i])) continue;
       found.distance[i] = distance[i];

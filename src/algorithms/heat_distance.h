@@ -18,6 +18,7 @@ class HeatDistance {
   ~HeatDistance();
 
   /// @param sources of which all corners are representatives, at least one on a component
+  /// @param report a new one
   /// @return N distances in the points' unit; those of coincident points are not set
   VectorXd query(const char* function, const std::vector<SurfacePoint>& sources, const Progress& progress,
                  DistanceReport& report) const;
