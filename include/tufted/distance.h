@@ -1,6 +1,8 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <limits>
 #include <memory>
 #include <optional>
 #include <vector>
@@ -38,25 +40,41 @@ enum class TimeUnit {
                  ///< density, where many short edges say nothing about the gaps that heat has to cross elsewhere
 };
 
+/// How distances are found.
+enum class DistanceMethod : std::uint8_t {
+  marching,  ///< from triangle to triangle, with the source unfolded into each: the more accurate one, without a factor
+  heat,      ///< by the heat method: smooth across the shocks where fronts meet
+};
+
 /// Options of DistanceSolver.
 struct DistanceOptions {
-  /// Time step t > 0, in `unit`. Larger values smooth the distance and round off its creases. The mean error is least
-  /// at 1/4 to 1/2 on CGAL's meshes and near 1 for two sources on a sphere; for one source it falls up to t = 8.
+  DistanceMethod method = DistanceMethod::marching;  ///< how distances are found
+  /// Marching: how often each triangle is cut into four, 0 to 2. Each time the error falls to about a half, and a query
+  /// takes four times as long.
+  int split = 1;
+  /// Farthest distance, in the points' unit, > 0: greater ones are infinite. Marching then visits no more of the
+  /// surface than it must.
+  double maximum = std::numeric_limits<double>::infinity();
+  /// Heat: time step t > 0, in `unit`. Larger values smooth the distance and round off its creases. The mean error is
+  /// least at 1/4 to 1/2 on CGAL's meshes and near 1 for two sources on a sphere; for one source it falls up to t = 8.
   double time_step = 0.5;
   TimeUnit unit = TimeUnit::mean_edge;  ///< of `time_step`
-  /// If true, heat at boundaries is the mean of heat that cannot leave (Neumann) and heat that is lost (Dirichlet), as
-  /// if the surface went on (Section 3.2 of the paper on the heat method). If false, heat cannot leave, which takes one
-  /// factorisation less.
+  /// Heat: if true, heat at boundaries is the mean of heat that cannot leave (Neumann) and heat that is lost
+  /// (Dirichlet), as if the surface went on (Section 3.2 of the paper on the heat method). If false, heat cannot leave,
+  /// which takes one factorisation less.
   bool open_boundary = true;
-  /// How systems are solved. A solver makes three factors if the surface has a boundary and two otherwise, and
-  /// `memory_limit` bounds all of them together. With multigrid, or if not all factors fit, `tolerance` is that of
-  /// L d = div X, so d is accurate to about as much. Heat is then solved in windows: some 130 edges wide, each by a
-  /// factor of its own, as far as `memory_limit` allows; otherwise some 30 edges wide, to 1e-12.
+  /// How systems are solved; marching uses `threads` and `progress` alone. The heat method makes three factors if the
+  /// surface has a boundary and two otherwise, and `memory_limit` bounds all of them together. With multigrid, or if
+  /// not all factors fit, `tolerance` is that of L d = div X, so d is accurate to about as much. Heat is then solved in
+  /// windows: some 130 edges wide, each by a factor of its own, as far as `memory_limit` allows; otherwise some 30
+  /// edges wide, to 1e-12.
   SolverOptions solver = {};
 };
 
 /// What a query did.
 struct DistanceReport {
+  std::int64_t visits = 0;    ///< marching: points and middles of edges that were reached, see DistanceOptions::split
+  std::int64_t lowered = 0;   ///< marching: of these, how many lay farther than a neighbour by more than their edge
   int rounds = 0;             ///< rounds of heat: one per some 500 edge lengths, in windows per 100 or 10
   int iterations = 0;         ///< most conjugate gradient iterations of any solve; 0 with Cholesky
   double residual = 0;        ///< greatest residual of any solve, see SolveReport
@@ -65,20 +83,31 @@ struct DistanceReport {
   std::optional<WeakJoint> weak_joint = {};  ///< where the system is nearly disconnected, see SolveReport
 };
 
-/// Geodesic distance by the heat method (Crane, Weischedel, Wardetzky: "The heat method for distance computation",
-/// 2017) on the faces of the tufted cover: u is the heat that spreads from the sources, (M + t L) u = delta;
-/// X = -grad u / |grad u| its direction; and the distance the function whose gradient fits X best, L d = div X.
-/// The systems are factorised once and queried often; queries may run side by side.
+/// Distances with the source that each is measured from.
+struct NearestSources {
+  VectorXd distance;        ///< N, as query() gives them
+  std::vector<int> source;  ///< N; which of the sources is nearest, of equally near ones the first; -1: none
+};
+
+/// Geodesic distance on the distinct faces of the tufted cover. Prepared once, queried often; queries may run side by
+/// side.
 ///
-/// Two things differ from that paper. X is taken from log u, which is nearly linear in a face where u is not: at the
-/// same t the error on a sphere is a third. And u, which falls to a third with every edge and would soon underflow, is
-/// started again in rounds from where it is still accurate, so distances are right at any number of edges. With factors
-/// of the whole matrix a round covers some 500 edges and costs one or two solves. In windows (see
-/// `DistanceOptions::solver`) it covers 100 edges, or 10 by conjugate gradients, and costs in proportion to its window,
-/// so that for every query all rounds together cost as much as some factorisations of the whole matrix.
+/// Marching (Kimmel, Sethian: "Computing geodesic paths on manifolds", 1998): the nearest point that is not done is
+/// done, and gives its neighbours their distance along an edge or, if that is less, through a triangle, from the source
+/// unfolded into its plane by the distances of two corners. In the end no distance exceeds that of a neighbour by more
+/// than the length of their edge. Each face is cut into four first (see `DistanceOptions::split`).
+///
+/// Heat (Crane, Weischedel, Wardetzky: "The heat method for distance computation", 2017): u is the heat that spreads
+/// from the sources, (M + t L) u = delta; X = -grad u / |grad u| its direction; and the distance the function whose
+/// gradient fits X best, L d = div X. Two things differ from that paper. X is taken from log u, which is nearly linear
+/// in a face where u is not: at the same t the error on a sphere is a third. And u, which falls to a third with every
+/// edge and would soon underflow, is started again in rounds from where it is still accurate, so distances are right at
+/// any number of edges. With factors of the whole matrix a round covers some 500 edges and costs one or two solves. In
+/// windows (see `DistanceOptions::solver`) it covers 100 edges, or 10 by conjugate gradients, and costs in proportion
+/// to its window, so that for every query all rounds together cost as much as some factorisations of the whole matrix.
 class DistanceSolver {
  public:
-  /// Prepares the systems of a Laplacian for queries.
+  /// Prepares the faces of a Laplacian's cover, or its systems, for queries.
   /// @param laplacian must have its cover; not needed after construction
   /// @throws InvalidInput for options out of range, arrays of the wrong size, or where there is no cover
   /// @throws SolverFailure when a matrix cannot be factorised
@@ -101,11 +130,16 @@ class DistanceSolver {
   /// corners around a source have their distance along the triangle.
   VectorXd queryAt(const std::vector<SurfacePoint>& sources, DistanceReport* report = nullptr,
                    const Progress& progress = {}) const;
+  /// The nearest of the sources, and how far away it is: the geodesic Voronoi cells of the sources. Marching finds both
+  /// at once, the heat method takes a query for each source. Errors are as in query().
+  NearestSources nearest(const std::vector<SurfacePoint>& sources, DistanceReport* report = nullptr,
+                         const Progress& progress = {}) const;
 
-  /// The time step t in use, in the points' unit squared.
+  /// The time step t in use, in the points' unit squared; 0 for marching.
   double timeStep() const;
 
-  /// What the constructor did: all systems together, and its seconds. If only some systems are solved by multigrid,
+  /// What the constructor did: all systems together, and its seconds; of marching `method`, `unknowns` (points and
+  /// middles of edges), `bytes` and `seconds` alone. If only some systems are solved by multigrid,
   /// `method` names both ways.
   const SolverReport& report() const;
 

@@ -1,4 +1,4 @@
-// Geodesic distance by the heat method (Crane, Weischedel, Wardetzky 2013, 2017) on the faces of the tufted cover.
+// Geodesic distances: what callers give, checked, and what they get, whichever method finds it.
 #include "tufted/distance.h"
 
 #include <algorithm>
@@ -10,14 +10,10 @@
 
 #include "algorithms/connected.h"
 #include "algorithms/greater.h"
-#include "algorithms/heat_directions.h"
-#include "algorithms/linear_system.h"
-#include "algorithms/memory_limit.h"
+#include "algorithms/heat_distance.h"
+#include "algorithms/marching_distance.h"
 #include "base/number_text.h"
-#include "base/parallel.h"
 #include "base/stage_clock.h"
-#include "cover/face_scale.h"
-#include "operators/surface_faces.h"
 #include "tufted/check.h"
 #include "tufted/errors.h"
 
@@ -25,22 +21,13 @@ namespace tufted {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-/// A mass below this part of its row of L is lost when the two are added, and the matrix may become singular.
-constexpr double least_mass = 1e-13;
+constexpr int most_splits = 2;
 
 constexpr const char* constructor = "DistanceSolver";
 constexpr const char* query_name = "DistanceSolver::query";
 
-void checkArguments(const Laplacian& laplacian, const DistanceOptions& options) {
-  checkSizes(constructor, laplacian);
-  if (!(options.time_step > 0 && std::isfinite(options.time_step))) {
-    throw InvalidInput(std::string(constructor) + ": time_step = " + numberText(options.time_step) +
-                       ", must be finite and above 0");
-  }
-}
-
-/// The cover of a Laplacian, checked, as one that was put together by hand may not fit.
-const IntrinsicTriangulation& checkedCover(const Laplacian& laplacian) {
+/// Checks the cover of a Laplacian, as one that was put together by hand may not fit.
+void checkCover(const Laplacian& laplacian) {
   const std::string name = std::string(constructor) + ": cover ";
   const IntrinsicTriangulation& cover = laplacian.cover();
   const auto n = std::ssize(laplacian.status);
@@ -56,19 +43,19 @@ const IntrinsicTriangulation& checkedCover(const Laplacian& laplacian) {
                          ")");
     }
   }
-  return cover;
 }
 
-/// The matrix M / t + L of the heat equation, with M from the areas of the faces.
-SparseMatrix heatMatrix(const Laplacian& laplacian, const SurfaceFaces& surface, double time) {
-  SparseMatrix A = laplacian.L;
-  const VectorXd areas = lumpedAreas(surface, static_cast<int>(A.rows()));
-  for (int i = 0; i < A.outerSize(); ++i) {
-    for (SparseMatrix::InnerIterator entry(A, i); entry; ++entry) {
-      if (entry.row() == i) entry.valueRef() += std::max(least_mass * entry.value(), areas[i] / time);
-    }
-  }
-  return A;
+void checkArguments(const Laplacian& laplacian, const DistanceOptions& options) {
+  checkSizes(constructor, laplacian);
+  const std::string name = std::string(constructor) + ": ";
+  if (!(options.time_step > 0 && std::isfinite(options.time_step)))
+    throw InvalidInput(name + "time_step = " + numberText(options.time_step) + ", must be finite and above 0");
+  if (!(options.maximum > 0))
+    throw InvalidInput(name + "maximum = " + numberText(options.maximum) + ", must be above 0");
+  if (options.split < 0 || options.split > most_splits)
+    throw InvalidInput(name + "split = " + std::to_string(options.split) + ", must lie in [0, " +
+                       std::to_string(most_splits) + "]");
+  checkCover(laplacian);
 }
 
 void checkSource(const SurfacePoint& source, int n) {
@@ -88,28 +75,21 @@ void checkSource(const SurfacePoint& source, int n) {
   }
 }
 
-/// Distance and heat that the sources give, by active point.
-struct Sources {
-  VectorXd distance;  ///< in the solver's unit; infinite away from sources
-  VectorXd heat;
-};
-
 }  // namespace
 
 struct DistanceSolver::State {
-  SparseMatrix L;
-  SurfaceFaces surface;
   Components components;
+  std::vector<bool> is_active;
   std::vector<int> representative;
-  double time = 1;  ///< in units of 2^(2 exponent)
-  int threads = 0;
-  HeatSystem heat;
-  std::optional<const LinearSystem> poisson;
+  double maximum = infinity;
+  std::optional<MarchingDistance> marching;
+  std::optional<HeatDistance> heat;
   SolverReport report;
 
-  Sources locate(const std::vector<SurfacePoint>& sources) const;
-  std::vector<std::uint8_t> facesInside(const Sources& sources) const;
-  void shift(const Sources& sources, VectorXd& distance) const;
+  std::vector<SurfacePoint> checked(const std::vector<SurfacePoint>& sources) const;
+  NearestSources nearestByHeat(const std::vector<SurfacePoint>& sources, const Progress& progress,
+                               DistanceReport& made) const;
+  void finish(const std::vector<SurfacePoint>& sources, NearestSources& found) const;
 };
 
 DistanceSolver::DistanceSolver(DistanceSolver&&) noexcept = default;
@@ -120,93 +100,81 @@ DistanceSolver::DistanceSolver(const Laplacian& laplacian, const DistanceOptions
   checkArguments(laplacian, options);
   const Stopwatch watch;
   auto state = std::make_unique<State>();
-  const Workers workers(options.solver.threads, options.solver.progress);
-  state->L = laplacian.L;
-  state->surface = distinctFaces(checkedCover(laplacian), faceScale(laplacian.kind), workers);
   state->components = findComponents(laplacian);
+  for (const int component : state->components.of) state->is_active.push_back(component >= 0);
   state->representative = laplacian.representative;
-  state->threads = options.solver.threads;
-  const SurfaceFaces& surface = state->surface;
-  const double unit = options.unit == TimeUnit::mean_edge ? surface.mean_square : surface.area_mean_square;
-  if (unit > 0) state->time = options.time_step * unit;
-
-  const Eigen::Index n = laplacian.L.rows();
-  VectorXd interior;
-  const auto isInner = [](Boundary boundary) { return boundary == Boundary::none; };
-  if (options.open_boundary && !std::all_of(laplacian.boundary.begin(), laplacian.boundary.end(), isInner)) {
-    interior.resize(n);
-    for (Eigen::Index i = 0; i < n; ++i) interior[i] = isInner(laplacian.boundary[i]) ? 1 : 0;
-  }
-  // All factors are held at once, and are about as large.
-  const int factors = interior.size() > 0 ? 3 : 2;
-  SolverOptions one = options.solver;
-  one.memory_limit = std::max<std::size_t>(memoryLimit(options.solver.memory_limit) / factors, 1);
-  state->heat = makeHeatSystem(constructor, heatMatrix(laplacian, surface, state->time), std::move(interior), one);
-  state->poisson.emplace(LinearSystem::laplacian({.function = constructor, .matrix = "L"}, laplacian, one));
-  for (const LinearSystem* held : {state->heat.closed.get(), state->heat.open.get(), &*state->poisson})
-    if (held != nullptr) addReport(held->report(), state->report);
+  state->maximum = options.maximum;
+  if (options.method == DistanceMethod::marching)
+    state->report = state->marching.emplace(laplacian, options).report();
+  else
+    state->report = state->heat.emplace(laplacian, state->components, options).report();
   state->report.seconds = watch.seconds();
   state_ = std::move(state);
 }
 
 double DistanceSolver::timeStep() const {
-  return std::ldexp(state_->time, 2 * state_->surface.exponent);
+  return state_->heat ? state_->heat->timeStep() : 0;
 }
 
 const SolverReport& DistanceSolver::report() const {
   return state_->report;
 }
 
-Sources DistanceSolver::State::locate(const std::vector<SurfacePoint>& sources) const {
-  const int n = static_cast<int>(representative.size());
+/// The sources with the representatives of their corners.
+std::vector<SurfacePoint> DistanceSolver::State::checked(const std::vector<SurfacePoint>& sources) const {
   if (sources.empty()) throw InvalidInput(std::string(query_name) + ": sources is empty, must name at least one");
-  Sources found{VectorXd::Constant(n, infinity), VectorXd::Zero(n)};
-  for (const SurfacePoint& source : sources) {
-    checkSource(source, n);
+  std::vector<SurfacePoint> found = sources;
+  bool has_one = false;
+  for (SurfacePoint& source : found) {
+    checkSource(source, static_cast<int>(representative.size()));
     for (int k = 0; k < 3; ++k) {
-      const int i = representative[source.corners[k]];
-      if (components.of[i] < 0) continue;
-      // The greater heat and not the sum, so that a source counts once.
-      found.distance[i] = std::min(found.distance[i], std::ldexp(source.distances[k], -surface.exponent));
-      found.heat[i] = std::max(found.heat[i], source.weights[k]);
+      source.corners[k] = representative[source.corners[k]];
+      has_one |= is_active[source.corners[k]] && source.weights[k] > 0;
     }
   }
-  if (!(found.heat.maxCoeff() > 0)) {
+  if (!has_one)
     throw InvalidInput(std::string(query_name) + ": no source lies on a component, must be at least one active point");
-  }
   return found;
 }
 
-/// Marks the faces inside a region of sources, where the gradient has no direction.
-std::vector<std::uint8_t> DistanceSolver::State::facesInside(const Sources& sources) const {
-  std::vector<std::uint8_t> inside(surface.faces.size(), 0);
-  for (std::size_t f = 0; f < inside.size(); ++f) {
-    const auto& [a, b, c] = surface.faces[f].corners;
-    const bool all = sources.distance[a] == 0 && sources.distance[b] == 0 && sources.distance[c] == 0;
-    inside[f] = all ? 1 : 0;
+/// Removes what lies on components without sources or beyond the maximum, and copies to coincident points.
+void DistanceSolver::State::finish(const std::vector<SurfacePoint>& sources, NearestSources& found) const {
+  std::vector<bool> has_source(static_cast<std::size_t>(components.count), false);
+  for (const SurfacePoint& source : sources)
+    for (int k = 0; k < 3; ++k)
+      if (is_active[source.corners[k]]) has_source[components.of[source.corners[k]]] = true;
+  for (std::size_t i = 0; i < representative.size(); ++i) {
+    double& distance = found.distance[static_cast<Eigen::Index>(i)];
+    if (!is_active[i] || !has_source[components.of[i]] || distance > maximum) distance = infinity;
+    if (!found.source.empty() && distance == infinity) found.source[i] = -1;
   }
-  return inside;
+  for (std::size_t i = 0; i < representative.size(); ++i) {
+    found.distance[static_cast<Eigen::Index>(i)] = found.distance[representative[i]];
+    if (!found.source.empty()) found.source[i] = found.source[representative[i]];
+  }
 }
 
-/// Turns a function that is right up to a constant per component into distances, in the points' unit.
-void DistanceSolver::State::shift(const Sources& sources, VectorXd& distance) const {
-  VectorXd excess = VectorXd::Zero(distance.size()), count = VectorXd::Zero(distance.size());
-  for (const int i : components.points) {
-    if (sources.distance[i] == infinity) continue;
-    excess[i] = distance[i] - sources.distance[i];
-    count[i] = 1;
-  }
-  const VectorXd sums = components.sums(excess), counts = components.sums(count);
-  for (Eigen::Index i = 0; i < distance.size(); ++i) {
-    const int component = components.of[i];
-    if (component < 0 || counts[component] == 0) {
-      distance[i] = infinity;
-    } else {
-      const double here = std::max(0.0, distance[i] - sums[component] / counts[component]);
-      distance[i] = std::ldexp(std::isfinite(sources.distance[i]) ? sources.distance[i] : here, surface.exponent);
+NearestSources DistanceSolver::State::nearestByHeat(const std::vector<SurfacePoint>& sources, const Progress& progress,
+                                                    DistanceReport& made) const {
+  const auto n = static_cast<Eigen::Index>(representative.size());
+  NearestSources found{VectorXd::Constant(n, infinity), std::vector<int>(representative.size(), -1)};
+  for (std::size_t s = 0; s < sources.size(); ++s) {
+    const auto isActive = [&](int corner) { return is_active[corner]; };
+    if (std::none_of(sources[s].corners.begin(), sources[s].corners.end(), isActive)) continue;
+    DistanceReport one;
+    const VectorXd distance = heat->query(query_name, {sources[s]}, progress, one);
+    made.rounds += one.rounds;
+    made.iterations = std::max(made.iterations, one.iterations);
+    made.residual = greater(made.residual, one.residual);
+    made.backward_error = greater(made.backward_error, one.backward_error);
+    if (one.weak_joint) made.weak_joint = one.weak_joint;
+    for (const int i : components.points) {
+      if (!(distance[i] < found.distance[i])) continue;
+      found.distance[i] = distance[i];
+      found.source[i] = static_cast<int>(s);
     }
   }
-  for (Eigen::Index i = 0; i < distance.size(); ++i) distance[i] = distance[representative[i]];
+  return found;
 }
 
 VectorXd DistanceSolver::query(const std::vector<int>& sources, DistanceReport* report,
@@ -219,27 +187,29 @@ VectorXd DistanceSolver::query(const std::vector<int>& sources, DistanceReport* 
 
 VectorXd DistanceSolver::queryAt(const std::vector<SurfacePoint>& sources, DistanceReport* report,
                                  const Progress& progress) const {
+  if (state_->marching) return nearest(sources, report, progress).distance;
+  const Stopwatch watch;
+  const std::vector<SurfacePoint> known = state_->checked(sources);
+  DistanceReport made;
+  NearestSources found{state_->heat->query(query_name, known, progress, made), {}};
+  state_->finish(known, found);
+  made.seconds = watch.seconds();
+  if (report != nullptr) *report = made;
+  return std::move(found.distance);
+}
+
+NearestSources DistanceSolver::nearest(const std::vector<SurfacePoint>& sources, DistanceReport* report,
+                                       const Progress& progress) const {
   const Stopwatch watch;
   const State& state = *state_;
-  const Sources known = state.locate(sources);
-  const HeatProblem problem{state.surface, state.L, state.components, state.heat};
+  const std::vector<SurfacePoint> known = state.checked(sources);
   DistanceReport made;
-  VectorXd distance =
-      divergenceOfHeat(query_name, problem, known.heat, state.facesInside(known), state.threads, progress, made);
-  const Eigen::MatrixXd scale = state.components.normalise(distance);
-  SolveReport solved;
-  distance = state.poisson->solve(query_name, distance, &solved, progress);
-  state.components.multiply(distance, scale);
-  state.shift(known, distance);
-  if (report != nullptr) {
-    made.iterations = std::max(made.iterations, solved.iterations);
-    made.residual = greater(made.residual, solved.residual);
-    made.backward_error = greater(made.backward_error, solved.backward_error);
-    made.weak_joint = solved.weak_joint;
-    made.seconds = watch.seconds();
-    *report = made;
-  }
-  return distance;
+  NearestSources found = state.marching ? state.marching->query(known, state.is_active, progress, made)
+                                        : state.nearestByHeat(known, progress, made);
+  state.finish(known, found);
+  made.seconds = watch.seconds();
+  if (report != nullptr) *report = made;
+  return found;
 }
 
 SurfacePoint SurfacePoint::inFace(const Points& points, const Triangles& triangles, int face,

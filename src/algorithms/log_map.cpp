@@ -9,7 +9,6 @@
 
 #include "algorithms/check_frames.h"
 #include "algorithms/connection.h"
-#include "algorithms/greater.h"
 #include "algorithms/heat_sources.h"
 #include "algorithms/memory_limit.h"
 #include "algorithms/vector_heat.h"
@@ -29,8 +28,6 @@ constexpr const char* query_name = "LogMapSolver::query";
 constexpr double ring_begin = 2, ring_end = 8;
 /// The least area of a point of the ring, in mean squared distances.
 constexpr double least_area = 1e-3;
-/// The part of the memory that the factors of distances may take.
-constexpr double distance_share = 0.4;
 
 /// The weight of a point at this distance from the source.
 double ringWeight(double distance) {
@@ -71,13 +68,9 @@ LogMapSolver::LogMapSolver(const Laplacian& laplacian, const Frames& frames, con
   if (!laplacian.hasCover())
     throw InvalidInput(std::string(constructor) + ": the Laplacian has no cover, must have one: keep_cover = true");
   const Stopwatch watch;
-  const auto limit = static_cast<double>(memoryLimit(options.solver.memory_limit));
-  DistanceOptions of_distance{.solver = options.solver};
-  of_distance.solver.memory_limit = std::max<std::size_t>(static_cast<std::size_t>(distance_share * limit), 1);
-  DistanceSolver distance(laplacian, of_distance);
-  FieldHeat heat(constructor, laplacian, &frames, options, static_cast<std::size_t>((1 - distance_share) * limit));
-  SolverReport report = distance.report();
-  addReport(heat.report(), report);
+  DistanceSolver distance(laplacian, {.solver = options.solver});
+  FieldHeat heat(constructor, laplacian, &frames, options, memoryLimit(options.solver.memory_limit));
+  SolverReport report = heat.report();
   report.seconds = watch.seconds();
   state_.reset(new State{laplacian.L, laplacian.M, laplacian.positions, frames, std::move(distance), std::move(heat),
                          std::move(report)});
@@ -144,8 +137,7 @@ LogMap LogMapSolver::query(int source, const Eigen::RowVector3d& axis, const Pro
   map.first = first[0] * x + first[1] * y;
   map.second = first[0] * y - first[1] * x;
 
-  DistanceReport of_distance;
-  const VectorXd distance = state.distance.query({s}, &of_distance, progress);
+  const VectorXd distance = state.distance.query({s}, nullptr, progress);
   const std::vector<int> disc = state.disc(s);
   const HeatFields found = state.heat.spread(query_name, state.startingFields(s, disc, first), map.report, progress);
   map.coordinates.resize(distance.size(), 2);
@@ -162,9 +154,6 @@ LogMap LogMapSolver::query(int source, const Eigen::RowVector3d& axis, const Pro
   }
   map.coordinates.row(s).setZero();
   state.heat.copyToCoincident(map.coordinates);
-  map.report.iterations = std::max(map.report.iterations, of_distance.iterations);
-  map.report.residual = greater(map.report.residual, of_distance.residual);
-  map.report.backward_error = greater(map.report.backward_error, of_distance.backward_error);
   map.report.seconds = watch.seconds();
   return map;
 }

@@ -132,9 +132,19 @@ class Cells {
 };
 
 Segments voronoi(const Laplacian& laplacian, const SegmentOptions& options, const Components& components) {
+  if (!options.seeds.empty()) {
+    std::vector<SurfacePoint> sources;
+    Segments result;
+    for (const int seed : options.seeds) {
+      result.seeds.push_back(laplacian.representative[seed]);
+      sources.push_back(SurfacePoint::vertex(result.seeds.back()));
+    }
+    const DistanceSolver solver(laplacian, {.solver = options.solver});
+    result.labels = solver.nearest(sources, nullptr, options.solver.progress).source;
+    return result;
+  }
   Cells cells(laplacian, components, options.solver);
-  for (const int seed : options.seeds) cells.addSeed(laplacian.representative[seed]);
-  while (options.seeds.empty() && std::ssize(cells.seeds()) < options.count) {
+  while (std::ssize(cells.seeds()) < options.count) {
     const int seed = cells.farthest();
     if (seed < 0)
       throw InvalidInput(std::string(function_name) + ": count = " + std::to_string(options.count) +

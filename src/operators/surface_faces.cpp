@@ -3,49 +3,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
-#include <tuple>
 
 #include "cover/geometry.h"
+#include "operators/distinct_faces.h"
 
 namespace tufted {
 namespace {
 
-constexpr std::int64_t block_size = 8192;
-
-/// A face whose side `k` lies opposite corner `k`, sorted: equal faces compare equal whichever way they run.
-struct Key {
-  std::array<int, 3> corners;
-  std::array<double, 3> opposite;
-
-  bool operator<(const Key& other) const {
-    return std::tie(corners, opposite) < std::tie(other.corners, other.opposite);
-  }
-  bool operator==(const Key& other) const { return corners == other.corners && opposite == other.opposite; }
-};
-
-Key keyOf(const IntrinsicTriangulation& cover, std::int64_t face) {
-  std::array<std::pair<int, double>, 3> parts;
-  for (int s = 0; s < 3; ++s) parts[s] = {cover.faces[face][s], cover.length[3 * face + (s + 1) % 3]};
-  std::sort(parts.begin(), parts.end());
-  return {{parts[0].first, parts[1].first, parts[2].first}, {parts[0].second, parts[1].second, parts[2].second}};
-}
-
-/// The numbers of the faces, grouped by their smallest corner.
-std::vector<int> facesByCorner(const IntrinsicTriangulation& cover, std::vector<int>& offset) {
-  const auto owner = [&](std::int64_t face) {
-    return *std::min_element(cover.faces[face].begin(), cover.faces[face].end());
-  };
-  offset.assign(static_cast<std::size_t>(cover.vertices) + 1, 0);
-  for (std::int64_t f = 0; f < cover.size(); ++f) ++offset[owner(f) + 1];
-  std::partial_sum(offset.begin(), offset.end(), offset.begin());
-  std::vector<int> list(cover.faces.size()), fill(offset.begin(), offset.end() - 1);
-  for (std::int64_t f = 0; f < cover.size(); ++f) list[fill[owner(f)]++] = static_cast<int>(f);
-  return list;
-}
-
 /// @returns whether the face has an area
-bool layOut(const Key& key, double weight, int exponent, SurfaceFace& face) {
+bool layOut(const DistinctFace& key, double weight, int exponent, SurfaceFace& face) {
   std::array<double, 3> opposite;
   for (int k = 0; k < 3; ++k) opposite[k] = std::ldexp(key.opposite[k], -exponent);
   const int top = static_cast<int>(std::max_element(opposite.begin(), opposite.end()) - opposite.begin());
@@ -66,42 +32,14 @@ double squaredSides(const SurfaceFace& face) {
   return face.base * face.base + face.foot * face.foot + rest * rest + 2 * face.height * face.height;
 }
 
-int unitOf(const std::vector<double>& lengths) {
-  double largest = 0;
-  for (const double length : lengths) largest = std::max(largest, length);
-  if (!(largest > 0) || !std::isfinite(largest)) return 0;
-  double sum = 0;
-  for (const double length : lengths) sum += length / largest;
-  return std::ilogb(largest) + std::ilogb(sum / static_cast<double>(lengths.size()));
-}
-
 }  // namespace
 
-SurfaceFaces distinctFaces(const IntrinsicTriangulation& cover, double scale, const Workers& workers) {
+SurfaceFaces surfaceFaces(const IntrinsicTriangulation& cover, double scale, const Workers& workers) {
   SurfaceFaces surface;
   surface.exponent = unitOf(cover.length);
-  std::vector<int> offset;
-  const std::vector<int> list = facesByCorner(cover, offset);
-  std::vector<std::vector<SurfaceFace>> parts((cover.vertices + block_size - 1) / block_size);
-  workers.forBlocks("faces", cover.vertices, block_size, [&](std::int64_t begin, std::int64_t end, int) {
-    std::vector<Key> keys;
-    for (auto v = begin; v < end; ++v) {
-      keys.clear();
-      for (int i = offset[v]; i < offset[v + 1]; ++i) keys.push_back(keyOf(cover, list[i]));
-      std::sort(keys.begin(), keys.end());
-      for (auto key = keys.begin(); key != keys.end();) {
-        const auto next = std::find_if(key, keys.end(), [&](const Key& other) { return !(other == *key); });
-        SurfaceFace face;
-        if (layOut(*key, scale * static_cast<double>(next - key), surface.exponent, face)) {
-          parts[begin / block_size].push_back(face);
-        }
-        key = next;
-      }
-    }
-  });
-  for (auto& part : parts) {
-    surface.faces.insert(surface.faces.end(), part.begin(), part.end());
-    part = {};
+  for (const DistinctFace& distinct : distinctFaces(cover, workers)) {
+    SurfaceFace face;
+    if (layOut(distinct, scale * distinct.copies, surface.exponent, face)) surface.faces.push_back(face);
   }
   double weight = 0, squares = 0, area = 0, area_squares = 0;
   for (const SurfaceFace& face : surface.faces) {

@@ -32,7 +32,7 @@ struct SurfaceFaces {
 
 /// Collects the faces of a cover.
 /// @param scale of L: 1/2 for meshes, 1/6 for clouds
-SurfaceFaces distinctFaces(const IntrinsicTriangulation& cover, double scale, const Workers& workers);
+SurfaceFaces surfaceFaces(const IntrinsicTriangulation& cover, double scale, const Workers& workers);
 
 /// Areas of the N points, a third of each face per corner, in units of 2^(2 exponent).
 VectorXd lumpedAreas(const SurfaceFaces& surface, int size);

@@ -2,6 +2,7 @@
 #include "tufted/distance.h"
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "python/arrays.h"
@@ -13,9 +14,14 @@ namespace py = pybind11;
 namespace tufted::python {
 namespace {
 
-DistanceSolver solverOf(const Laplacian& laplacian, double time_step, const std::string& unit, bool open_boundary,
-                        const Solving& solving, const py::object& progress) {
+DistanceSolver solverOf(const Laplacian& laplacian, const std::string& method, int split, double maximum,
+                        double time_step, const std::string& unit, bool open_boundary, const Solving& solving,
+                        const py::object& progress) {
   DistanceOptions options = {
+      .method = chosen<DistanceMethod>("distance: method", method,
+                                       {{"marching", DistanceMethod::marching}, {"heat", DistanceMethod::heat}}),
+      .split = split,
+      .maximum = maximum,
       .time_step = time_step,
       .unit = chosen<TimeUnit>("distance: unit", unit,
                                {{"mean", TimeUnit::mean_edge}, {"adapted", TimeUnit::adapted_edge}}),
@@ -26,9 +32,9 @@ DistanceSolver solverOf(const Laplacian& laplacian, double time_step, const std:
   });
 }
 
-/// @param faces, barycentric S rows: sources inside triangles of a mesh, beside the points `sources`
-VectorXd query(const DistanceSolver& solver, const Integers& sources, const Doubles& points, const Integers& triangles,
-               const Integers& faces, const Doubles& barycentric, const py::object& progress) {
+/// @param faces, barycentric S rows: sources inside triangles of a mesh, after the points `sources`
+std::vector<SurfacePoint> placesOf(const Integers& sources, const Doubles& points, const Integers& triangles,
+                                   const Integers& faces, const Doubles& barycentric) {
   std::vector<SurfacePoint> places;
   for (const int source : indicesOf(sources)) places.push_back(SurfacePoint::vertex(source));
   if (faces.size() > 0) {
@@ -38,15 +44,28 @@ VectorXd query(const DistanceSolver& solver, const Integers& sources, const Doub
       places.push_back(SurfacePoint::inFace(mesh_points, mesh_triangles, faces.at(k),
                                             {barycentric.at(k, 0), barycentric.at(k, 1), barycentric.at(k, 2)}));
   }
+  return places;
+}
+
+VectorXd query(const DistanceSolver& solver, const std::vector<SurfacePoint>& places, const py::object& progress) {
   return run(progress, [&](const Progress& called) { return solver.queryAt(places, nullptr, called); });
+}
+
+/// N distances, and N numbers of the nearest of the places, -1 where none leads.
+py::tuple nearest(const DistanceSolver& solver, const std::vector<SurfacePoint>& places, const py::object& progress) {
+  NearestSources found = run(progress, [&](const Progress& called) { return solver.nearest(places, nullptr, called); });
+  return py::make_tuple(std::move(found.distance), owned(std::move(found.source)));
 }
 
 }  // namespace
 
 void addDistance(py::module_& module) {
+  py::class_<SurfacePoint>(module, "SurfacePoint");
+  module.def("surface_points", &placesOf);
   py::class_<DistanceSolver>(module, "DistanceSolver")
       .def(py::init(&solverOf))
       .def("query", &query)
+      .def("nearest", &nearest)
       .def_property_readonly("time_step", &DistanceSolver::timeStep);
 }
 

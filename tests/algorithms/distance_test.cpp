@@ -1,4 +1,5 @@
-// Geodesic distance by the heat method: against analytic shapes and CGAL's exact paths, far away, and on odd input.
+// Geodesic distance, by the heat method for most of this: against analytic shapes and CGAL's exact paths, far away, and
+// on odd input.
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -55,7 +56,7 @@ shapes::Mesh twoSquares() {
 TEST(Distance, IsFiniteAndMonotoneAtAHundredThousandEdges) {
   const int squares = 100000;
   const shapes::Mesh mesh = strip(squares);
-  const DistanceSolver solver(meshLaplacian(mesh.points, mesh.triangles));
+  const DistanceSolver solver(meshLaplacian(mesh.points, mesh.triangles), {.method = DistanceMethod::heat});
   DistanceReport report;
   const VectorXd distance = solver.query({0, 1}, &report);
   EXPECT_GT(report.rounds, 10);
@@ -70,17 +71,17 @@ TEST(Distance, IsFiniteAndMonotoneAtAHundredThousandEdges) {
 TEST(Distance, FramesSayNothingOfItsScale) {
   const shapes::Mesh ball = shapes::icosphere(3);
   Laplacian mesh = meshLaplacian(ball.points, ball.triangles);
-  const VectorXd on_mesh = DistanceSolver(mesh).query({0});
+  const VectorXd on_mesh = DistanceSolver(mesh, {.method = DistanceMethod::heat}).query({0});
   mesh.frames = meshFrames(ball.points, ball.triangles);
-  EXPECT_TRUE(support::sameBits(DistanceSolver(mesh).query({0}), on_mesh));
+  EXPECT_TRUE(support::sameBits(DistanceSolver(mesh, {.method = DistanceMethod::heat}).query({0}), on_mesh));
   EXPECT_LE(meanError(on_mesh, shapes::sphereDistances(ball.points, 0)), 0.02);
 
   const Points points = shapes::sphere(2000).points;
   for (const Gluing gluing : {Gluing::star, Gluing::vertex_pair}) {
     Laplacian cloud = pointCloudLaplacian(points, {.gluing = gluing});
-    const VectorXd on_cloud = DistanceSolver(cloud).query({0});
+    const VectorXd on_cloud = DistanceSolver(cloud, {.method = DistanceMethod::heat}).query({0});
     cloud.frames = {};
-    EXPECT_TRUE(support::sameBits(DistanceSolver(cloud).query({0}), on_cloud));
+    EXPECT_TRUE(support::sameBits(DistanceSolver(cloud, {.method = DistanceMethod::heat}).query({0}), on_cloud));
     EXPECT_LE(meanError(on_cloud, shapes::sphereDistances(points, 0)), 0.04);
   }
 }
@@ -159,9 +160,12 @@ TEST(Distance, HardlyNoticesWhereTheSurfaceEnds) {
   int source = 0;
   straight(square.points, Eigen::RowVector3d(0.3, 0.1, 0)).minCoeff(&source);
   const VectorXd exact = straight(square.points, square.points.row(source));
-  const double open = meanError(DistanceSolver(laplacian, {.time_step = 4}).query({source}), exact);
+  const double open =
+      meanError(DistanceSolver(laplacian, {.method = DistanceMethod::heat, .time_step = 4}).query({source}), exact);
   const double closed =
-      meanError(DistanceSolver(laplacian, {.time_step = 4, .open_boundary = false}).query({source}), exact);
+      meanError(DistanceSolver(laplacian, {.method = DistanceMethod::heat, .time_step = 4, .open_boundary = false})
+                    .query({source}),
+                exact);
   EXPECT_LE(open, 0.015);
   EXPECT_LE(open, 0.5 * closed);
 }
@@ -170,32 +174,39 @@ TEST(Distance, AdaptsItsStepToTheGapsOfUnevenSamples) {
   const shapes::Cloud step = shapes::sphere(8000, shapes::Sampling::densityStep(100));
   const Laplacian laplacian = pointCloudLaplacian(step.points);
   const VectorXd exact = shapes::sphereDistances(step.points, 0);
-  const DistanceSolver plain(laplacian), adapted(laplacian, {.unit = TimeUnit::adapted_edge});
+  const DistanceSolver plain(laplacian, {.method = DistanceMethod::heat}),
+      adapted(laplacian, {.method = DistanceMethod::heat, .unit = TimeUnit::adapted_edge});
   EXPECT_GT(adapted.timeStep(), 2 * plain.timeStep());
   EXPECT_LT(meanError(adapted.query({0}), exact), meanError(plain.query({0}), exact));
 }
 
 TEST(Distance, ScalesAndMovesWithTheCloud) {
   const Points points = shapes::ellipsoid(4000).points;
-  const auto distanceOf = [](const Points& cloud) { return DistanceSolver(pointCloudLaplacian(cloud)).query({5}); };
-  const VectorXd reference = distanceOf(points);
-  for (const int exponent : {60, -60, 400}) {
-    const double scale = std::ldexp(1.0, exponent);
-    EXPECT_EQ(distanceOf(scale * points), scale * reference) << exponent;
+  for (const DistanceMethod method : {DistanceMethod::marching, DistanceMethod::heat}) {
+    const auto distanceOf = [&](const Points& cloud) {
+      return DistanceSolver(pointCloudLaplacian(cloud), {.method = method}).query({5});
+    };
+    const VectorXd reference = distanceOf(points);
+    for (const int exponent : {60, -60, 400}) {
+      const double scale = std::ldexp(1.0, exponent);
+      EXPECT_EQ(distanceOf(scale * points), scale * reference) << exponent;
+    }
+    const double tiny = std::ldexp(1.0, -560);  // all areas underflow
+    EXPECT_LE((distanceOf(tiny * points) / tiny - reference).cwiseAbs().maxCoeff(), 1e-12);
+    EXPECT_EQ(distanceOf(points.rowwise() + Eigen::RowVector3d(500000, 4000000, 100)), reference);
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.1, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+    EXPECT_LE((distanceOf(points * turn.transpose()) - reference).cwiseAbs().maxCoeff(), 1e-10);
   }
-  const double tiny = std::ldexp(1.0, -560);  // all areas underflow
-  EXPECT_LE((distanceOf(tiny * points) / tiny - reference).cwiseAbs().maxCoeff(), 1e-12);
-  EXPECT_EQ(distanceOf(points.rowwise() + Eigen::RowVector3d(500000, 4000000, 100)), reference);
-  const Eigen::Matrix3d turn = Eigen::AngleAxisd(1.1, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
-  EXPECT_LE((distanceOf(points * turn.transpose()) - reference).cwiseAbs().maxCoeff(), 1e-10);
 }
 
 TEST(Distance, OnAnyNumberOfThreadsGivesTheSameBits) {
   const Laplacian laplacian = pointCloudLaplacian(shapes::square(20000).points);
-  const auto distanceOn = [&](int threads) {
-    return DistanceSolver(laplacian, {.solver = {.threads = threads}}).query({3, 500});
-  };
-  EXPECT_EQ(distanceOn(1), distanceOn(3));
+  for (const DistanceMethod method : {DistanceMethod::marching, DistanceMethod::heat}) {
+    const auto distanceOn = [&](int threads) {
+      return DistanceSolver(laplacian, {.method = method, .solver = {.threads = threads}}).query({3, 500});
+    };
+    EXPECT_EQ(distanceOn(1), distanceOn(3));
+  }
 }
 
 /// A strip of `squares` in three rows, its vertices moved at random: 4 (squares + 1) of them.
@@ -232,10 +243,11 @@ TEST(Distance, InWindowsOfHeatIsThatOfTheWhole) {
                {"strip", meshLaplacian(roughStrip(3000).points, roughStrip(3000).triangles), {0}}};
   for (auto& [name, laplacian, sources] : cases) {
     SCOPED_TRACE(name);
-    const VectorXd distance = DistanceSolver(laplacian).query(sources);
+    const VectorXd distance = DistanceSolver(laplacian, {.method = DistanceMethod::heat}).query(sources);
     DistanceReport report;
     const VectorXd in_windows =
-        DistanceSolver(laplacian, {.solver = {.method = SolverMethod::multigrid}}).query(sources, &report);
+        DistanceSolver(laplacian, {.method = DistanceMethod::heat, .solver = {.method = SolverMethod::multigrid}})
+            .query(sources, &report);
     // The strip takes several rounds in either way, and every start of the whole shifts the wave by a hundredth edge.
     const double tolerance = name == std::string("strip") ? 0.1 : 1e-6 * distance.maxCoeff();
     EXPECT_LE((in_windows - distance).cwiseAbs().maxCoeff(), tolerance) << report.rounds << " rounds";
@@ -247,9 +259,10 @@ TEST(Distance, InWindowsOfHeatIsThatOfTheWhole) {
 TEST(Distance, GoesOnWhereNotEvenAWindowHasAFactor) {
   // By conjugate gradients heat is seen over 9 decades, some ten edges.
   const Laplacian laplacian = pointCloudLaplacian(shapes::square(20000).points);
-  const VectorXd distance = DistanceSolver(laplacian).query({0});
+  const VectorXd distance = DistanceSolver(laplacian, {.method = DistanceMethod::heat}).query({0});
   DistanceReport report;
-  const VectorXd again = DistanceSolver(laplacian, {.solver = {.memory_limit = 1}}).query({0}, &report);
+  const VectorXd again =
+      DistanceSolver(laplacian, {.method = DistanceMethod::heat, .solver = {.memory_limit = 1}}).query({0}, &report);
   EXPECT_GE(report.rounds, 5);
   EXPECT_LE(report.rounds, 30);
   EXPECT_GT(report.iterations, 0);
@@ -259,10 +272,10 @@ TEST(Distance, GoesOnWhereNotEvenAWindowHasAFactor) {
 TEST(Distance, ByMultigridIsAsGoodAsItsTolerance) {
   // Heat is looked at far below its largest value: a loose tolerance must not reach it.
   const Laplacian laplacian = pointCloudLaplacian(shapes::square(4000).points);
-  const VectorXd distance = DistanceSolver(laplacian).query({0});
+  const VectorXd distance = DistanceSolver(laplacian, {.method = DistanceMethod::heat}).query({0});
   for (const double tolerance : {0.1, 1e-2, 1e-4}) {
     const SolverOptions options = {.method = SolverMethod::multigrid, .tolerance = tolerance};
-    const VectorXd loose = DistanceSolver(laplacian, {.solver = options}).query({0});
+    const VectorXd loose = DistanceSolver(laplacian, {.method = DistanceMethod::heat, .solver = options}).query({0});
     EXPECT_LE(meanError(loose, distance), 3e-3 + tolerance) << tolerance;
   }
 }
@@ -272,7 +285,7 @@ TEST(Distance, KeepsAllItsFactorsWithinTheLimit) {
   const std::size_t one = Solver::laplacian(laplacian).report().factor_bytes;
   const auto iterationsWithin = [&](std::size_t limit) {
     DistanceReport report;
-    DistanceSolver(laplacian, {.solver = {.memory_limit = limit}}).query({0}, &report);
+    DistanceSolver(laplacian, {.method = DistanceMethod::heat, .solver = {.memory_limit = limit}}).query({0}, &report);
     return report.iterations;
   };
   EXPECT_EQ(iterationsWithin(4 * one), 0);
@@ -312,16 +325,16 @@ TEST(Distance, NamesWhatACallerGotWrong) {
 TEST(Distance, FailsTypedWhenItCannotBeSolved) {
   Laplacian laplacian = pointCloudLaplacian(shapes::sphere(500).points);
   laplacian.L *= -10;
-  EXPECT_THROW(DistanceSolver{laplacian}, SolverFailure);
+  EXPECT_THROW(DistanceSolver(laplacian, {.method = DistanceMethod::heat}), SolverFailure);
   laplacian.L *= NAN;
-  EXPECT_THROW(DistanceSolver{laplacian}, SolverFailure);
+  EXPECT_THROW(DistanceSolver(laplacian, {.method = DistanceMethod::heat}), SolverFailure);
 }
 
 TEST(Distance, ReportsWhatItsFactorisationsTake) {
   const Points disk = shapes::disk(2000).points;  // that ends: three systems
   const Laplacian laplacian = pointCloudLaplacian(disk);
   const SolverReport one = Solver::laplacian(laplacian).report();
-  const SolverReport all = DistanceSolver(laplacian).report();
+  const SolverReport all = DistanceSolver(laplacian, {.method = DistanceMethod::heat}).report();
   EXPECT_EQ(all.method, one.method);
   EXPECT_FALSE(all.iterative);
   EXPECT_EQ(all.components, 1);
@@ -329,9 +342,12 @@ TEST(Distance, ReportsWhatItsFactorisationsTake) {
   EXPECT_GT(all.unknowns, 2 * one.unknowns + 1);
   EXPECT_NEAR(static_cast<double>(all.bytes), 3.0 * static_cast<double>(one.bytes), 0.5 * one.bytes);
   EXPECT_EQ(all.bytes, all.factor_bytes);
-  const SolverReport closed = DistanceSolver(laplacian, {.open_boundary = false}).report();
+  const SolverReport closed =
+      DistanceSolver(laplacian, {.method = DistanceMethod::heat, .open_boundary = false}).report();
   EXPECT_EQ(closed.unknowns, 2000 + 1999);
-  const SolverReport by_multigrid = DistanceSolver(laplacian, {.solver = {.method = SolverMethod::multigrid}}).report();
+  const SolverReport by_multigrid =
+      DistanceSolver(laplacian, {.method = DistanceMethod::heat, .solver = {.method = SolverMethod::multigrid}})
+          .report();
   EXPECT_TRUE(by_multigrid.iterative);
   EXPECT_EQ(by_multigrid.method.find(" and "), std::string::npos) << by_multigrid.method;
 }

@@ -29,7 +29,8 @@ std::vector<Caller> callers(const Points& points) {
   return {{"Solver::laplacian", [](const Laplacian& laplacian) { Solver::laplacian(laplacian); }},
           {"spectrum", [](const Laplacian& laplacian) { spectrum(laplacian, 3); }},
           {"filterSignals", [=](const Laplacian& laplacian) { filterSignals(laplacian, spectrum_of, one); }},
-          {"DistanceSolver", [](const Laplacian& laplacian) { DistanceSolver solver(laplacian); }},
+          {"DistanceSolver",
+           [](const Laplacian& laplacian) { DistanceSolver solver(laplacian, {.method = DistanceMethod::heat}); }},
           {"harmonic", [=](const Laplacian& laplacian) { harmonic(laplacian, pins); }},
           {"biharmonic", [=](const Laplacian& laplacian) { biharmonic(laplacian, pins); }},
           {"poisson", [=](const Laplacian& laplacian) { poisson(laplacian, one); }},
@@ -123,7 +124,7 @@ TEST(SolverFailure, SaysWhatToChangeWhereIterationsDoNotSuffice) {
   const Laplacian laplacian = pointCloudLaplacian(shapes::sphere(4000).points);
   const SolverOptions few = {.method = SolverMethod::multigrid, .max_iterations = 2};
   const Pins pins{{0, 1}, Eigen::VectorXd{{0, 1}}};
-  const DistanceSolver distance(laplacian, {.solver = few});
+  const DistanceSolver distance(laplacian, {.method = DistanceMethod::heat, .solver = few});
   const Solver solver = Solver::laplacian(laplacian, few);
   const std::vector<std::pair<std::string, std::function<void()>>> calls = {
       {"Solver::solve", [&] { solver.solve(VectorXd(laplacian.L.col(0))); }},
@@ -211,7 +212,7 @@ TEST(Progress, CancelsSolvesAndQueriesAtEveryCall) {
       return result;
     };
     const Solver solver = Solver::laplacian(laplacian, made);
-    const DistanceSolver distance(laplacian, {.solver = made});
+    const DistanceSolver distance(laplacian, {.method = DistanceMethod::heat, .solver = made});
     expectToCancelAtEveryCall("solve", by_multigrid ? 10 : 2,
                               [&](const Progress& progress) { solver.solve(f, nullptr, progress); });
     expectToCancelAtEveryCall("query", by_multigrid ? 30 : 8,
@@ -226,7 +227,7 @@ TEST(Progress, CancelsSolvesAndQueriesAtEveryCall) {
       expectToCancelAtEveryCall("biharmonic", 5,
                                 [&](const Progress& progress) { biharmonic(laplacian, pins, options(progress)); });
     expectToCancelAtEveryCall("DistanceSolver", by_multigrid ? 3 : 6, [&](const Progress& progress) {
-      DistanceSolver(laplacian, {.solver = options(progress)});
+      DistanceSolver(laplacian, {.method = DistanceMethod::heat, .solver = options(progress)});
     });
     expectToCancelAtEveryCall("green", 5,
                               [&](const Progress& progress) { greensFunction(laplacian, {0}, options(progress)); });

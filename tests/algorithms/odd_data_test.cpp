@@ -186,12 +186,15 @@ TEST_F(OddMesh, IsFilteredAndSmoothedWhereItHasTriangles) {
 }
 
 TEST_F(OddMesh, HasDistancesWhereSourcesAre) {
-  const VectorXd distance = DistanceSolver(built).query({first_[book], first_[first_twin], last()});
-  for (int i = 0; i <= last(); ++i) {
-    if (isOf(i, {book, first_twin})) {
-      ASSERT_TRUE(distance[i] >= 0 && distance[i] < 4) << i;
-    } else {
-      ASSERT_EQ(distance[i], INFINITY) << i;
+  for (const DistanceOptions& options : std::initializer_list<DistanceOptions>{
+           {.split = 0}, {.split = 1}, {.split = 2}, {.method = DistanceMethod::heat}}) {
+    const VectorXd distance = DistanceSolver(built, options).query({first_[book], first_[first_twin], last()});
+    for (int i = 0; i <= last(); ++i) {
+      if (isOf(i, {book, first_twin})) {
+        ASSERT_TRUE(distance[i] >= 0 && distance[i] < 4) << i;
+      } else {
+        ASSERT_EQ(distance[i], INFINITY) << i;
+      }
     }
   }
 }

@@ -62,7 +62,7 @@ TEST(EveryReport, HasMethodIterationsResidualAndSeconds) {
     if (!iterates)
       expectSolve("biharmonic", [&](SolveReport* report) { biharmonic(laplacian, pins, options, report); });
 
-    const DistanceSolver distance(laplacian, {.solver = options});
+    const DistanceSolver distance(laplacian, {.method = DistanceMethod::heat, .solver = options});
     expectReport("DistanceSolver", distance.report(), iterates, 10);
     DistanceReport query;
     distance.query({0}, &query);

@@ -23,8 +23,13 @@ TEST_F(ApplicationCommands, DistanceComesFromIndicesPositionsAndFaces) {
   const auto json = report("out");
   EXPECT_EQ(json["command"], "distance");
   EXPECT_EQ(json["sources"].size(), 3u);
-  EXPECT_EQ(json["report"]["rounds"], 1);
-  EXPECT_LE(json["report"]["residual"], 1e-10);
+  EXPECT_EQ(json["method"], "marching");
+  EXPECT_GT(json["report"]["visits"], 500);
+  run({"distance", cloud, "--source", "3,7", "--near", "-1,0,0", "--method", "heat", "--out", in("heat")});
+  EXPECT_EQ(report("heat")["report"]["rounds"], 1);
+  EXPECT_LE(report("heat")["report"]["residual"], 1e-10);
+  const std::vector<double> heat = values("heat/distance.npy");
+  for (std::size_t i = 0; i < heat.size(); ++i) EXPECT_NEAR(heat[i], distance[i], 0.15);
 
   const std::string square = dir_.write("square.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n");
   run({"distance", square, "--face", "0,2,1,1", "--out", in("face")});
@@ -38,6 +43,31 @@ TEST_F(ApplicationCommands, DistanceComesFromIndicesPositionsAndFaces) {
   expectRefusal({"distance", cloud, "--source", "500"}, "source 500");
   expectRefusal({"distance", cloud, "--near", "1,2"}, "X,Y,Z");
   expectRefusal({"distance", cloud, "--source", "0", "--time-step", "0"}, "--time-step");
+}
+
+TEST_F(ApplicationCommands, DistanceStopsAtARadiusLabelsAndFillsMatrices) {
+  const std::string cloud = dir_.write("sphere.xyz", sphere(500));
+  run({"distance", cloud, "--source", "3,7", "--out", in("whole")});
+  run({"distance", cloud, "--source", "3,7", "--within", "0.5", "--labels", "--out", in("part")});
+  run({"distance", cloud, "--source", "3,7", "--matrix", "--out", in("matrix")});
+  const std::vector<double> whole = values("whole/distance.npy"), part = values("part/distance.npy"),
+                            label = values("part/labels.npy"), matrix = values("matrix/distance.npy");
+  ASSERT_EQ(matrix.size(), 1000u);
+  for (std::size_t i = 0; i < 500; ++i) {
+    EXPECT_EQ(part[i], whole[i] <= 0.5 ? whole[i] : HUGE_VAL) << i;
+    ASSERT_EQ(label[i] < 0, std::isinf(part[i])) << i;
+    if (label[i] < 0) continue;
+    EXPECT_NEAR(matrix[2 * i + static_cast<std::size_t>(label[i])], part[i], 0.01) << i;
+  }
+  EXPECT_EQ(label[3], 0);
+  EXPECT_EQ(label[7], 1);
+  EXPECT_LT(report("part")["report"]["visits"], report("whole")["report"]["visits"]);
+  expectRefusal({"distance", cloud, "--source", "0", "--within", "0"}, "--within");
+  expectRefusal({"distance", cloud, "--source", "0", "--split", "3"}, "--split");
+  expectRefusal({"distance", cloud, "--source", "0", "--time-step", "1"}, "--time-step applies to --method heat");
+  expectRefusal({"distance", cloud, "--source", "0", "--split", "1", "--method", "heat"},
+                "--split applies to --method marching");
+  expectRefusal({"distance", cloud, "--source", "0", "--labels", "--matrix"}, "--matrix");
 }
 
 TEST_F(ApplicationCommands, PlacesComeFromFiles) {
@@ -174,13 +204,15 @@ TEST_F(ApplicationCommands, AdaptedTimeStepsFollowTheLargeTrianglesOfAnUnevenMes
     for (int i = 0; i < 40; i += 2)
       strip += "3 " + std::to_string(i) + ' ' + std::to_string(i + 2) + ' ' + std::to_string(i + 1) + "\n3 " +
                std::to_string(i + 1) + ' ' + std::to_string(i + 2) + ' ' + std::to_string(i + 3) + '\n';
-    run({"distance", dir_.write("strip.off", strip), "--source", "0", "--time-unit", unit, "--out", in("out")});
+    run({"distance", dir_.write("strip.off", strip), "--source", "0", "--method", "heat", "--time-unit", unit, "--out",
+         in("out")});
     return report("out")["time_step"].get<double>();
   };
   EXPECT_NEAR(timeStep(1, "mean"), 0.5 * (1 + 1 + 2) / 3, 1e-3);  // half the mean square of sides and diagonals
   EXPECT_NEAR(timeStep(1, "adapted"), timeStep(1, "mean"), 1e-12);
   EXPECT_GT(timeStep(1.5, "adapted"), 2 * timeStep(1.5, "mean"));
-  expectRefusal({"distance", in("strip.off"), "--source", "0", "--time-unit", "huge"}, "--time-unit");
+  expectRefusal({"distance", in("strip.off"), "--source", "0", "--method", "heat", "--time-unit", "huge"},
+                "--time-unit");
 }
 
 TEST_F(ApplicationCommands, StopAtCtrlCWhileTheySolve) {
@@ -199,8 +231,8 @@ TEST_F(ApplicationCommands, StopAtCtrlCWhileTheySolve) {
     std::string folder, stage;
     std::vector<std::string> arguments;
   };
-  const std::vector<Case> cases = {{"strip", "directions", {"distance", "--source", "0"}},
-                                   {"strip", "analyse", {"distance", "--source", "0"}},
+  const std::vector<Case> cases = {{"strip", "directions", {"distance", "--source", "0", "--method", "heat"}},
+                                   {"strip", "analyse", {"distance", "--source", "0", "--method", "heat"}},
                                    {"sphere", "analyse", {"interpolate", "--pin", "0=1", "--pin", "1=2"}},
                                    {"sphere", "analyse", {"poisson", "--field", "x"}},
                                    {"sphere", "analyse", {"poisson", "--field", "x", "--pin", "0=1"}},

@@ -24,7 +24,7 @@ TEST_F(SolverOptionsOfCommands, EveryReportNamesMethodIterationsResidualAndSecon
                                                           {"embed"},
                                                           {"filter", "--positions", "--count", "10"},
                                                           {"operators", "--count", "10"}};
-  const std::vector<std::vector<std::string>> solves = {{"distance", "--source", "0"},
+  const std::vector<std::vector<std::string>> solves = {{"distance", "--source", "0", "--method", "heat"},
                                                         {"interpolate", "--pin", "0=1", "--pin", "1=2"},
                                                         {"poisson", "--field", "z"},
                                                         {"poisson", "--field", "z", "--pin", "0=1"},

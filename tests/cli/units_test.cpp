@@ -46,7 +46,7 @@ TEST_F(Units, TimesOfHeatThatIsEvenOrStaysWhereItIsAreRefused) {
 }
 
 TEST_F(Units, TimeStepsOfDistancesThatCoverAllOrNothingAreRefused) {
-  const std::vector<std::string> distance = {"distance", "--source", "0", "--time-step"};
+  const std::vector<std::string> distance = {"distance", "--source", "0", "--method", "heat", "--time-step"};
   const auto with = [&](const char* step) {
     std::vector<std::string> command = distance;
     command.emplace_back(step);
@@ -57,7 +57,7 @@ TEST_F(Units, TimeStepsOfDistancesThatCoverAllOrNothingAreRefused) {
   expectBothRefused(with("1e-300"), "--time-step 1e-300: heat goes 1");
   expectBothRefused(with("5e-5"), ", less than a hundredth of the spacing: ");
   for (const char* step : {"0.001", "0.03", "0.5", "100"})
-    run({"distance", cloud_, "--source", "0", "--time-step", step, "--out", in("out")});
+    run({"distance", cloud_, "--source", "0", "--method", "heat", "--time-step", step, "--out", in("out")});
 }
 
 TEST_F(Units, ThePointTakenForAPositionIsAlwaysSaid) {

@@ -103,7 +103,7 @@ def test_steps_scale_with_t_coef():
     P = sphere(800)
     a, b = (pp3d.PointCloudHeatSolver(P, t_coef=t).compute_distance(0) for t in (1.0, 4.0))
     assert not np.array_equal(a, b)
-    np.testing.assert_array_equal(a, tufted.PointCloud(P).distance(0))
+    np.testing.assert_array_equal(a, tufted.PointCloud(P).distance(0, method="heat"))
 
 
 @pytest.mark.parametrize("call, words", [

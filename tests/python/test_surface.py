@@ -52,8 +52,19 @@ def test_filter_keeps_what_is_smooth(cloud):
 
 def test_distances_are_those_of_the_sphere(cloud):
     exact = np.arccos(np.clip(CLOUD @ CLOUD[0], -1, 1))
-    assert abs(cloud.distance(0) - exact).mean() < 0.02 * np.pi / 2  # two in a hundred
-    assert abs(cloud.distance([0], unit="adapted", open_boundary=False) - exact).mean() < 0.02 * np.pi / 2
+    assert abs(cloud.distance(0) - exact).mean() < 0.005 * np.pi / 2
+    assert abs(cloud.distance([0], method="heat", unit="adapted", open_boundary=False) - exact).mean() < 0.02 * np.pi / 2
+
+
+def test_the_nearest_source_is_the_one_that_the_distance_is_from(cloud):
+    sources = [0, 150, 299]
+    distance, source = cloud.nearest_source(sources)
+    each = np.stack([cloud.distance(s) for s in sources])
+    np.testing.assert_array_equal(distance, cloud.distance(sources))
+    np.testing.assert_allclose(each[source, np.arange(len(cloud))], each.min(axis=0), atol=0.05)
+    assert source.dtype == np.int32 and list(source[sources]) == [0, 1, 2]
+    near = cloud.distance(0, maximum=0.5)
+    np.testing.assert_array_equal(near, np.where(each[0] <= 0.5, each[0], np.inf))
 
 
 def test_a_source_inside_a_triangle_lies_between_its_corners(mesh):

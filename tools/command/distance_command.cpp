@@ -1,6 +1,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <optional>
 #include <string>
@@ -16,25 +17,38 @@
 
 namespace {
 
-constexpr const char* description = "Geodesic distance from the nearest of some points, by the heat method.";
+constexpr const char* description = "Geodesic distance from the nearest of some points.";
 
 constexpr const char* footer =
-    R"(Example:
+    R"(Examples:
   tufted distance scan.ply --source 0 --out distance
+  tufted distance scan.ply --near 1,2,0.5 --within 0.3 --out around
+  tufted distance mesh.obj --source 0,17,99 --labels --out cells
+  tufted distance mesh.obj --sources landmarks.txt --matrix --out landmarks
 
 Distances are in the file's unit: 0 at sources, infinite where no path leads (other components,
-isolated points). --near takes the point nearest to a position, says which, and warns where that is farther from it
-than from its neighbours. On meshes --face names a point inside a triangle by its barycentric coordinates.
+isolated points) and beyond --within. --near takes the point nearest to a position, says which, and warns where that is
+farther from it than from its neighbours. On meshes --face names a point inside a triangle by its barycentric
+coordinates.
+
+--method marching goes from triangle to triangle with the source unfolded into each. It needs no factor and is the more
+accurate one; --split 2 halves its error for four times the time. --method heat is smooth where fronts meet; --time-step,
+--time-unit, --solver and --memory-limit belong to it.
 
 Writes into DIR, renamed one after the other when all are complete:
-  distance.npy  N distances, float64
+  distance.npy  N distances, float64; with --matrix N x K, a column for each source
+  labels.npy    with --labels: N numbers, int32: which source is nearest, from 0 in the order --source, --near,
+                --sources, --face; -1 where no source leads
   points.ply    the points with the field distance, float32; points.pcd with --format pcd
-  report.json   sources, method, rounds, residual, backward error, seconds
+  report.json   sources, method, what the query did, seconds
 FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written with
 --format npz,ply,cover: the method needs the cover's triangles.)";
 
 const std::map<std::string, tufted::TimeUnit> units = {{"mean", tufted::TimeUnit::mean_edge},
                                                        {"adapted", tufted::TimeUnit::adapted_edge}};
+
+const std::map<std::string, tufted::DistanceMethod> methods = {{"marching", tufted::DistanceMethod::marching},
+                                                               {"heat", tufted::DistanceMethod::heat}};
 
 struct Settings {
   OperatorSettings source;
@@ -42,13 +56,29 @@ struct Settings {
   std::vector<std::string> faces;
   tufted::DistanceOptions options;
   std::optional<double> time_step;
+  std::optional<tufted::TimeUnit> time_unit;
+  std::optional<int> split;
+  bool labels = false, matrix = false;
   std::vector<Place> places;
   std::vector<tufted::SurfacePoint> inside;  ///< of faces
 
-  std::vector<std::string> files() const { return {"distance.npy"}; }
+  std::vector<std::string> files() const {
+    std::vector<std::string> names = {"distance.npy"};
+    if (labels) names.emplace_back("labels.npy");
+    return names;
+  }
 };
 
+/// Refuses options of the other method.
+void checkMethod(const Settings& settings) {
+  const bool is_heat = settings.options.method == tufted::DistanceMethod::heat;
+  if (!is_heat && settings.time_step) throw tufted::InvalidInput("--time-step applies to --method heat");
+  if (!is_heat && settings.time_unit) throw tufted::InvalidInput("--time-unit applies to --method heat");
+  if (is_heat && settings.split) throw tufted::InvalidInput("--split applies to --method marching");
+}
+
 void check(Settings& settings, const Operator& source) {
+  checkMethod(settings);
   settings.places = settings.points.places(source.points());
   if (!settings.faces.empty() && !source.geometry.is_mesh)
     throw tufted::InvalidInput("--face applies to meshes, and " + source.name +
@@ -66,6 +96,32 @@ void check(Settings& settings, const Operator& source) {
     throw tufted::InvalidInput("no source is given, must be at least one by --source, --near, --sources or --face");
 }
 
+/// N x K distances, from each source by itself; infinite from those on no component.
+Eigen::MatrixXd fromEach(const tufted::DistanceSolver& solver, const std::vector<tufted::SurfacePoint>& sources,
+                         const Operator& source, tufted::DistanceReport& made) {
+  Eigen::MatrixXd distance(source.points(), std::ssize(sources));
+  for (std::size_t s = 0; s < sources.size(); ++s) {
+    tufted::DistanceReport one;
+    distance.col(static_cast<Eigen::Index>(s)) = solver.queryAt({sources[s]}, &one, source.progress);
+    one.visits += made.visits, one.lowered += made.lowered, one.seconds += made.seconds;
+    made = one;
+  }
+  return distance;
+}
+
+/// N distances from the nearest source. Adds which one that is, if asked to.
+Eigen::MatrixXd addNearest(const Settings& settings, const tufted::DistanceSolver& solver,
+                           const std::vector<tufted::SurfacePoint>& sources, const Operator& source,
+                           tufted::DistanceReport& made, Results& results) {
+  if (!settings.labels) return solver.queryAt(sources, &made, source.progress);
+  const tufted::NearestSources found = solver.nearest(sources, &made, source.progress);
+  results.arrays.push_back(
+      {.name = "labels",
+       .values = Eigen::Map<const Eigen::VectorXi>(found.source.data(), std::ssize(found.source)).cast<double>(),
+       .is_integer = true});
+  return found.distance;
+}
+
 Results compute(Settings& settings, Operator& source) {
   Results results;
   std::vector<tufted::SurfacePoint> sources;
@@ -74,24 +130,28 @@ Results compute(Settings& settings, Operator& source) {
   sources.insert(sources.end(), settings.inside.begin(), settings.inside.end());
   settings.options.solver = source.solverOptions();
   if (settings.time_step) settings.options.time_step = *settings.time_step;
+  if (settings.time_unit) settings.options.unit = *settings.time_unit;
+  if (settings.split) settings.options.split = *settings.split;
   const tufted::DistanceSolver solver(source.laplacian, settings.options);
   checkTimeStep(settings.time_step, solver.timeStep(), source);
   tufted::DistanceReport made;
-  const tufted::VectorXd distance = solver.queryAt(sources, &made, source.progress);
-  results.arrays = {{.name = "distance", .values = distance}};
+  const Eigen::MatrixXd distance = settings.matrix ? fromEach(solver, sources, source, made)
+                                                   : addNearest(settings, solver, sources, source, made, results);
+  results.arrays.insert(results.arrays.begin(), {.name = "distance", .values = distance});
   results.report["sources"] = nlohmann::ordered_json::array();
   for (const tufted::SurfacePoint& point : sources)
     results.report["sources"].push_back({{"corners", point.corners}, {"weights", point.weights}});
-  results.report["time_step"] = solver.timeStep();
+  results.report["method"] = settings.options.method == tufted::DistanceMethod::heat ? "heat" : "marching";
+  if (solver.timeStep() > 0) results.report["time_step"] = solver.timeStep();
   addReport(made, solver.report(), results);
   long long reached = 0;
   double farthest = 0;
-  for (const double d : distance) {
+  for (const double d : distance.rowwise().minCoeff()) {
     if (!std::isfinite(d)) continue;
     ++reached;
     farthest = std::max(farthest, d);
   }
-  results.summary.add("reached", "%lld of %lld, the farthest at %.6g", reached, static_cast<long long>(distance.size()),
+  results.summary.add("reached", "%lld of %lld, the farthest at %.6g", reached, static_cast<long long>(distance.rows()),
                       farthest);
   return results;
 }
@@ -106,7 +166,17 @@ void addDistance(CLI::App& app, Run& run) {
   command->add_option("--face", settings->faces, "A point of distance 0 inside a triangle, meshes only")
       ->allow_extra_args(false)
       ->type_name("FACE,A,B,C");
-  addTimeStep(*command, settings->time_step, "Time step in --time-unit; larger ones smooth (0.5)");
-  addChoice(*command, "--time-unit", settings->options.unit, units,
-            "Squared mean edge; adapted: weighted by area, for uneven density (mean)");
+  addChoice(*command, "--method", settings->options.method, methods,
+            "marching: the more accurate one; heat: smooth where fronts meet (marching)");
+  addNumber(*command, "--split", settings->split, 0, 2, "How often marching cuts each triangle into four (1)")
+      ->type_name("TIMES");
+  addNumber(*command, "--within", settings->options.maximum, std::numeric_limits<double>::min(),
+            std::numeric_limits<double>::max(), "No farther than this, in the file's unit (no limit)")
+      ->type_name("R");
+  CLI::Option* const labels =
+      command->add_flag("--labels", settings->labels, "Write which source is nearest, labels.npy");
+  command->add_flag("--matrix", settings->matrix, "A column of distances for each source")->excludes(labels);
+  addTimeStep(*command, settings->time_step, "Heat: time step in --time-unit; larger ones smooth (0.5)");
+  addChoice(*command, "--time-unit", settings->time_unit, units,
+            "Heat: squared mean edge; adapted: weighted by area, for uneven density (mean)");
 }

@@ -52,9 +52,9 @@ std::string refuseName(const std::string& word, const std::map<std::string, T>& 
   return word + " is none of " + choiceOf(values) + didYouMean(word, namesIn(values));
 }
 
-/// An option that takes one of the names in `values`.
-template <class T>
-CLI::Option* addChoice(CLI::App& app, const std::string& name, T& target, const std::map<std::string, T>& values,
+/// An option that takes one of the names in `values`. The target may be optional.
+template <class Target, class T>
+CLI::Option* addChoice(CLI::App& app, const std::string& name, Target& target, const std::map<std::string, T>& values,
                        const std::string& help) {
   const auto set = [&target, &values](const std::string& key) { target = values.at(key); };
   const auto check = [&values](const std::string& key) { return refuseName(key, values); };

@@ -75,6 +75,16 @@ void addReport(const tufted::SpectrumReport& report, Results& results) {
 }
 
 void addReport(const tufted::DistanceReport& report, const tufted::SolverReport& solver, Results& results) {
+  if (solver.method == "marching") {
+    results.report["report"] = {{"visits", report.visits},
+                                {"lowered", report.lowered},
+                                {"seconds", report.seconds},
+                                {"solver", toJson(solver)}};
+    results.summary.addDetail("prepared", "faces to march over, %.3g s", solver.seconds);
+    results.summary.addDetail("query", "%lld points and middles of edges, %.3g s",
+                              static_cast<long long>(report.visits), report.seconds);
+    return;
+  }
   addHeat(report, solver, results);
   results.report["report"]["nearly_disconnected"] = toJson(report.weak_joint);
   addJoint(report.weak_joint, results);

@@ -81,9 +81,15 @@ class Surface:
                spectrum: Spectrum | tuple[npt.ArrayLike, npt.ArrayLike] | None = None,
                progress: _Progress = None) -> _Floats: ...
     def distance(self, sources: npt.ArrayLike = (), *, faces: npt.ArrayLike | None = None,
-                 barycentric: npt.ArrayLike | None = None, time_step: float = 0.5,
-                 unit: Literal["mean", "adapted"] = "mean", open_boundary: bool = True,
+                 barycentric: npt.ArrayLike | None = None, method: Literal["marching", "heat"] = "marching",
+                 split: int = 1, maximum: float = ..., time_step: float | None = None,
+                 unit: Literal["mean", "adapted"] | None = None, open_boundary: bool | None = None,
                  progress: _Progress = None) -> _Floats: ...
+    def nearest_source(self, sources: npt.ArrayLike = (), *, faces: npt.ArrayLike | None = None,
+                       barycentric: npt.ArrayLike | None = None, method: Literal["marching", "heat"] = "marching",
+                       split: int = 1, maximum: float = ..., time_step: float | None = None,
+                       unit: Literal["mean", "adapted"] | None = None, open_boundary: bool | None = None,
+                       progress: _Progress = None) -> tuple[_Floats, npt.NDArray[np.int32]]: ...
     def extend(self, sources: npt.ArrayLike, values: npt.ArrayLike, *, time_step: float = 4.0,
                progress: _Progress = None) -> _Floats: ...
     def transport(self, sources: npt.ArrayLike, vectors: npt.ArrayLike, *, time_step: float = 4.0,

@@ -81,7 +81,7 @@ class _Distances(_HeatSolver):
 
     def compute_distance_multisource(self, source_inds):
         """Geodesic distance from the nearest of several points: N values; infinite where no path leads."""
-        return self._surface.distance(source_inds, time_step=_DISTANCE_STEP * self._t_coef)
+        return self._surface.distance(source_inds, method="heat", time_step=_DISTANCE_STEP * self._t_coef)
 
 
 class _Vectors(_HeatSolver):

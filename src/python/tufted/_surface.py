@@ -197,27 +197,35 @@ class Surface:
 
     # Distances and what is carried along the surface
 
-    def distance(self, sources=(), *, faces=None, barycentric=None, time_step=0.5, unit="mean", open_boundary=True,
-                 progress=None):
-        """Geodesic distance from the nearest of some points, by the heat method.
+    def distance(self, sources=(), *, faces=None, barycentric=None, method="marching", split=1, maximum=np.inf,
+                 time_step=None, unit=None, open_boundary=None, progress=None):
+        """Geodesic distance from the nearest of some points.
 
         sources: an index or several.
         faces, barycentric: S faces of a mesh and S x 3 coordinates by corner: points inside triangles, as sources too.
-        time_step: in `unit`; larger ones smooth. unit: "mean" squared edge, or "adapted" to uneven density.
-        open_boundary: whether heat passes the boundary as if the surface went on.
+        method: "marching" through the triangles, the more accurate one, or "heat", smooth where fronts meet.
+        split: of marching, how often each triangle is cut into four, 0 to 2.
+        maximum: greater distances are infinite.
+        time_step: of heat, in `unit`; larger ones smooth; None: 0.5. unit: of heat, "mean" squared edge (None) or
+        "adapted" to uneven density. open_boundary: of heat, whether it passes the boundary as if the surface went on;
+        None: True.
         Returns N values >= 0, length; infinite where no path leads.
         """
-        where = check.indices("distance", "sources", sources, len(self), empty=faces is not None)
-        inside, coordinates = np.zeros(0, np.int32), np.zeros((0, 3))
-        if faces is not None:
-            if self._faces is None:
-                raise InvalidInput("distance: faces is given, must be None for a cloud")
-            inside = check.indices("distance", "faces", faces, len(self._faces))
-            coordinates = check.rows_of_three("distance", "barycentric",
-                                              np.atleast_2d(() if barycentric is None else barycentric), inside.size)
-        solver = self._distance_solver(time_step, unit, open_boundary, progress)
-        corners = self._faces if self._faces is not None else np.zeros((0, 3), np.int32)
-        return solver.query(where, self._points, corners, inside, coordinates, check.callback("distance", progress))
+        places = self._places("distance", sources, faces, barycentric)
+        solver = self._distance_solver(method, split, maximum, time_step, unit, open_boundary, progress)
+        return solver.query(places, check.callback("distance", progress))
+
+    def nearest_source(self, sources=(), *, faces=None, barycentric=None, method="marching", split=1, maximum=np.inf,
+                       time_step=None, unit=None, open_boundary=None, progress=None):
+        """The nearest of some points along the surface: their geodesic Voronoi cells.
+
+        Arguments are those of `distance`.
+        Returns N distances and N numbers: which of the sources is nearest, first `sources`, then `faces`, counted from
+        0; -1 where none leads.
+        """
+        places = self._places("nearest_source", sources, faces, barycentric)
+        solver = self._distance_solver(method, split, maximum, time_step, unit, open_boundary, progress)
+        return solver.nearest(places, check.callback("nearest_source", progress))
 
     def extend(self, sources, values, *, time_step=4.0, progress=None):
         """Values of some points carried to all: nearly those of the nearest source.
@@ -494,12 +502,29 @@ class Surface:
         vectors, _ = check.columns(function, "spectrum", vectors, len(self))
         return _tufted.Spectrum(np.asarray(values, np.float64), vectors).positive()
 
-    def _distance_solver(self, time_step, unit, open_boundary, progress):
+    def _places(self, function, sources, faces, barycentric):
+        where = check.indices(function, "sources", sources, len(self), empty=faces is not None)
+        inside, coordinates = np.zeros(0, np.int32), np.zeros((0, 3))
+        if faces is not None:
+            if self._faces is None:
+                raise InvalidInput(f"{function}: faces is given, must be None for a cloud")
+            inside = check.indices(function, "faces", faces, len(self._faces))
+            coordinates = check.rows_of_three(function, "barycentric",
+                                              np.atleast_2d(() if barycentric is None else barycentric), inside.size)
+        corners = self._faces if self._faces is not None else np.zeros((0, 3), np.int32)
+        return _tufted.surface_points(where, self._points, corners, inside, coordinates)
+
+    def _distance_solver(self, method, split, maximum, time_step, unit, open_boundary, progress):
         self._need_cover("distance")
-        time_step = check.number("distance", "time_step", time_step)
-        return self._keep(("distance", time_step, unit, bool(open_boundary)), lambda: _tufted.DistanceSolver(
-            self._laplacian, time_step, unit, bool(open_boundary), self._solver(),
-            check.callback("distance", progress)))
+        if method == "marching":
+            for name, value in (("time_step", time_step), ("unit", unit), ("open_boundary", open_boundary)):
+                if value is not None:
+                    raise InvalidInput(f'distance: {name} = {value!r}, must be None unless method is "heat"')
+        settings = (method, check.whole("distance", "split", split, 0), check.number("distance", "maximum", maximum),
+                    0.5 if time_step is None else check.number("distance", "time_step", time_step),
+                    "mean" if unit is None else unit, True if open_boundary is None else bool(open_boundary))
+        return self._keep(("distance", *settings), lambda: _tufted.DistanceSolver(
+            self._laplacian, *settings, self._solver(), check.callback("distance", progress)))
 
     def _poisson_solver(self, progress):
         return self._keep("poisson", lambda: _tufted.PoissonSolver(self._laplacian, self._solver(), progress))

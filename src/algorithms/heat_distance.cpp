@@ -1,0 +1,166 @@
+// Geodesic distance by the heat method (Crane, Weischedel, Wardetzky 2013, 2017) on the faces of the tufted cover.
+#include "algorithms/heat_distance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <utility>
+
+#include "algorithms/connected.h"
+#include "algorithms/greater.h"
+#include "algorithms/heat_directions.h"
+#include "algorithms/linear_system.h"
+#include "algorithms/memory_limit.h"
+#include "base/parallel.h"
+#include "cover/face_scale.h"
+#include "operators/surface_faces.h"
+
+namespace tufted {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+/// A mass below this part of its row of L is lost when the two are added, and the matrix may become singular.
+constexpr double least_mass = 1e-13;
+
+constexpr const char* constructor = "DistanceSolver";
+
+/// The matrix M / t + L of the heat equation, with M from the areas of the faces.
+SparseMatrix heatMatrix(const Laplacian& laplacian, const SurfaceFaces& surface, double time) {
+  SparseMatrix A = laplacian.L;
+  const VectorXd areas = lumpedAreas(surface, static_cast<int>(A.rows()));
+  for (int i = 0; i < A.outerSize(); ++i) {
+    for (SparseMatrix::InnerIterator entry(A, i); entry; ++entry) {
+      if (entry.row() == i) entry.valueRef() += std::max(least_mass * entry.value(), areas[i] / time);
+    }
+  }
+  return A;
+}
+
+/// Distance and heat that the sources give, by active point.
+struct Sources {
+  VectorXd distance;  ///< in the solver's unit; infinite away from sources
+  VectorXd heat;
+};
+
+}  // namespace
+
+struct HeatDistance::State {
+  SparseMatrix L;
+  SurfaceFaces surface;
+  const Components& components;
+  double time = 1;  ///< in units of 2^(2 exponent)
+  int threads = 0;
+  HeatSystem heat;
+  std::optional<const LinearSystem> poisson;
+  SolverReport report;
+
+  Sources locate(const std::vector<SurfacePoint>& sources) const;
+  std::vector<std::uint8_t> facesInside(const Sources& sources) const;
+  void shift(const Sources& sources, VectorXd& distance) const;
+};
+
+HeatDistance::~HeatDistance() = default;
+
+HeatDistance::HeatDistance(const Laplacian& laplacian, const Components& components, const DistanceOptions& options)
+    : state_(new State{
+          .L = laplacian.L, .surface = {}, .components = components, .heat = {}, .poisson = {}, .report = {}}) {
+  State& state = *state_;
+  const Workers workers(options.solver.threads, options.solver.progress);
+  state.surface = surfaceFaces(laplacian.cover(), faceScale(laplacian.kind), workers);
+  state.threads = options.solver.threads;
+  const SurfaceFaces& surface = state.surface;
+  const double unit = options.unit == TimeUnit::mean_edge ? surface.mean_square : surface.area_mean_square;
+  if (unit > 0) state.time = options.time_step * unit;
+
+  const Eigen::Index n = laplacian.L.rows();
+  VectorXd interior;
+  const auto isInner = [](Boundary boundary) { return boundary == Boundary::none; };
+  if (options.open_boundary && !std::all_of(laplacian.boundary.begin(), laplacian.boundary.end(), isInner)) {
+    interior.resize(n);
+    for (Eigen::Index i = 0; i < n; ++i) interior[i] = isInner(laplacian.boundary[i]) ? 1 : 0;
+  }
+  // All factors are held at once, and are about as large.
+  const int factors = interior.size() > 0 ? 3 : 2;
+  SolverOptions one = options.solver;
+  one.memory_limit = std::max<std::size_t>(memoryLimit(options.solver.memory_limit) / factors, 1);
+  state.heat = makeHeatSystem(constructor, heatMatrix(laplacian, surface, state.time), std::move(interior), one);
+  state.poisson.emplace(LinearSystem::laplacian({.function = constructor, .matrix = "L"}, laplacian, one));
+  for (const LinearSystem* held : {state.heat.closed.get(), state.heat.open.get(), &*state.poisson})
+    if (held != nullptr) addReport(held->report(), state.report);
+}
+
+double HeatDistance::timeStep() const {
+  return std::ldexp(state_->time, 2 * state_->surface.exponent);
+}
+
+const SolverReport& HeatDistance::report() const {
+  return state_->report;
+}
+
+Sources HeatDistance::State::locate(const std::vector<SurfacePoint>& sources) const {
+  const auto n = L.rows();
+  Sources found{VectorXd::Constant(n, infinity), VectorXd::Zero(n)};
+  for (const SurfacePoint& source : sources) {
+    for (int k = 0; k < 3; ++k) {
+      const int i = source.corners[k];
+      if (components.of[i] < 0) continue;
+      // The greater heat and not the sum, so that a source counts once.
+      found.distance[i] = std::min(found.distance[i], std::ldexp(source.distances[k], -surface.exponent));
+      found.heat[i] = std::max(found.heat[i], source.weights[k]);
+    }
+  }
+  return found;
+}
+
+/// Marks the faces inside a region of sources, where the gradient has no direction.
+std::vector<std::uint8_t> HeatDistance::State::facesInside(const Sources& sources) const {
+  std::vector<std::uint8_t> inside(surface.faces.size(), 0);
+  for (std::size_t f = 0; f < inside.size(); ++f) {
+    const auto& [a, b, c] = surface.faces[f].corners;
+    const bool all = sources.distance[a] == 0 && sources.distance[b] == 0 && sources.distance[c] == 0;
+    inside[f] = all ? 1 : 0;
+  }
+  return inside;
+}
+
+/// Turns a function that is right up to a constant per component into distances, in the points' unit.
+void HeatDistance::State::shift(const Sources& sources, VectorXd& distance) const {
+  VectorXd excess = VectorXd::Zero(distance.size()), count = VectorXd::Zero(distance.size());
+  for (const int i : components.points) {
+    if (sources.distance[i] == infinity) continue;
+    excess[i] = distance[i] - sources.distance[i];
+    count[i] = 1;
+  }
+  const VectorXd sums = components.sums(excess), counts = components.sums(count);
+  for (Eigen::Index i = 0; i < distance.size(); ++i) {
+    const int component = components.of[i];
+    if (component < 0 || counts[component] == 0) {
+      distance[i] = infinity;
+    } else {
+      const double here = std::max(0.0, distance[i] - sums[component] / counts[component]);
+      distance[i] = std::ldexp(std::isfinite(sources.distance[i]) ? sources.distance[i] : here, surface.exponent);
+    }
+  }
+}
+
+VectorXd HeatDistance::query(const char* function, const std::vector<SurfacePoint>& sources, const Progress& progress,
+                             DistanceReport& report) const {
+  const State& state = *state_;
+  const Sources known = state.locate(sources);
+  const HeatProblem problem{state.surface, state.L, state.components, state.heat};
+  VectorXd distance =
+      divergenceOfHeat(function, problem, known.heat, state.facesInside(known), state.threads, progress, report);
+  const Eigen::MatrixXd scale = state.components.normalise(distance);
+  SolveReport solved;
+  distance = state.poisson->solve(function, distance, &solved, progress);
+  state.components.multiply(distance, scale);
+  state.shift(known, distance);
+  report.iterations = std::max(report.iterations, solved.iterations);
+  report.residual = greater(report.residual, solved.residual);
+  report.backward_error = greater(report.backward_error, solved.backward_error);
+  if (solved.weak_joint) report.weak_joint = solved.weak_joint;
+  return distance;
+}
+
+}  // namespace tufted

@@ -1,0 +1,147 @@
+#include "algorithms/march_faces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <tuple>
+
+#include "base/stage_clock.h"
+#include "cover/geometry.h"
+
+namespace tufted {
+namespace {
+
+constexpr std::int64_t block_size = 8192;
+/// Sides between the same two ends are one edge if their lengths differ by at most this part: flips on the front and on
+/// the back round differently.
+constexpr double equal_lengths = 1e-9;
+
+/// A side at its end with the smaller number.
+struct Side {
+  int other;  ///< the end with the larger number
+  double length;
+  int slot;
+
+  bool operator<(const Side& side) const {
+    return std::tie(other, length, slot) < std::tie(side.other, side.length, side.slot);
+  }
+  bool isOneWith(const Side& side) const {
+    return other == side.other && std::abs(length - side.length) <= equal_lengths * length;
+  }
+};
+
+void groupByCorner(MarchFaces& result) {
+  result.corner_offset.assign(static_cast<std::size_t>(result.vertices) + 1, 0);
+  for (const MarchFace& face : result.faces)
+    for (const int corner : face.corners) ++result.corner_offset[corner + 1];
+  std::partial_sum(result.corner_offset.begin(), result.corner_offset.end(), result.corner_offset.begin());
+  std::vector<int> fill(result.corner_offset.begin(), result.corner_offset.end() - 1);
+  result.corner_slots.resize(3 * result.faces.size());
+  for (std::size_t f = 0; f < result.faces.size(); ++f)
+    for (int k = 0; k < 3; ++k) result.corner_slots[fill[result.faces[f].corners[k]]++] = static_cast<int>(3 * f) + k;
+}
+
+/// The sides whose smaller end is at a vertex, sorted. Corners of faces ascend, so that these are two sides at the
+/// first corner of a face, one at the second and none at the third.
+void sidesAt(const MarchFaces& faces, int vertex, std::vector<Side>& sides) {
+  sides.clear();
+  const auto add = [&](int face, int side, int far) {
+    sides.push_back({faces.faces[face].corners[far], faces.faces[face].opposite[side], 3 * face + side});
+  };
+  for (int i = faces.corner_offset[vertex]; i < faces.corner_offset[vertex + 1]; ++i) {
+    const int face = faces.corner_slots[i] / 3, corner = faces.corner_slots[i] % 3;
+    if (corner == 0) {
+      add(face, 2, 1);
+      add(face, 1, 2);
+    } else if (corner == 1) {
+      add(face, 0, 2);
+    }
+  }
+  std::sort(sides.begin(), sides.end());
+}
+
+/// The edges whose smaller end lies in one block of vertices.
+struct EdgeBlock {
+  std::vector<int> sizes;  ///< how many sides each edge has
+  std::vector<int> slots;
+};
+
+void groupByEdge(MarchFaces& result, const Workers& workers) {
+  std::vector<EdgeBlock> blocks((result.vertices + block_size - 1) / block_size);
+  workers.forBlocks("edges", result.vertices, block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    EdgeBlock& block = blocks[begin / block_size];
+    std::vector<Side> sides;
+    for (auto v = begin; v < end; ++v) {
+      sidesAt(result, static_cast<int>(v), sides);
+      for (std::size_t i = 0; i < sides.size(); ++i) {
+        if (i == 0 || !sides[i - 1].isOneWith(sides[i])) block.sizes.push_back(0);
+        ++block.sizes.back();
+        block.slots.push_back(sides[i].slot);
+      }
+    }
+  });
+  result.edge_offset = {0};
+  result.edge_slots.reserve(3 * result.faces.size());
+  for (EdgeBlock& block : blocks) {
+    for (const int size : block.sizes) result.edge_offset.push_back(result.edge_offset.back() + size);
+    result.edge_slots.insert(result.edge_slots.end(), block.slots.begin(), block.slots.end());
+    block = {};
+  }
+  result.edges = static_cast<int>(result.edge_offset.size()) - 1;
+  for (int e = 0; e < result.edges; ++e) {
+    for (int i = result.edge_offset[e]; i < result.edge_offset[e + 1]; ++i)
+      result.faces[result.edge_slots[i] / 3].edges[result.edge_slots[i] % 3] = e;
+  }
+}
+
+}  // namespace
+
+std::size_t MarchFaces::bytes() const {
+  return bytesOf(faces) + bytesOf(corner_offset) + bytesOf(corner_slots) + bytesOf(edge_offset) + bytesOf(edge_slots);
+}
+
+MarchFaces marchFaces(const std::vector<DistinctFace>& faces, int vertices, int exponent, const Workers& workers) {
+  MarchFaces result;
+  result.vertices = vertices;
+  result.exponent = exponent;
+  result.faces.resize(faces.size());
+  workers.forBlocks("faces", std::ssize(faces), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    for (auto f = begin; f < end; ++f) {
+      MarchFace& face = result.faces[f];
+      face.corners = faces[f].corners;
+      for (int k = 0; k < 3; ++k) face.opposite[k] = std::ldexp(faces[f].opposite[k], -exponent);
+      face.double_area = 2 * triangleArea(face.opposite[0], face.opposite[1], face.opposite[2]);
+    }
+  });
+  groupByCorner(result);
+  groupByEdge(result, workers);
+  return result;
+}
+
+MarchFaces splitInFour(const MarchFaces& coarse, const Workers& workers) {
+  std::vector<DistinctFace> faces(4 * coarse.faces.size());
+  const auto made = [](std::array<int, 3> corners, std::array<double, 3> opposite) {
+    std::array<std::pair<int, double>, 3> parts;
+    for (int k = 0; k < 3; ++k) parts[k] = {corners[k], opposite[k] / 2};
+    std::sort(parts.begin(), parts.end());
+    return DistinctFace{{parts[0].first, parts[1].first, parts[2].first},
+                        {parts[0].second, parts[1].second, parts[2].second}};
+  };
+  workers.forBlocks("faces", std::ssize(coarse.faces), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    for (auto f = begin; f < end; ++f) {
+      const MarchFace& face = coarse.faces[f];
+      const int n = coarse.vertices;
+      const auto& [i, j, k] = face.corners;
+      const int opposite_i = n + face.edges[0], opposite_j = n + face.edges[1], opposite_k = n + face.edges[2];
+      faces[4 * f] = made({i, opposite_k, opposite_j}, face.opposite);
+      faces[4 * f + 1] = made({opposite_k, j, opposite_i}, face.opposite);
+      faces[4 * f + 2] = made({opposite_j, opposite_i, k}, face.opposite);
+      faces[4 * f + 3] = made({opposite_i, opposite_j, opposite_k}, face.opposite);
+    }
+  });
+  MarchFaces fine = marchFaces(faces, coarse.vertices + coarse.edges, 0, workers);
+  fine.exponent = coarse.exponent;
+  return fine;
+}
+
+}  // namespace tufted

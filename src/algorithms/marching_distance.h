@@ -1,0 +1,38 @@
+#pragma once
+
+#include <vector>
+
+#include "algorithms/march.h"
+#include "algorithms/march_faces.h"
+#include "tufted/distance.h"
+
+namespace tufted {
+
+/// Distances by fast marching, as DistanceSolver says.
+class MarchingDistance {
+ public:
+  /// @param laplacian with a cover that was checked
+  MarchingDistance(const Laplacian& laplacian, const DistanceOptions& options);
+
+  /// @param sources of which all corners are representatives
+  /// @param is_active N; other corners of sources are ignored
+  /// @return distances in the points' unit and sources, wherever the faces of the cover lead; those of coincident
+  /// points are not set
+  NearestSources query(const std::vector<SurfacePoint>& sources, const std::vector<bool>& is_active,
+                       const Progress& progress, DistanceReport& report) const;
+  const SolverReport& report() const { return report_; }
+
+ private:
+  void startAt(const SurfacePoint& source, int number, const std::vector<bool>& is_active,
+               std::vector<MarchStart>& starts) const;
+  void startInFace(const SurfacePoint& source, int number, std::vector<MarchStart>& starts) const;
+
+  MarchFaces faces_;
+  int vertices_;
+  bool split_;
+  double maximum_;
+  int threads_;
+  SolverReport report_;
+};
+
+}  // namespace tufted

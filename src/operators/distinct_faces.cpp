@@ -1,0 +1,77 @@
+#include "operators/distinct_faces.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+namespace tufted {
+namespace {
+
+constexpr std::int64_t block_size = 8192;
+
+/// The numbers of the faces, grouped by their smallest corner.
+std::vector<int> facesByCorner(const IntrinsicTriangulation& cover, std::vector<int>& offset) {
+  const auto owner = [&](std::int64_t face) {
+    return *std::min_element(cover.faces[face].begin(), cover.faces[face].end());
+  };
+  offset.assign(static_cast<std::size_t>(cover.vertices) + 1, 0);
+  for (std::int64_t f = 0; f < cover.size(); ++f) ++offset[owner(f) + 1];
+  std::partial_sum(offset.begin(), offset.end(), offset.begin());
+  std::vector<int> list(cover.faces.size()), fill(offset.begin(), offset.end() - 1);
+  for (std::int64_t f = 0; f < cover.size(); ++f) list[fill[owner(f)]++] = static_cast<int>(f);
+  return list;
+}
+
+}  // namespace
+
+DistinctFace distinctFace(const IntrinsicTriangulation& cover, int face) {
+  std::array<std::pair<int, double>, 3> parts;
+  for (int s = 0; s < 3; ++s) parts[s] = {cover.faces[face][s], cover.length[3 * std::int64_t{face} + (s + 1) % 3]};
+  std::sort(parts.begin(), parts.end());
+  return {{parts[0].first, parts[1].first, parts[2].first}, {parts[0].second, parts[1].second, parts[2].second}};
+}
+
+void mergeCopies(std::vector<DistinctFace>& faces) {
+  std::sort(faces.begin(), faces.end());
+  std::size_t kept = 0;
+  for (const DistinctFace& face : faces) {
+    if (kept > 0 && faces[kept - 1].isCopyOf(face))
+      faces[kept - 1].copies += face.copies;
+    else
+      faces[kept++] = face;
+  }
+  faces.resize(kept);
+}
+
+std::vector<DistinctFace> distinctFaces(const IntrinsicTriangulation& cover, const Workers& workers) {
+  std::vector<int> offset;
+  const std::vector<int> list = facesByCorner(cover, offset);
+  std::vector<std::vector<DistinctFace>> parts((cover.vertices + block_size - 1) / block_size);
+  workers.forBlocks("faces", cover.vertices, block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    std::vector<DistinctFace> around;
+    for (auto v = begin; v < end; ++v) {
+      around.clear();
+      for (int i = offset[v]; i < offset[v + 1]; ++i) around.push_back(distinctFace(cover, list[i]));
+      mergeCopies(around);
+      parts[begin / block_size].insert(parts[begin / block_size].end(), around.begin(), around.end());
+    }
+  });
+  std::vector<DistinctFace> faces;
+  for (auto& part : parts) {
+    faces.insert(faces.end(), part.begin(), part.end());
+    part = {};
+  }
+  return faces;
+}
+
+int unitOf(const std::vector<double>& lengths) {
+  double largest = 0;
+  for (const double length : lengths) largest = std::max(largest, length);
+  if (!(largest > 0) || !std::isfinite(largest)) return 0;
+  double sum = 0;
+  for (const double length : lengths) sum += length / largest;
+  return std::ilogb(largest) + std::ilogb(sum / static_cast<double>(lengths.size()));
+}
+
+}  // namespace tufted
