@@ -16,6 +16,7 @@
 #include "tufted/nearest_point.h"
 #include "tufted/normals.h"
 #include "tufted/options.h"
+#include "tufted/path.h"
 #include "tufted/polygons.h"
 #include "tufted/report.h"
 #include "tufted/scan_structure.h"

@@ -14,6 +14,7 @@
 #include "algorithms/marching_distance.h"
 #include "base/number_text.h"
 #include "base/stage_clock.h"
+#include "operators/check_cover.h"
 #include "tufted/check.h"
 #include "tufted/errors.h"
 
@@ -26,25 +27,6 @@ constexpr int most_splits = 2;
 constexpr const char* constructor = "DistanceSolver";
 constexpr const char* query_name = "DistanceSolver::query";
 
-/// Checks the cover of a Laplacian, as one that was put together by hand may not fit.
-void checkCover(const Laplacian& laplacian) {
-  const std::string name = std::string(constructor) + ": cover ";
-  const IntrinsicTriangulation& cover = laplacian.cover();
-  const auto n = std::ssize(laplacian.status);
-  if (cover.vertices != n)
-    throw InvalidInput(name + "has " + std::to_string(cover.vertices) + " vertices, must have " + std::to_string(n));
-  if (std::ssize(cover.length) != 3 * cover.size())
-    throw InvalidInput(name + "has " + std::to_string(cover.length.size()) + " lengths, must have " +
-                       std::to_string(3 * cover.size()));
-  for (const auto& face : cover.faces) {
-    for (const int corner : face) {
-      if (corner >= 0 && corner < n) continue;
-      throw InvalidInput(name + "has the corner " + std::to_string(corner) + ", must lie in [0, " + std::to_string(n) +
-                         ")");
-    }
-  }
-}
-
 void checkArguments(const Laplacian& laplacian, const DistanceOptions& options) {
   checkSizes(constructor, laplacian);
   const std::string name = std::string(constructor) + ": ";
@@ -55,7 +37,7 @@ void checkArguments(const Laplacian& laplacian, const DistanceOptions& options) 
   if (options.split < 0 || options.split > most_splits)
     throw InvalidInput(name + "split = " + std::to_string(options.split) + ", must lie in [0, " +
                        std::to_string(most_splits) + "]");
-  checkCover(laplacian);
+  checkCover(constructor, laplacian);
 }
 
 void checkSource(const SurfacePoint& source, int n) {

@@ -76,13 +76,13 @@ class March {
   void start(const MarchStart& start) { offer(start.vertex, start.distance, start.source); }
 
   MarchResult finish() {
-    while (takeNearest()) {
-      for (const int a : nearest_) alongEdges(a);
-      offers_.clear();
-      for (const int a : nearest_) throughFaces(a);
-      for (const MarchStart& known : offers_) offer(known.vertex, known.distance, known.source);
-    }
+    while (takeNearest()) spread();
     limitSlopes();
+    return std::move(result_);
+  }
+
+  MarchResult finishAt(int vertex) {
+    while (frozen_[vertex] == 0 && takeNearest()) spread();
     return std::move(result_);
   }
 
@@ -101,6 +101,14 @@ class March {
         workers_.report("march", static_cast<double>(result_.visits) / static_cast<double>(faces_.size()));
     }
     return true;
+  }
+
+  /// Offers distances to the neighbours of the nearest vertices.
+  void spread() {
+    for (const int a : nearest_) alongEdges(a);
+    offers_.clear();
+    for (const int a : nearest_) throughFaces(a);
+    for (const MarchStart& known : offers_) offer(known.vertex, known.distance, known.source);
   }
 
   /// Whether distances up to the maximum can come from a vertex: through one of its edges from beyond it.
@@ -166,7 +174,7 @@ class March {
     }
   }
 
-  const Faces& faces_;
+  const Faces faces_;  // a view
   const double maximum_;
   const Workers& workers_;
   MarchResult result_;
@@ -177,20 +185,26 @@ class March {
 };
 
 template <class Faces>
-MarchResult marchOver(const Faces& faces, const std::vector<MarchStart>& starts, double maximum,
-                      const Workers& workers) {
+March<Faces> started(const Faces& faces, const std::vector<MarchStart>& starts, double maximum,
+                     const Workers& workers) {
+  workers.report("march", 0);
   March<Faces> march(faces, maximum, workers);
   for (const MarchStart& start : starts) march.start(start);
-  return march.finish();
+  return march;
 }
 
 }  // namespace
 
 MarchResult march(const MarchFaces& faces, bool split, const std::vector<MarchStart>& starts, double maximum,
                   const Workers& workers) {
-  workers.report("march", 0);
-  return split ? marchOver(SplitFaces{faces}, starts, maximum, workers)
-               : marchOver(WholeFaces{faces}, starts, maximum, workers);
+  return split ? started(SplitFaces{faces}, starts, maximum, workers).finish()
+               : started(WholeFaces{faces}, starts, maximum, workers).finish();
+}
+
+MarchResult marchUntil(int vertex, const MarchFaces& faces, bool split, const std::vector<MarchStart>& starts,
+                       const Workers& workers) {
+  return split ? started(SplitFaces{faces}, starts, infinity, workers).finishAt(vertex)
+               : started(WholeFaces{faces}, starts, infinity, workers).finishAt(vertex);
 }
 
 }  // namespace tufted

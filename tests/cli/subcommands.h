@@ -21,6 +21,7 @@ inline const std::vector<std::vector<std::string>> commands = {
     {"embed"},
     {"filter", "--positions", "--count", "3"},
     {"distance", "--source", "0"},
+    {"path", "--from", "0", "--to", "1"},
     {"interpolate", "--pin", "0=1"},
     {"poisson", "--field", "x"},
     {"poisson", "--field", "x", "--pin", "0=1"},

@@ -52,12 +52,13 @@ struct Purpose {
   std::vector<void (*)(CLI::App& app, Run& run)> add;
 };
 
-const Purpose purposes[] = {{"Look at files", {addInfo, addView, addValidate}},
-                            {"Matrices", {addLaplacian, addOperators}},
-                            {"Distances and directions along the surface", {addDistance, addLogmap, addTransport}},
-                            {"Values on the surface", {addInterpolate, addExtend, addPoisson, addGreen}},
-                            {"Frequencies", {addSpectrum, addHks, addEmbed, addFilter}},
-                            {"Shape", {addNormals, addCurvature, addSegment}}};
+const Purpose purposes[] = {
+    {"Look at files", {addInfo, addView, addValidate}},
+    {"Matrices", {addLaplacian, addOperators}},
+    {"Distances and directions along the surface", {addDistance, addPath, addLogmap, addTransport}},
+    {"Values on the surface", {addInterpolate, addExtend, addPoisson, addGreen}},
+    {"Frequencies", {addSpectrum, addHks, addEmbed, addFilter}},
+    {"Shape", {addNormals, addCurvature, addSegment}}};
 
 void addSubcommands(CLI::App& app, Run& run) {
   const auto is_new = [](const CLI::App* command) { return command->get_group() == "Subcommands"; };

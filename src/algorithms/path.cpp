@@ -1,0 +1,225 @@
+// Shortest paths: an edge path down the distance, straightened.
+#include "tufted/path.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <list>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "algorithms/march.h"
+#include "algorithms/march_faces.h"
+#include "algorithms/march_heap.h"
+#include "algorithms/strip.h"
+#include "algorithms/turn.h"
+#include "operators/check_cover.h"
+#include "tufted/check.h"
+#include "tufted/errors.h"
+
+namespace tufted {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr const char* constructor = "PathSolver";
+constexpr const char* query_name = "PathSolver::path";
+/// A way around a point must be shorter by this part, which is above what lengths round by: or a path would be led to
+/// and fro between two that are equally long.
+constexpr double least_gain = 1e-13;
+/// Shortenings between two calls of `progress`.
+constexpr int between_reports = 64;
+
+/// An edge as a strip: from the corner at one slot to the corner at the other.
+struct Step {
+  int to, start, end;
+  double length;
+};
+
+/// Calls visit(step) for the edges at a vertex, once for each triangle.
+template <class Visit>
+void forEachStep(const MarchFaces& faces, int vertex, const Visit& visit) {
+  for (int i = faces.corner_offset[vertex]; i < faces.corner_offset[vertex + 1]; ++i) {
+    const int slot = faces.corner_slots[i];
+    const MarchFace& face = faces.faces[slot / 3];
+    for (const int end : {nextSide(slot), previousSide(slot)}) {
+      const int other = 3 - slot % 3 - end % 3;
+      if (face.corners[end % 3] != vertex) visit(Step{face.corners[end % 3], slot, end, face.opposite[other]});
+    }
+  }
+}
+
+using Steps = std::vector<Step>;
+
+/// The edge path from a vertex down the distances to where they are 0; empty where it meets a vertex without a nearer
+/// neighbour, as where points are closer than their distances tell.
+Steps downhill(const MarchFaces& faces, const std::vector<double>& distance, int from) {
+  Steps steps;
+  for (int at = from; distance[at] > 0;) {
+    Step best{-1, -1, -1, 0};
+    double least = infinity;
+    forEachStep(faces, at, [&](const Step& step) {
+      const double way = distance[step.to] + step.length;
+      if (distance[step.to] < distance[at] && way < least) {
+        least = way;
+        best = step;
+      }
+    });
+    if (best.to < 0) return {};
+    steps.push_back(best);
+    at = best.to;
+  }
+  return steps;
+}
+
+/// The shortest edge path (Dijkstra).
+Steps alongEdges(const MarchFaces& faces, int from, int to) {
+  std::vector<double> distance(static_cast<std::size_t>(faces.vertices), infinity);
+  std::vector<int> before(distance.size(), -1);
+  std::vector<Step> step_to(distance.size());
+  MarchHeap heap(distance.size());
+  distance[from] = 0;
+  heap.lower(from, 0);
+  while (!heap.empty() && heap.top().number != to) {
+    const int at = heap.top().number;
+    heap.pop();
+    forEachStep(faces, at, [&](const Step& step) {
+      const double way = distance[at] + step.length;
+      if (!(way < distance[step.to])) return;
+      distance[step.to] = way;
+      before[step.to] = at;
+      step_to[step.to] = step;
+      heap.lower(step.to, way);
+    });
+  }
+  Steps steps;
+  for (int at = to; before[at] >= 0; at = before[at]) steps.push_back(step_to[at]);
+  std::reverse(steps.begin(), steps.end());
+  return steps;
+}
+
+using Segments = std::list<Segment>;
+
+template <class Pieces>
+double lengthOf(const Pieces& pieces) {
+  double length = 0;
+  for (const Segment& piece : pieces) length += piece.length;
+  return length;
+}
+
+/// Leads a path around points while that makes it shorter.
+/// @returns how often
+int shorten(const MarchFaces& faces, Segments& path, const Workers& workers) {
+  int count = 0;
+  auto after = path.begin();
+  if (after != path.end()) ++after;
+  while (after != path.end()) {
+    const auto before = std::prev(after);
+    const std::optional<Shortcut> shortcut = shortcutAt(faces, *before, *after);
+    std::vector<Segment> pieces;
+    if (shortcut && !shortcut->goes_back) pieces = straighten(faces, shortcut->strip);
+    const double length = before->length + after->length;
+    if (!shortcut || !(lengthOf(pieces) < (1 - least_gain) * length)) {
+      ++after;
+      continue;
+    }
+    if (++count % between_reports == 0) workers.report("straighten", 0);
+    const auto end = path.erase(before, std::next(after));
+    const auto first = path.insert(end, std::make_move_iterator(pieces.begin()), std::make_move_iterator(pieces.end()));
+    // The points before and after the new pieces have other angles now.
+    after = first == path.begin() && first != path.end() ? std::next(first) : first;
+  }
+  return count;
+}
+
+}  // namespace
+
+struct PathSolver::State {
+  MarchFaces faces;
+  Points positions;
+  std::vector<int> representative;
+  int threads = 0;
+
+  int checked(const char* name, int point) const;
+  Steps firstPath(int from, int to, const Workers& workers) const;
+  Points pointsOf(const Segments& path, int from) const;
+};
+
+PathSolver::PathSolver(PathSolver&&) noexcept = default;
+PathSolver& PathSolver::operator=(PathSolver&&) noexcept = default;
+PathSolver::~PathSolver() = default;
+
+PathSolver::PathSolver(const Laplacian& laplacian, int threads, const Progress& progress) {
+  checkSizes(constructor, laplacian);
+  checkCover(constructor, laplacian);
+  const auto n = std::ssize(laplacian.status);
+  if (laplacian.positions.rows() != n)
+    throw InvalidInput(std::string(constructor) + ": positions has " + std::to_string(laplacian.positions.rows()) +
+                       " rows, must have " + std::to_string(n));
+  const Workers workers(threads, progress);
+  auto state = std::make_unique<State>();
+  const IntrinsicTriangulation& cover = laplacian.cover();
+  state->faces = marchFaces(distinctFaces(cover, workers), cover.vertices, unitOf(cover.length), workers);
+  state->positions = laplacian.positions;
+  state->representative = laplacian.representative;
+  state->threads = threads;
+  state_ = std::move(state);
+}
+
+int PathSolver::State::checked(const char* name, int point) const {
+  if (point < 0 || point >= std::ssize(representative)) {
+    throw InvalidInput(std::string(query_name) + ": " + name + " = " + std::to_string(point) + ", must lie in [0, " +
+                       std::to_string(representative.size()) + ")");
+  }
+  return representative[point];
+}
+
+/// The edge path to straighten, from `from` on.
+Steps PathSolver::State::firstPath(int from, int to, const Workers& workers) const {
+  const std::vector<double> distance = marchUntil(from, faces, true, {{to, 0, 0}}, workers).distance;
+  if (!(distance[from] < infinity)) {
+    throw InvalidInput(std::string(query_name) + ": no path leads from " + std::to_string(from) + " to " +
+                       std::to_string(to) + ", must lie on one component");
+  }
+  Steps steps = downhill(faces, distance, from);
+  return steps.empty() ? alongEdges(faces, from, to) : steps;
+}
+
+Points PathSolver::State::pointsOf(const Segments& path, int from) const {
+  std::vector<Eigen::RowVector3d> found = {positions.row(from)};
+  for (const Segment& segment : path) {
+    for (std::size_t d = 0; d < segment.crossings.size(); ++d) {
+      const int side = segment.strip.doors[d].leave;
+      const auto& corners = faces.faces[side / 3].corners;
+      const auto [low, high] = std::minmax(corners[nextSide(side) % 3], corners[previousSide(side) % 3]);
+      if (low == high) continue;  // around the rim and back to where it began
+      const double share = segment.crossings[d];
+      found.emplace_back((1 - share) * positions.row(low) + share * positions.row(high));
+    }
+    const int end = segment.strip.end;
+    found.emplace_back(positions.row(faces.faces[end / 3].corners[end % 3]));
+  }
+  Points points(std::ssize(found), 3);
+  for (Eigen::Index i = 0; i < points.rows(); ++i) points.row(i) = found[static_cast<std::size_t>(i)];
+  return points;
+}
+
+SurfacePath PathSolver::path(int from, int to, const Progress& progress) const {
+  const State& state = *state_;
+  from = state.checked("from", from);
+  to = state.checked("to", to);
+  const Workers workers(state.threads, progress);
+  SurfacePath result;
+  Segments path;
+  if (from != to) {
+    for (const Step& step : state.firstPath(from, to, workers))
+      path.push_back(straighten(state.faces, {step.start, step.end, {}}).front());
+    result.shortenings = shorten(state.faces, path, workers);
+  }
+  result.length = std::ldexp(lengthOf(path), state.faces.exponent);
+  result.points = state.pointsOf(path, from);
+  return result;
+}
+
+}  // namespace tufted

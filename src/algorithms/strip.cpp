@@ -1,0 +1,233 @@
+// The shortest way through unfolded triangles (Lee, Preparata: "Euclidean shortest paths in the presence of rectilinear
+// barriers", 1984).
+#include "algorithms/strip.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace tufted {
+namespace {
+
+using Eigen::Vector2d;
+
+int vertexAt(const MarchFaces& faces, int slot) {
+  return faces.faces[slot / 3].corners[slot % 3];
+}
+double cross(const Vector2d& a, const Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+/// Where the corner opposite a side lies, to the left of the side from `a` to `b`.
+/// @param to_a, to_b lengths of the other two sides
+Vector2d apexLeftOf(const Vector2d& a, const Vector2d& b, double to_a, double to_b, double double_area) {
+  const Vector2d along = b - a;
+  const double length = along.norm();
+  if (!(length > 0)) return a + Vector2d(to_a, 0);
+  const Vector2d unit = along / length;
+  const double x = (length + (to_a - to_b) * ((to_a + to_b) / length)) / 2, y = double_area / length;
+  return a + x * unit + y * Vector2d(-unit.y(), unit.x());
+}
+
+/// A door in the plane, as who goes through it sees its ends.
+struct OpenDoor {
+  Vector2d left, right;
+  int left_before, right_before;  ///< slots of these corners in the face before
+  int left_after, right_after;    ///< and in the face after
+};
+
+struct Layout {
+  Vector2d start, end;
+  std::vector<OpenDoor> doors;
+};
+
+/// Unfolds a strip. The start lies at 0.
+Layout layOut(const MarchFaces& faces, const Strip& strip) {
+  Layout layout;
+  const auto lengthOf = [&](int slot) { return faces.faces[slot / 3].opposite[slot % 3]; };
+  const auto areaOf = [&](int slot) { return faces.faces[slot / 3].double_area; };
+  // The first face counterclockwise from its start.
+  const int second = nextSide(strip.start), third = previousSide(strip.start);
+  std::array<Vector2d, 3> corners;  // by corner of the face
+  corners[strip.start % 3] = Vector2d::Zero();
+  corners[second % 3] = Vector2d(lengthOf(third), 0);
+  corners[third % 3] = apexLeftOf(corners[strip.start % 3], corners[second % 3], lengthOf(second),
+                                  lengthOf(strip.start), areaOf(second));
+  layout.start = corners[strip.start % 3];
+  bool is_counterclockwise = true;
+  for (const Strip::Door& passed : strip.doors) {
+    const int leave = passed.leave, enter = passed.enter;
+    OpenDoor door;
+    // Seen from the corner opposite the door, a counterclockwise face has its next corner on the right.
+    door.right_before = is_counterclockwise ? nextSide(leave) : previousSide(leave);
+    door.left_before = is_counterclockwise ? previousSide(leave) : nextSide(leave);
+    door.right = corners[door.right_before % 3];
+    door.left = corners[door.left_before % 3];
+    door.left_after = passed.after(door.left_before);
+    door.right_after = passed.after(door.right_before);
+    is_counterclockwise = door.left_after == nextSide(enter);
+    corners[door.left_after % 3] = door.left;
+    corners[door.right_after % 3] = door.right;
+    // Beyond the door is to the left of the way from its right end to its left one, turned about: the way goes on.
+    corners[enter % 3] =
+        apexLeftOf(door.left, door.right, lengthOf(door.right_after), lengthOf(door.left_after), areaOf(enter));
+    layout.doors.push_back(door);
+  }
+  layout.end = corners[strip.end % 3];
+  return layout;
+}
+
+/// A corner that the shortest way touches.
+struct Touch {
+  std::size_t door;  ///< one of those that end there
+  bool is_left;
+};
+
+/// The corners at which the shortest way through the doors turns, in order.
+std::vector<Touch> turnsOf(const Layout& layout) {
+  std::vector<Touch> turns;
+  const std::size_t count = layout.doors.size();
+  const auto leftOf = [&](std::size_t i) { return i == count ? layout.end : layout.doors[i].left; };
+  const auto rightOf = [&](std::size_t i) { return i == count ? layout.end : layout.doors[i].right; };
+  Vector2d apex = layout.start;
+  std::size_t first = 0;  // door after the apex
+  while (first < count) {
+    std::size_t left = first, right = first, i = first + 1;
+    bool has_turned = false;
+    for (; i <= count && !has_turned; ++i) {
+      const Vector2d to_left = leftOf(left) - apex, to_right = rightOf(right) - apex;
+      const Vector2d next_right = rightOf(i) - apex, next_left = leftOf(i) - apex;
+      if (cross(to_right, next_right) >= 0) {
+        if (right != i && cross(to_left, next_right) > 0) {  // beyond the left end: the way turns there
+          turns.push_back({left, true});
+          apex = leftOf(left);
+          first = left;
+          has_turned = true;
+          break;
+        }
+        right = i;
+      }
+      if (cross(to_left, next_left) <= 0) {
+        if (cross(rightOf(right) - apex, next_left) < 0) {
+          turns.push_back({right, false});
+          apex = rightOf(right);
+          first = right;
+          has_turned = true;
+          break;
+        }
+        left = i;
+      }
+    }
+    if (!has_turned) break;
+    // The doors that end at the turn are passed there.
+    const bool is_left = turns.back().is_left;
+    const auto endOf = [&](std::size_t d) { return is_left ? leftOf(d) : rightOf(d); };
+    while (first < count && endOf(first) == apex) ++first;
+  }
+  return turns;
+}
+
+/// The doors around a turn: those of its run that end at the same corner.
+struct Run {
+  std::size_t first, last;
+};
+
+Run runAround(const Layout& layout, const Touch& touch) {
+  const auto isOneCorner = [&](std::size_t d) {  // of this door and the next
+    const OpenDoor &door = layout.doors[d], &next = layout.doors[d + 1];
+    return touch.is_left ? door.left_after == next.left_before : door.right_after == next.right_before;
+  };
+  Run run{touch.door, touch.door};
+  while (run.first > 0 && isOneCorner(run.first - 1)) --run.first;
+  while (run.last + 1 < layout.doors.size() && isOneCorner(run.last)) ++run.last;
+  return run;
+}
+
+double angleBetween(const Vector2d& a, const Vector2d& b) {
+  return std::atan2(std::abs(cross(a, b)), a.dot(b));
+}
+
+/// The segment through the doors [begin, end) of a layout.
+Segment segmentThrough(const MarchFaces& faces, const Strip& whole, const Layout& layout, int start, int last,
+                       std::size_t begin, std::size_t end, const Vector2d& from, const Vector2d& to) {
+  Segment segment;
+  segment.strip.start = start;
+  segment.strip.end = last;
+  segment.strip.doors.assign(whole.doors.begin() + static_cast<std::ptrdiff_t>(begin),
+                             whole.doors.begin() + static_cast<std::ptrdiff_t>(end));
+  if (segment.strip.isEdge()) {
+    // Along an edge: the angle with itself is 0.
+    const int other = start / 3 * 3 + (3 - start % 3 - last % 3);
+    segment.length = faces.faces[start / 3].opposite[other % 3];
+    const double at_start = cornerAngle(faces, start), at_end = cornerAngle(faces, last);
+    segment.at_start = {other == nextSide(start) ? 0 : at_start, other == nextSide(start) ? at_start : 0};
+    segment.at_end = {other == nextSide(last) ? 0 : at_end, other == nextSide(last) ? at_end : 0};
+    return segment;
+  }
+  const Vector2d way = to - from;
+  segment.length = way.norm();
+  for (std::size_t d = begin; d < end; ++d) {
+    const OpenDoor& door = layout.doors[d];
+    const Vector2d across = door.right - door.left;
+    const double slope = cross(way, across);
+    double share = slope != 0 ? cross(door.left - from, way) / slope : 0.5;
+    share = std::clamp(std::isfinite(share) ? share : 0.5, 0.0, 1.0);
+    const bool left_is_smaller = vertexAt(faces, door.left_before) < vertexAt(faces, door.right_before);
+    segment.crossings.push_back(left_is_smaller ? share : 1 - share);
+  }
+  const auto anglesAt = [&](int slot, const OpenDoor& door, bool is_before, const Vector2d& corner,
+                            const Vector2d& direction) {
+    // The side opposite the next corner leads to the corner before.
+    const int left = is_before ? door.left_before : door.left_after;
+    const double to_left = angleBetween(door.left - corner, direction);
+    const double to_right = angleBetween(door.right - corner, direction);
+    return left == previousSide(slot) ? std::array{to_left, to_right} : std::array{to_right, to_left};
+  };
+  segment.at_start = anglesAt(start, layout.doors[begin], true, from, way);
+  segment.at_end = anglesAt(last, layout.doors[end - 1], false, to, -way);
+  return segment;
+}
+
+}  // namespace
+
+double cornerAngle(const MarchFaces& faces, int slot) {
+  const MarchFace& face = faces.faces[slot / 3];
+  const double a = face.opposite[slot % 3], b = face.opposite[nextSide(slot) % 3],
+               c = face.opposite[previousSide(slot) % 3];
+  return std::atan2(face.double_area, (b * b + (c - a) * (c + a)) / 2);
+}
+
+std::vector<Segment> straighten(const MarchFaces& faces, const Strip& strip) {
+  const Layout layout = layOut(faces, strip);
+  std::vector<Segment> segments;
+  const auto slotBefore = [](const OpenDoor& door, bool is_left) {
+    return is_left ? door.left_before : door.right_before;
+  };
+  int start = strip.start;
+  bool was_left = false;
+  Vector2d from = layout.start;
+  std::size_t begin = 0;
+  for (const Touch& touch : turnsOf(layout)) {
+    const auto [first, last] = runAround(layout, touch);
+    const OpenDoor &before = layout.doors[first], &after = layout.doors[last];
+    const Vector2d to = touch.is_left ? before.left : before.right;
+    if (first < begin) {  // along a door, from one end to the other
+      const OpenDoor& door = layout.doors[begin - 1];
+      segments.push_back(segmentThrough(faces, strip, layout, slotBefore(door, was_left),
+                                        slotBefore(door, touch.is_left), begin, begin, from, to));
+    } else {
+      segments.push_back(
+          segmentThrough(faces, strip, layout, start, slotBefore(before, touch.is_left), begin, first, from, to));
+    }
+    start = touch.is_left ? after.left_after : after.right_after;
+    was_left = touch.is_left;
+    from = to;
+    begin = last + 1;
+  }
+  segments.push_back(
+      segmentThrough(faces, strip, layout, start, strip.end, begin, layout.doors.size(), from, layout.end));
+  return segments;
+}
+
+}  // namespace tufted

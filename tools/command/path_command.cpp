@@ -1,0 +1,69 @@
+#include <CLI/CLI.hpp>
+#include <string>
+
+#include "command.h"
+#include "operator.h"
+#include "point_options.h"
+#include "reports.h"
+#include "tufted/distance.h"
+#include "tufted/path.h"
+
+namespace {
+
+constexpr const char* description = "Shortest path between two points, over the surface.";
+
+constexpr const char* footer =
+    R"(Examples:
+  tufted path scan.ply --from 0 --to 500 --out path
+  tufted path mesh.obj --from 1,0,0 --to -1,0,0 --out path
+
+The path follows the distance down to --from and is then straightened across the triangles until no path near it is
+shorter. A position names the point nearest to it.
+
+Writes into DIR, renamed one after the other when all are complete:
+  path.npy      K x 3, float64: the two ends, and where the path crosses edges between points
+  distance.npy  N distances from --from, float64, as `tufted distance` gives them
+  points.ply    the points with the field distance, float32; points.pcd with --format pcd
+  report.json   ends, length, seconds
+FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written with
+--format npz,ply,cover: the path needs the cover's triangles.)";
+
+struct Settings {
+  OperatorSettings source;
+  std::string from, to;
+  std::vector<Place> ends;
+
+  std::vector<std::string> files() const { return {"path.npy", "distance.npy"}; }
+};
+
+void check(Settings& settings, const Operator& source) {
+  settings.ends = {placeOf(parseNumbers(settings.from, "--from"), source.points(), "--from " + settings.from),
+                   placeOf(parseNumbers(settings.to, "--to"), source.points(), "--to " + settings.to)};
+}
+
+Results compute(Settings& settings, Operator& source) {
+  Results results;
+  const std::vector<int> ends = locate(settings.ends, source, results);
+  const tufted::PathSolver solver(source.laplacian, source.threads, source.progress);
+  const tufted::SurfacePath path = solver.path(ends[0], ends[1], source.progress);
+  const tufted::DistanceSolver distances(source.laplacian, {.solver = source.solverOptions()});
+  results.arrays = {{.name = "path", .values = path.points, .per_point = false},
+                    {.name = "distance", .values = distances.query({ends[0]}, nullptr, source.progress)}};
+  results.report["from_point"] = ends[0];
+  results.report["to_point"] = ends[1];
+  results.report["length"] = path.length;
+  results.report["shortenings"] = path.shortenings;
+  results.summary.add("length", "%.6g, %lld points", path.length, static_cast<long long>(path.points.rows()));
+  return results;
+}
+
+}  // namespace
+
+void addPath(CLI::App& app, Run& run) {
+  const auto [command, settings] = addOperatorCommand<Settings>(app, run, "path", description, footer, compute, check);
+  settings->source.needs_cover = true;
+  command->add_option("--from", settings->from, "Where it begins: a point by its index, or the nearest to a position")
+      ->required()
+      ->type_name("I|X,Y,Z");
+  command->add_option("--to", settings->to, "Where it ends")->required()->type_name("I|X,Y,Z");
+}
