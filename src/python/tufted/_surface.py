@@ -21,9 +21,10 @@ class Surface:
     """L and M of a cloud or a mesh, and all that is computed from them. Made by PointCloud, Mesh, read and load.
 
     Arrays that show the library's own memory (L, M, status, ...) cannot be written to; take a copy to change one.
-    What is costly to make, a factor or a spectrum, is kept, so a second call with the same options is quick. Methods
-    may run in several threads at once. All take `progress`, a function of a stage's name and the fraction of it that
-    is done, which stops the computation by returning False; Ctrl-C stops it as well.
+    What is costly to make, a factor or a spectrum, is kept, so a second call with the same options is quick; of the
+    factors for given pins, and for smoothing, the last one. Methods may run in several threads at once. All take
+    `progress`, a function of a stage's name and the fraction of it that is done, which stops the computation by
+    returning False; Ctrl-C stops it as well.
     """
 
     def __init__(self, laplacian, points, faces, solving, geometry=None, source=""):
@@ -276,14 +277,14 @@ class Surface:
         pins: {index: value, ...}, or P indices with `values`, P or P x c.
         Returns N or N x c, within the range of the pinned values; NaN in components without a pin.
         """
-        return self._interpolate("harmonic", _tufted.harmonic, pins, values, progress)
+        return self._interpolate("harmonic", pins, values, progress)
 
     def biharmonic(self, pins, values=None, *, progress=None):
         """The function of least bending with given values: smooth at the pins, but not bounded by them.
 
         Arguments and result are those of harmonic().
         """
-        return self._interpolate("biharmonic", _tufted.biharmonic, pins, values, progress)
+        return self._interpolate("biharmonic", pins, values, progress)
 
     def poisson(self, f, pins=None, values=None, *, progress=None):
         """Solves L u = M f: minus the Laplacian of u is f.
@@ -298,7 +299,8 @@ class Surface:
             result = self._poisson_solver(progress).poisson(table, progress)
         else:
             where, given, _ = check.pins("poisson", pins, values, len(self))
-            result = _tufted.pinned_poisson(self._laplacian, table, where, given, self._solver(), progress)
+            solver = self._interpolation_solver("poisson", "harmonic", where, progress)
+            result = solver.poisson(table, given, progress)
         return result[:, 0] if flat else result
 
     def green(self, points, *, progress=None):
@@ -395,9 +397,13 @@ class Surface:
             if fixed.shape != (len(self),):
                 raise InvalidInput(f"smooth: fixed has {fixed.size} values, must have {len(self)}, one per point")
             fixed = np.ascontiguousarray(fixed.astype(bool), dtype=np.uint8)
-        return _tufted.smooth(self._laplacian, points, check.number("smooth", "time_step", time_step),
-                              check.whole("smooth", "iterations", iterations, 1), fixed, self._solving["threads"],
-                              check.callback("smooth", progress))
+        time_step = check.number("smooth", "time_step", time_step)
+        iterations = check.whole("smooth", "iterations", iterations, 1)
+        progress = check.callback("smooth", progress)
+        key = time_step, None if fixed is None else fixed.tobytes()
+        solver = self._keep_last("smooth", key, lambda: _tufted.SmoothingSolver(
+            self._laplacian, time_step, fixed, self._solver(), progress))
+        return solver.smooth(points, iterations, progress)
 
     def nearest(self, positions):
         """The active points nearest to positions.
@@ -450,6 +456,14 @@ class Surface:
         if key not in self._kept:
             self._kept[key] = make()
         return self._kept[key]
+
+    def _keep_last(self, name, key, make):
+        """What `make` returns, made anew where `key` is not that of the last call. For factors of which every key has
+        another one, and which would fill the memory."""
+        kept = self._kept.get(name)
+        if kept is None or kept[0] != key:
+            kept = self._kept[name] = key, make()
+        return kept[1]
 
     def _solver(self):
         return _tufted.Solving(**self._solving)
@@ -504,10 +518,16 @@ class Surface:
     def _poisson_solver(self, progress):
         return self._keep("poisson", lambda: _tufted.PoissonSolver(self._laplacian, self._solver(), progress))
 
-    def _interpolate(self, function, interpolate, pins, values, progress):
+    def _interpolate(self, function, pins, values, progress):
         where, table, flat = check.pins(function, pins, values, len(self))
-        result = interpolate(self._laplacian, where, table, self._solver(), check.callback(function, progress))
+        progress = check.callback(function, progress)
+        result = self._interpolation_solver(function, function, where, progress).interpolate(table, progress)
         return result[:, 0] if flat else result
+
+    def _interpolation_solver(self, function, kind, where, progress):
+        with check.named(function):
+            return self._keep_last(kind, where.tobytes(), lambda: _tufted.InterpolationSolver(
+                self._laplacian, where, kind, self._solver(), progress))
 
     def _gradients(self, neighbors, regularization, progress):
         if neighbors is not None:
