@@ -102,12 +102,11 @@ void addShape(py::module_& module) {
       return surfaceTriangles(laplacian, TriangleOptions{.progress = called});
     });
   });
-  module.def("nearest", [](const Laplacian& laplacian, const Doubles& points, const Doubles& positions) {
+  module.def("nearest", [](const Laplacian& laplacian, const Doubles& points, const Doubles& positions,
+                           const py::object& progress) {
     const auto view = pointsOf(points), targets = pointsOf(positions);
-    return owned([&] {
-      const py::gil_scoped_release release;
-      return nearestPoints(laplacian, view, targets);
-    }());
+    return owned(
+        run(progress, [&](const Progress& called) { return nearestPoints(laplacian, view, targets, called); }));
   });
 }
 

@@ -405,7 +405,7 @@ class Surface:
             self._laplacian, time_step, fixed, self._solver(), progress))
         return solver.smooth(points, iterations, progress)
 
-    def nearest(self, positions):
+    def nearest(self, positions, *, progress=None):
         """The active points nearest to positions.
 
         positions: P x 3, or 3 values for one.
@@ -413,15 +413,16 @@ class Surface:
         """
         single = np.ndim(positions) == 1
         found = _tufted.nearest(self._laplacian, self._points,
-                                check.rows_of_three("nearest", "positions", np.atleast_2d(positions)))
+                                check.rows_of_three("nearest", "positions", np.atleast_2d(positions)),
+                                check.callback("nearest", progress))
         return int(found[0]) if single else found
 
-    def validate(self):
+    def validate(self, *, progress=None):
         """Checks what is promised of L and M: symmetry, signs, sums, definiteness, and every weight against the cover.
 
         Returns a dict: ok, faults (a sentence for each broken promise), not_checked, and what was measured.
         """
-        return _tufted.validate(self._laplacian)
+        return _tufted.validate(self._laplacian, check.callback("validate", progress))
 
     def restricted_to(self, components="largest"):
         """The surface of some components alone; all other points are isolated, and keep their index.
