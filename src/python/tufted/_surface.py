@@ -27,11 +27,12 @@ class Surface:
     returning False; Ctrl-C stops it as well.
     """
 
-    def __init__(self, laplacian, points, faces, solving, geometry=None, source=""):
+    def __init__(self, laplacian, points, faces, solving, options=None, geometry=None, source=""):
         self._laplacian = laplacian
         self._points = points
         self._faces = faces
         self._solving = solving  # solver, memory_limit, threads
+        self._options = options  # of the build, where they are known; report.json has them
         self._geometry = geometry
         self._source = source
         self._kept = {}
@@ -117,11 +118,11 @@ class Surface:
 
     def __getstate__(self):
         return {"laplacian": _tufted.state_of(self._laplacian), "points": self._points, "faces": self._faces,
-                "solving": self._solving, "source": self._source}
+                "solving": self._solving, "options": self._options, "source": self._source}
 
     def __setstate__(self, state):
         Surface.__init__(self, _tufted.from_state(state["laplacian"]), state["points"], state["faces"],
-                         state["solving"], None, state["source"])
+                         state["solving"], state["options"], None, state["source"])
 
     # Spectrum
 
@@ -436,18 +437,19 @@ class Surface:
         labels = check.integers("restricted_to", "components", components).reshape(-1)
         restricted = type(self).__new__(type(self))
         Surface.__init__(restricted, self._laplacian.restricted_to(labels.tolist()), self._points, self._faces,
-                         self._solving, self._geometry, self._source)
+                         self._solving, self._options, self._geometry, self._source)
         return restricted
 
-    def save(self, directory, *, formats=("npz", "ply"), dummy=False, progress=None):
-        """Writes what `tufted laplacian` writes, all files or none.
+    def save(self, directory, *, formats=("npz", "ply"), sign="psd", dummy=False, progress=None):
+        """Writes what `tufted laplacian` writes with the same options, all files or none.
 
         formats: of npz, mtx, mat, spmat, ply, pcd, cover, triangles. "cover" lets load() compute distances, too.
+        sign: of L in the files: "psd" as here, or "igl", negated.
         dummy: whether points that take no part get values on the diagonals, for full rank.
         """
         formats = [formats] if isinstance(formats, str) else list(formats)
         geometry = self._geometry or _tufted.Geometry(self._points, self._faces)
-        _tufted.save(directory, self._laplacian, geometry, formats, self._source, bool(dummy),
+        _tufted.save(directory, self._laplacian, geometry, formats, self._source, sign, bool(dummy), self._options,
                      check.callback("save", progress))
 
     # Helpers
