@@ -100,10 +100,12 @@ void addMembers(py::class_<Laplacian, Shared>& type) {
   member("is_cloud", [](const Laplacian& l, const py::object&) { return l.kind == Kind::cloud; });
   member("has_cover", [](const Laplacian& l, const py::object&) { return l.hasCover(); });
   type.def("take_matrices", &takeMatrices);
-  type.def("restricted_to", [](const Laplacian& laplacian, const std::vector<int>& components) {
-    const py::gil_scoped_release release;
-    return std::make_shared<Laplacian>(restrictedTo(laplacian, components));
-  });
+  type.def("restricted_to",
+           [](const Laplacian& laplacian, const std::vector<int>& components, const py::object& progress) {
+             return run(progress, [&](const Progress& called) {
+               return std::make_shared<Laplacian>(restrictedTo(laplacian, components, called));
+             });
+           });
 }
 
 }  // namespace

@@ -72,7 +72,7 @@ def test_progress_is_called_and_may_stop():
     for call in (cloud.distance, cloud.green):
         with pytest.raises(tufted.Cancelled):
             call(0, progress=lambda stage, fraction: False)
-    for call in (cloud.validate, lambda **more: cloud.nearest(sphere(20), **more),
+    for call in (cloud.validate, cloud.restricted_to, lambda **more: cloud.nearest(sphere(20), **more),
                  lambda **more: cloud.nearest(sphere(2000), **more)):
         with pytest.raises(tufted.Cancelled):
             call(progress=lambda stage, fraction: False)

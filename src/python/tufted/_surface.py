@@ -425,7 +425,7 @@ class Surface:
         """
         return _tufted.validate(self._laplacian, check.callback("validate", progress))
 
-    def restricted_to(self, components="largest"):
+    def restricted_to(self, components="largest", *, progress=None):
         """The surface of some components alone; all other points are isolated, and keep their index.
 
         components: "largest", a label of `components`, or several.
@@ -436,8 +436,9 @@ class Surface:
             components = 0
         labels = check.integers("restricted_to", "components", components).reshape(-1)
         restricted = type(self).__new__(type(self))
-        Surface.__init__(restricted, self._laplacian.restricted_to(labels.tolist()), self._points, self._faces,
-                         self._solving, self._options, self._geometry, self._source)
+        laplacian = self._laplacian.restricted_to(labels.tolist(), check.callback("restricted_to", progress))
+        Surface.__init__(restricted, laplacian, self._points, self._faces, self._solving, self._options,
+                         self._geometry, self._source)
         return restricted
 
     def save(self, directory, *, formats=("npz", "ply"), sign="psd", dummy=False, progress=None):
