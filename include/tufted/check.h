@@ -8,6 +8,7 @@
 
 #include "tufted/intrinsic_triangulation.h"
 #include "tufted/laplacian.h"
+#include "tufted/options.h"
 
 namespace tufted {
 
@@ -65,7 +66,10 @@ struct LaplacianCheck {
 /// and every area and mass to within 1e-11 of itself; see SurfaceCheck.
 /// Wrong values in the arrays are reported and do not throw. If array sizes or indices of L are wrong, the other
 /// figures stay at zero.
-LaplacianCheck validate(const Laplacian& laplacian);
+/// @param progress called between the checks; the longest of them are the factorisation, and the cover where it is yet
+///        to be built
+/// @throws Cancelled when `progress` returns false
+LaplacianCheck validate(const Laplacian& laplacian, const Progress& progress = {});
 
 /// Checks the sizes of a Laplacian's members, which may have been put together by hand; every function that takes a
 /// Laplacian does so first. For N points L is N x N; M, status, representative and boundary have N entries, cover_areas

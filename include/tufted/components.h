@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "tufted/laplacian.h"
+#include "tufted/options.h"
 
 namespace tufted {
 
@@ -21,6 +22,7 @@ std::vector<std::int64_t> componentSizes(const std::vector<int>& labels);
 /// lie, in one of the components.
 /// @param components their labels, each once or more
 /// @throws InvalidInput for arrays of the wrong size or a label that no component has
-Laplacian restrictedTo(const Laplacian& laplacian, const std::vector<int>& components);
+/// @throws Cancelled when `progress` returns false
+Laplacian restrictedTo(const Laplacian& laplacian, const std::vector<int>& components, const Progress& progress = {});
 
 }  // namespace tufted

@@ -47,6 +47,12 @@ Eigen::MatrixXd harmonic(const Laplacian& laplacian, const Pins& pins, const Sol
 Eigen::MatrixXd biharmonic(const Laplacian& laplacian, const Pins& pins, const SolverOptions& options = {},
                            SolveReport* report = nullptr);
 
+/// Which function InterpolationSolver finds.
+enum class Interpolation {
+  harmonic,    ///< that of harmonic(): within the range of the pins, with peaks at them
+  biharmonic,  ///< that of biharmonic(): smooth at the pins, not bounded by them
+};
+
 /// The mean of `values` over the connected component of each point, weighted by M; poisson() subtracts it from f.
 /// @param values N x c; those of points that are not active are ignored
 /// @return N x c; 0 at points that are isolated or not finite
@@ -66,6 +72,45 @@ Eigen::MatrixXd poisson(const Laplacian& laplacian, const Eigen::MatrixXd& f, co
 /// those of harmonic().
 Eigen::MatrixXd poisson(const Laplacian& laplacian, const Eigen::MatrixXd& f, const Pins& pins,
                         const SolverOptions& options = {}, SolveReport* report = nullptr);
+
+/// harmonic(), biharmonic() and poisson() with pins at one set of points, factored once and queried often with other
+/// values; queries may run side by side. The results are theirs bit for bit.
+class InterpolationSolver {
+ public:
+  /// @param laplacian shared, as every query looks at it; it must not change
+  /// @param points P indices: those of Pins, in the order of the values
+  /// @throws InvalidInput for a null pointer, an index out of range, no point on any component, options out of range or
+  ///         arrays of the wrong size
+  /// @throws SolverFailure when the system cannot be factorised
+  /// @throws Cancelled when `options.progress` returns false
+  explicit InterpolationSolver(std::shared_ptr<const Laplacian> laplacian, std::vector<int> points,
+                               Interpolation kind = Interpolation::harmonic, const SolverOptions& options = {});
+
+  /// The function with these values at the pins, for each of the c columns.
+  /// @param values P x c, finite
+  /// @return as harmonic() or biharmonic(), whose errors it throws
+  Eigen::MatrixXd interpolate(const Eigen::MatrixXd& values, SolveReport* report = nullptr,
+                              const Progress& progress = {}) const;
+  /// Solves L u = M f at all points that are not pinned, with these values at the pins.
+  /// @param f N x c, finite at active points
+  /// @param values P x c, finite
+  /// @return as poisson() with pins, whose errors it throws; also InvalidInput for Interpolation::biharmonic
+  Eigen::MatrixXd poisson(const Eigen::MatrixXd& f, const Eigen::MatrixXd& values, SolveReport* report = nullptr,
+                          const Progress& progress = {}) const;
+
+  /// What the constructor did.
+  const SolverReport& report() const;
+
+  /// What is moved from may be assigned to or destroyed, and nothing else.
+  InterpolationSolver(InterpolationSolver&&) noexcept;
+  /// What is moved from may be assigned to or destroyed, and nothing else.
+  InterpolationSolver& operator=(InterpolationSolver&&) noexcept;
+  ~InterpolationSolver();
+
+ private:
+  struct State;
+  std::unique_ptr<const State> state_;
+};
 
 /// Green's function of points (Sharp and Crane 2020, Figure 19), one column for each point: L g = delta - M / area,
 /// with mean 0 over the component.

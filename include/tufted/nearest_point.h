@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "tufted/laplacian.h"
+#include "tufted/options.h"
 #include "tufted/types.h"
 
 namespace tufted {
@@ -18,6 +19,8 @@ int nearestPoint(const Laplacian& laplacian, const PointsRef& points, const Eige
 /// that is near the points. Errors are those of nearestPoint().
 /// @param positions P x 3
 /// @return P indices
-std::vector<int> nearestPoints(const Laplacian& laplacian, const PointsRef& points, const PointsRef& positions);
+/// @throws Cancelled when `progress` returns false
+std::vector<int> nearestPoints(const Laplacian& laplacian, const PointsRef& points, const PointsRef& positions,
+                               const Progress& progress = {});
 
 }  // namespace tufted

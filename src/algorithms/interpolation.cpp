@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,6 +12,7 @@
 #include "algorithms/connected.h"
 #include "algorithms/linear_system.h"
 #include "algorithms/nearly_disconnected.h"
+#include "algorithms/pinned_solver.h"
 #include "algorithms/pinned_system.h"
 #include "algorithms/refinement.h"
 #include "base/stage_clock.h"
@@ -54,22 +56,89 @@ Eigen::MatrixXd weighted(const Laplacian& laplacian, const Eigen::MatrixXd& f) {
 /// Advice for errors. It does not mention the tolerance: corrections make a solve exact whatever that is.
 constexpr const char* if_slow = "raise max_iterations, or set method to SolverMethod::cholesky";
 
-/// Solves L u = b at free points, with given values at the pins.
-Eigen::MatrixXd solveWithPins(const std::string& function, const Laplacian& laplacian, const Pins& pins,
-                              const Eigen::MatrixXd* f, const SolverOptions& options, SolveReport* report) {
+/// The matrix that a function of one kind solves, over one set of pins and factored.
+class Interpolator {
+ public:
+  /// @param function to be named in errors
+  Interpolator(const std::string& function, const Laplacian& laplacian, std::vector<int> points, Interpolation kind,
+               const SolverOptions& options)
+      : kind_(kind), points_(std::move(points)) {
+    PinnedPoints pinned = pinnedPoints(function, laplacian, points_);
+    if (kind == Interpolation::harmonic) {
+      const SystemNames names = {.function = function, .matrix = "L", .if_slow = if_slow};
+      solver_.emplace(names, std::move(pinned), laplacian.L, &laplacian, options);
+      return;
+    }
+    const SystemNames names = {.function = function,
+                               .matrix = "L M^-1 L",
+                               .if_large = "take fewer points",
+                               .if_too_large = IfTooLarge::refuse};
+    inverse_ = inverseMasses(laplacian, pinned.components.points);
+    const SparseMatrix scaled = inverse_.asDiagonal() * laplacian.L;
+    bending_ = SparseMatrix(laplacian.L * scaled);
+    solver_.emplace(names, std::move(pinned), bending_, nullptr, options);
+  }
+
+  /// Solves with given values at the pins.
+  /// @param b N x c
+  /// @param watch runs since the system began to be made, or, where it was there, the solve
+  /// @param iterations before this solve, to be reported with it
+  Eigen::MatrixXd solve(const std::string& function, const Laplacian& laplacian, const Eigen::MatrixXd& values,
+                        const Eigen::MatrixXd& b, const Stopwatch& watch, int iterations, const Progress& progress,
+                        SolveReport* report) const {
+    const SparseMatrix& L = laplacian.L;
+    const bool is_harmonic = kind_ == Interpolation::harmonic;
+    const Missing of_harmonic = [&](const Eigen::MatrixXd& u, int i) -> Eigen::RowVectorXd {
+      return b.row(i) - rowOfDifferences(L, u, i);
+    };
+    const Missing of_biharmonic = [&](const Eigen::MatrixXd& u, int i) {
+      Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(u.cols());
+      for (SparseMatrix::InnerIterator entry(L, i); entry; ++entry) {
+        const int j = static_cast<int>(entry.row());
+        sum -= entry.value() * inverse_[j] * rowOfDifferences(L, u, j);
+      }
+      return sum;
+    };
+    const PinnedValues given = pinnedValues(laplacian, solver_->pinned(), points_, values);
+    Refinement refinement(function, *solver_, given, is_harmonic ? of_harmonic : of_biharmonic, b,
+                          is_harmonic ? promised : promised_of_bending);
+    SolveReport made;
+    made.iterations = iterations;
+    Eigen::MatrixXd u = refinement.run(is_harmonic ? L : bending_, progress, made);
+    return finish(laplacian, std::move(u), watch, made, report);
+  }
+
+  Interpolation kind() const { return kind_; }
+  const std::vector<int>& points() const { return points_; }
+  const PinnedSolver& solver() const { return *solver_; }
+
+ private:
+  static VectorXd inverseMasses(const Laplacian& laplacian, const std::vector<int>& active) {
+    const double mean = laplacian.M.sum() / static_cast<double>(std::max<std::size_t>(active.size(), 1));
+    VectorXd inverse = VectorXd::Zero(laplacian.M.size());
+    for (const int i : active) inverse[i] = mean > 0 ? 1 / std::max(laplacian.M[i] / mean, least_mass) : 1;
+    return inverse;
+  }
+
+  Interpolation kind_;
+  std::vector<int> points_;
+  VectorXd inverse_;      ///< of biharmonic functions: 1 over M over its mean
+  SparseMatrix bending_;  ///< of biharmonic functions
+  std::optional<PinnedSolver> solver_;
+};
+
+Eigen::MatrixXd noRight(const Laplacian& laplacian, Eigen::Index columns) {
+  return Eigen::MatrixXd::Zero(laplacian.L.rows(), columns);
+}
+
+/// Makes a system for one solve.
+Eigen::MatrixXd solveOnce(const std::string& function, const Laplacian& laplacian, const Pins& pins,
+                          const Eigen::MatrixXd& b, Interpolation kind, const SolverOptions& options,
+                          SolveReport* report) {
   const Stopwatch watch;
-  const SystemNames names = {.function = function, .matrix = "L", .if_slow = if_slow};
-  const PinnedSystem pinned = pinnedSystem(function, laplacian, pins);
-  const Eigen::MatrixXd b =
-      f != nullptr ? weighted(laplacian, *f) : Eigen::MatrixXd::Zero(pinned.values.rows(), pinned.values.cols());
-  const Missing missing = [&](const Eigen::MatrixXd& u, int i) -> Eigen::RowVectorXd {
-    return b.row(i) - rowOfDifferences(laplacian.L, u, i);
-  };
-  SolveReport made;
-  Refinement refinement(names, pinned, missing, b, promised, options);
-  refinement.separateParts(laplacian);
-  Eigen::MatrixXd u = refinement.run(laplacian.L, made);
-  return finish(laplacian, std::move(u), watch, made, report);
+  checkPinnedValues(function, pins.points, pins.values);
+  const Interpolator made(function, laplacian, pins.points, kind, options);
+  return made.solve(function, laplacian, pins.values, b, watch, made.solver().iterations(), options.progress, report);
 }
 
 void checkRows(const std::string& function, const Laplacian& laplacian, const Eigen::MatrixXd& f) {
@@ -87,6 +156,12 @@ void checkRight(const std::string& function, const Laplacian& laplacian, const E
       throw InvalidInput(function + ": f of point " + std::to_string(i) + " is not finite, must be");
     }
   }
+}
+
+void checkColumns(const Eigen::MatrixXd& f, const Eigen::MatrixXd& values) {
+  if (f.cols() == values.cols()) return;
+  throw InvalidInput("poisson: f has " + std::to_string(f.cols()) + " columns, must have " +
+                     std::to_string(values.cols()) + ", as pins.values");
 }
 
 LinearSystem systemOf(const std::string& function, const Laplacian& laplacian, const SolverOptions& options) {
@@ -129,38 +204,14 @@ Eigen::MatrixXd unitSources(const std::string& function, const Laplacian& laplac
 
 Eigen::MatrixXd harmonic(const Laplacian& laplacian, const Pins& pins, const SolverOptions& options,
                          SolveReport* report) {
-  return solveWithPins("harmonic", laplacian, pins, nullptr, options, report);
+  const Eigen::MatrixXd b = noRight(laplacian, pins.values.cols());
+  return solveOnce("harmonic", laplacian, pins, b, Interpolation::harmonic, options, report);
 }
 
 Eigen::MatrixXd biharmonic(const Laplacian& laplacian, const Pins& pins, const SolverOptions& options,
                            SolveReport* report) {
-  const Stopwatch watch;
-  const SystemNames names = {.function = "biharmonic",
-                             .matrix = "L M^-1 L",
-                             .if_large = "take fewer points",
-                             .if_too_large = IfTooLarge::refuse};
-  const PinnedSystem pinned = pinnedSystem(names.function, laplacian, pins);
-  const auto points = static_cast<double>(std::max<std::size_t>(pinned.components.points.size(), 1));
-  const double mean = laplacian.M.sum() / points;
-  VectorXd inverse = VectorXd::Zero(laplacian.M.size());  // of M over its mean
-  for (const int i : pinned.components.points) {
-    inverse[i] = mean > 0 ? 1 / std::max(laplacian.M[i] / mean, least_mass) : 1;
-  }
-  const SparseMatrix scaled = inverse.asDiagonal() * laplacian.L;
-  const SparseMatrix bending = SparseMatrix(laplacian.L * scaled);
-  const SparseMatrix& L = laplacian.L;
-  const Missing missing = [&](const Eigen::MatrixXd& u, int i) {
-    Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(u.cols());
-    for (SparseMatrix::InnerIterator entry(L, i); entry; ++entry) {
-      const int j = static_cast<int>(entry.row());
-      sum -= entry.value() * inverse[j] * rowOfDifferences(L, u, j);
-    }
-    return sum;
-  };
-  const Eigen::MatrixXd b = Eigen::MatrixXd::Zero(pinned.values.rows(), pinned.values.cols());
-  SolveReport made;
-  Eigen::MatrixXd u = Refinement(names, pinned, missing, b, promised_of_bending, options).run(bending, made);
-  return finish(laplacian, std::move(u), watch, made, report);
+  const Eigen::MatrixXd b = noRight(laplacian, pins.values.cols());
+  return solveOnce("biharmonic", laplacian, pins, b, Interpolation::biharmonic, options, report);
 }
 
 Eigen::MatrixXd componentMeans(const Laplacian& laplacian, const Eigen::MatrixXd& values) {
@@ -189,11 +240,8 @@ Eigen::MatrixXd poisson(const Laplacian& laplacian, const Eigen::MatrixXd& f, co
 Eigen::MatrixXd poisson(const Laplacian& laplacian, const Eigen::MatrixXd& f, const Pins& pins,
                         const SolverOptions& options, SolveReport* report) {
   checkRight("poisson", laplacian, f);
-  if (f.cols() != pins.values.cols()) {
-    throw InvalidInput("poisson: f has " + std::to_string(f.cols()) + " columns, must have " +
-                       std::to_string(pins.values.cols()) + ", as pins.values");
-  }
-  return solveWithPins("poisson", laplacian, pins, &f, options, report);
+  checkColumns(f, pins.values);
+  return solveOnce("poisson", laplacian, pins, weighted(laplacian, f), Interpolation::harmonic, options, report);
 }
 
 Eigen::MatrixXd greensFunction(const Laplacian& laplacian, const std::vector<int>& points, const SolverOptions& options,
@@ -204,6 +252,51 @@ Eigen::MatrixXd greensFunction(const Laplacian& laplacian, const std::vector<int
   const Eigen::MatrixXd b = unitSources(function, laplacian, points);
   return solveBalanced(function, laplacian, systemOf(function, laplacian, options), b, watch, options.progress, report);
 }
+
+struct InterpolationSolver::State {
+  std::shared_ptr<const Laplacian> laplacian;
+  Interpolator interpolator;
+};
+
+InterpolationSolver::InterpolationSolver(std::shared_ptr<const Laplacian> laplacian, std::vector<int> points,
+                                         Interpolation kind, const SolverOptions& options) {
+  constexpr const char* function = "InterpolationSolver";
+  if (laplacian == nullptr) throw InvalidInput(std::string(function) + ": laplacian is null, must not be");
+  Interpolator interpolator(function, *laplacian, std::move(points), kind, options);
+  state_ = std::make_unique<const State>(State{std::move(laplacian), std::move(interpolator)});
+}
+
+Eigen::MatrixXd InterpolationSolver::interpolate(const Eigen::MatrixXd& values, SolveReport* report,
+                                                 const Progress& progress) const {
+  const Stopwatch watch;
+  const Laplacian& laplacian = *state_->laplacian;
+  const Interpolator& interpolator = state_->interpolator;
+  const std::string function = interpolator.kind() == Interpolation::harmonic ? "harmonic" : "biharmonic";
+  checkPinnedValues(function, interpolator.points(), values);
+  const Eigen::MatrixXd b = noRight(laplacian, values.cols());
+  return interpolator.solve(function, laplacian, values, b, watch, 0, progress, report);
+}
+
+Eigen::MatrixXd InterpolationSolver::poisson(const Eigen::MatrixXd& f, const Eigen::MatrixXd& values,
+                                             SolveReport* report, const Progress& progress) const {
+  const Stopwatch watch;
+  const Laplacian& laplacian = *state_->laplacian;
+  const Interpolator& interpolator = state_->interpolator;
+  if (interpolator.kind() != Interpolation::harmonic)
+    throw InvalidInput("poisson: the solver's kind is biharmonic, must be harmonic");
+  checkRight("poisson", laplacian, f);
+  checkPinnedValues("poisson", interpolator.points(), values);
+  checkColumns(f, values);
+  return interpolator.solve("poisson", laplacian, values, weighted(laplacian, f), watch, 0, progress, report);
+}
+
+const SolverReport& InterpolationSolver::report() const {
+  return state_->interpolator.solver().report();
+}
+
+InterpolationSolver::InterpolationSolver(InterpolationSolver&&) noexcept = default;
+InterpolationSolver& InterpolationSolver::operator=(InterpolationSolver&&) noexcept = default;
+InterpolationSolver::~InterpolationSolver() = default;
 
 struct PoissonSolver::State {
   std::shared_ptr<const Laplacian> laplacian;

@@ -1,9 +1,11 @@
 #include "tufted/nearest_point.h"
 
+#include <cstdint>
 #include <limits>
 #include <string>
 
 #include "base/buffer.h"
+#include "base/parallel.h"
 #include "neighbors/neighbors.h"
 #include "tufted/check.h"
 #include "tufted/errors.h"
@@ -13,6 +15,8 @@ namespace {
 
 /// For fewer positions than this, making a tree takes longer than it saves.
 constexpr Eigen::Index worth_a_tree = 16;
+/// Positions between two calls of `progress`: one far from all points may take a millisecond.
+constexpr std::int64_t positions_per_block = 64;
 
 /// The active points, ascending.
 std::vector<int> activePoints(const std::string& function, const Laplacian& laplacian, const PointsRef& points) {
@@ -71,28 +75,35 @@ int nearestPoint(const Laplacian& laplacian, const PointsRef& points, const Eige
   return nearestOfAll(points, active, position.transpose());
 }
 
-std::vector<int> nearestPoints(const Laplacian& laplacian, const PointsRef& points, const PointsRef& positions) {
+std::vector<int> nearestPoints(const Laplacian& laplacian, const PointsRef& points, const PointsRef& positions,
+                               const Progress& progress) {
   const std::vector<int> active = activePoints("nearestPoints", laplacian, points);
   for (Eigen::Index k = 0; k < positions.rows(); ++k) {
     if (!positions.row(k).allFinite())
       throw InvalidInput("nearestPoints: position " + std::to_string(k) + " is not finite, must be");
   }
-  std::vector<int> result;
-  result.reserve(static_cast<std::size_t>(positions.rows()));
+  const Workers workers(1, progress);
+  std::vector<int> result(static_cast<std::size_t>(positions.rows()));
   if (positions.rows() < worth_a_tree) {
-    for (const auto& position : positions.rowwise()) result.push_back(nearestOfAll(points, active, position));
+    workers.forBlocks("nearest", positions.rows(), 1, [&](std::int64_t k, std::int64_t, int) {
+      result[k] = nearestOfAll(points, active, positions.row(k));
+    });
     return result;
   }
+  workers.report("search tree", 0);
   const Points usable = points(active, Eigen::all);
   const NeighborSearch search(usable);
   Buffer<Neighbor> candidates;
-  for (const auto& position : positions.rowwise()) {
-    search.nearestTo(position, candidates);
-    Nearest nearest(points, position);
-    for (const Neighbor& candidate : candidates) nearest.consider(active[candidate.index]);
-    // If a position is so far away that squares overflow, all points are searched.
-    result.push_back(nearest.index() >= 0 ? nearest.index() : nearestOfAll(points, active, position));
-  }
+  workers.forBlocks("nearest", positions.rows(), positions_per_block, [&](std::int64_t begin, std::int64_t end, int) {
+    for (std::int64_t k = begin; k < end; ++k) {
+      const Eigen::RowVector3d position = positions.row(k);
+      search.nearestTo(position, candidates);
+      Nearest nearest(points, position);
+      for (const Neighbor& candidate : candidates) nearest.consider(active[candidate.index]);
+      // If a position is so far away that squares overflow, all points are searched.
+      result[k] = nearest.index() >= 0 ? nearest.index() : nearestOfAll(points, active, position);
+    }
+  });
   return result;
 }
 

@@ -1,6 +1,5 @@
 #include "algorithms/refinement.h"
 
-#include <algorithm>
 #include <limits>
 #include <utility>
 
@@ -15,8 +14,6 @@ namespace {
 /// The most solves for what is missing; rarely more than two are needed until that is negligible.
 constexpr int most_corrections = 6;
 constexpr double negligible = 1e-15;  // of the values' range
-/// The largest tolerance of conjugate gradients, so that corrections become small fast.
-constexpr double correction_tolerance = 1e-10;
 
 Eigen::RowVectorXd norms(const Eigen::MatrixXd& values) {
   Eigen::RowVectorXd result(values.cols());
@@ -26,84 +23,35 @@ Eigen::RowVectorXd norms(const Eigen::MatrixXd& values) {
 
 }  // namespace
 
-Refinement::Refinement(const SystemNames& names, const PinnedSystem& pinned, Missing missing,
-                       const Eigen::MatrixXd& right, double promised, const SolverOptions& options)
-    : names_(names),
-      pinned_(pinned),
+Refinement::Refinement(std::string function, const PinnedSolver& solver, const PinnedValues& given, Missing missing,
+                       const Eigen::MatrixXd& right, double promised)
+    : function_(std::move(function)),
+      solver_(solver),
+      pinned_(solver.pinned()),
+      given_(given),
       missing_(std::move(missing)),
       right_(right),
       promised_(promised),
-      options_(options),
-      in_factor_(pinned.free),
-      u_(pinned.values) {
-  options_.tolerance = std::min(options.tolerance, correction_tolerance);
-  for (const int i : pinned_.components.points) {
-    const auto mean = pinned_.means.row(pinned_.components.of[i]);
-    if (pinned_.pinned[i] != 0) u_.row(i) -= mean;
-    if (pinned_.free[i] != 0) u_.row(i).setZero();
-  }
-}
-
-void Refinement::separateParts(const Laplacian& laplacian) {
-  Components parts = findParts(laplacian);
-  if (parts.count == pinned_.components.count) return;
-  floating_.assign(parts.count, 0);
-  for (const int i : parts.points) floating_[parts.of[i]] |= pinned_.free[i];
-  for (const int i : parts.points)
-    if (pinned_.pinned[i] != 0) floating_[parts.of[i]] = 0;
-  std::vector<bool> begun(parts.count, false);
-  for (const int i : parts.points) {
-    if (floating_[parts.of[i]] == 0 || begun[parts.of[i]]) continue;
-    in_factor_[i] = 0;
-    begun[parts.of[i]] = true;
-  }
-  const std::vector<int>& of = pinned_.components.of;
-  L_ = laplacian.L;
-  L_.prune([&](Eigen::Index i, Eigen::Index j, double) { return of[i] == of[j]; });
-  parts_ = std::move(parts);
-}
-
-std::vector<int> Refinement::freePoints() const {
-  std::vector<int> points;
+      u_(given.values) {
   for (const int i : pinned_.components.points)
-    if (pinned_.free[i] != 0) points.push_back(i);
-  return points;
+    if (pinned_.pinned[i] != 0) u_.row(i) -= given_.means.row(pinned_.components.of[i]);
+  for (const int i : solver_.freePoints()) u_.row(i).setZero();
 }
 
-Eigen::MatrixXd Refinement::run(const SparseMatrix& A, SolveReport& made) {
-  SparseMatrix within = A;
-  within.prune([&](Eigen::Index i, Eigen::Index j, double) { return in_factor_[i] != 0 && in_factor_[j] != 0; });
-  const LinearSystem system = LinearSystem::positiveDefinite(names_, within, options_);
-  is_iterative_ = system.report().iterative;
-  const PartConstants::Inner inner = [&](Eigen::MatrixXd rest) {
-    if (rest.cols() == 0) return rest;  // no part floats
-    for (const int i : pinned_.components.points)
-      if (in_factor_[i] == 0) rest.row(i).setZero();
-    const Eigen::MatrixXd scale = pinned_.components.normalise(rest);
-    SolveReport solved;
-    Eigen::MatrixXd step = system.solve(names_.function, rest, &solved, options_.progress, Refine::never);
-    pinned_.components.multiply(step, scale);
-    made.iterations += solved.iterations;
-    return step;
-  };
-  const std::vector<int> points = freePoints();
-  std::optional<PartConstants> joints;
-  if (parts_.count > 0) joints.emplace(L_, points, parts_, floating_, inner);
-  if (joints && !joints->isDefinite()) fail(names_.matrix + " is not positive semidefinite; " + names_.if_indefinite);
-  open_ = last_ = Eigen::MatrixXd::Ones(pinned_.means.rows(), pinned_.means.cols());
+Eigen::MatrixXd Refinement::run(const SparseMatrix& A, const Progress& progress, SolveReport& made) {
+  open_ = last_ = Eigen::MatrixXd::Ones(given_.means.rows(), given_.means.cols());
   last_ *= std::numeric_limits<double>::infinity();
   Eigen::RowVectorXd first;
   for (int round = 0; round < most_corrections; ++round) {
     const Eigen::MatrixXd rest = missing(u_, open_);
     if (round == 0) first = norms(rest);
     if (rest.isZero(0)) break;
-    add(joints ? joints->solve(L_, points, rest, inner) : inner(rest), round + 1 == most_corrections);
+    add(solver_.solve(function_, rest, progress, made.iterations), round + 1 == most_corrections);
   }
-  made.method = system.report().method;
+  made.method = solver_.report().method;
   measure(A, first, made);
-  Eigen::MatrixXd result = pinned_.values;
-  for (const int i : pinned_.components.points)
-    if (pinned_.free[i] != 0) result.row(i) = pinned_.means.row(pinned_.components.of[i]) + u_.row(i);
+  Eigen::MatrixXd result = given_.values;
+  for (const int i : solver_.freePoints()) result.row(i) = given_.means.row(pinned_.components.of[i]) + u_.row(i);
   return result;
 }
 
@@ -113,15 +61,17 @@ void Refinement::measure(const SparseMatrix& A, const Eigen::RowVectorXd& first,
   for (Eigen::Index c = 0; c < left.size(); ++c)
     if (first[c] > 0) made.residual = greater(made.residual, left[c] / first[c]);
   made.backward_error = backwardError(A, rest, right_, u_);
-  if (made.backward_error <= most_backward_error || (is_iterative_ && made.residual <= options_.tolerance)) return;
+  if (made.backward_error <= most_backward_error ||
+      (solver_.report().iterative && made.residual <= solver_.tolerance()))
+    return;
   fail("the backward error |b - A x| / (|A| |x| + |b|) is " + numberText(made.backward_error) + ", must be " +
        numberText(most_backward_error) + "; " + advice());
 }
 
 Eigen::MatrixXd Refinement::missing(const Eigen::MatrixXd& u, const Eigen::MatrixXd& wanted) const {
   Eigen::MatrixXd rest = Eigen::MatrixXd::Zero(u.rows(), u.cols());
-  for (const int i : pinned_.components.points)
-    if (pinned_.free[i] != 0) rest.row(i) = missing_(u, i).cwiseProduct(wanted.row(pinned_.components.of[i]));
+  for (const int i : solver_.freePoints())
+    rest.row(i) = missing_(u, i).cwiseProduct(wanted.row(pinned_.components.of[i]));
   if (!rest.allFinite()) fail("sums of values overflow; scale them down");
   return rest;
 }
@@ -133,8 +83,7 @@ void Refinement::add(const Eigen::MatrixXd& step, bool is_last) {
     auto row = top.row(pinned_.components.of[i]);
     row = row.cwiseMax(values.row(i).cwiseAbs());
   };
-  for (const int i : pinned_.components.points)
-    if (pinned_.free[i] != 0) raise(largest, step, i);
+  for (const int i : solver_.freePoints()) raise(largest, step, i);
   open_ = (largest.array() < last_.array() / 2).select(open_, 0);
   for (const int i : pinned_.components.points) {
     if (pinned_.free[i] != 0) u_.row(i) += step.row(i).cwiseProduct(open_.row(pinned_.components.of[i]));
@@ -149,11 +98,11 @@ void Refinement::add(const Eigen::MatrixXd& step, bool is_last) {
 }
 
 std::string Refinement::advice() const {
-  return is_iterative_ ? "set method to SolverMethod::cholesky, or pin more points" : "pin more points";
+  return solver_.report().iterative ? "set method to SolverMethod::cholesky, or pin more points" : "pin more points";
 }
 
 void Refinement::fail(const std::string& what) const {
-  throw SolverFailure(names_.function + ": " + what);
+  throw SolverFailure(function_ + ": " + what);
 }
 
 }  // namespace tufted

@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "algorithms/linear_system.h"
 #include "base/number_text.h"
@@ -18,28 +20,20 @@ namespace {
 /// definite and an M-matrix, so the maximum principle survives any step and any two components of unlike size.
 constexpr double least_mass = 1e-13;
 
-void checkArguments(const Laplacian& laplacian, const PointsRef& points, const SmoothingOptions& options) {
-  checkSizes("smooth", laplacian);
-  const std::string name = "smooth: ";
+constexpr const char* smooth_name = "smooth";
+
+void checkRows(const std::string& function, const Laplacian& laplacian, const char* what, Eigen::Index rows) {
   const auto n = static_cast<Eigen::Index>(laplacian.status.size());
-  const auto checkRows = [&](const char* what, Eigen::Index rows) {
-    if (rows != n) {
-      throw InvalidInput(name + what + " has " + std::to_string(rows) + " rows, must have " + std::to_string(n) +
-                         ", one per point of the Laplacian");
-    }
-  };
-  checkRows("points", points.rows());
-  if (options.fixed != nullptr) checkRows("fixed", static_cast<Eigen::Index>(options.fixed->size()));
-  if (!(options.time_step >= 0 && std::isfinite(options.time_step))) {
-    throw InvalidInput(name + "time_step = " + numberText(options.time_step) + ", must be finite and at least 0");
-  }
-  if (options.iterations < 1) {
-    throw InvalidInput(name + "iterations = " + std::to_string(options.iterations) + ", must be at least 1");
-  }
-  if (options.threads < 0) {
-    throw InvalidInput(name + "threads = " + std::to_string(options.threads) + ", must be >= 0");
-  }
-  for (Eigen::Index i = 0; i < n; ++i) {
+  if (rows == n) return;
+  throw InvalidInput(function + ": " + what + " has " + std::to_string(rows) + " rows, must have " + std::to_string(n) +
+                     ", one per point of the Laplacian");
+}
+
+void checkPoints(const Laplacian& laplacian, const PointsRef& points, int iterations) {
+  const std::string name = std::string(smooth_name) + ": ";
+  checkRows(smooth_name, laplacian, "points", points.rows());
+  if (iterations < 1) throw InvalidInput(name + "iterations = " + std::to_string(iterations) + ", must be at least 1");
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
     if (laplacian.status[i] == PointStatus::active && !points.row(i).allFinite()) {
       throw InvalidInput(name + "point " + std::to_string(i) + " is not finite, must be: the Laplacian has it active");
     }
@@ -92,37 +86,91 @@ Eigen::MatrixXd pull(const Laplacian& laplacian, const std::vector<bool>& is_fre
   return result;
 }
 
+/// The matrix of one step, factored.
+struct Step {
+  std::vector<bool> is_free;
+  std::optional<LinearSystem> system;  ///< none: nothing moves
+  SolverReport report;
+
+  /// @param function to be named in errors
+  Step(const std::string& function, const Laplacian& laplacian, double time_step,
+       const std::vector<std::uint8_t>* fixed, const SolverOptions& options) {
+    checkSizes(function, laplacian);
+    if (fixed != nullptr) checkRows(function, laplacian, "fixed", static_cast<Eigen::Index>(fixed->size()));
+    if (!(time_step >= 0 && std::isfinite(time_step))) {
+      throw InvalidInput(function + ": time_step = " + numberText(time_step) + ", must be finite and at least 0");
+    }
+    if (options.threads < 0)
+      throw InvalidInput(function + ": threads = " + std::to_string(options.threads) + ", must be >= 0");
+    is_free = freePoints(laplacian, fixed);
+    if (time_step == 0 || std::find(is_free.begin(), is_free.end(), true) == is_free.end()) return;
+    const SystemNames names = {.function = function,
+                               .matrix = "M + t L",
+                               .if_slow = "take a smaller time_step",
+                               .if_large = "take fewer points"};
+    system.emplace(LinearSystem::positiveDefinite(names, systemMatrix(laplacian, is_free, time_step), options));
+    report = system->report();
+  }
+
+  Points smooth(const Laplacian& laplacian, const PointsRef& points, int iterations, const Progress& progress) const {
+    Points result = points;
+    if (!system) return result;
+    const Workers workers(1, progress);
+    // Solved for the way each point goes: x' = x + d with (M + t L) d = -t L x.
+    Eigen::MatrixXd moved = Eigen::MatrixXd::Zero(points.rows(), 3);
+    for (int step = 0; step < iterations; ++step) {
+      const auto before = static_cast<double>(step);
+      workers.report("smooth", before / iterations);
+      const Progress within = [&](std::string_view, double fraction) {
+        return progress == nullptr || progress("smooth", (before + fraction) / iterations);
+      };
+      moved += system->solve(smooth_name, pull(laplacian, is_free, points, moved), nullptr, within);
+    }
+    for (int i = 0; i < points.rows(); ++i)
+      if (is_free[i]) result.row(i) += moved.row(i);
+    for (std::size_t i = 0; i < laplacian.status.size(); ++i) {
+      if (laplacian.status[i] != PointStatus::coincident) continue;
+      result.row(static_cast<Eigen::Index>(i)) = result.row(laplacian.representative[i]);
+    }
+    workers.report("done", 1);
+    return result;
+  }
+};
+
 }  // namespace
 
 Points smooth(const Laplacian& laplacian, const PointsRef& points, const SmoothingOptions& options) {
-  checkArguments(laplacian, points, options);
-  const Workers workers(options.threads, options.progress);
-  const std::vector<bool> is_free = freePoints(laplacian, options.fixed);
-  Points result = points;
-  if (std::find(is_free.begin(), is_free.end(), true) == is_free.end() || options.time_step == 0) return result;
-
-  workers.report("factor", 0);
-  const SystemNames names = {.function = "smooth",
-                             .matrix = "M + t L",
-                             .if_slow = "take a smaller time_step",
-                             .if_large = "take fewer points"};
-  const LinearSystem system = LinearSystem::positiveDefinite(names, systemMatrix(laplacian, is_free, options.time_step),
-                                                             {.threads = options.threads});
-
-  // Solved for the way each point goes: x' = x + d with (M + t L) d = -t L x.
-  Eigen::MatrixXd moved = Eigen::MatrixXd::Zero(points.rows(), 3);
-  for (int step = 0; step < options.iterations; ++step) {
-    workers.report("smooth", static_cast<double>(step) / options.iterations);
-    moved += system.solve("smooth", pull(laplacian, is_free, points, moved), nullptr, {});
-  }
-  for (int i = 0; i < points.rows(); ++i)
-    if (is_free[i]) result.row(i) += moved.row(i);
-  for (std::size_t i = 0; i < laplacian.status.size(); ++i) {
-    if (laplacian.status[i] != PointStatus::coincident) continue;
-    result.row(static_cast<Eigen::Index>(i)) = result.row(laplacian.representative[i]);
-  }
-  workers.report("done", 1);
-  return result;
+  checkSizes(smooth_name, laplacian);
+  checkPoints(laplacian, points, options.iterations);
+  const Step step(smooth_name, laplacian, options.time_step, options.fixed,
+                  {.threads = options.threads, .progress = options.progress});
+  return step.smooth(laplacian, points, options.iterations, options.progress);
 }
+
+struct SmoothingSolver::State {
+  std::shared_ptr<const Laplacian> laplacian;
+  Step step;
+};
+
+SmoothingSolver::SmoothingSolver(std::shared_ptr<const Laplacian> laplacian, double time_step,
+                                 const std::vector<std::uint8_t>* fixed, const SolverOptions& options) {
+  constexpr const char* function = "SmoothingSolver";
+  if (laplacian == nullptr) throw InvalidInput(std::string(function) + ": laplacian is null, must not be");
+  Step step(function, *laplacian, time_step, fixed, options);
+  state_ = std::make_unique<const State>(State{std::move(laplacian), std::move(step)});
+}
+
+Points SmoothingSolver::smooth(const PointsRef& points, int iterations, const Progress& progress) const {
+  checkPoints(*state_->laplacian, points, iterations);
+  return state_->step.smooth(*state_->laplacian, points, iterations, progress);
+}
+
+const SolverReport& SmoothingSolver::report() const {
+  return state_->step.report;
+}
+
+SmoothingSolver::SmoothingSolver(SmoothingSolver&&) noexcept = default;
+SmoothingSolver& SmoothingSolver::operator=(SmoothingSolver&&) noexcept = default;
+SmoothingSolver::~SmoothingSolver() = default;
 
 }  // namespace tufted

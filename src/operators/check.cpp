@@ -6,6 +6,7 @@
 #include <limits>
 #include <utility>
 
+#include "base/parallel.h"
 #include "cover/components.h"
 #include "operators/check_surface.h"
 #include "operators/lower_triangle.h"
@@ -149,24 +150,31 @@ LongMatrix scaledLower(const Laplacian& laplacian, const VectorXd& diagonal) {
   });
 }
 
-void checkDefinite(const Laplacian& laplacian, const VectorXd& diagonal, LaplacianCheck& check) {
+void checkDefinite(const Laplacian& laplacian, const VectorXd& diagonal, const Workers& workers,
+                   LaplacianCheck& check) {
   if (check.not_finite + check.not_positive_diagonals > 0) {
     check.faults.emplace_back("definite: not with entries that are not finite or diagonals that are not positive");
     return;
   }
   Eigen::SimplicialLLT<LongMatrix, Eigen::Lower> factor;
   const LongMatrix lower = scaledLower(laplacian, diagonal);
-  if (lower.rows() > 0) factor.compute(lower);
+  if (lower.rows() > 0) {
+    workers.report("check", 0.1);
+    factor.analyzePattern(lower);
+    workers.report("check", 0.2);
+    factor.factorize(lower);
+  }
   check.definite = lower.rows() == 0 || factor.info() == Eigen::Success;
   if (!check.definite) check.faults.emplace_back("definite: L + 1e-12 diag(L) has no Cholesky factor");
 }
 
-void checkCover(const Laplacian& laplacian, LaplacianCheck& check) {
+void checkCover(const Laplacian& laplacian, const Workers& workers, LaplacianCheck& check) {
   if (!laplacian.hasCover()) {
     check.not_checked.emplace_back("surface: L and M were not compared with the cover, which is not kept");
     return;
   }
   const IntrinsicTriangulation& cover = laplacian.cover();
+  workers.report("check", 0.85);
   Promise numbering("cover");
   if (cover.vertices != laplacian.L.cols())
     numbering.brokenBy("it has ", cover.vertices, " vertices for ", laplacian.L.cols(), " points");
@@ -191,6 +199,7 @@ void checkCover(const Laplacian& laplacian, LaplacianCheck& check) {
     check.not_checked.emplace_back("surface: L and M were not compared with the cover, which is not whole");
     return;
   }
+  workers.report("check", 0.9);
   check.surface = checkSurface(laplacian, check.faults);
   if (!check.surface->masses_compared) {
     check.not_checked.emplace_back(
@@ -247,18 +256,23 @@ void checkReport(const Laplacian& laplacian, LaplacianCheck& check) {
 
 }  // namespace
 
-LaplacianCheck validate(const Laplacian& laplacian) {
+LaplacianCheck validate(const Laplacian& laplacian, const Progress& progress) {
+  const Workers workers(1, progress);
+  const auto begin = [&workers](double fraction) { workers.report("check", fraction); };
   LaplacianCheck check;
+  begin(0);
   if (!checkShape(laplacian, check.faults)) return check;
   for (const PointStatus status : laplacian.status) ++check.status[static_cast<std::size_t>(status)];
   check.components = countComponents(laplacian.L);
   check.nonzeros_per_row =
       static_cast<double>(laplacian.L.nonZeros()) / static_cast<double>(std::max<std::int64_t>(check.status[0], 1));
   const VectorXd diagonal = laplacian.L.diagonal();
+  begin(0.05);
   checkEntries(laplacian, diagonal, check);
   checkRows(laplacian, diagonal, check);
-  checkDefinite(laplacian, diagonal, check);
-  checkCover(laplacian, check);
+  checkDefinite(laplacian, diagonal, workers, check);
+  begin(0.8);
+  checkCover(laplacian, workers, check);
   checkPoints(laplacian, check);
   checkReport(laplacian, check);
   return check;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "base/disjoint_sets.h"
+#include "base/parallel.h"
 #include "cover/components.h"
 #include "tufted/check.h"
 #include "tufted/errors.h"
@@ -15,32 +16,45 @@
 namespace tufted {
 namespace {
 
+constexpr const char* stage = "restrict";
+/// Faces between two calls of `progress`.
+constexpr std::int64_t faces_per_block = 1 << 16;
+
 /// The faces of a cover whose connected part has a point that stays.
-IntrinsicTriangulation restrictedCover(const IntrinsicTriangulation& cover, const std::vector<std::uint8_t>& stays) {
+/// @param workers one thread, for progress
+IntrinsicTriangulation restrictedCover(const IntrinsicTriangulation& cover, const std::vector<std::uint8_t>& stays,
+                                       const Workers& workers) {
   DisjointSets parts(cover.vertices);
-  for (const auto& [a, b, c] : cover.faces) {
-    parts.unite(a, b);
-    parts.unite(a, c);
-  }
+  workers.forBlocks(stage, cover.size(), faces_per_block, [&](std::int64_t begin, std::int64_t end, int) {
+    for (std::int64_t f = begin; f < end; ++f) {
+      const auto& [a, b, c] = cover.faces[f];
+      parts.unite(a, b);
+      parts.unite(a, c);
+    }
+  });
   std::vector<std::uint8_t> part_stays(stays.size(), 0);
   for (int i = 0; i < cover.vertices; ++i)
     if (stays[i] != 0) part_stays[parts.root(i)] = 1;
   std::vector<int> number(cover.faces.size(), -1);
   IntrinsicTriangulation result;
   result.vertices = cover.vertices;
-  for (std::size_t f = 0; f < cover.faces.size(); ++f) {
-    if (part_stays[parts.root(cover.faces[f][0])] == 0) continue;
-    number[f] = static_cast<int>(result.faces.size());
-    result.faces.push_back(cover.faces[f]);
-  }
-  for (std::size_t f = 0; f < cover.faces.size(); ++f) {
-    if (number[f] < 0) continue;
-    for (std::size_t side = 3 * f; side < 3 * f + 3; ++side) {
-      // A side and the one that it is glued to lie in one part.
-      result.glue.push_back(3 * number[cover.glue[side] / 3] + cover.glue[side] % 3);
-      result.length.push_back(cover.length[side]);
+  workers.forBlocks(stage, cover.size(), faces_per_block, [&](std::int64_t begin, std::int64_t end, int) {
+    for (std::int64_t f = begin; f < end; ++f) {
+      if (part_stays[parts.root(cover.faces[f][0])] == 0) continue;
+      number[f] = static_cast<int>(result.faces.size());
+      result.faces.push_back(cover.faces[f]);
     }
-  }
+  });
+  workers.forBlocks(stage, cover.size(), faces_per_block, [&](std::int64_t begin, std::int64_t end, int) {
+    for (std::int64_t f = begin; f < end; ++f) {
+      if (number[f] < 0) continue;
+      for (std::int64_t side = 3 * f; side < 3 * f + 3; ++side) {
+        // A side and the one that it is glued to lie in one part.
+        result.glue.push_back(3 * number[cover.glue[side] / 3] + cover.glue[side] % 3);
+        result.length.push_back(cover.length[side]);
+      }
+    }
+  });
   return result;
 }
 
@@ -84,7 +98,9 @@ std::vector<std::int64_t> componentSizes(const std::vector<int>& labels) {
   return sizes;
 }
 
-Laplacian restrictedTo(const Laplacian& laplacian, const std::vector<int>& components) {
+Laplacian restrictedTo(const Laplacian& laplacian, const std::vector<int>& components, const Progress& progress) {
+  const Workers workers(1, progress);
+  workers.report(stage, 0);
   const std::vector<int> labels = componentLabels(laplacian);
   const auto count = std::ssize(componentSizes(labels));
   std::vector<std::uint8_t> chosen(static_cast<std::size_t>(count), 0);
@@ -99,7 +115,9 @@ Laplacian restrictedTo(const Laplacian& laplacian, const std::vector<int>& compo
   for (std::size_t c = 0; c < chosen.size(); ++c)
     if (chosen[c] != 0) number[c] = kept++;
 
+  workers.report(stage, 0);
   Laplacian result = laplacian;
+  workers.report(stage, 0);
   result.component = labels;
   std::vector<std::uint8_t> stays(labels.size(), 0);
   for (std::size_t i = 0; i < labels.size(); ++i) {
@@ -115,11 +133,12 @@ Laplacian restrictedTo(const Laplacian& laplacian, const std::vector<int>& compo
     result.status[i] = PointStatus::isolated;
   }
   result.L.prune([&](Eigen::Index i, Eigen::Index, double) { return stays[i] != 0; });
+  workers.report(stage, 0);
   recount(result);
   result.report.components = kept;
   result.cover_source.reset();
   if (laplacian.hasCover()) {
-    auto cover = std::make_shared<IntrinsicTriangulation>(restrictedCover(laplacian.cover(), stays));
+    auto cover = std::make_shared<IntrinsicTriangulation>(restrictedCover(laplacian.cover(), stays, workers));
     result.report.triangles = cover->size() / 2;
     result.stored_cover = std::move(cover);
   }

@@ -34,6 +34,7 @@ constexpr std::array functions = {
     Name{"LogMapSolver::query", "log_map"},
     Name{"LogMapSolver", "log_map"},
     Name{"PoissonSolver", "poisson"},
+    Name{"SmoothingSolver", "smooth"},
     Name{"greensFunction", "green"},
     Name{"heatTimes", "hks"},
     Name{"heatKernelSignature", "hks"},

@@ -8,10 +8,12 @@
 #include <vector>
 
 #include "python/arrays.h"
+#include "python/build_options.h"
 #include "python/module.h"
 #include "python/running.h"
 #include "tufted/io/read.h"
 #include "tufted/io/results.h"
+#include "tufted/io/rings.h"
 #include "tufted/io/write.h"
 
 namespace py = pybind11;
@@ -61,10 +63,49 @@ Geometry geometryOf(const Doubles& points, const std::optional<Integers>& faces)
   return geometry;
 }
 
+/// What the report says about the options of a build.
+class RecordedOptions {
+ public:
+  /// @param given none: nothing is recorded
+  RecordedOptions(const Laplacian& laplacian, const std::optional<py::dict>& given, WriteOptions& options) {
+    if (!given) return;
+    if (laplacian.kind == Kind::mesh) {
+      mesh_ = meshOptionsOf(*given);
+      options.mesh = &mesh_;
+      return;
+    }
+    const auto structure = (*given)["structure"].cast<std::string>();
+    cloud_ = cloudOptionsOf(*given);
+    viewpoint_ = viewpointOf(*given);
+    structure_.has_rings = structure == "rings";
+    if (structure != "none") cloud_.structure = &structure_;
+    if ((*given)["given_normals"].cast<bool>()) cloud_.normals = &normals_;
+    if ((*given)["given_neighborhoods"].cast<bool>()) cloud_.neighborhoods = &neighborhoods_;
+    if (viewpoint_) cloud_.viewpoint = &*viewpoint_;
+    options.cloud = &cloud_;
+  }
+  RecordedOptions(const RecordedOptions&) = delete;
+  RecordedOptions& operator=(const RecordedOptions&) = delete;
+
+ private:
+  CloudOptions cloud_;
+  MeshOptions mesh_;
+  // Of these the report says only whether there were some.
+  Points normals_;
+  Neighborhoods neighborhoods_;
+  ScanStructure structure_;
+  std::optional<Eigen::Vector3d> viewpoint_;
+};
+
 void saveTo(const std::filesystem::path& dir, const Laplacian& laplacian, const Geometry& geometry,
-            const std::vector<std::string>& names, const std::string& source, bool dummy, const py::object& progress) {
-  WriteOptions options = {.formats = {}, .dummy = dummy, .source = source};
+            const std::vector<std::string>& names, const std::string& source, const std::string& sign, bool dummy,
+            const std::optional<py::dict>& given, const py::object& progress) {
+  WriteOptions options = {.formats = {},
+                          .sign = chosen<Sign>("save: sign", sign, {{"psd", Sign::psd}, {"igl", Sign::igl}}),
+                          .dummy = dummy,
+                          .source = source};
   for (const std::string& name : names) options.formats.push_back(chosen<Format>("save: formats", name, formats));
+  const RecordedOptions recorded(laplacian, given, options);
   run(progress, [&](const Progress& called) {
     options.progress = called;
     writeLaplacian(dir, laplacian, geometry, options);
@@ -86,6 +127,7 @@ void addFiles(py::module_& module) {
       .def_readonly("format", &Geometry::format)
       .def_property_readonly("fields", &fieldsOf);
   module.def("read_file", &readFile);
+  module.def("rings_of", &ringsOf);
   module.def("save", &saveTo);
   module.def("load", [](const std::filesystem::path& dir, bool with_cover) {
     const py::gil_scoped_release release;

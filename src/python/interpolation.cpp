@@ -1,7 +1,9 @@
 // Interpolation of given values, and equations with L.
 #include "tufted/interpolation.h"
 
+#include <string>
 #include <utility>
+#include <vector>
 
 #include "python/arrays.h"
 #include "python/module.h"
@@ -12,26 +14,29 @@ namespace py = pybind11;
 namespace tufted::python {
 namespace {
 
-using Interpolate = Eigen::MatrixXd (*)(const Laplacian&, const Pins&, const SolverOptions&, SolveReport*);
-
-template <Interpolate interpolate>
-Eigen::MatrixXd interpolated(const Laplacian& laplacian, const Integers& points, Eigen::MatrixXd values,
-                             const Solving& solving, const py::object& progress) {
-  const Pins pins = {indicesOf(points), std::move(values)};
-  return run(progress,
-             [&](const Progress& called) { return interpolate(laplacian, pins, solving.options(called), nullptr); });
+InterpolationSolver interpolationSolver(const Shared& laplacian, const Integers& points, const std::string& kind,
+                                        const Solving& solving, const py::object& progress) {
+  const auto chosen_kind = chosen<Interpolation>(
+      "harmonic: kind", kind, {{"harmonic", Interpolation::harmonic}, {"biharmonic", Interpolation::biharmonic}});
+  std::vector<int> pins = indicesOf(points);
+  return run(progress, [&](const Progress& called) {
+    return InterpolationSolver(laplacian, std::move(pins), chosen_kind, solving.options(called));
+  });
 }
 
 }  // namespace
 
 void addInterpolation(py::module_& module) {
-  module.def("harmonic", &interpolated<&harmonic>);
-  module.def("biharmonic", &interpolated<&biharmonic>);
-  module.def("pinned_poisson", [](const Laplacian& laplacian, const Eigen::MatrixXd& f, const Integers& points,
-                                  Eigen::MatrixXd values, const Solving& solving, const py::object& progress) {
-    const Pins pins = {indicesOf(points), std::move(values)};
-    return run(progress, [&](const Progress& called) { return poisson(laplacian, f, pins, solving.options(called)); });
-  });
+  py::class_<InterpolationSolver>(module, "InterpolationSolver")
+      .def(py::init(&interpolationSolver))
+      .def("interpolate",
+           [](const InterpolationSolver& solver, const Eigen::MatrixXd& values, const py::object& progress) {
+             return run(progress, [&](const Progress& called) { return solver.interpolate(values, nullptr, called); });
+           })
+      .def("poisson", [](const InterpolationSolver& solver, const Eigen::MatrixXd& f, const Eigen::MatrixXd& values,
+                         const py::object& progress) {
+        return run(progress, [&](const Progress& called) { return solver.poisson(f, values, nullptr, called); });
+      });
   py::class_<PoissonSolver>(module, "PoissonSolver")
       .def(py::init([](const Shared& laplacian, const Solving& solving, const py::object& progress) {
         return run(progress, [&](const Progress& called) { return PoissonSolver(laplacian, solving.options(called)); });

@@ -2,11 +2,11 @@
 #include "tufted/laplacian.h"
 
 #include <optional>
-#include <string>
 #include <utility>
 #include <variant>
 
 #include "python/arrays.h"
+#include "python/build_options.h"
 #include "python/module.h"
 #include "python/report.h"
 #include "python/running.h"
@@ -18,27 +18,11 @@ namespace py = pybind11;
 namespace tufted::python {
 namespace {
 
-FaceOrder orderOf(const char* argument, const std::string& name) {
-  return chosen<FaceOrder>(argument, name,
-                           {{"angle", FaceOrder::angle}, {"area", FaceOrder::area}, {"random", FaceOrder::random}});
-}
-
-Shared buildCloud(const Doubles& points, const std::string& preset, int neighbors, const std::optional<Points>& normals,
+Shared buildCloud(const Doubles& points, const py::dict& given, const std::optional<Points>& normals,
                   const std::optional<Neighborhoods>& neighborhoods, const std::optional<ScanStructure>& structure,
-                  const std::optional<Eigen::Vector3d>& viewpoint, double mollify, const std::string& gluing,
-                  const std::string& order, std::uint64_t seed, const std::string& delaunay, int threads,
                   const py::object& progress) {
-  CloudOptions options = cloudOptions(chosen<Preset>(
-      "PointCloud: preset", preset, {{"clean", Preset::clean}, {"scan", Preset::scan}, {"lidar", Preset::lidar}}));
-  options.neighbors = neighbors;
-  options.mollify = mollify;
-  options.gluing =
-      chosen<Gluing>("PointCloud: gluing", gluing, {{"star", Gluing::star}, {"vertex-pair", Gluing::vertex_pair}});
-  options.order = orderOf("PointCloud: order", order);
-  options.seed = seed;
-  options.delaunay =
-      chosen<Delaunay>("PointCloud: delaunay", delaunay, {{"star", Delaunay::star}, {"cgal", Delaunay::cgal}});
-  options.threads = threads;
+  CloudOptions options = cloudOptionsOf(given);
+  const std::optional<Eigen::Vector3d> viewpoint = viewpointOf(given);
   if (normals) options.normals = &*normals;
   if (neighborhoods) options.neighborhoods = &*neighborhoods;
   if (structure) options.structure = &*structure;
@@ -50,9 +34,8 @@ Shared buildCloud(const Doubles& points, const std::string& preset, int neighbor
   });
 }
 
-Shared buildMesh(const Doubles& points, const Integers& faces, double mollify, const std::string& order,
-                 std::uint64_t seed, int threads, const py::object& progress) {
-  MeshOptions options = {.order = orderOf("Mesh: order", order), .seed = seed, .mollify = mollify, .threads = threads};
+Shared buildMesh(const Doubles& points, const Integers& faces, const py::dict& given, const py::object& progress) {
+  MeshOptions options = meshOptionsOf(given);
   const auto view = pointsOf(points);
   const auto triangles = trianglesOf(faces);
   return run(progress, [&](const Progress& called) {
@@ -117,10 +100,12 @@ void addMembers(py::class_<Laplacian, Shared>& type) {
   member("is_cloud", [](const Laplacian& l, const py::object&) { return l.kind == Kind::cloud; });
   member("has_cover", [](const Laplacian& l, const py::object&) { return l.hasCover(); });
   type.def("take_matrices", &takeMatrices);
-  type.def("restricted_to", [](const Laplacian& laplacian, const std::vector<int>& components) {
-    const py::gil_scoped_release release;
-    return std::make_shared<Laplacian>(restrictedTo(laplacian, components));
-  });
+  type.def("restricted_to",
+           [](const Laplacian& laplacian, const std::vector<int>& components, const py::object& progress) {
+             return run(progress, [&](const Progress& called) {
+               return std::make_shared<Laplacian>(restrictedTo(laplacian, components, called));
+             });
+           });
 }
 
 }  // namespace

@@ -26,11 +26,8 @@ Gradients gradientsOf(const Laplacian& laplacian, const Doubles& points,
   });
 }
 
-py::dict validated(const Laplacian& laplacian) {
-  const LaplacianCheck check = [&] {
-    const py::gil_scoped_release release;
-    return validate(laplacian);
-  }();
+py::dict validated(const Laplacian& laplacian, const py::object& progress) {
+  const LaplacianCheck check = run(progress, [&](const Progress& called) { return validate(laplacian, called); });
   py::dict result;
   result["ok"] = check.ok();
   result["faults"] = check.faults;

@@ -65,17 +65,14 @@ py::tuple segmentsOf(const Laplacian& laplacian, const std::string& method, int 
   return py::make_tuple(owned(std::move(found.labels)), std::move(found.areas), owned(std::move(found.seeds)));
 }
 
-Points smoothed(const Laplacian& laplacian, const Doubles& points, double time_step, int iterations,
-                const std::optional<py::array_t<std::uint8_t, py::array::c_style>>& fixed, int threads,
-                const py::object& progress) {
+using Marks = py::array_t<std::uint8_t, py::array::c_style>;
+
+SmoothingSolver smoothingSolver(const Shared& laplacian, double time_step, const std::optional<Marks>& fixed,
+                                const Solving& solving, const py::object& progress) {
   std::vector<std::uint8_t> stays;
   if (fixed) stays.assign(fixed->data(), fixed->data() + fixed->size());
-  SmoothingOptions options = {
-      .time_step = time_step, .iterations = iterations, .fixed = fixed ? &stays : nullptr, .threads = threads};
-  const auto view = pointsOf(points);
   return run(progress, [&](const Progress& called) {
-    options.progress = called;
-    return smooth(laplacian, view, options);
+    return SmoothingSolver(laplacian, time_step, fixed ? &stays : nullptr, solving.options(called));
   });
 }
 
@@ -93,18 +90,23 @@ void addShape(py::module_& module) {
   module.def("oriented_frames", &oriented);
   module.def("curvature", &curvature);
   module.def("segments", &segmentsOf);
-  module.def("smooth", &smoothed);
+  py::class_<SmoothingSolver>(module, "SmoothingSolver")
+      .def(py::init(&smoothingSolver))
+      .def("smooth",
+           [](const SmoothingSolver& solver, const Doubles& points, int iterations, const py::object& progress) {
+             const auto view = pointsOf(points);
+             return run(progress, [&](const Progress& called) { return solver.smooth(view, iterations, called); });
+           });
   module.def("triangles", [](const Laplacian& laplacian, const py::object& progress) {
     return run(progress, [&](const Progress& called) {
       return surfaceTriangles(laplacian, TriangleOptions{.progress = called});
     });
   });
-  module.def("nearest", [](const Laplacian& laplacian, const Doubles& points, const Doubles& positions) {
+  module.def("nearest", [](const Laplacian& laplacian, const Doubles& points, const Doubles& positions,
+                           const py::object& progress) {
     const auto view = pointsOf(points), targets = pointsOf(positions);
-    return owned([&] {
-      const py::gil_scoped_release release;
-      return nearestPoints(laplacian, view, targets);
-    }());
+    return owned(
+        run(progress, [&](const Progress& called) { return nearestPoints(laplacian, view, targets, called); }));
   });
 }
 

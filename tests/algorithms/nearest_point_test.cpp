@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "shapes/random.h"
@@ -83,6 +85,23 @@ TEST(NearestPoints, NameWhatACallerGotWrong) {
             "nearestPoints: point 30 is not finite, must be: the Laplacian has it active");
   EXPECT_EQ(support::refusal([&] { nearestPoints(laplacian, points.topRows(99), positions); }),
             "nearestPoints: points has 99 rows, must have 100, one per point of the Laplacian");
+}
+
+TEST(NearestPoints, CancelAtEveryCall) {
+  const Points points = shapes::sphere(500).points;
+  const Laplacian laplacian = pointCloudLaplacian(points);
+  for (const Eigen::Index count : {5, 3000}) {
+    const Points positions = 2 * shapes::sphere(3000).points.topRows(count);
+    int calls = 0;
+    const auto askUntil = [&](int stop) {
+      calls = 0;
+      return nearestPoints(laplacian, points, positions, [&](std::string_view, double) { return ++calls < stop; });
+    };
+    EXPECT_EQ(askUntil(INT32_MAX), nearestPoints(laplacian, points, positions));
+    const int all = calls;
+    EXPECT_GE(all, 4) << count;
+    for (int stop = 1; stop <= all; ++stop) EXPECT_THROW(askUntil(stop), Cancelled) << stop << " of " << all;
+  }
 }
 
 }  // namespace

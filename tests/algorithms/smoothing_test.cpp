@@ -260,7 +260,7 @@ TEST(Smoothing, CancelsAtEveryCall) {
   };
   smoothUntil(INT32_MAX);
   const int all = calls;
-  EXPECT_EQ(all, 5);  // factor, three steps, done
+  EXPECT_GT(all, 5);  // analyse, factor, three steps with their solves, done
   for (int stop = 1; stop <= all; ++stop) EXPECT_THROW(smoothUntil(stop), Cancelled) << stop << " of " << all;
 }
 

@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "heap/heap_count.h"
 #include "shapes/shapes.h"
@@ -88,6 +89,25 @@ TEST(Heap, SecondFrameOfAMeshTakesNothing) {
   LaplacianBuilder builder;
   builder.mesh(mesh.points, mesh.triangles, options);
   EXPECT_EQ(countDuring([&] { builder.mesh(mesh.points, mesh.triangles, options); }).blocks, 0);
+}
+
+TEST(Heap, MemoryThatSomebodyElseHoldsIsNotCopied) {
+  const shapes::Mesh mesh = shapes::icosphere(3);
+  const std::vector<double> coordinates(mesh.points.data(), mesh.points.data() + mesh.points.size());
+  const std::vector<int> corners(mesh.triangles.data(), mesh.triangles.data() + mesh.triangles.size());
+  const Eigen::Map<const Points> points(coordinates.data(), mesh.points.rows(), 3);
+  const Eigen::Map<const Triangles> triangles(corners.data(), mesh.triangles.rows(), 3);
+  const Eigen::MatrixX3d by_columns = mesh.points;
+  CloudOptions of_cloud;
+  MeshOptions of_mesh;
+  of_cloud.threads = of_mesh.threads = 1;
+  LaplacianBuilder builder;
+  builder.pointCloud(points, of_cloud);
+  EXPECT_EQ(countDuring([&] { builder.pointCloud(points, of_cloud); }).blocks, 0);
+  EXPECT_EQ(countDuring([&] { builder.pointCloud(points.topRows(642), of_cloud); }).blocks, 0);
+  EXPECT_EQ(countDuring([&] { builder.pointCloud(by_columns, of_cloud); }).blocks, 1);  // a copy would be seen
+  builder.mesh(points, triangles, of_mesh);
+  EXPECT_EQ(countDuring([&] { builder.mesh(points, triangles, of_mesh); }).blocks, 0);
 }
 
 }  // namespace

@@ -4,8 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
+#include <string_view>
 
 #include "shapes/shapes.h"
+#include "tufted/errors.h"
 #include "tufted/gradient.h"
 
 namespace tufted {
@@ -132,6 +135,22 @@ TEST(LaplacianCheck, NothingIsActiveInAnEmptyCloudAndThatIsFine) {
   const LaplacianCheck check = validate(pointCloudLaplacian(Points(0, 3)));
   EXPECT_EQ(check.faults, std::vector<std::string>());
   EXPECT_EQ(check.components, 0);
+}
+
+TEST(LaplacianCheck, CancelsAtEveryCall) {
+  const Laplacian laplacian = sphereWithOddPoints();
+  int calls = 0;
+  const auto checkUntil = [&](int stop) {
+    calls = 0;
+    return validate(laplacian, [&](std::string_view, double fraction) {
+      EXPECT_TRUE(fraction >= 0 && fraction <= 1);
+      return ++calls < stop;
+    });
+  };
+  EXPECT_TRUE(checkUntil(INT32_MAX).ok());
+  const int all = calls;
+  EXPECT_GE(all, 5);
+  for (int stop = 1; stop <= all; ++stop) EXPECT_THROW(checkUntil(stop), Cancelled) << stop << " of " << all;
 }
 
 }  // namespace

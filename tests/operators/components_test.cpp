@@ -4,8 +4,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cstdint>
 #include <numeric>
 #include <random>
+#include <string_view>
 #include <vector>
 
 #include "shapes/shapes.h"
@@ -99,6 +101,22 @@ TEST(Components, RefuseLabelsThatNoneHas) {
   EXPECT_EQ(support::refusal([&] { restrictedTo(laplacian, {1}); }), "restrictedTo: component 1, must lie in [0, 1)");
   EXPECT_EQ(restrictedTo(laplacian, {}).report.active, 0);
   EXPECT_TRUE(componentLabels(pointCloudLaplacian(Points(0, 3))).empty());
+}
+
+TEST(Components, CancelAtEveryCall) {
+  const Laplacian laplacian = pointCloudLaplacian(threeSpheres());
+  int calls = 0;
+  const auto restrictUntil = [&](int stop) {
+    calls = 0;
+    return restrictedTo(laplacian, {0, 2}, [&](std::string_view, double) { return ++calls < stop; });
+  };
+  const Laplacian whole = restrictUntil(INT32_MAX), silent = restrictedTo(laplacian, {0, 2});
+  EXPECT_EQ((whole.L - silent.L).norm(), 0);
+  EXPECT_EQ(whole.cover().glue, silent.cover().glue);
+  EXPECT_EQ(whole.cover().length, silent.cover().length);
+  const int all = calls;
+  EXPECT_GE(all, 6);
+  for (int stop = 1; stop <= all; ++stop) EXPECT_THROW(restrictUntil(stop), Cancelled) << stop << " of " << all;
 }
 
 TEST(Components, HaveTheirConstantsInHeatSignatures) {

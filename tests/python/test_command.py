@@ -1,5 +1,6 @@
 """The same bits as the command's, and files in and out."""
 import json
+import pickle
 import subprocess
 
 import numpy as np
@@ -80,6 +81,103 @@ def test_curvature_and_operators(tmp_path):
     for name in ("L", "gradX", "gradY"):
         np.testing.assert_array_equal(written[f"{name}_data"], operators[name].data)
         np.testing.assert_array_equal(written[f"{name}_indices"], operators[name].indices)
+
+
+def without_times(path):
+    """A report without what differs from run to run."""
+    report = json.loads(path.read_text())
+    for stage in report["report"]["stages"]:
+        del stage["seconds"], stage["bytes"]
+    return report
+
+
+EVERY_FORMAT = "npz,mtx,mat,spmat,ply,pcd,cover,triangles"
+
+
+@pytest.mark.parametrize("name, words, options, written", [
+    ("sphere_uniform.ply", [], {}, {}),
+    ("sphere_uniform.ply", ["--normals", "--preset", "clean"], {"normals": True, "preset": "clean"}, {}),
+    ("torus_uniform.ply", ["--neighbors", "25", "--gluing", "vertex-pair", "--order", "random", "--seed", "7",
+                           "--mollify", "1e-4", "--threads", "2", "--viewpoint", "1,2,3"],
+     {"neighbors": 25, "gluing": "vertex-pair", "order": "random", "seed": 7, "mollify": 1e-4, "threads": 2,
+      "viewpoint": [1, 2, 3]}, {}),
+    ("depth_camera.ply", ["--delaunay", "cgal"], {"delaunay": "cgal"}, {}),
+    ("fins.obj", ["--order", "area", "--sign", "igl", "--dummy"], {"order": "area"}, {"sign": "igl", "dummy": True}),
+    ("slivers.ply", ["--mollify", "1e-3"], {"mollify": 1e-3}, {}),
+    ("slivers.ply", ["--as", "cloud"], {"kind": "cloud"}, {}),
+    ("depth_camera.ply", ["--structure", "image"], {"image": True}, {}),
+    ("depth_camera.ply", ["--structure", "image", "--viewpoint", "0,1,0"], {"image": True, "viewpoint": [0, 1, 0]}, {}),
+    ("lidar_64_noise.ply", ["--structure", "rings", "--preset", "lidar"], {"rings": True, "preset": "lidar"}, {}),
+])
+def test_save_writes_the_files_of_the_command(name, words, options, written, tmp_path):
+    commands, ours = tmp_path / "command", tmp_path / "python"
+    run("laplacian", DATASETS / name, "--out", commands, "--format", EVERY_FORMAT, *words)
+    surface = tufted.read(DATASETS / name, **options)
+    surface.save(ours, formats=EVERY_FORMAT.split(","), **written)
+    names = sorted(path.name for path in commands.iterdir())
+    assert sorted(path.name for path in ours.iterdir()) == names and len(names) == 18
+    for file in names:
+        if file == "report.json":
+            assert without_times(ours / file) == without_times(commands / file)
+        else:
+            assert (ours / file).read_bytes() == (commands / file).read_bytes(), file
+
+
+def scan_with_rings(path, fields="ring azimuth", turn=360.0, pose="2 0 0 1 0 0 0"):
+    """A cylinder of ten rings of 60 points around (2, 0, 0), as a driver writes it."""
+    i = np.arange(600)
+    angle = 2 * np.pi * (i % 60) / 60
+    columns = {"x": 2 + np.cos(angle), "y": np.sin(angle), "z": i // 60 * 0.1, "ring": i // 60,
+               "azimuth": i % 60 / 60 * turn}
+    names = ["x", "y", "z", *fields.split()]
+    size = len(names)
+    path.write_text(f"VERSION .7\nFIELDS {' '.join(names)}\nSIZE {'4 ' * size}\nTYPE {'F ' * size}\n"
+                    f"COUNT {'1 ' * size}\nWIDTH 600\nHEIGHT 1\nVIEWPOINT {pose}\nPOINTS 600\nDATA ascii\n"
+                    + "".join(" ".join(f"{columns[name][k]:.6g}" for name in names) + "\n" for k in i))
+    return path
+
+
+@pytest.mark.parametrize("fields, turn, pose", [
+    ("ring azimuth", 360.0, "2 0 0 1 0 0 0"), ("ring azimuth", 36000.0, "0 0 0 1 0 0 0"),
+    ("ring", 1.0, "2 0 0 1 0 0 0"), ("azimuth", 6.2831, "2 0 0.3 1 0 0 0"), ("ring", 1.0, "2 0 0 2 0 0 2")])
+def test_rings_of_a_file_are_those_of_the_command(fields, turn, pose, tmp_path):
+    file = scan_with_rings(tmp_path / "rings.pcd", fields, turn, pose)
+    run("laplacian", file, "--out", tmp_path / "command", "--structure", "rings")
+    by_rings, by_tree = tufted.read(file, rings=True), tufted.read(file)
+    by_rings.save(tmp_path / "python")
+    assert without_times(tmp_path / "python/report.json") == without_times(tmp_path / "command/report.json")
+    assert (tmp_path / "python/L.npz").read_bytes() == (tmp_path / "command/L.npz").read_bytes()
+    assert not same(by_rings.L, by_tree.L)  # the field alone asks for nothing, as in the command
+    assert same(tufted.read(file, rings=False).L, by_tree.L)
+
+
+def test_structures_that_a_file_does_not_have(tmp_path):
+    file = tmp_path / "loose.npy"
+    np.save(file, sphere(500))
+    with pytest.raises(tufted.IoError, match="loose.npy: has no field `ring`, and its elevations show no rings"):
+        tufted.read(file, rings=True)
+    with pytest.raises(tufted.IoError, match="loose.npy: is one row of points, no organized cloud"):
+        tufted.read(file, image=True)
+    with pytest.raises(tufted.IoError, match="has a field `azimuth` up to"):
+        tufted.read(scan_with_rings(tmp_path / "odd.pcd", turn=360000.0), rings=True)
+    for name in ("image", "rings", "normals"):
+        with pytest.raises(tufted.InvalidInput, match=f"read: {name} is asked for, must not be for a mesh"):
+            tufted.read(DATASETS / "fins.obj", **{name: True})
+    with pytest.raises(tufted.InvalidInput, match="image and rings are both given"):
+        tufted.read(DATASETS / "depth_camera.ply", image=True, rings=True)
+
+
+def test_the_options_that_a_report_has_outlive_a_pickle(tmp_path):
+    cloud = tufted.PointCloud(sphere(500), "lidar", 20, normals=sphere(500), viewpoint=[0, 0, 9], order="area")
+    for surface, folder in ((cloud, "made"), (pickle.loads(pickle.dumps(cloud)), "pickled"),
+                            (cloud.restricted_to(), "restricted")):
+        surface.save(tmp_path / folder)
+        options = without_times(tmp_path / folder / "report.json")["cloud_options"]
+        assert (options["neighbors"], options["order"], options["viewpoint"]) == (20, "area", [0, 0, 9])
+        assert options["given_normals"] and not options["given_neighborhoods"] and options["structure"] == "none"
+    lists = np.argsort(np.linalg.norm(sphere(60)[:, None] - sphere(60)[None], axis=2), axis=1)[:, 1:20]
+    tufted.PointCloud(sphere(60), neighborhoods=lists).save(tmp_path / "lists")
+    assert without_times(tmp_path / "lists" / "report.json")["cloud_options"]["given_neighborhoods"]
 
 
 @pytest.mark.parametrize("surface", [tufted.PointCloud(sphere(500)), tufted.Mesh(*torus_mesh(20, 10))])

@@ -38,6 +38,29 @@ def test_ctrl_c_stops_a_build():
     assert time.monotonic() - start < 20
 
 
+MANY_POSITIONS = """
+import numpy, sys, tufted
+random = numpy.random.default_rng(1)
+cloud = tufted.PointCloud(random.normal(size=(20000, 3)))
+positions, fractions = random.normal(size=(5000000, 3)), []
+print("begins", flush=True)
+try:
+    cloud.nearest(positions, progress=lambda stage, fraction: fractions.append(fraction))
+except KeyboardInterrupt:
+    print("interrupted", flush=True)
+    sys.exit(7 if fractions[-1] < 0.9 else 1)  # else it has come after the last position
+"""
+
+
+def test_ctrl_c_stops_a_search():
+    child = subprocess.Popen([sys.executable, "-c", MANY_POSITIONS], stdout=subprocess.PIPE, text=True)
+    assert child.stdout.readline() == "begins\n"
+    time.sleep(0.3)
+    child.send_signal(signal.SIGINT)
+    out, _ = child.communicate(timeout=60)
+    assert out == "interrupted\n" and child.returncode == 7
+
+
 def test_progress_is_called_and_may_stop():
     seen = []
     tufted.PointCloud(sphere(3000), progress=lambda stage, fraction: seen.append((stage, fraction)))
@@ -49,6 +72,13 @@ def test_progress_is_called_and_may_stop():
     for call in (cloud.distance, cloud.green):
         with pytest.raises(tufted.Cancelled):
             call(0, progress=lambda stage, fraction: False)
+    for call in (cloud.validate, cloud.restricted_to, lambda **more: cloud.nearest(sphere(20), **more),
+                 lambda **more: cloud.nearest(sphere(2000), **more)):
+        with pytest.raises(tufted.Cancelled):
+            call(progress=lambda stage, fraction: False)
+        fractions = []
+        call(progress=lambda stage, fraction: fractions.append(fraction))
+        assert fractions
     assert np.isfinite(cloud.distance(0)).all()
 
 

@@ -1,11 +1,27 @@
 """Arguments as callers give them, checked and turned into the arrays that the library takes. Messages name the function
 and the argument."""
+import contextlib
+
 import numpy as np
 import scipy.sparse
 
-from ._tufted import InvalidInput
+from ._tufted import InvalidInput, SolverFailure
 
 _LARGEST = 2**31 - 1
+
+
+@contextlib.contextmanager
+def named(function, **names):
+    """Errors under the name of the function that the caller has called, with the names of its arguments."""
+    try:
+        yield
+    except (InvalidInput, SolverFailure) as error:
+        text = str(error)
+        where, _, what = text.partition(": ")
+        for ours, theirs in names.items():
+            if what.startswith(ours + " "):
+                what = theirs + what[len(ours):]
+        raise type(error)(f"{function}: {what or where}") from None
 
 
 def _array(function, name, value):

@@ -48,18 +48,26 @@ class PointCloud(Surface):
             neighborhoods = check.integers(name, "neighborhoods", neighborhoods)
             if neighborhoods.ndim != 2 or len(neighborhoods) != len(points):
                 raise InvalidInput(f"{name}: neighborhoods must be {len(points)} x k, one row per point")
-        laplacian = _tufted.build_cloud(
-            points, preset, check.whole(name, "neighbors", neighbors, 3), normals, neighborhoods,
-            self._structure(name, points, image, rings, viewpoint), viewpoint, check.number(name, "mollify", mollify),
-            gluing, order, check.whole(name, "seed", seed, 0), delaunay, solving["threads"],
-            check.callback(name, progress))
-        super().__init__(laplacian, points, None, solving)
+        structure = self._structure(name, points, image, rings, viewpoint)
+        options = {
+            "preset": preset, "neighbors": check.whole(name, "neighbors", neighbors, 3), "gluing": gluing,
+            "delaunay": delaunay, "order": order, "seed": check.whole(name, "seed", seed, 0),
+            "mollify": check.number(name, "mollify", mollify), "threads": solving["threads"],
+            "viewpoint": None if viewpoint is None else viewpoint.copy(),
+            "structure": "none" if structure is None else "image" if rings is None else "rings",
+            "given_normals": normals is not None, "given_neighborhoods": neighborhoods is not None}
+        laplacian = _tufted.build_cloud(points, options, normals, neighborhoods, structure,
+                                        check.callback(name, progress))
+        super().__init__(laplacian, points, None, solving, options)
 
     @staticmethod
     def _structure(name, points, image, rings, viewpoint):
         origin = np.zeros(3) if viewpoint is None else viewpoint
         if image is not None and rings is not None:
             raise InvalidInput(f"{name}: image and rings are both given, must be one at most")
+        for structure in (image, rings):
+            if isinstance(structure, _tufted.ScanStructure):  # of a file, see read()
+                return structure
         if image is not None:
             size = check.integers(name, "image", image)
             if size.shape != (2,) or size[0] * size[1] != len(points):
@@ -95,10 +103,10 @@ class Mesh(Surface):
         solving = _solving(name, threads, solver, memory_limit)
         points = check.rows_of_three(name, "points", points)
         faces = check.triangles(name, "faces", faces)
-        laplacian = _tufted.build_mesh(points, faces, check.number(name, "mollify", mollify), order,
-                                       check.whole(name, "seed", seed, 0), solving["threads"],
-                                       check.callback(name, progress))
-        super().__init__(laplacian, points, faces, solving)
+        options = {"order": order, "seed": check.whole(name, "seed", seed, 0),
+                   "mollify": check.number(name, "mollify", mollify), "threads": solving["threads"]}
+        laplacian = _tufted.build_mesh(points, faces, options, check.callback(name, progress))
+        super().__init__(laplacian, points, faces, solving, options)
 
     @property
     def faces(self):
@@ -125,27 +133,35 @@ def _set_geometry(surface, geometry, source):
     return surface
 
 
-def read(path, *, kind="automatic", weld=False, image=False, normals=False, progress=None, **options):
+def read(path, *, kind="automatic", weld=False, image=False, rings=None, normals=False, progress=None, **options):
     """Reads a cloud or a mesh from a file and builds its Laplacian, as `tufted laplacian` does.
 
     path: PCD, PLY, LAS, text in columns, NPY, OBJ, OFF or STL.
     kind: "automatic", "cloud" (faces are ignored) or "mesh" (a file without faces is an error).
     weld: whether vertices of a mesh that coincide get one number.
     image: whether the rows of an organized cloud give the neighbours.
+    rings: True: the rings of a spinning scanner give the neighbours, by the file's fields `ring` and `azimuth`, or for
+    either that it lacks by the directions seen from its viewpoint. Otherwise as in PointCloud.
     normals: whether the file's normals are used for the tangent planes.
     options: those of PointCloud or Mesh.
     """
     path = os.fspath(path)
+    has_rings = rings is not None and rings is not False
     geometry = _tufted.read_file(path, kind, bool(weld), check.callback("read", progress))
     if geometry.is_mesh:
-        if image or normals:
-            raise InvalidInput(f"read: {'image' if image else 'normals'} = True, must be False for a mesh")
+        for name, value in (("image", image), ("rings", has_rings), ("normals", normals)):
+            if value:
+                raise InvalidInput(f"read: {name} is asked for, must not be for a mesh")
         return _set_geometry(Mesh(geometry.points, geometry.triangles, progress=progress, **options), geometry, path)
     position = np.array(geometry.viewpoint[:3])
     if geometry.height > 1 or position.any():
         options.setdefault("viewpoint", position)
     if image:
-        options["image"] = (geometry.width, geometry.height)
+        if geometry.height <= 1:
+            raise _tufted.IoError(f"{path}: is one row of points, no organized cloud, which image=True asks for")
+        options["image"] = _tufted.image_structure(geometry.width, geometry.height, position)
+    if has_rings:
+        options["rings"] = _tufted.rings_of(geometry, path) if rings is True else rings
     if normals:
         if len(geometry.normals) == 0 and len(geometry.points) > 0:
             raise _tufted.IoError(f"{path}: has no normals, which normals=True asks for")
@@ -173,5 +189,5 @@ def load(directory, *, threads=0, solver="automatic", memory_limit=0, progress=N
         raise _tufted.IoError(f"{path}: has {len(geometry.points)} points, and L has {len(laplacian.status)} rows")
     surface = PointCloud.__new__(PointCloud) if laplacian.is_cloud else Mesh.__new__(Mesh)
     faces = None if laplacian.is_cloud else np.ascontiguousarray(geometry.triangles)
-    Surface.__init__(surface, laplacian, geometry.points, faces, solving, None, directory)
+    Surface.__init__(surface, laplacian, geometry.points, faces, solving, None, None, directory)
     return surface

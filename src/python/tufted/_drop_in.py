@@ -1,6 +1,4 @@
 """Functions and classes with the names and arguments of robust_laplacian and potpourri3d."""
-import contextlib
-
 import numpy as np
 import scipy.sparse
 
@@ -11,20 +9,6 @@ from ._tufted import InvalidInput
 
 # Half of a squared mean edge for distances, four for vectors: what the library's own solvers take by default.
 _DISTANCE_STEP, _VECTOR_STEP = 0.5, 4.0
-
-
-@contextlib.contextmanager
-def _named(function, **names):
-    """Messages of InvalidInput with the names that the caller has used."""
-    try:
-        yield
-    except InvalidInput as error:
-        text = str(error)
-        where, _, what = text.partition(": ")
-        for ours, theirs in names.items():
-            if what.startswith(ours + " "):
-                what = theirs + what[len(ours):]
-        raise InvalidInput(f"{function}: {what or where}") from None
 
 
 def _matrices(surface, dummy, return_mass):
@@ -44,7 +28,7 @@ def point_cloud_laplacian(points, mollify_factor=1e-5, n_neighbors=30, return_ma
     threads: at most this many; 0: all.
     Returns L and M, N x N csc_matrix; L is positive semidefinite, minus the Laplacian, and M diagonal, length^2.
     """
-    with _named("point_cloud_laplacian", mollify="mollify_factor", neighbors="n_neighbors"):
+    with check.named("point_cloud_laplacian", mollify="mollify_factor", neighbors="n_neighbors"):
         cloud = PointCloud(points, preset, n_neighbors, mollify=mollify_factor, threads=threads, progress=progress)
     return _matrices(cloud, dummy, return_mass)
 
@@ -54,7 +38,7 @@ def mesh_laplacian(verts, faces, mollify_factor=1e-5, return_mass=True, *, dummy
 
     verts: V x 3. faces: F x 3. All else as in point_cloud_laplacian().
     """
-    with _named("mesh_laplacian", mollify="mollify_factor", points="verts"):
+    with check.named("mesh_laplacian", mollify="mollify_factor", points="verts"):
         mesh = Mesh(verts, faces, mollify=mollify_factor, threads=threads, progress=progress)
     return _matrices(mesh, dummy, return_mass)
 
@@ -126,7 +110,7 @@ class PointCloudHeatSolver(_Distances, _Vectors):
     """
 
     def __init__(self, P, t_coef=1.0, **options):
-        with _named("PointCloudHeatSolver", points="P"):
+        with check.named("PointCloudHeatSolver", points="P"):
             super().__init__(PointCloud(P, **options), t_coef)
 
 
@@ -138,7 +122,7 @@ class MeshHeatMethodDistanceSolver(_Distances):
     """
 
     def __init__(self, V, F, t_coef=1.0, use_robust=True, **options):
-        with _named("MeshHeatMethodDistanceSolver", points="V", faces="F"):
+        with check.named("MeshHeatMethodDistanceSolver", points="V", faces="F"):
             super().__init__(Mesh(V, F, **options), t_coef)
 
 
@@ -149,7 +133,7 @@ class MeshVectorHeatSolver(_Vectors):
     """
 
     def __init__(self, V, F, t_coef=1.0, **options):
-        with _named("MeshVectorHeatSolver", points="V", faces="F"):
+        with check.named("MeshVectorHeatSolver", points="V", faces="F"):
             super().__init__(Mesh(V, F, **options), t_coef)
 
 

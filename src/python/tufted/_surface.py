@@ -21,16 +21,18 @@ class Surface:
     """L and M of a cloud or a mesh, and all that is computed from them. Made by PointCloud, Mesh, read and load.
 
     Arrays that show the library's own memory (L, M, status, ...) cannot be written to; take a copy to change one.
-    What is costly to make, a factor or a spectrum, is kept, so a second call with the same options is quick. Methods
-    may run in several threads at once. All take `progress`, a function of a stage's name and the fraction of it that
-    is done, which stops the computation by returning False; Ctrl-C stops it as well.
+    What is costly to make, a factor or a spectrum, is kept, so a second call with the same options is quick; of the
+    factors for given pins, and for smoothing, the last one. Methods may run in several threads at once. All take
+    `progress`, a function of a stage's name and the fraction of it that is done, which stops the computation by
+    returning False; Ctrl-C stops it as well.
     """
 
-    def __init__(self, laplacian, points, faces, solving, geometry=None, source=""):
+    def __init__(self, laplacian, points, faces, solving, options=None, geometry=None, source=""):
         self._laplacian = laplacian
         self._points = points
         self._faces = faces
         self._solving = solving  # solver, memory_limit, threads
+        self._options = options  # of the build, where they are known; report.json has them
         self._geometry = geometry
         self._source = source
         self._kept = {}
@@ -116,11 +118,11 @@ class Surface:
 
     def __getstate__(self):
         return {"laplacian": _tufted.state_of(self._laplacian), "points": self._points, "faces": self._faces,
-                "solving": self._solving, "source": self._source}
+                "solving": self._solving, "options": self._options, "source": self._source}
 
     def __setstate__(self, state):
         Surface.__init__(self, _tufted.from_state(state["laplacian"]), state["points"], state["faces"],
-                         state["solving"], None, state["source"])
+                         state["solving"], state["options"], None, state["source"])
 
     # Spectrum
 
@@ -284,14 +286,14 @@ class Surface:
         pins: {index: value, ...}, or P indices with `values`, P or P x c.
         Returns N or N x c, within the range of the pinned values; NaN in components without a pin.
         """
-        return self._interpolate("harmonic", _tufted.harmonic, pins, values, progress)
+        return self._interpolate("harmonic", pins, values, progress)
 
     def biharmonic(self, pins, values=None, *, progress=None):
         """The function of least bending with given values: smooth at the pins, but not bounded by them.
 
         Arguments and result are those of harmonic().
         """
-        return self._interpolate("biharmonic", _tufted.biharmonic, pins, values, progress)
+        return self._interpolate("biharmonic", pins, values, progress)
 
     def poisson(self, f, pins=None, values=None, *, progress=None):
         """Solves L u = M f: minus the Laplacian of u is f.
@@ -306,7 +308,8 @@ class Surface:
             result = self._poisson_solver(progress).poisson(table, progress)
         else:
             where, given, _ = check.pins("poisson", pins, values, len(self))
-            result = _tufted.pinned_poisson(self._laplacian, table, where, given, self._solver(), progress)
+            solver = self._interpolation_solver("poisson", "harmonic", where, progress)
+            result = solver.poisson(table, given, progress)
         return result[:, 0] if flat else result
 
     def green(self, points, *, progress=None):
@@ -403,11 +406,15 @@ class Surface:
             if fixed.shape != (len(self),):
                 raise InvalidInput(f"smooth: fixed has {fixed.size} values, must have {len(self)}, one per point")
             fixed = np.ascontiguousarray(fixed.astype(bool), dtype=np.uint8)
-        return _tufted.smooth(self._laplacian, points, check.number("smooth", "time_step", time_step),
-                              check.whole("smooth", "iterations", iterations, 1), fixed, self._solving["threads"],
-                              check.callback("smooth", progress))
+        time_step = check.number("smooth", "time_step", time_step)
+        iterations = check.whole("smooth", "iterations", iterations, 1)
+        progress = check.callback("smooth", progress)
+        key = time_step, None if fixed is None else fixed.tobytes()
+        solver = self._keep_last("smooth", key, lambda: _tufted.SmoothingSolver(
+            self._laplacian, time_step, fixed, self._solver(), progress))
+        return solver.smooth(points, iterations, progress)
 
-    def nearest(self, positions):
+    def nearest(self, positions, *, progress=None):
         """The active points nearest to positions.
 
         positions: P x 3, or 3 values for one.
@@ -415,17 +422,18 @@ class Surface:
         """
         single = np.ndim(positions) == 1
         found = _tufted.nearest(self._laplacian, self._points,
-                                check.rows_of_three("nearest", "positions", np.atleast_2d(positions)))
+                                check.rows_of_three("nearest", "positions", np.atleast_2d(positions)),
+                                check.callback("nearest", progress))
         return int(found[0]) if single else found
 
-    def validate(self):
+    def validate(self, *, progress=None):
         """Checks what is promised of L and M: symmetry, signs, sums, definiteness, and every weight against the cover.
 
         Returns a dict: ok, faults (a sentence for each broken promise), not_checked, and what was measured.
         """
-        return _tufted.validate(self._laplacian)
+        return _tufted.validate(self._laplacian, check.callback("validate", progress))
 
-    def restricted_to(self, components="largest"):
+    def restricted_to(self, components="largest", *, progress=None):
         """The surface of some components alone; all other points are isolated, and keep their index.
 
         components: "largest", a label of `components`, or several.
@@ -436,19 +444,21 @@ class Surface:
             components = 0
         labels = check.integers("restricted_to", "components", components).reshape(-1)
         restricted = type(self).__new__(type(self))
-        Surface.__init__(restricted, self._laplacian.restricted_to(labels.tolist()), self._points, self._faces,
-                         self._solving, self._geometry, self._source)
+        laplacian = self._laplacian.restricted_to(labels.tolist(), check.callback("restricted_to", progress))
+        Surface.__init__(restricted, laplacian, self._points, self._faces, self._solving, self._options,
+                         self._geometry, self._source)
         return restricted
 
-    def save(self, directory, *, formats=("npz", "ply"), dummy=False, progress=None):
-        """Writes what `tufted laplacian` writes, all files or none.
+    def save(self, directory, *, formats=("npz", "ply"), sign="psd", dummy=False, progress=None):
+        """Writes what `tufted laplacian` writes with the same options, all files or none.
 
         formats: of npz, mtx, mat, spmat, ply, pcd, cover, triangles. "cover" lets load() compute distances, too.
+        sign: of L in the files: "psd" as here, or "igl", negated.
         dummy: whether points that take no part get values on the diagonals, for full rank.
         """
         formats = [formats] if isinstance(formats, str) else list(formats)
         geometry = self._geometry or _tufted.Geometry(self._points, self._faces)
-        _tufted.save(directory, self._laplacian, geometry, formats, self._source, bool(dummy),
+        _tufted.save(directory, self._laplacian, geometry, formats, self._source, sign, bool(dummy), self._options,
                      check.callback("save", progress))
 
     # Helpers
@@ -458,6 +468,14 @@ class Surface:
         if key not in self._kept:
             self._kept[key] = make()
         return self._kept[key]
+
+    def _keep_last(self, name, key, make):
+        """What `make` returns, made anew where `key` is not that of the last call. For factors of which every key has
+        another one, and which would fill the memory."""
+        kept = self._kept.get(name)
+        if kept is None or kept[0] != key:
+            kept = self._kept[name] = key, make()
+        return kept[1]
 
     def _solver(self):
         return _tufted.Solving(**self._solving)
@@ -529,10 +547,16 @@ class Surface:
     def _poisson_solver(self, progress):
         return self._keep("poisson", lambda: _tufted.PoissonSolver(self._laplacian, self._solver(), progress))
 
-    def _interpolate(self, function, interpolate, pins, values, progress):
+    def _interpolate(self, function, pins, values, progress):
         where, table, flat = check.pins(function, pins, values, len(self))
-        result = interpolate(self._laplacian, where, table, self._solver(), check.callback(function, progress))
+        progress = check.callback(function, progress)
+        result = self._interpolation_solver(function, function, where, progress).interpolate(table, progress)
         return result[:, 0] if flat else result
+
+    def _interpolation_solver(self, function, kind, where, progress):
+        with check.named(function):
+            return self._keep_last(kind, where.tobytes(), lambda: _tufted.InterpolationSolver(
+                self._laplacian, where, kind, self._solver(), progress))
 
     def _gradients(self, neighbors, regularization, progress):
         if neighbors is not None:

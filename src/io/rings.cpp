@@ -1,0 +1,78 @@
+#include "tufted/io/rings.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "tufted/errors.h"
+
+namespace tufted {
+namespace {
+
+constexpr double slack = 1.001;  // of a turn, for rounding and for the points that the last firing added
+
+const Field* fieldNamed(const Geometry& geometry, const char* name) {
+  const auto field = std::find_if(geometry.fields.begin(), geometry.fields.end(),
+                                  [name](const Field& f) { return f.name == name && f.count == 1; });
+  return field == geometry.fields.end() ? nullptr : &*field;
+}
+
+/// The number of a ring; negative if the value is not one.
+int ringAt(const Field& field, std::size_t i) {
+  const double value = valueOf(field, i);
+  return value >= 0 && value < (1 << 30) ? static_cast<int>(value) : -1;
+}
+
+/// Azimuths in radians. Files do not state the unit; drivers use radians, degrees and hundredths of degrees, and the
+/// first of these whose full turn covers all values is taken. A narrow sector may be taken for another unit; its points
+/// keep their order around the axis, which suffices, and so with any zero and sense of turning.
+std::vector<double> azimuthsOf(const Field& field, const Points& points, const std::string& name) {
+  std::vector<double> azimuth(static_cast<std::size_t>(points.rows()));
+  double largest = 0;
+  for (std::size_t i = 0; i < azimuth.size(); ++i) {
+    azimuth[i] = valueOf(field, i);
+    const bool counts = points.row(static_cast<Eigen::Index>(i)).allFinite() && std::isfinite(azimuth[i]);
+    if (counts) largest = std::max(largest, std::abs(azimuth[i]));
+  }
+  const double radians = 2 * std::numbers::pi;
+  for (const double turn : {radians, 360.0, 36000.0}) {
+    if (largest > slack * turn) continue;
+    for (double& angle : azimuth) angle *= radians / turn;
+    return azimuth;
+  }
+  throw IoError(name + ": has a field `azimuth` up to " + std::to_string(largest) +
+                ", must be radians, degrees or hundredths of degrees");
+}
+
+}  // namespace
+
+ScanStructure ringsOf(const Geometry& geometry, const std::string& name) {
+  const auto& pose = geometry.viewpoint;
+  const Eigen::Vector3d origin(pose[0], pose[1], pose[2]);
+  Eigen::Quaterniond turn(pose[3], pose[4], pose[5], pose[6]);
+  turn.coeffs() /= turn.coeffs().cwiseAbs().maxCoeff();  // the square of its length neither over- nor underflows
+  // The scanner's frame, whose z axis it turns around.
+  const Points seen = (geometry.points.rowwise() - origin.transpose()) * turn.normalized().toRotationMatrix();
+  const auto byElevation = [&] {
+    try {
+      return findRings(seen);
+    } catch (const InvalidInput& error) {
+      throw IoError(name + ": has no field `ring`, and its elevations show no rings: " + error.what());
+    }
+  };
+  const auto byField = [&](const Field& field) {
+    std::vector<int> ring(static_cast<std::size_t>(geometry.points.rows()));
+    for (std::size_t i = 0; i < ring.size(); ++i) ring[i] = ringAt(field, i);
+    return ringStructure(seen, std::move(ring));
+  };
+  const Field* rings = fieldNamed(geometry, "ring");
+  ScanStructure structure = rings == nullptr ? byElevation() : byField(*rings);
+  const Field* azimuths = fieldNamed(geometry, "azimuth");
+  if (azimuths != nullptr) structure.position = azimuthsOf(*azimuths, geometry.points, name);
+  return structure;
+}
+
+}  // namespace tufted

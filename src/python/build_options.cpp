@@ -1,0 +1,53 @@
+#include "python/build_options.h"
+
+#include <string>
+
+#include "python/arrays.h"
+
+namespace py = pybind11;
+
+namespace tufted::python {
+namespace {
+
+FaceOrder orderOf(const char* argument, const py::dict& given) {
+  return chosen<FaceOrder>(argument, given["order"].cast<std::string>(),
+                           {{"angle", FaceOrder::angle}, {"area", FaceOrder::area}, {"random", FaceOrder::random}});
+}
+
+/// What clouds and meshes have in common.
+template <class Options>
+void takeCommon(const py::dict& given, Options& options) {
+  options.seed = given["seed"].cast<std::uint64_t>();
+  options.mollify = given["mollify"].cast<double>();
+  options.threads = given["threads"].cast<int>();
+}
+
+}  // namespace
+
+CloudOptions cloudOptionsOf(const py::dict& given) {
+  const auto name = [&](const char* option) { return given[option].cast<std::string>(); };
+  CloudOptions options =
+      cloudOptions(chosen<Preset>("PointCloud: preset", name("preset"),
+                                  {{"clean", Preset::clean}, {"scan", Preset::scan}, {"lidar", Preset::lidar}}));
+  options.neighbors = given["neighbors"].cast<int>();
+  options.gluing = chosen<Gluing>("PointCloud: gluing", name("gluing"),
+                                  {{"star", Gluing::star}, {"vertex-pair", Gluing::vertex_pair}});
+  options.order = orderOf("PointCloud: order", given);
+  options.delaunay =
+      chosen<Delaunay>("PointCloud: delaunay", name("delaunay"), {{"star", Delaunay::star}, {"cgal", Delaunay::cgal}});
+  takeCommon(given, options);
+  return options;
+}
+
+MeshOptions meshOptionsOf(const py::dict& given) {
+  MeshOptions options;
+  options.order = orderOf("Mesh: order", given);
+  takeCommon(given, options);
+  return options;
+}
+
+std::optional<Eigen::Vector3d> viewpointOf(const py::dict& given) {
+  return given["viewpoint"].cast<std::optional<Eigen::Vector3d>>();
+}
+
+}  // namespace tufted::python
