@@ -1,4 +1,4 @@
-// Geodesic distances.
+// Geodesic distances and paths.
 #include "tufted/distance.h"
 
 #include <string>
@@ -8,6 +8,7 @@
 #include "python/arrays.h"
 #include "python/module.h"
 #include "python/running.h"
+#include "tufted/path.h"
 
 namespace py = pybind11;
 
@@ -57,6 +58,17 @@ py::tuple nearest(const DistanceSolver& solver, const std::vector<SurfacePoint>&
   return py::make_tuple(std::move(found.distance), owned(std::move(found.source)));
 }
 
+PathSolver pathSolverOf(const Laplacian& laplacian, const Solving& solving, const py::object& progress) {
+  return run(progress,
+             [&](const Progress& called) { return PathSolver(laplacian, solving.options(called).threads, called); });
+}
+
+/// The points of a path, K x 3, and its length.
+py::tuple pathBetween(const PathSolver& solver, int from, int to, const py::object& progress) {
+  SurfacePath path = run(progress, [&](const Progress& called) { return solver.path(from, to, called); });
+  return py::make_tuple(std::move(path.points), path.length);
+}
+
 }  // namespace
 
 void addDistance(py::module_& module) {
@@ -67,6 +79,7 @@ void addDistance(py::module_& module) {
       .def("query", &query)
       .def("nearest", &nearest)
       .def_property_readonly("time_step", &DistanceSolver::timeStep);
+  py::class_<PathSolver>(module, "PathSolver").def(py::init(&pathSolverOf)).def("path", &pathBetween);
 }
 
 }  // namespace tufted::python

@@ -56,6 +56,16 @@ def test_distances_are_those_of_the_sphere(cloud):
     assert abs(cloud.distance([0], method="heat", unit="adapted", open_boundary=False) - exact).mean() < 0.02 * np.pi / 2
 
 
+def test_paths_run_along_great_circles(cloud):
+    points, length = cloud.path(0, 1500)
+    exact = np.arccos(np.clip(CLOUD[0] @ CLOUD[1500], -1, 1))
+    assert abs(length - exact) < 0.01 * exact
+    np.testing.assert_array_equal(points[[0, -1]], CLOUD[[0, 1500]])
+    assert abs(np.linalg.norm(np.diff(points, axis=0), axis=1).sum() - length) < 0.002 * length
+    with pytest.raises(tufted.InvalidInput, match="path: end has 2 indices, must be one"):
+        cloud.path(0, [1, 2])
+
+
 def test_the_nearest_source_is_the_one_that_the_distance_is_from(cloud):
     sources = [0, 150, 299]
     distance, source = cloud.nearest_source(sources)

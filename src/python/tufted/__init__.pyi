@@ -41,6 +41,11 @@ class Segments(NamedTuple):
     areas: _Floats
     seeds: _Integers
 
+class Path(NamedTuple):
+    points: _Floats
+    length: float
+
+
 class LogMap(NamedTuple):
     coordinates: _Floats
     axes: _Floats
@@ -90,6 +95,7 @@ class Surface:
                        split: int = 1, maximum: float = ..., time_step: float | None = None,
                        unit: Literal["mean", "adapted"] | None = None, open_boundary: bool | None = None,
                        progress: _Progress = None) -> tuple[_Floats, npt.NDArray[np.int32]]: ...
+    def path(self, start: int, end: int, *, progress: _Progress = None) -> Path: ...
     def extend(self, sources: npt.ArrayLike, values: npt.ArrayLike, *, time_step: float = 4.0,
                progress: _Progress = None) -> _Floats: ...
     def transport(self, sources: npt.ArrayLike, vectors: npt.ArrayLike, *, time_step: float = 4.0,

@@ -33,6 +33,12 @@ class Segments(NamedTuple):
     seeds: np.ndarray
 
 
+class Path(NamedTuple):
+    """A path over the surface."""
+    points: np.ndarray
+    length: float
+
+
 class LogMap(NamedTuple):
     """Coordinates around a point."""
     coordinates: np.ndarray

@@ -5,7 +5,7 @@ import numpy as np
 
 from . import _arguments as check
 from . import _tufted
-from ._results import Curvature, Gradients, LogMap, Segments, Spectrum
+from ._results import Curvature, Gradients, LogMap, Path, Segments, Spectrum
 from ._tufted import InvalidInput
 
 # Points that a notebook shows: a page of more would make its file larger than some ten megabytes.
@@ -228,6 +228,22 @@ class Surface:
         places = self._places("nearest_source", sources, faces, barycentric)
         solver = self._distance_solver(method, split, maximum, time_step, unit, open_boundary, progress)
         return solver.nearest(places, check.callback("nearest_source", progress))
+
+    def path(self, start, end, *, progress=None):
+        """The shortest path between two points, straight across the triangles.
+
+        start, end: indices.
+        Returns (points, length): K x 3, from start to end, and the length along the surface. Points on different
+        components are refused.
+        """
+        self._need_cover("path")
+        ends = [check.indices("path", name, point, len(self)) for name, point in (("start", start), ("end", end))]
+        for name, point in zip(("start", "end"), ends):
+            if point.size != 1:
+                raise InvalidInput(f"path: {name} has {point.size} indices, must be one")
+        solver = self._keep("path", lambda: _tufted.PathSolver(
+            self._laplacian, self._solver(), check.callback("path", progress)))
+        return Path(*solver.path(int(ends[0][0]), int(ends[1][0]), check.callback("path", progress)))
 
     def extend(self, sources, values, *, time_step=4.0, progress=None):
         """Values of some points carried to all: nearly those of the nearest source.
