@@ -16,11 +16,13 @@
 #include "oracles/geodesics.h"
 #include "oracles/oracles.h"
 #include "oracles/planar.h"
+#include "shapes/random.h"
 #include "shapes/shapes.h"
 #include "tufted/distance.h"
 #include "tufted/errors.h"
 #include "tufted/interpolation.h"
 #include "tufted/io/read.h"
+#include "tufted/path.h"
 
 // Tables of what distances, interpolation and Green's functions reach, in Markdown.
 
@@ -63,16 +65,13 @@ Error errorOf(const VectorXd& distance, const VectorXd& exact) {
 
 const tufted::DistanceOptions by_heat = {.method = tufted::DistanceMethod::heat};
 
-/// CGAL's meshes that its exact search takes and is done with soon.
-void printMeshes() {
-  std::printf(
-      "| mesh | triangles | marching, mean | max | heat, mean | max | heat by cotan, mean | max |\n"
-      "|---|---|---|---|---|---|---|---|\n");
+/// Calls visit(file, geometry, exact distances from the first corner of the first triangle) for those of CGAL's meshes
+/// that its exact search takes and is done with soon.
+template <class Visit>
+void forEachMesh(const Visit& visit) {
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(TUFTED_CGAL_DATA_DIR "/meshes")) files.push_back(entry);
   std::sort(files.begin(), files.end());
-  std::vector<double> marching, heat, theirs;
-  int better = 0;
   for (const auto& file : files) {
     tufted::Geometry geometry;
     try {
@@ -80,26 +79,36 @@ void printMeshes() {
     } catch (const tufted::IoError&) {
       continue;
     }
-    const auto triangles = geometry.triangles.rows();
-    if (triangles < 100 || triangles > 6000) continue;
-    const auto exact = oracles::exactDistances(geometry.points, geometry.triangles, 0, {1, 0, 0});
-    if (!exact) continue;
+    if (geometry.triangles.rows() < 100 || geometry.triangles.rows() > 6000) continue;
+    if (const auto exact = oracles::exactDistances(geometry.points, geometry.triangles, 0, {1, 0, 0}))
+      visit(file, geometry, *exact);
+  }
+}
+
+void printMeshes() {
+  std::printf(
+      "| mesh | triangles | marching, mean | max | heat, mean | max | heat by cotan, mean | max |\n"
+      "|---|---|---|---|---|---|---|---|\n");
+  std::vector<double> marching, heat, theirs;
+  int better = 0;
+  forEachMesh([&](const std::filesystem::path& file, const tufted::Geometry& geometry, const VectorXd& exact) {
     const int source = geometry.triangles(0, 0);
     const Laplacian laplacian = tufted::meshLaplacian(geometry.points, geometry.triangles);
-    const Error m = errorOf(DistanceSolver(laplacian).query({source}), *exact);
-    const Error a = errorOf(DistanceSolver(laplacian, by_heat).query({source}), *exact);
-    const Error b = errorOf(oracles::classicHeatDistances(geometry.points, geometry.triangles, source), *exact);
+    const Error m = errorOf(DistanceSolver(laplacian).query({source}), exact);
+    const Error a = errorOf(DistanceSolver(laplacian, by_heat).query({source}), exact);
+    const Error b = errorOf(oracles::classicHeatDistances(geometry.points, geometry.triangles, source), exact);
     const bool has_theirs = std::isfinite(b.mean);  // else its matrix has no factor
     better += m.mean <= a.mean && m.greatest <= a.greatest ? 1 : 0;
     marching.push_back(m.mean), heat.push_back(a.mean), theirs.push_back(has_theirs ? b.mean : INFINITY);
     std::printf("| %s | %d | %.2f %% | %.1f %% | %.2f %% | %.1f %% | ", file.filename().c_str(),
-                static_cast<int>(triangles), 100 * m.mean, 100 * m.greatest, 100 * a.mean, 100 * a.greatest);
+                static_cast<int>(geometry.triangles.rows()), 100 * m.mean, 100 * m.greatest, 100 * a.mean,
+                100 * a.greatest);
     if (has_theirs)
       std::printf("%.2f %% | %.1f %% |\n", 100 * b.mean, 100 * b.greatest);
     else
       std::printf("no factor | |\n");
     std::fflush(stdout);
-  }
+  });
   const auto median = [](std::vector<double> values) {
     std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
     return values[values.size() / 2];
@@ -108,6 +117,61 @@ void printMeshes() {
   std::printf("| median of %zu | | %.2f %% | | %.2f %% | | %.2f %% | |\n", heat.size(), 100 * median(marching),
               100 * median(heat), 100 * median(theirs));
   std::printf("\nMarching is better than heat in mean and greatest error on %d of %zu.\n", better, heat.size());
+}
+
+/// The shares of paths that are longer than exact ones by more than half a percent and than one percent.
+struct PathCount {
+  int pairs = 0, half = 0, one = 0;
+  double least = 0, worst = 0;  ///< by which part of the exact length any is longer
+
+  void add(double length, double exact) {
+    const double share = length / exact - 1;
+    ++pairs;
+    half += share > 0.005 ? 1 : 0;
+    one += share > 0.01 ? 1 : 0;
+    least = std::min(least, share), worst = std::max(worst, share);
+  }
+  void print(const char* name, double milliseconds) const {
+    std::printf("| %s | %d | %.2f %% | %.2f %% | %.1e | %.1f %% | %.2f |\n", name, pairs, 100.0 * half / pairs,
+                100.0 * one / pairs, least, 100 * worst, milliseconds / pairs);
+    std::fflush(stdout);
+  }
+};
+
+void printPaths() {
+  std::printf(
+      "| paths | pairs | longer by 0.5 %% | by 1 %% | least excess | greatest | ms for each |\n"
+      "|---|---|---|---|---|---|---|\n");
+  constexpr std::uint64_t seed = 101;
+  constexpr int targets = 100;
+  shapes::Random random(seed);
+  const auto drawn = [&random](Eigen::Index n) { return static_cast<int>(random.uniform() * static_cast<double>(n)); };
+  PathCount meshes;
+  double milliseconds = 0;
+  forEachMesh([&](const std::filesystem::path&, const tufted::Geometry& geometry, const VectorXd& exact) {
+    const Laplacian laplacian = tufted::meshLaplacian(geometry.points, geometry.triangles);
+    const tufted::PathSolver solver(laplacian, 1);
+    const Stopwatch watch;
+    for (int t = 0; t < targets; ++t) {
+      const int to = drawn(exact.size());
+      if (exact[to] > 0) meshes.add(solver.path(geometry.triangles(0, 0), to).length, exact[to]);
+    }
+    milliseconds += watch.milliseconds();
+  });
+  meshes.print("CGAL's meshes", milliseconds);
+  for (const int n : {4000, 16000, 64000}) {
+    const Points points = shapes::sphere(n, shapes::Sampling::uniform, seed).points;
+    const tufted::PathSolver solver(tufted::pointCloudLaplacian(points), 1);
+    PathCount clouds;
+    const int from = drawn(n);
+    const VectorXd exact = shapes::sphereDistances(points, from);
+    const Stopwatch watch;
+    for (int t = 0; t < targets; ++t) {
+      const int to = drawn(n);
+      if (exact[to] > 0) clouds.add(solver.path(from, to).length, exact[to]);
+    }
+    clouds.print(("sphere, " + std::to_string(n) + " points").c_str(), watch.milliseconds());
+  }
 }
 
 /// Figure 15: how far harmonic functions leave the range of their pins, over that range.
@@ -246,7 +310,8 @@ void printQuery() {
 int main(int argc, char** argv) {
   const std::map<std::string, void (*)()> tables = {
       {"meshes", printMeshes}, {"obtuse", printObtuse}, {"nonmanifold", printNonmanifold},
-      {"sphere", printSphere}, {"green", printGreen},   {"query", printQuery}};
+      {"sphere", printSphere}, {"green", printGreen},   {"query", printQuery},
+      {"paths", printPaths}};
   CLI::App app("Tables of distances, interpolation and Green's functions against what is exact.");
   std::vector<std::string> names;
   std::vector<std::string> known;
