@@ -89,6 +89,23 @@ struct NearestSources {
   std::vector<int> source;  ///< N; which of the sources is nearest, of equally near ones the first; -1: none
 };
 
+/// Points near others, and how far away they are.
+struct NearbyPoints {
+  std::vector<int> points;        ///< ascending
+  std::vector<double> distances;  ///< of each, at most the radius, in the points' unit
+};
+
+/// All points whose geodesic distance from the nearest of some points is at most a radius, with the distances that
+/// DistanceSolver marches to. Only the surface around the sources is looked at, and no solver is made: on a cloud,
+/// whose cover is not built for it, a pass over the positions and then time in proportion to the points that are found;
+/// on a mesh a pass over its faces.
+/// @param sources indices of points; those that are isolated or not finite are ignored
+/// @param radius > 0, finite, in the points' unit
+/// @param split how often each triangle is cut into four, 0 to 2, see DistanceOptions::split
+/// @throws InvalidInput for no source, an index out of range, no source on any component, another radius or split, or
+/// a Laplacian without cover or positions
+NearbyPoints pointsWithin(const Laplacian& laplacian, const std::vector<int>& sources, double radius, int split = 1);
+
 /// Geodesic distance on the distinct faces of the tufted cover. Prepared once, queried often; queries may run side by
 /// side.
 ///

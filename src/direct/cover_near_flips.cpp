@@ -245,6 +245,23 @@ void CoverNearFlips::copyStar(int p, const Buffer<int>& first, const RawBuffer<i
   }
 }
 
+void CoverNearFlips::appendFaces(int p, std::vector<std::array<int, 3>>& faces, std::vector<double>& length) const {
+  if (isPresent(p)) {
+    const std::size_t first = 2 * static_cast<std::size_t>(first_[p]);
+    for (std::size_t f = first; f < first + 2 * static_cast<std::size_t>(triangleCount(stars_, p)); ++f) {
+      faces.push_back(cover_.faces[f]);
+      length.insert(length.end(), cover_.length.begin() + 3 * f, cover_.length.begin() + 3 * f + 3);
+    }
+    return;
+  }
+  forEachTriangle(stars_, length_, p, [&](int, int a, int b, const std::array<double, 3>& side_length) {
+    faces.push_back({p, a, b});
+    faces.push_back({p, b, a});
+    length.insert(length.end(), side_length.begin(), side_length.end());
+    length.insert(length.end(), side_length.rbegin(), side_length.rend());
+  });
+}
+
 IntrinsicTriangulation CoverNearFlips::complete(const Workers& workers) const {
   const int n = stars_.size();
   const Buffer<int> first = firstTriangles(stars_);

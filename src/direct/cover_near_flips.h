@@ -1,7 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <utility>
+#include <vector>
 
 #include "base/buffer.h"
 #include "base/parallel.h"
@@ -53,6 +55,10 @@ class CoverNearFlips {
   }
   /// Whether a face at p was flipped.
   bool isFlipped(int p) const { return flipped_[p] != 0; }
+
+  /// Appends front and back of each triangle of a star as flips have left them: corners by rank, and the lengths of the
+  /// sides from each to the next, in the unit of the points.
+  void appendFaces(int p, std::vector<std::array<int, 3>>& faces, std::vector<double>& length) const;
 
   /// The whole cover: vertices by rank, lengths in the unit of the points.
   IntrinsicTriangulation complete(const Workers& workers) const;

@@ -65,6 +65,26 @@ const IntrinsicTriangulation& StarUnion::cover() const {
   return whole_;
 }
 
+bool StarUnion::appendFacesNear(const Eigen::Vector3d& center, double radius, std::vector<std::array<int, 3>>& faces,
+                                std::vector<double>& length) const {
+  const PowerOfTwo unit(cloud_.exponent), to_ranked(-cloud_.exponent);
+  const double x = to_ranked.times(center.x()), y = to_ranked.times(center.y()), z = to_ranked.times(center.z());
+  const double reach = to_ranked.times(radius), square = reach * reach;
+  const PointsView points = length_.points, moved = length_.displacement;
+  const bool is_moved = moved.rows() > 0;
+  const std::size_t first_face = faces.size(), first_length = length.size();
+  for (int p = 0; p < cloud_.size(); ++p) {
+    const double *at = points.data() + 3 * std::ptrdiff_t{p}, *by = moved.data() + 3 * std::ptrdiff_t{p};
+    const double dx = at[0] - x + (is_moved ? by[0] : 0), dy = at[1] - y + (is_moved ? by[1] : 0),
+                 dz = at[2] - z + (is_moved ? by[2] : 0);
+    if (dx * dx + dy * dy + dz * dz <= square) cover_.appendFaces(p, faces, length);
+  }
+  for (std::size_t f = first_face; f < faces.size(); ++f)
+    for (int& corner : faces[f]) corner = cloud_.input_index[corner];
+  for (std::size_t i = first_length; i < length.size(); ++i) length[i] = unit.times(length[i]);
+  return true;
+}
+
 VectorXd StarUnion::starAreas() const {
   if (!has_own_areas_) return {};
   const Progress silent;

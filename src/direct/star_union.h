@@ -49,6 +49,8 @@ class StarUnion final : public CoverSource {
   /// The whole cover, which is made when it is first asked for.
   const IntrinsicTriangulation& cover() const override;
   VectorXd starAreas() const override;
+  bool appendFacesNear(const Eigen::Vector3d& center, double radius, std::vector<std::array<int, 3>>& faces,
+                       std::vector<double>& length) const override;
 
   /// What mollification has added to each edge.
   double mollifyLength() const { return length_.added; }

@@ -1,0 +1,207 @@
+// Distances up to a radius, over the faces around the sources alone.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "algorithms/march.h"
+#include "algorithms/march_faces.h"
+#include "base/number_text.h"
+#include "cover/face_scale.h"
+#include "cover/geometry.h"
+#include "operators/check_cover.h"
+#include "operators/distinct_faces.h"
+#include "tufted/check.h"
+#include "tufted/distance.h"
+#include "tufted/errors.h"
+
+namespace tufted {
+namespace {
+
+constexpr const char* function = "pointsWithin";
+constexpr int most_splits = 2;
+/// Faces that flips have moved, or that a point outside has found, may lie beyond the radius by this many spacings.
+constexpr double margin_in_spacings = 6;
+/// The areas around a point, by the faces that were found and by those of the whole cover, agree within this part.
+constexpr double same_area = 1e-9;
+
+int checkedSource(const Laplacian& laplacian, int source) {
+  const auto n = std::ssize(laplacian.status);
+  if (source < 0 || source >= n) {
+    throw InvalidInput(std::string(function) + ": source " + std::to_string(source) + ", must lie in [0, " +
+                       std::to_string(n) + ")");
+  }
+  return laplacian.representative[source];
+}
+
+/// The sources that lie on the surface, without copies.
+std::vector<int> checkedSources(const Laplacian& laplacian, const std::vector<int>& sources, double radius, int split) {
+  const std::string name = std::string(function) + ": ";
+  const auto n = std::ssize(laplacian.status);
+  if (!laplacian.hasCover()) throw InvalidInput(name + "the Laplacian has no cover, must have one");
+  if (laplacian.positions.rows() != n || std::ssize(laplacian.representative) != n)
+    throw InvalidInput(name + "positions has " + std::to_string(laplacian.positions.rows()) + " rows, must have " +
+                       std::to_string(n));
+  if (!(radius > 0 && std::isfinite(radius)))
+    throw InvalidInput(name + "radius = " + numberText(radius) + ", must be finite and above 0");
+  if (split < 0 || split > most_splits)
+    throw InvalidInput(name + "split = " + std::to_string(split) + ", must lie in [0, " + std::to_string(most_splits) +
+                       "]");
+  if (sources.empty()) throw InvalidInput(name + "sources is empty, must name at least one");
+  std::vector<int> found;
+  for (const int source : sources) {
+    const int point = checkedSource(laplacian, source);
+    if (laplacian.status[point] == PointStatus::active) found.push_back(point);
+  }
+  if (found.empty()) throw InvalidInput(name + "no source lies on a component, must be at least one active point");
+  std::sort(found.begin(), found.end());
+  found.erase(std::unique(found.begin(), found.end()), found.end());
+  return found;
+}
+
+struct Faces {
+  std::vector<std::array<int, 3>> corners;
+  std::vector<double> length;  ///< from each corner to the next
+};
+
+/// Some distance between neighbours.
+double spacingAt(const Laplacian& laplacian, int point) {
+  double longest = 0;
+  for (SparseMatrix::InnerIterator entry(laplacian.L, point); entry; ++entry)
+    longest = std::max(longest, (laplacian.positions.row(entry.row()) - laplacian.positions.row(point)).norm());
+  return longest;
+}
+
+/// Faces from the stars of points in balls. Not sure to be all that are needed, see isComplete().
+bool facesFromStars(const Laplacian& laplacian, const std::vector<int>& sources, double radius, Faces& faces) {
+  if (laplacian.stored_cover || !laplacian.cover_source || laplacian.cover_areas.size() == 0) return false;
+  for (const int source : sources) {
+    const double reach = radius + margin_in_spacings * spacingAt(laplacian, source);
+    if (!laplacian.cover_source->appendFacesNear(laplacian.positions.row(source), reach, faces.corners, faces.length))
+      return false;
+  }
+  return true;
+}
+
+/// All faces with a corner in one of the balls around the sources, which no path is shorter than.
+Faces facesFromCover(const Laplacian& laplacian, const std::vector<int>& sources, double radius) {
+  checkCover(function, laplacian);
+  const IntrinsicTriangulation& cover = laplacian.cover();
+  std::vector<std::uint8_t> is_near(static_cast<std::size_t>(cover.vertices), 0);
+  for (const int source : sources) {
+    const Eigen::RowVector3d center = laplacian.positions.row(source);
+    for (Eigen::Index i = 0; i < laplacian.positions.rows(); ++i)
+      if ((laplacian.positions.row(i) - center).stableNorm() <= radius) is_near[i] = 1;
+  }
+  Faces faces;
+  for (std::int64_t f = 0; f < cover.size(); ++f) {
+    const auto& [a, b, c] = cover.faces[f];
+    if (is_near[a] + is_near[b] + is_near[c] == 0) continue;
+    faces.corners.push_back(cover.faces[f]);
+    faces.length.insert(faces.length.end(), cover.length.begin() + 3 * f, cover.length.begin() + 3 * f + 3);
+  }
+  return faces;
+}
+
+/// Faces with corners numbered from 0 in the order of the points.
+struct Patch {
+  std::vector<int> points;  ///< ascending
+  std::vector<DistinctFace> faces;
+  int exponent = 0;
+
+  int numberOf(int point) const {
+    return static_cast<int>(std::lower_bound(points.begin(), points.end(), point) - points.begin());
+  }
+  bool has(int point) const { return std::binary_search(points.begin(), points.end(), point); }
+};
+
+Patch patchOf(const Faces& faces) {
+  Patch patch;
+  for (const auto& corners : faces.corners) patch.points.insert(patch.points.end(), corners.begin(), corners.end());
+  std::sort(patch.points.begin(), patch.points.end());
+  patch.points.erase(std::unique(patch.points.begin(), patch.points.end()), patch.points.end());
+  IntrinsicTriangulation local;
+  local.vertices = static_cast<int>(patch.points.size());
+  local.faces = faces.corners;
+  local.length = faces.length;
+  for (auto& face : local.faces)
+    for (int& corner : face) corner = patch.numberOf(corner);
+  const Progress silent;
+  patch.faces = distinctFaces(local, Workers(1, silent));
+  patch.exponent = unitOf(local.length);
+  return patch;
+}
+
+std::vector<double> distancesOn(const Patch& patch, const std::vector<int>& sources, double radius, int split) {
+  const Progress silent;
+  const Workers workers(1, silent);
+  MarchFaces faces = marchFaces(patch.faces, static_cast<int>(patch.points.size()), patch.exponent, workers);
+  for (int times = 1; times < split; ++times) faces = splitInFour(faces, workers);
+  std::vector<MarchStart> starts;
+  for (const int source : sources)
+    if (patch.has(source)) starts.push_back({patch.numberOf(source), 0, 0});
+  std::vector<double> distance = march(faces, split > 0, starts, std::ldexp(radius, -faces.exponent), workers).distance;
+  distance.resize(patch.points.size());
+  for (double& d : distance) d = std::ldexp(d, faces.exponent);
+  return distance;
+}
+
+/// Whether all faces at the points within the radius are there: their areas are those of the whole cover.
+bool isComplete(const Laplacian& laplacian, const Patch& patch, const std::vector<double>& distance, double radius) {
+  std::vector<double> area(patch.points.size(), 0);
+  for (const DistinctFace& face : patch.faces) {
+    const auto& [a, b, c] = face.opposite;
+    const double share = face.copies * faceScale(laplacian.kind) * triangleArea(a, b, c) / 3;
+    for (const int corner : face.corners) area[corner] += share;
+  }
+  for (std::size_t i = 0; i < area.size(); ++i) {
+    if (!(distance[i] <= radius)) continue;
+    const double whole = laplacian.cover_areas[patch.points[i]];
+    if (!(std::abs(area[i] - whole) <= same_area * whole)) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+NearbyPoints pointsWithin(const Laplacian& laplacian, const std::vector<int>& sources, double radius, int split) {
+  const std::vector<int> known = checkedSources(laplacian, sources, radius, split);
+  Patch patch;
+  std::vector<double> distance;
+  Faces faces;
+  bool is_complete = facesFromStars(laplacian, known, radius, faces);
+  if (is_complete) {
+    patch = patchOf(faces);
+    distance = distancesOn(patch, known, radius, split);
+    is_complete = std::all_of(known.begin(), known.end(), [&](int source) { return patch.has(source); }) &&
+                  isComplete(laplacian, patch, distance, radius);
+  }
+  if (!is_complete) {
+    patch = patchOf(facesFromCover(laplacian, known, radius));
+    distance = distancesOn(patch, known, radius, split);
+  }
+  std::vector<std::pair<int, double>> found;
+  for (std::size_t i = 0; i < distance.size(); ++i)
+    if (distance[i] <= radius) found.emplace_back(patch.points[i], distance[i]);
+  if (laplacian.report.coincident > 0) {
+    const auto ends = found;
+    for (int i = 0; i < std::ssize(laplacian.representative); ++i) {
+      const int point = laplacian.representative[i];
+      if (point == i) continue;
+      const auto at = std::lower_bound(ends.begin(), ends.end(), std::pair(point, 0.0));
+      if (at != ends.end() && at->first == point) found.emplace_back(i, at->second);
+    }
+    std::sort(found.begin(), found.end());
+  }
+  NearbyPoints result;
+  for (const auto& [point, d] : found) {
+    result.points.push_back(point);
+    result.distances.push_back(d);
+  }
+  return result;
+}
+
+}  // namespace tufted
