@@ -145,7 +145,7 @@ int main(int argc, char** argv) try {
   tufted::writePage(dir / "plane.html", plane(), from_above);
   tufted::writePage(dir / "sphere.html", sphere());
   tufted::writePage(dir / "whirl.html", whirl(), from_above);
-  tufted::writePage(dir / "depth.html", depthImage(), {.camera = {.eye = {0, 0, -1}, .up = {0, -1, 0}}});
+  tufted::writePage(dir / "depth.html", depthImage(), {.camera = {.eye = {0.3, -0.8, -1}, .up = {0, -1, 0}}});
   tufted::writePage(dir / "hostile.html", hostile(), from_above);
   tufted::writePage(dir / "empty.html", {.title = "empty", .positions = Points(0, 3)});
 } catch (const std::exception& error) {
