@@ -93,7 +93,7 @@ Scene depthImage() {
       const double x = (column - 79.5) / 140, y = (row - 30) / 140.0;
       const bool is_wall = column > 50 && column < 110 && row > 20 && 2.5 * y < 1;
       const double depth = is_wall ? 2.5 : 1 / y;
-      const bool is_seen = depth > 0 && depth < 9 && column != 30 && (row > 100 ? column < 150 : true);
+      const bool is_seen = depth > 0 && depth < 4 && column != 30 && (row > 100 ? column < 150 : true);
       const Eigen::Index i = row * width + column;
       scene.positions.row(i) = (is_seen ? depth : nan) * Eigen::RowVector3d(x, y, 1);
       if (is_seen) labels(i, 0) = is_wall;

@@ -87,7 +87,7 @@ Scene cutSquare(bool is_mesh) {
   Eigen::MatrixXd coordinates(side * side, 2);
   for (int i = 0; i < side * side; ++i) {
     scene.positions.row(i) << 2.0 * (i % side) / (side - 1) - 1, 2.0 * (i / side) / (side - 1) - 1, 0;
-    coordinates.row(i) << (i % side < side / 2 ? -1 : 1), 0;
+    coordinates.row(i) << (i % side < side / 2 ? -0.95 : 0.95), 0;  // between two lines of the grid
   }
   scene.fields = {{"logmap", FieldKind::coordinates, coordinates}};
   if (!is_mesh) return scene;
