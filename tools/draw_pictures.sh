@@ -1,11 +1,13 @@
 #!/usr/bin/env bash
-# Draws the pictures of README and docs by the command itself, from data of CGAL (tools/fetch_samples.sh) and datasets/:
-#   tools/draw_pictures.sh [FOLDER]        FOLDER is docs/figures by default
+# Draws the pictures of README and docs by the command itself, from data of CGAL (tools/fetch_samples.sh) and PCL:
+#   tools/draw_pictures.sh CLOUDS [FOLDER]
+# CLOUDS holds clouds of PCL's test data: cturtle.pcd and mosd_learn0.pcd. FOLDER is docs/figures by default.
 # Needs build/release/tufted.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-figures=${1:-docs/figures}
+clouds=${1:?usage: draw_pictures.sh CLOUDS [FOLDER]}
+figures=${2:-docs/figures}
 samples=$(tools/fetch_samples.sh) || {
   echo "draw_pictures: the package libcgal-demo cannot be had here" >&2
   exit 1
@@ -23,14 +25,11 @@ draw() {
 }
 
 building=$samples/points_3/building.ply
-bunny=$samples/meshes/bunny00.off
-draw distance distance "$building" --source 0 --size 700x500
-draw eigenvector spectrum "$bunny" --as cloud --count 8 --column 5 --up y --camera 20,12 --size 560x500
-draw depth_image distance datasets/depth_camera.ply --source 8320 --component largest --size 700x500
-draw logmap_bunny logmap "$bunny" --as cloud --source 200 --up y --camera 20,12 --size 560x500
-draw parts segment "$bunny" --as cloud --count 12 --up y --camera 20,12 --size 560x500
-draw boundary_kinds laplacian datasets/depth_camera.ply --color boundary --size 700x500
-noisy=datasets/sphere_uniform_noise_1pct.ply
-draw before filter "$noisy" --positions --count 600 --size 500x450
-draw after filter "$noisy" --positions --count 60 --size 500x450
+on_bunny=("$samples/meshes/bunny00.off" --as cloud --up y --camera 20,12 --size 560x500)
+table=$clouds/mosd_learn0.pcd
+draw distance distance "$building" --source 3446 --camera -128,24 --size 760x480
+draw eigenvector spectrum "${on_bunny[@]}" --count 8 --column 5
+draw parts segment "${on_bunny[@]}" --count 12
+draw logmap logmap "$clouds/cturtle.pcd" --near 0,0,2 --size 760x500
+draw boundary_kinds laplacian "$table" --color boundary --size 640x420
 ls -l "$figures"/*.png

@@ -14,20 +14,23 @@ namespace py = pybind11;
 namespace tufted::python {
 namespace {
 
-using FieldTuple = std::tuple<std::string, std::string, Eigen::MatrixXd, std::string>;
+/// Name, kind, values, unit, names of labels, and what it means to have no value.
+using FieldTuple =
+    std::tuple<std::string, std::string, Eigen::MatrixXd, std::string, std::vector<std::string>, std::string>;
 
 std::string page(std::string title, const Doubles& points, const Integers& faces, Points normals,
                  std::vector<FieldTuple> fields) {
   const std::map<std::string, FieldKind> kinds = {
       {"scalar", FieldKind::scalar}, {"diverging", FieldKind::diverging}, {"distance", FieldKind::distance},
       {"label", FieldKind::label},   {"vector", FieldKind::vector},       {"coordinates", FieldKind::coordinates},
-      {"color", FieldKind::color}};
+      {"color", FieldKind::color},   {"positive", FieldKind::positive}};
   Scene scene = {.title = std::move(title),
                  .positions = pointsOf(points),
                  .triangles = trianglesOf(faces),
                  .normals = std::move(normals)};
-  for (auto& [name, kind, values, unit] : fields)
-    scene.fields.push_back({name, chosen<FieldKind>("page: kind", kind, kinds), std::move(values), unit});
+  for (auto& [name, kind, values, unit, label_names, no_value] : fields)
+    scene.fields.push_back(
+        {name, chosen<FieldKind>("page: kind", kind, kinds), std::move(values), unit, label_names, no_value});
   const py::gil_scoped_release release;
   return pageOf(scene);
 }

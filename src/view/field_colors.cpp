@@ -7,7 +7,7 @@
 
 #include "tufted/errors.h"
 #include "tufted/view/colors.h"
-#include "view/percentile.h"
+#include "view/shown_values.h"
 #include "view/ticks.h"
 
 namespace tufted::view {
@@ -18,37 +18,9 @@ namespace {
 constexpr int isoline_count = 16;
 /// Lines of coordinates on each side of the origin, about.
 constexpr int grid_count = 10;
-/// How far beyond the 1st and 99th percentile, in their distance, values still have colours of their own.
-constexpr double reach = 0.5;
 
 [[noreturn]] void refuse(const std::string& what) {
   throw InvalidInput("drawPicture: " + what);
-}
-
-void setRange(const PictureOptions& options, bool is_around_0, bool is_from_0, std::vector<double> values,
-              FieldColors& colors) {
-  double least = 0;
-  double greatest = 0;
-  if (!values.empty()) {
-    const auto [low, high] = std::minmax_element(values.begin(), values.end());
-    least = *low;
-    greatest = *high;
-    const double first = percentile(values, 0.01);
-    const double last = percentile(values, 0.99);
-    colors.low = std::max(least, first - reach * (last - first));
-    colors.high = std::min(greatest, last + reach * (last - first));
-    if (is_around_0) {
-      colors.high = std::max(std::abs(colors.low), std::abs(colors.high));
-      colors.low = -colors.high;
-    }
-    if (is_from_0) colors.low = std::min(0.0, colors.low);
-  }
-  if (options.range) {
-    colors.low = (*options.range)[0];
-    colors.high = (*options.range)[1];
-  }
-  colors.is_cut_low = least < colors.low;
-  colors.is_cut_high = greatest > colors.high;
 }
 
 }  // namespace
@@ -64,7 +36,7 @@ Rgb FieldColors::colorOf(const std::array<float, 2>& values) const {
 
 Rgb FieldColors::colorOfPoint(int point) const {
   if (field == nullptr) return no_value_color;
-  if (field->kind != FieldKind::color) return labelColor(*map, field->values(point, 0));
+  if (field->kind != FieldKind::color) return labelColor(*map, field->values(point, column));
   Rgb color;
   for (int k = 0; k < 3; ++k) {
     const double value = field->values(point, k);
@@ -85,49 +57,46 @@ FieldColors colorsOf(const Scene& scene, const PictureOptions& options) {
            ", must ascend");
   if (options.field < 0 || count == 0) return colors;
   const SceneField& field = scene.fields[static_cast<std::size_t>(options.field)];
-  const bool is_whole =
-      field.kind == FieldKind::vector || field.kind == FieldKind::coordinates || field.kind == FieldKind::color;
-  const Eigen::Index columns = is_whole ? 1 : field.values.cols();
+  const Eigen::Index columns = isWhole(field.kind) ? 1 : field.values.cols();
   if (options.column < 0 || options.column >= columns)
     refuse("column " + std::to_string(options.column) + " of field " + field.name + ", must be from 0 to " +
            std::to_string(columns - 1));
   colors.field = &field;
+  colors.column = options.column;
   const std::string map = options.color_map.empty() ? defaultColorMap(field.kind) : options.color_map;
   if (!map.empty()) colors.map = &colorMap(map, "drawPicture");
   const auto n = static_cast<std::size_t>(field.values.rows());
   if (field.kind == FieldKind::color) return colors;
   const bool is_label = colors.map->use == MapUse::categorical;
-  std::vector<double> values;
-  values.reserve(n);
-  colors.channels.assign(field.kind == FieldKind::coordinates ? 2 : 1,
-                         std::vector<float>(n, std::numeric_limits<float>::quiet_NaN()));
+  const bool is_pair = field.kind == FieldKind::coordinates;
+  const Eigen::VectorXd values = shownValues(field, options.column);
+  colors.is_logarithmic = isLogarithmic(field.kind);
+  colors.channels.assign(is_pair ? 2 : 1, std::vector<float>(n, std::numeric_limits<float>::quiet_NaN()));
   for (std::size_t i = 0; i < n; ++i) {
-    const auto row = static_cast<Eigen::Index>(i);
-    double value = 0;
-    if (field.kind == FieldKind::coordinates || field.kind == FieldKind::vector)
-      value = field.values.row(row).stableNorm();
-    else
-      value = field.values(row, options.column);
+    const double value = values[static_cast<Eigen::Index>(i)];
     if (!std::isfinite(value) || (field.kind == FieldKind::label && value < 0)) {
       colors.lacks_values = true;
       continue;
     }
-    values.push_back(value);
-    colors.channels[0][i] = static_cast<float>(value);
-    if (field.kind != FieldKind::coordinates) continue;
-    for (int k = 0; k < 2; ++k)
-      colors.channels[static_cast<std::size_t>(k)][i] = static_cast<float>(field.values(row, k));
+    for (std::size_t c = 0; c < colors.channels.size(); ++c)
+      colors.channels[c][i] = static_cast<float>(
+          is_pair ? field.values(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(c)) : value);
   }
-  const bool is_length =
-      field.kind == FieldKind::distance || field.kind == FieldKind::vector || field.kind == FieldKind::coordinates;
-  setRange(options, colors.map->use == MapUse::diverging, is_length, std::move(values), colors);
+  const ValueRange range = rangesOf(field.kind, values).usual;
+  colors.low = range.low;
+  colors.high = range.high;
+  if (options.range) {
+    colors.low = colors.is_logarithmic ? std::log10((*options.range)[0]) : (*options.range)[0];
+    colors.high = colors.is_logarithmic ? std::log10((*options.range)[1]) : (*options.range)[1];
+    if (!std::isfinite(colors.low)) refuse("range from " + std::to_string((*options.range)[0]) + ", must be positive");
+  }
   if (is_label) {
     colors.channels.clear();
     return colors;
   }
-  if (field.kind == FieldKind::coordinates)
+  if (is_pair)
     colors.step = niceStep(colors.high, grid_count);
-  else if (options.isolines.value_or(field.kind == FieldKind::distance))
+  else if (options.isolines.value_or(field.kind == FieldKind::distance) && !colors.is_logarithmic)
     colors.step = niceStep(colors.high - colors.low, isoline_count);
   return colors;
 }

@@ -10,12 +10,13 @@ namespace tufted::view {
 
 /// How the values of a field become colours.
 struct FieldColors {
-  const SceneField* field = nullptr;             ///< null: none, all is grey
-  const ColorMap* map = nullptr;                 ///< null for colours
-  double low = 0, high = 1;                      ///< the values at the ends of the map
-  bool is_cut_low = false, is_cut_high = false;  ///< whether there are values beyond an end
-  bool lacks_values = false;                     ///< whether some are not finite
-  double step = 0;                               ///< from isoline to isoline; 0: there are none
+  const SceneField* field = nullptr;  ///< null: none, all is grey
+  int column = 0;                     ///< of the field
+  const ColorMap* map = nullptr;      ///< null for colours
+  double low = 0, high = 1;           ///< the values at the ends of the map
+  bool is_logarithmic = false;        ///< whether values are shown as their logarithms to base 10
+  bool lacks_values = false;          ///< whether some are not finite
+  double step = 0;                    ///< from isoline to isoline; 0: there are none
   /// N for each channel: what is drawn, one number or, for coordinates, two; NaN where there is no value.
   std::vector<std::vector<float>> channels;
 

@@ -7,6 +7,7 @@
 #include <set>
 #include <string>
 
+#include "view/shown_values.h"
 #include "view/ticks.h"
 
 namespace tufted::view {
@@ -34,9 +35,8 @@ std::set<long long> labelsIn(const SceneField& field, int column) {
 
 std::string headingOf(const FieldColors& colors, const PictureOptions& options) {
   std::string text = colors.field->name;
-  const bool is_scalar = colors.field->kind == FieldKind::scalar || colors.field->kind == FieldKind::diverging ||
-                         colors.field->kind == FieldKind::distance;
-  if (is_scalar && colors.field->values.cols() > 1) text.append(" ").append(std::to_string(options.column));
+  if (!isWhole(colors.field->kind) && colors.field->values.cols() > 1)
+    text.append(" ").append(std::to_string(options.column));
   return text;
 }
 
@@ -66,7 +66,9 @@ void drawLegend(const Scene& scene, const FieldColors& colors, const PictureOpti
   double y = layout.top + 2 * em;
   canvas.text(canvas.shorten(headingOf(colors, options), em, width), left, y, em, ink);
   const bool is_bar = colors.map->use != MapUse::categorical;
-  const Ticks ticks = is_bar ? ticksOf(colors.low, colors.high) : Ticks{};
+  const Ticks ticks = !is_bar                 ? Ticks{}
+                      : colors.is_logarithmic ? logarithmicTicksOf(colors.low, colors.high)
+                                              : ticksOf(colors.low, colors.high);
   std::string scale = ticks.exponent == 0 ? "" : "\u00d7 10" + raised(ticks.exponent) + " ";
   scale += colors.field->unit;
   if (!scale.empty()) canvas.text(canvas.shorten(scale, em, width), left, y += 1.4 * em, em, ink);
@@ -79,7 +81,11 @@ void drawLegend(const Scene& scene, const FieldColors& colors, const PictureOpti
       if (count++ == std::min(room, most_swatches)) break;
       canvas.fill(left, static_cast<int>(y), left + static_cast<int>(bar_width * em), static_cast<int>(y + em),
                   labelColor(*colors.map, static_cast<double>(label)));
-      canvas.text(std::to_string(label), left + (bar_width + 0.5) * em, y + 0.86 * em, em, ink);
+      const std::vector<std::string>& names = colors.field->label_names;
+      const bool is_named = label < static_cast<long long>(names.size());
+      const std::string name = is_named ? names[static_cast<std::size_t>(label)] : std::to_string(label);
+      canvas.text(canvas.shorten(name, em, width - (bar_width + 0.5) * em), left + (bar_width + 0.5) * em,
+                  y + 0.86 * em, em, ink);
       y += 1.5 * em;
     }
     if (labels.size() > count) canvas.text("\u2026", left, y + 0.5 * em, em, ink);
@@ -108,8 +114,9 @@ void drawLegend(const Scene& scene, const FieldColors& colors, const PictureOpti
   if (!colors.lacks_values) return;
   canvas.fill(left, static_cast<int>(y), left + static_cast<int>(bar_width * em), static_cast<int>(y + em),
               no_value_color);
-  canvas.text(canvas.shorten("no value", 0.85 * em, width), left + (bar_width + 0.5) * em, y + 0.82 * em, 0.85 * em,
-              ink);
+  const std::string& no_value = colors.field->no_value;
+  canvas.text(canvas.shorten(no_value.empty() ? "no value" : no_value, 0.85 * em, width - (bar_width + 0.5) * em),
+              left + (bar_width + 0.5) * em, y + 0.82 * em, 0.85 * em, ink);
 }
 
 }  // namespace tufted::view

@@ -1,5 +1,6 @@
 #include "tufted/view/page.h"
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <string_view>
@@ -8,6 +9,9 @@
 #include "view/color_maps.h"
 #include "view/page_block.h"
 #include "view/page_columns.h"
+#include "view/projection.h"
+#include "view/shown_values.h"
+#include "view/spacing.h"
 #include "view/viewer.h"
 #include "view/whole_file.h"
 
@@ -20,26 +24,35 @@ using view::LabelColumn;
 using view::LevelColumn;
 using view::PageBlocks;
 
+/// Steps of the radii of discs to a factor of two, and the one of the lower quartile.
+constexpr double radius_steps = 4;
+constexpr std::uint8_t radius_middle = 128;
+/// Pages are as large as their window; the direction of the eye does not depend on it.
+constexpr view::Viewport some_viewport = {.left = 0, .right = 800, .top = 0, .bottom = 600};
+
 [[noreturn]] void refuse(const std::string& what) {
   throw InvalidInput("pageOf: " + what);
 }
 
 void checkOptions(const Scene& scene, const PageOptions& options) {
   const auto fields = static_cast<int>(scene.fields.size());
-  if (options.field < 0 || options.field >= std::max(fields, 1))
-    refuse("field " + std::to_string(options.field) + ", must be at least 0 and less than " + std::to_string(fields));
-  const Eigen::Index columns = fields > 0 ? scene.fields[static_cast<std::size_t>(options.field)].values.cols() : 1;
+  if (options.field < -1 || options.field >= std::max(fields, 1))
+    refuse("field " + std::to_string(options.field) + ", must be at least -1 and less than " + std::to_string(fields));
+  const Eigen::Index columns =
+      fields > 0 && options.field >= 0 ? scene.fields[static_cast<std::size_t>(options.field)].values.cols() : 1;
   if (options.column < 0 || options.column >= columns)
     refuse("column " + std::to_string(options.column) + ", must be at least 0 and less than " +
            std::to_string(columns));
   if (!options.color_map.empty()) colorMap(options.color_map, "pageOf");
-  if (!options.eye.allFinite() || !options.up.allFinite()) refuse("eye and up must be finite");
+  view::checkCamera(options.camera, "pageOf");
 }
 
 const char* nameOf(FieldKind kind) {
   switch (kind) {
     case FieldKind::scalar:
       return "scalar";
+    case FieldKind::positive:
+      return "positive";
     case FieldKind::diverging:
       return "diverging";
     case FieldKind::distance:
@@ -97,6 +110,21 @@ Json colorColumn(const Eigen::MatrixXd& values, PageBlocks& blocks) {
   return {{"colors", blocks.add(colors)}};
 }
 
+Json rangesJson(const view::ValueRanges& ranges) {
+  const auto json = [](const view::ValueRange& range) { return Json{range.low, range.high}; };
+  return {{"usual", json(ranges.usual)}, {"all", json(ranges.all)}, {"middle", json(ranges.middle)}};
+}
+
+/// A column of values as they are shown, with the ranges that their colours may have; of vectors and coordinates the
+/// field has these.
+Json valueColumn(const SceneField& field, int column, PageBlocks& blocks) {
+  if (view::isWhole(field.kind)) return levelColumn(field.values.col(column), blocks);
+  const Eigen::VectorXd values = view::shownValues(field, column);
+  Json json = levelColumn(values, blocks);
+  json["ranges"] = rangesJson(view::rangesOf(field.kind, values));
+  return json;
+}
+
 Json fieldJson(const SceneField& field, PageBlocks& blocks) {
   Json columns = Json::array();
   if (field.kind == FieldKind::color)
@@ -104,12 +132,32 @@ Json fieldJson(const SceneField& field, PageBlocks& blocks) {
   else
     for (Eigen::Index column = 0; column < field.values.cols(); ++column)
       columns.push_back(field.kind == FieldKind::label ? labelColumn(field.values.col(column), blocks)
-                                                       : levelColumn(field.values.col(column), blocks));
-  return {{"name", field.name},
-          {"kind", nameOf(field.kind)},
-          {"unit", field.unit},
-          {"map", defaultColorMap(field.kind)},
-          {"columns", std::move(columns)}};
+                                                       : valueColumn(field, static_cast<int>(column), blocks));
+  Json json = {{"name", field.name},           {"kind", nameOf(field.kind)},
+               {"unit", field.unit},           {"map", defaultColorMap(field.kind)},
+               {"names", field.label_names},   {"noValue", field.no_value},
+               {"columns", std::move(columns)}};
+  const bool is_length = field.kind == FieldKind::vector || field.kind == FieldKind::coordinates;
+  if (is_length) json["ranges"] = rangesJson(view::rangesOf(field.kind, view::shownValues(field, 0)));
+  return json;
+}
+
+/// The radius of the disc of each point, in steps of a factor from the lower quartile, as radii are rather too large.
+Json radiusJson(const view::NormalizedPoints& points, PageBlocks& blocks) {
+  const std::vector<float> radii = view::discRadii(points, 0);
+  std::vector<float> sorted;
+  for (const int i : points.finite) sorted.push_back(radii[static_cast<std::size_t>(i)]);
+  const auto quartile = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 4);
+  std::nth_element(sorted.begin(), quartile, sorted.end());
+  std::vector<std::uint8_t> steps(radii.size(), radius_middle);
+  for (const int i : points.finite) {
+    const double factor = radii[static_cast<std::size_t>(i)] / *quartile;
+    const double step = std::round(radius_steps * std::log2(factor));
+    steps[static_cast<std::size_t>(i)] = static_cast<std::uint8_t>(std::clamp(step + radius_middle, 0.0, 255.0));
+  }
+  return {{"quartile", std::ldexp(*quartile / points.unit, points.exponent)},
+          {"step", 1 / radius_steps},
+          {"block", blocks.add(steps)}};
 }
 
 int normalBlock(const Points& normals, PageBlocks& blocks) {
@@ -131,6 +179,8 @@ Json mapsJson() {
 
 /// The scene but for its blocks of numbers, which are added to `blocks`.
 Json sceneJson(const Scene& scene, const PageOptions& options, PageBlocks& blocks) {
+  const view::NormalizedPoints points = view::normalize(scene, 0);
+  const view::Projection seen = view::project(points, options.camera, some_viewport);
   Json json = {{"title", scene.title},
                {"unit", scene.unit},
                {"count", scene.positions.rows()},
@@ -142,13 +192,15 @@ Json sceneJson(const Scene& scene, const PageOptions& options, PageBlocks& block
                 {{"field", options.field},
                  {"column", options.column},
                  {"map", options.color_map},
-                 {"eye", {options.eye.x(), options.eye.y(), options.eye.z()}},
-                 {"up", {options.up.x(), options.up.y(), options.up.z()}}}}};
+                 {"eye", {seen.back.x(), seen.back.y(), seen.back.z()}},
+                 {"up", {seen.up.x(), seen.up.y(), seen.up.z()}},
+                 {"zoom", options.camera.zoom}}}};
   for (int axis = 0; axis < 3; ++axis) {
     Eigen::VectorXd coordinates;  // of no points a column would be an offset to nothing
     if (scene.positions.rows() > 0) coordinates = scene.positions.col(axis);
     json["positions"].push_back(levelColumn(coordinates, blocks));
   }
+  if (!points.finite.empty()) json["radii"] = radiusJson(points, blocks);
   if (scene.normals.rows() > 0) json["normals"] = normalBlock(scene.normals, blocks);
   if (scene.triangles.rows() > 0)
     json["triangles"] =

@@ -32,6 +32,7 @@ Picture drawPicture(const Scene& scene, const PictureOptions& options) {
   checkScene(scene, "drawPicture");
   checkSize("width", options.width);
   checkSize("height", options.height);
+  view::checkCamera(options.camera, "drawPicture");
   const view::FieldColors colors = view::colorsOf(scene, options);
   const view::Layout layout = view::layoutOf(scene, colors, options);
   const view::NormalizedPoints points = view::normalize(scene, options.threads);

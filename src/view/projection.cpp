@@ -28,10 +28,6 @@ constexpr double reach = 0.25;
 /// The share of the least variance in the middle one below which a scene is flat, such as a terrain.
 constexpr double flatness = 0.12;
 
-[[noreturn]] void refuse(const std::string& what) {
-  throw InvalidInput("drawPicture: " + what);
-}
-
 struct Box {
   Vector3d low = Vector3d::Zero(), high = Vector3d::Zero();
 };
@@ -151,18 +147,6 @@ void chooseDirections(const NormalizedPoints& points, const std::vector<int>& in
   eye = aside * level + 0.4 * up;
 }
 
-void checkCamera(const Camera& camera) {
-  if (!camera.eye.allFinite()) refuse("eye must be finite");
-  if (!camera.up.allFinite()) refuse("up must be finite");
-  if (camera.azimuth && !std::isfinite(*camera.azimuth)) refuse("azimuth must be finite");
-  if (camera.elevation && !(std::abs(*camera.elevation) <= 90))
-    refuse("elevation " + std::to_string(*camera.elevation) + ", must be from -90 to 90");
-  if (!(camera.zoom > 0) || !std::isfinite(camera.zoom))
-    refuse("zoom " + std::to_string(camera.zoom) + ", must be positive");
-  if (camera.viewpoint && !camera.viewpoint->allFinite()) refuse("viewpoint must be finite");
-  if (camera.look_at && !camera.look_at->allFinite()) refuse("look_at must be finite");
-}
-
 /// Moves the target and the eye so that the points just fit, with a margin.
 void fit(const NormalizedPoints& points, const std::vector<int>& inside, const Viewport& port, bool keeps_target,
          Projection& projection) {
@@ -231,8 +215,22 @@ NormalizedPoints normalize(const Scene& scene, int threads) {
   return points;
 }
 
+void checkCamera(const Camera& camera, const char* function) {
+  const auto refuse = [function](const std::string& what) {
+    throw InvalidInput(std::string(function) + ": camera: " + what);
+  };
+  if (!camera.eye.allFinite()) refuse("eye must be finite");
+  if (!camera.up.allFinite()) refuse("up must be finite");
+  if (camera.azimuth && !std::isfinite(*camera.azimuth)) refuse("azimuth must be finite");
+  if (camera.elevation && !(std::abs(*camera.elevation) <= 90))
+    refuse("elevation " + std::to_string(*camera.elevation) + ", must be from -90 to 90");
+  if (!(camera.zoom > 0) || !std::isfinite(camera.zoom))
+    refuse("zoom " + std::to_string(camera.zoom) + ", must be positive");
+  if (camera.viewpoint && !camera.viewpoint->allFinite()) refuse("viewpoint must be finite");
+  if (camera.look_at && !camera.look_at->allFinite()) refuse("look_at must be finite");
+}
+
 Projection project(const NormalizedPoints& points, const Camera& camera, const Viewport& viewport) {
-  checkCamera(camera);
   const std::vector<int> inside = insideOf(points.positions, someOf(points.finite));
   Projection projection;
   projection.target = camera.look_at ? points.at(*camera.look_at) : Vector3d::Zero();

@@ -50,7 +50,11 @@ struct Projection {
 /// Nothing nearer to the eye than this is drawn, in normalised coordinates.
 constexpr double nearest_depth = 1e-3;
 
+/// @param function what the caller called, for the message
 /// @throws InvalidInput for a camera that is not valid
+void checkCamera(const Camera& camera, const char* function);
+
+/// @param camera a valid one
 Projection project(const NormalizedPoints& points, const Camera& camera, const Viewport& viewport);
 
 }  // namespace tufted::view

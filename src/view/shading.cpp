@@ -103,13 +103,26 @@ class Shader {
       const std::uint32_t t = number - points_;
       const Vector3d shares = sharesAt(t, x, y);
       Values values = {0, 0};
+      const auto valuesOfCorner = [&](Eigen::Index k) {
+        return valuesOfPoint(static_cast<std::uint32_t>(seen_.scene.triangles(t, k)));
+      };
+      Eigen::Index nearest = 0;
+      shares.maxCoeff(&nearest);
+      const Values own = valuesOfCorner(nearest);
       for (int k = 0; k < 3; ++k) {
-        const Values corner = valuesOfPoint(static_cast<std::uint32_t>(seen_.scene.triangles(t, k)));
+        const Values corner = valuesOfCorner(k);
+        if (isCutBetween(own, corner)) return own;
         for (std::size_t c = 0; c < 2; ++c) values[c] += static_cast<float>(shares[k]) * corner[c];
       }
       return values;
     }
     return valuesOfPoint(number);
+  }
+
+  /// Whether coordinates of neighbours jump, as those of a logarithmic map do where shortest paths meet.
+  bool isCutBetween(const Values& a, const Values& b) const {
+    return colors_.field->kind == FieldKind::coordinates &&
+           std::hypot(a[0] - b[0], a[1] - b[1]) > static_cast<float>(colors_.step);
   }
 
   /// The mean of the values of the points around a sample, by a bell as wide as the disc that is seen there. Triangles
@@ -141,7 +154,7 @@ class Shader {
         const Sample other = seen_.samples[at(u, v)];
         if (other == nothing || numberOf(other) >= points_ || std::abs(depthOf(other) - depth) > tolerance) continue;
         const Values& values = unblended[at(u, v)];
-        if (!std::isfinite(values[0])) continue;
+        if (!std::isfinite(values[0]) || isCutBetween(own, values)) continue;
         const float weight = bell[i] * bell[j];
         weights += weight;
         for (std::size_t c = 0; c < 2; ++c) sum[c] += weight * values[c];
@@ -221,6 +234,7 @@ class Shader {
         const Sample other = seen_.samples[at(x + i, y + j)];
         const float value = values_[at(x + i, y + j)][c];
         if (other == nothing || !std::isfinite(value) || level(value) == level(own[c])) continue;
+        if (isCutBetween(own, values_[at(x + i, y + j)])) continue;
         const bool is_step = std::abs(value - own[c]) < 2 * static_cast<float>(colors_.step);
         if (is_step && std::abs(depthOf(other) / depthOf(sample) - 1) < 0.03F) return true;
       }

@@ -9,6 +9,8 @@ namespace tufted::view {
 namespace {
 
 constexpr int most_steps = 6;
+/// Between fewer powers of ten there are marks at two and five times these.
+constexpr double most_powers = 2.5;
 
 /// A number with `digits` after the point and a true minus sign.
 std::string numberText(double value, int digits) {
@@ -49,6 +51,30 @@ Ticks ticksOf(double low, double high) {
   const int digits = std::clamp(static_cast<int>(std::ceil(-shown - 1e-6)), 0, 12);
   for (const double value : ticks.values)
     ticks.texts.push_back(numberText(value * std::pow(10.0, -shift / 2) * std::pow(10.0, -shift / 2), digits));
+  return ticks;
+}
+
+Ticks logarithmicTicksOf(double low, double high) {
+  Ticks ticks;
+  if (!(high - low >= 1)) {  // less than a power of ten: as on any scale, at other places
+    ticks = ticksOf(std::pow(10.0, low), std::pow(10.0, high));
+    for (double& value : ticks.values) value = std::log10(value);
+    return ticks;
+  }
+  const int every = static_cast<int>(std::ceil((high - low) / most_steps));
+  const bool has_more = high - low < most_powers;
+  for (int power = static_cast<int>(std::floor(low)); power <= high + 1e-9; ++power) {
+    if (power % every != 0) continue;
+    for (const int digit : has_more ? std::vector<int>{1, 2, 5} : std::vector<int>{1}) {
+      const double place = power + std::log10(digit);
+      if (place < low - 1e-9 || place > high + 1e-9) continue;
+      ticks.values.push_back(place);
+      const bool is_short = power >= -3 && power < 5;
+      std::string text = digit == 1 ? "" : std::to_string(digit) + "\u00d7";
+      ticks.texts.push_back(is_short ? numberText(digit * std::pow(10.0, power), std::max(0, -power))
+                                     : text + "10" + raised(power));
+    }
+  }
   return ticks;
 }
 

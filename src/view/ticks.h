@@ -18,6 +18,10 @@ struct Ticks {
 /// @param low, high the ends of the scale; equal ones give one mark
 Ticks ticksOf(double low, double high);
 
+/// The same for a logarithmic scale.
+/// @param low, high the logarithms to base 10 of the ends of the scale; so are the values of the marks
+Ticks logarithmicTicksOf(double low, double high);
+
 /// An exponent in raised digits of UTF-8, as in a legend's "x 10^-3".
 std::string raised(int exponent);
 

@@ -3,8 +3,10 @@
 import math
 import pathlib
 import sys
+import tempfile
+import time
 
-from browser import browser
+from browser import browser, pixels_of
 
 side = 101  # points along the sides of the squares
 GREY = [150, 150, 150]
@@ -29,6 +31,14 @@ def of_map(colors, t):
     return colors[3 * i:3 * i + 3]
 
 
+def legend_of(page):
+    return page.run("return document.getElementById('legend').getAttribute('aria-label')")
+
+
+def wait(page, milliseconds=100):
+    page.run("return new Promise((done) => setTimeout(done, arguments[0]))", milliseconds)
+
+
 def untroubled(page, path):
     assert page.requests() == [path.resolve().as_uri()], "a request leaves the page"
     errors = page.errors()
@@ -49,23 +59,23 @@ def test_scalars(page, dir):
 
 def test_columns_and_keys(page, dir):
     page.open(dir / "plane.html")
-    page.set(field=1)
+    page.set(field=1, range="all")
     coolwarm = map_colors(page, "coolwarm")
     row = row_at(0.1, 0.1)
     for column, t in enumerate([0, 0.5, 0.75, 1]):
         page.run("const s = document.getElementById('column'); s.value = arguments[0]; s.dispatchEvent(new Event('input'))",
                  column + 1)
-        page.run("return new Promise((done) => setTimeout(done, 100))")
+        wait(page)
         close(page.color(row)[0], of_map(coolwarm, t), 4)
     page.key(",", "Comma")
-    page.run("return new Promise((done) => setTimeout(done, 100))")
+    wait(page)
     assert page.run("return tufted.state.column") == 2
     page.run("document.getElementById('column').focus()")
     page.key("ArrowLeft", "ArrowLeft", windowsVirtualKeyCode=37)
-    page.run("return new Promise((done) => setTimeout(done, 100))")
+    wait(page)
     assert page.run("return tufted.state.column") == 1
     page.key("]", "BracketRight")
-    page.run("return new Promise((done) => setTimeout(done, 100))")
+    wait(page)
     assert page.run("return tufted.state.field") == 2
 
 
@@ -84,7 +94,7 @@ def test_labels_colors_and_lines(page, dir):
     assert sum(on) < 0.75 * sum(off), f"an isoline at 0.6 has {on}, beside it {off}"
     assert "lines every 0.1 m" in page.run("return document.getElementById('legend').getAttribute('aria-label')")
     page.key("i", "KeyI")
-    page.run("return new Promise((done) => setTimeout(done, 100))")
+    wait(page)
     assert sum(page.color(row_at(0.6, 0))[0]) > 0.85 * sum(off)
 
 
@@ -96,7 +106,7 @@ def test_picking(page, dir):
     assert picked["index"] == row, picked
     assert math.dist(picked["position"], [0.5, -0.24, 0]) < 2e-5 and abs(picked["number"] - 0.5) < 2e-5, picked
     page.mouse("mouseMoved", x, y)
-    page.run("return new Promise((done) => setTimeout(done, 100))")
+    wait(page)
     tip = page.run("return document.getElementById('tip').innerText")
     assert "0.5" in tip and "−0.24" in tip and f"{row:,}" in tip, tip
     page.mouse("mousePressed", x, y, button="left", buttons=1, clickCount=1)
@@ -117,7 +127,7 @@ def test_turning_and_cutting(page, dir):
     assert math.dist(before, turned) > 0.1
     assert abs(math.hypot(*before) - math.hypot(*turned)) < 1e-6
     page.mouse("mouseWheel", 300, 300, deltaX=0, deltaY=-200)
-    page.run("return new Promise((done) => setTimeout(done, 100))")
+    wait(page)
     assert page.run("return tufted.stage.controls.distance") < 0.9 * math.hypot(*before)
     page.run("document.getElementById('canvas').focus()")
     page.key("f", "KeyF")
@@ -135,7 +145,7 @@ def test_mesh(page, dir):
     page.open(dir / "sphere.html")
     page.set(is_lit=False)
     page.key("3", "Digit3")
-    page.run("return new Promise((done) => setTimeout(done, 100))")
+    wait(page)
     close(page.color(0)[0], of_map(map_colors(page, "coolwarm"), 1), 4)  # the pole faces the eye
     ring = 12 * 96  # a quarter of the way to the other pole
     height = math.cos(math.pi * 12 / 48)
@@ -169,7 +179,7 @@ def test_touch_on_a_phone(page, dir):
     x, y = page.run("return tufted.place(arguments[0])", row)[:2]
     page.touch("touchStart", [(x, y)])
     page.touch("touchEnd", [])
-    page.run("return new Promise((done) => setTimeout(done, 100))")
+    wait(page)
     assert page.run("return tufted.pinned") == row
     before = page.run("return tufted.stage.controls.distance")
     page.touch("touchStart", [(150, 400), (240, 400)])
@@ -187,6 +197,116 @@ def test_touch_on_a_phone(page, dir):
     page.run("document.getElementById('fold').click()")
     assert not page.run(is_folded)
     page.resize(1280, 800)
+
+
+def test_a_logarithmic_scale_and_names(page, dir):
+    page.open(dir / "plane.html")
+    assert "cut out" in legend_of(page), legend_of(page)
+    page.set(field=6)
+    viridis = map_colors(page, "viridis")
+    places = [-0.8, -0.4, 0.2, 0.8]
+    for x, color in zip(places, page.color(*[row_at(x, 0.2) for x in places])):
+        close(color, of_map(viridis, (x + 1) / 2))
+    assert "from 0.001 to 1000 m" in legend_of(page), legend_of(page)
+    assert page.run("return document.getElementById('lines')") is None
+    x, y = page.run("return tufted.place(arguments[0])", row_at(0.2, 0.2))[:2]
+    value = page.run("return tufted.pick(arguments[0], arguments[1]).value", x, y)
+    assert value == "3.981 m", value  # 10^0.6
+    page.set(field=2)
+    assert "south-west, south-east, 2, 3" in legend_of(page), legend_of(page)
+    assert page.run("return tufted.pick(arguments[0], arguments[1]).value", x, y) == "3"
+    page.set(field=-1)
+    plain = page.run("return tufted.stage.uniforms.plain.value.toArray().map((c) => Math.round(255 * c))")
+    close(page.color(row_at(0.2, 0.2))[0], plain)
+    assert page.run("return document.getElementById('legend').hidden")
+
+
+def test_a_depth_image_is_filled(page, dir):
+    page.open(dir / "depth.html")
+    width, height, pixel = pixels_of(page.screenshot())
+    back = page.run("return tufted.stage.scene.background.toArray().map((c) => Math.round(255 * c))")
+    is_back = lambda x, y: max(abs(a - b) for a, b in zip(pixel(x, y), back)) <= 2
+    columns, rows = 160, 120
+    labels = page.run("""
+        const tint = tufted.stage.points.geometry.attributes.tint.array;
+        return [...tufted.stage.positions.drawn].map((is_drawn, i) => is_drawn ? tint.subarray(4 * i, 4 * i + 3).join() : null);""")
+    places = page.run("return Array.from({length: arguments[0]}, (_, row) => tufted.place(row).slice(0, 2))", columns * rows)
+    holes, pairs = 0, 0
+    for i, place in enumerate(places):
+        for other in (i + 1, i + columns):
+            if other >= len(places) or (other == i + 1 and other % columns == 0):
+                continue
+            if labels[i] is None or labels[i] != labels[other]:
+                continue
+            pairs += 1
+            holes += is_back((place[0] + places[other][0]) / 2, (place[1] + places[other][1]) / 2)
+    assert pairs > 15000 and holes == 0, f"{holes} holes between {pairs} pairs of pixels"
+    # Nothing is drawn far from all points: no disc is a giant.
+    reach = 12
+    near = set()
+    for label, (x, y) in zip(labels, places):
+        if label is not None:
+            near.update((int(x) // reach + i, int(y) // reach + j) for i in (-1, 0, 1) for j in (-1, 0, 1))
+    right = page.run("return document.getElementById('canvas').clientWidth") - 10
+    far = [(x, y) for x in range(10, right, 3) for y in range(60, height - 120, 3)
+           if (x // reach, y // reach) not in near and not is_back(x, y)]
+    assert not far, f"{len(far)} places far from all points are drawn, as {far[:3]}"
+
+
+def test_without_webgl_the_page_says_so(page, dir):
+    script = page.cdp("Page.addScriptToEvaluateOnNewDocument", source="""
+        const getContext = HTMLCanvasElement.prototype.getContext;
+        HTMLCanvasElement.prototype.getContext = function (kind, ...more) {
+          return kind.startsWith('webgl') ? null : getContext.call(this, kind, ...more);
+        };""")
+    page.driver.get((dir / "plane.html").resolve().as_uri())
+    wait(page, 300)
+    page.cdp("Page.removeScriptToEvaluateOnNewDocument", identifier=script["identifier"])
+    message = page.run("const m = document.getElementById('message'); return m.checkVisibility() ? m.innerText : ''")
+    assert "needs WebGL 2" in message, message
+    assert page.run("return window.tufted.ready") is False
+
+
+def test_saving_a_picture(page, dir):
+    page.open(dir / "plane.html")
+    with tempfile.TemporaryDirectory() as folder:
+        page.cdp("Browser.setDownloadBehavior", behavior="allow", downloadPath=folder)
+        page.key("s", "KeyS")
+        file = pathlib.Path(folder) / "plane.png"
+        end = time.time() + 20
+        while not file.exists() and time.time() < end:
+            time.sleep(0.05)
+        assert file.exists(), f"{list(pathlib.Path(folder).iterdir())}, must have plane.png"
+        saved = file.read_bytes()
+    width, height, pixel = pixels_of(saved)
+    assert [width, height] == page.run("const c = document.getElementById('canvas'); return [c.width, c.height]")
+    row = row_at(0.4, 0.2)
+    close(pixel(*page.run("return tufted.place(arguments[0])", row)[:2]), page.color(row)[0])
+    legend = page.run("const r = document.getElementById('legend').getBoundingClientRect(); return [r.left, r.right, r.top, r.bottom]")
+    colors = {pixel(x, y) for x in range(round(legend[0]), round(legend[1])) for y in range(round(legend[2]), round(legend[3]))}
+    viridis = map_colors(page, "viridis")
+    assert any(max(abs(a - b) for a, b in zip(color, of_map(viridis, 0.5))) < 8 for color in colors), "has no legend"
+
+
+def test_the_dialog_of_keys(page, dir):
+    page.open(dir / "plane.html")
+    is_open = "return document.getElementById('help').open"
+    theme = "return document.documentElement.dataset.theme"
+    before = page.run(theme)
+    page.key("?", "Slash")
+    assert page.run(is_open)
+    assert "isolines" in page.run("return document.getElementById('help').innerText")
+    page.key("t", "KeyT")
+    assert page.run(theme) == before, "a key acts behind the dialog"
+    page.run("document.querySelector('#help button').click()")
+    assert not page.run(is_open)
+    page.run("document.getElementById('help-button').click()")
+    assert page.run(is_open)
+    page.key("Escape", "Escape", windowsVirtualKeyCode=27)
+    assert not page.run(is_open)
+    page.run("document.getElementById('canvas').focus()")
+    page.key("t", "KeyT")
+    assert page.run(theme) != before
 
 
 def test_dark_page(page, dir):
@@ -208,7 +328,7 @@ def test_hostile_names(page, dir):
         page.set(field=field)
     x, y = page.run("return tufted.place(arguments[0])", row_at(0.5, 0.5))[:2]
     page.mouse("mouseMoved", x, y)
-    page.run("return new Promise((done) => setTimeout(done, 100))")
+    wait(page)
     assert "</script>" in page.run("return document.getElementById('tip').textContent")
     assert page.run("return window.harm") is None
     untroubled(page, dir / "hostile.html")

@@ -13,7 +13,7 @@ using tufted::Points;
 using tufted::Scene;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-const tufted::PageOptions from_above = {.eye = {0, 0, 1}, .up = {0, 1, 0}};
+const tufted::PageOptions from_above = {.camera = {.eye = {0, 0, 1}, .up = {0, 1, 0}}};
 
 /// A square of side 2 around 0 at z = 0, of side * side points, row after row from y = -1 and x = -1 on.
 Points square(int side) {
@@ -43,7 +43,10 @@ Scene plane() {
                   {"quadrant", FieldKind::label, labels},
                   {"paint", FieldKind::color, colors},
                   {"around 0", FieldKind::coordinates, points.leftCols<2>(), "m"},
-                  {"far", FieldKind::distance, points.rowwise().norm(), "m"}};
+                  {"far", FieldKind::distance, points.rowwise().norm(), "m"},
+                  {"spread", FieldKind::positive, (3 * std::log(10) * points.col(0).array()).exp(), "m"}};
+  scene.fields[2].label_names = {"south-west", "south-east"};
+  scene.fields[0].no_value = "cut out";
   return scene;
 }
 
@@ -77,6 +80,26 @@ Scene whirl() {
   vectors.col(0) = -points.col(1);
   vectors.col(1) = points.col(0);
   return {.title = "whirl", .positions = points, .fields = {{"around", FieldKind::vector, vectors, "m/s"}}};
+}
+
+/// What a depth camera sees: a floor that runs away from it, and a wall that stands on it and ends in the air. Rows of
+/// the image one after another; a column and a corner have no depth.
+Scene depthImage() {
+  const int width = 160, height = 120;
+  Scene scene = {.title = "depth image", .positions = Points(width * height, 3), .unit = "m"};
+  Eigen::MatrixXd labels = Eigen::MatrixXd::Constant(width * height, 1, -1);
+  for (int row = 0; row < height; ++row)
+    for (int column = 0; column < width; ++column) {
+      const double x = (column - 79.5) / 140, y = (row - 30) / 140.0;
+      const bool is_wall = column > 50 && column < 110 && row > 20 && 2.5 * y < 1;
+      const double depth = is_wall ? 2.5 : 1 / y;
+      const bool is_seen = depth > 0 && depth < 4 && column != 30 && (row > 100 ? column < 150 : true);
+      const Eigen::Index i = row * width + column;
+      scene.positions.row(i) = (is_seen ? depth : nan) * Eigen::RowVector3d(x, y, 1);
+      if (is_seen) labels(i, 0) = is_wall;
+    }
+  scene.fields = {{"label", FieldKind::label, labels}};
+  return scene;
 }
 
 /// Names that would do harm as HTML or script.
@@ -122,6 +145,7 @@ int main(int argc, char** argv) try {
   tufted::writePage(dir / "plane.html", plane(), from_above);
   tufted::writePage(dir / "sphere.html", sphere());
   tufted::writePage(dir / "whirl.html", whirl(), from_above);
+  tufted::writePage(dir / "depth.html", depthImage(), {.camera = {.eye = {0.3, -0.8, -1}, .up = {0, -1, 0}}});
   tufted::writePage(dir / "hostile.html", hostile(), from_above);
   tufted::writePage(dir / "empty.html", {.title = "empty", .positions = Points(0, 3)});
 } catch (const std::exception& error) {

@@ -197,21 +197,21 @@ TEST(Page, OfOddScenesIsDefined) {
   Scene scene = {.title = "nothing", .positions = Points::Constant(5, 3, nan)};
   scene.triangles = Triangles::Zero(1, 3);
   scene.normals = Points::Constant(5, 3, infinity);
-  for (const FieldKind kind : {FieldKind::scalar, FieldKind::diverging, FieldKind::distance, FieldKind::label,
-                               FieldKind::vector, FieldKind::coordinates, FieldKind::color}) {
+  for (const FieldKind kind : {FieldKind::scalar, FieldKind::positive, FieldKind::diverging, FieldKind::distance,
+                               FieldKind::label, FieldKind::vector, FieldKind::coordinates, FieldKind::color}) {
     const int columns = kind == FieldKind::coordinates ? 2 : 3;
     scene.fields.push_back({"nothing", kind, Eigen::MatrixXd::Constant(5, columns, nan)});
   }
   const std::string page = pageOf(scene);
-  EXPECT_EQ(count(page, "\"finite\":0"), 3u + 3 * 3 + 3 + 2);
+  EXPECT_EQ(count(page, "\"finite\":0"), 3u + 4 * 3 + 3 + 2);
 }
 
 TEST(Page, RefusesMistakes) {
   Scene scene = randomScene(10);
-  EXPECT_EQ(refusal([&] { pageOf(scene, {.field = 1}); }), "pageOf: field 1, must be at least 0 and less than 1");
+  EXPECT_EQ(refusal([&] { pageOf(scene, {.field = 1}); }), "pageOf: field 1, must be at least -1 and less than 1");
   EXPECT_EQ(refusal([&] { pageOf(scene, {.column = -1}); }), "pageOf: column -1, must be at least 0 and less than 1");
   EXPECT_NE(refusal([&] { pageOf(scene, {.color_map = "rainbow"}); }).find("rainbow"), std::string::npos);
-  EXPECT_NE(refusal([&] { pageOf(scene, {.eye = {nan, 0, 1}}); }).find("eye"), std::string::npos);
+  EXPECT_NE(refusal([&] { pageOf(scene, {.camera = {.eye = {nan, 0, 1}}}); }).find("eye"), std::string::npos);
   scene.fields[0].values.conservativeResize(9, 1);
   EXPECT_NE(refusal([&] { pageOf(scene); }).find("pageOf: field value has 9 rows"), std::string::npos);
 }

@@ -219,7 +219,8 @@ TEST(PictureOf, OddDataIsDefined) {
       Points(0, 3), Points::Zero(1, 3), Points::Constant(5, 3, nan),  Points::Constant(40, 3, 2), line, mixed,
       1e300 * line, 1e-300 * line,      (line.array() + 1e9).matrix()};
   for (const Points& positions : all)
-    for (const FieldKind kind : {FieldKind::scalar, FieldKind::diverging, FieldKind::distance, FieldKind::label})
+    for (const FieldKind kind :
+         {FieldKind::scalar, FieldKind::positive, FieldKind::diverging, FieldKind::distance, FieldKind::label})
       EXPECT_EQ(draw(positions, kind, 1).pixels.size(), 4u * 64 * 48);
   EXPECT_EQ(draw(line, FieldKind::vector, 3).width, 64);
   EXPECT_EQ(draw(line, FieldKind::color, 3).width, 64);

@@ -120,6 +120,7 @@ bool isShown(const std::string& name) {
 
 int indexOf(const tufted::Scene& scene, const std::string& name) {
   if (name.empty()) return 0;
+  if (name == "none") return -1;
   std::vector<std::string> known;
   for (const SceneField& field : scene.fields) {
     if (field.name == name) return static_cast<int>(known.size());
@@ -130,15 +131,32 @@ int indexOf(const tufted::Scene& scene, const std::string& name) {
   throw tufted::InvalidInput("--color " + name + " is none of " + all + didYouMean(name, known));
 }
 
+/// The first column whose values are not all the same, 0 where there is none: eigenvectors begin with constants.
+int firstVarying(const Eigen::MatrixXd& columns) {
+  constexpr double rounding = 1e-6;
+  for (Eigen::Index k = 0; k < columns.cols(); ++k) {
+    double least = std::numeric_limits<double>::infinity();
+    double greatest = -least;
+    for (const double value : columns.col(k)) {
+      if (!std::isfinite(value)) continue;
+      least = std::min(least, value);
+      greatest = std::max(greatest, value);
+    }
+    if (greatest - least > rounding * std::max(std::abs(least), std::abs(greatest))) return static_cast<int>(k);
+  }
+  return 0;
+}
+
 /// The options of a picture, for the field that is asked for.
 tufted::PictureOptions pictureOf(const tufted::Scene& scene, const Look& look) {
   tufted::PictureOptions options = look.picture;
   options.field = indexOf(scene, look.color);
-  if (scene.fields.empty()) return options;
+  if (scene.fields.empty() || options.field < 0) return options;
   const SceneField& field = scene.fields[static_cast<std::size_t>(options.field)];
-  const bool has_columns = field.kind == FieldKind::scalar || field.kind == FieldKind::diverging ||
-                           field.kind == FieldKind::distance || field.kind == FieldKind::label;
+  const bool has_columns =
+      field.kind != FieldKind::vector && field.kind != FieldKind::coordinates && field.kind != FieldKind::color;
   const Eigen::Index columns = has_columns ? field.values.cols() : 1;
+  options.column = look.column.value_or(has_columns ? firstVarying(field.values) : 0);
   if (options.column >= columns)
     throw tufted::InvalidInput("--column " + std::to_string(options.column) + ": " + field.name + " has " +
                                std::to_string(columns) + (columns == 1 ? " column" : " columns") + ", counted from 0");
@@ -149,11 +167,11 @@ tufted::PictureOptions pictureOf(const tufted::Scene& scene, const Look& look) {
 
 void addPictureOptions(CLI::App& command, Look& look) {
   command.add_option("--png", look.png, "A picture of the result")->check(notEmpty)->type_name("FILE.png");
-  command.add_option("--color", look.color, "The field that is shown, see below (the first)")
+  command.add_option("--color", look.color, "The field that is shown, see below, or none (the first)")
       ->check(notEmpty)
       ->type_name("FIELD");
-  addNumber(command, "--column", look.picture.column, 0, std::numeric_limits<int>::max(),
-            "Its column, counted from 0 (0)")
+  addNumber(command, "--column", look.column, 0, std::numeric_limits<int>::max(),
+            "Its column, counted from 0 (the first that is not constant)")
       ->type_name("K");
   const auto set_map = [&look](const std::string& name) { look.picture.color_map = name; };
   command
@@ -190,7 +208,7 @@ void checkLook(const Look& look) {
 }
 
 void checkColor(const Look& look, const tufted::Geometry& geometry, const std::vector<std::string>& results) {
-  if (look.color.empty()) return;
+  if (look.color.empty() || look.color == "none") return;
   std::vector<std::string> known;
   for (const std::string& name : results)
     if (isShown(name)) known.push_back(name);
@@ -210,11 +228,21 @@ FieldKind kindOfResult(const std::string& name, Eigen::Index columns) {
       {"labels", FieldKind::label},         {"label", FieldKind::label},         {"component", FieldKind::label},
       {"components", FieldKind::label},     {"boundary", FieldKind::label},      {"status", FieldKind::label},
       {"classification", FieldKind::label}, {"vectors", FieldKind::vector},      {"normals", FieldKind::vector},
-      {"logmap", FieldKind::coordinates},   {"color", FieldKind::color}};
+      {"logmap", FieldKind::coordinates},   {"color", FieldKind::color},         {"mass", FieldKind::positive},
+      {"hks", FieldKind::positive}};
   const auto kind = meanings.find(name);
   if (kind == meanings.end()) return FieldKind::scalar;
   const bool fits = (kind->second != FieldKind::vector && kind->second != FieldKind::color) || columns == 3;
   return fits && (kind->second != FieldKind::coordinates || columns == 2) ? kind->second : FieldKind::scalar;
+}
+
+SceneField boundaryField(Eigen::MatrixXd values) {
+  values.array() -= 1;  // none is grey
+  return {.name = "boundary",
+          .kind = FieldKind::label,
+          .values = std::move(values),
+          .label_names = {"rim", "jump", "lost"},
+          .no_value = "none"};
 }
 
 std::vector<SceneField> fieldsOf(const tufted::Geometry& geometry) {
@@ -263,13 +291,13 @@ tufted::Scene sceneOf(const std::string& title, const tufted::Geometry& geometry
     Eigen::MatrixXd mass = laplacian.M;
     for (Eigen::Index i = 0; i < n; ++i)
       if (!(mass(i, 0) > 0)) mass(i, 0) = std::numeric_limits<double>::quiet_NaN();
-    scene.fields.push_back({"mass", FieldKind::scalar, std::move(mass)});
+    scene.fields.push_back({"mass", FieldKind::positive, std::move(mass)});
   }
   if (has_part(laplacian.boundary.size())) {
     Eigen::MatrixXd boundary(n, 1);
     for (Eigen::Index i = 0; i < n; ++i)
-      boundary(i, 0) = static_cast<double>(laplacian.boundary[static_cast<std::size_t>(i)]) - 1;  // none is grey
-    scene.fields.push_back({"boundary", FieldKind::label, std::move(boundary)});
+      boundary(i, 0) = static_cast<double>(laplacian.boundary[static_cast<std::size_t>(i)]);
+    scene.fields.push_back(boundaryField(std::move(boundary)));
   }
   if (has_part(laplacian.component.size())) {
     Eigen::MatrixXd component(n, 1);
@@ -306,17 +334,14 @@ void show(const tufted::Scene& scene, const Look& look) {
   if (!look.isWanted()) return;
   const tufted::PictureOptions options = pictureOf(scene, look);
   if (!look.page.empty())
-    tufted::writePage(look.page, scene,
-                      {.field = options.field,
-                       .column = options.column,
-                       .color_map = options.color_map,
-                       .eye = options.camera.eye,
-                       .up = options.camera.up});
+    tufted::writePage(
+        look.page, scene,
+        {.field = options.field, .column = options.column, .color_map = options.color_map, .camera = options.camera});
   if (!look.png.empty()) tufted::writePicture(look.png, scene, options);
 }
 
 void colorCopies(const tufted::Scene& scene, const Look& look, tufted::Geometry& geometry) {
-  if (look.color.empty() || scene.fields.empty()) return;
+  if (look.color.empty() || look.color == "none" || scene.fields.empty()) return;
   const tufted::PictureOptions options = pictureOf(scene, look);
   const std::vector<std::array<std::uint8_t, 3>> colors = tufted::pointColors(scene, options);
   std::erase_if(geometry.fields, [](const tufted::Field& field) {

@@ -2,6 +2,7 @@
 
 #include <CLI/App.hpp>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,7 @@ struct Look {
   std::filesystem::path png;   ///< empty: no picture
   std::filesystem::path page;  ///< empty: no page
   std::string color;           ///< name of the field that is shown; empty: the first
+  std::optional<int> column;   ///< of this field; without one the first that is not constant
   tufted::PictureOptions picture;
 
   bool isWanted() const { return !png.empty() || !page.empty(); }
@@ -39,6 +41,9 @@ void checkColor(const Look& look, const tufted::Geometry& geometry, const std::v
 
 /// What the values of a result of a command mean, by its name.
 tufted::FieldKind kindOfResult(const std::string& name, Eigen::Index columns);
+
+/// The field of kinds of boundary, which are those of tufted::Boundary as numbers.
+tufted::SceneField boundaryField(Eigen::MatrixXd values);
 
 /// The fields of a file, with its colours as one field `color`.
 std::vector<tufted::SceneField> fieldsOf(const tufted::Geometry& geometry);

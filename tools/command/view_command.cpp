@@ -34,6 +34,7 @@ struct Settings {
   Console console;
 };
 
+using tufted::FieldKind;
 using tufted::Scene;
 using tufted::SceneField;
 
@@ -58,9 +59,12 @@ void addArrays(const std::filesystem::path& folder, Scene& scene) {
       continue;
     Eigen::MatrixXd values = tufted::readArray(file);
     if (values.rows() != scene.positions.rows() || values.cols() == 0) continue;
-    if (name == "boundary") values.array() -= 1;  // none is grey
     const std::string shown = name == "M" ? "mass" : name == "components" ? "component" : name;
-    fields.push_back({shown, kindOfResult(shown, values.cols()), std::move(values)});
+    const FieldKind kind = kindOfResult(shown, values.cols());
+    if (name == "boundary")
+      fields.push_back(boundaryField(std::move(values)));
+    else
+      fields.push_back({shown, kind, std::move(values)});
   }
   const auto is_copy = [&](const SceneField& field) {
     return std::any_of(fields.begin(), fields.end(), [&](const SceneField& array) {
@@ -71,7 +75,7 @@ void addArrays(const std::filesystem::path& folder, Scene& scene) {
   };
   std::erase_if(scene.fields, is_copy);
   for (SceneField& field : scene.fields)
-    if (field.name == "boundary") field.values.array() -= 1;
+    if (field.name == "boundary") field = boundaryField(std::move(field.values));
   std::erase_if(scene.fields,
                 [](const SceneField& field) { return field.name == "status" || field.name == "representative"; });
   scene.fields.insert(scene.fields.begin(), std::make_move_iterator(fields.begin()),

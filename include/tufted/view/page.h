@@ -1,20 +1,19 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <filesystem>
 #include <string>
 
+#include "tufted/view/camera.h"
 #include "tufted/view/scene.h"
 
 namespace tufted {
 
 /// What a page shows when it is opened. All of it can be changed there.
 struct PageOptions {
-  int field = 0;                                  ///< the field shown first, counted from 0
-  int column = 0;                                 ///< and its column, counted from 0
-  std::string color_map = {};                     ///< its colour map, one of colorMapNames(); empty: that of its kind
-  Eigen::Vector3d eye = Eigen::Vector3d::Zero();  ///< the direction in which the eye lies, of any length; 0: chosen
-  Eigen::Vector3d up = Eigen::Vector3d::Zero();   ///< the direction that is up on the screen; 0: the page chooses
+  int field = 0;               ///< the field shown first, counted from 0; -1: none
+  int column = 0;              ///< and its column, counted from 0
+  std::string color_map = {};  ///< its colour map, one of colorMapNames(); empty: that of its kind
+  Camera camera = {};          ///< from which direction it is seen and how near; the page looks at the middle
 };
 
 /// One HTML page that shows a scene in any browser with WebGL 2. It is complete: it loads nothing, works from disk and

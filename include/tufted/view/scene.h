@@ -12,6 +12,7 @@ namespace tufted {
 /// What the values of a field mean, and so how they are drawn.
 enum class FieldKind : std::uint8_t {
   scalar,       ///< from the least to the greatest value: a sequential colour map
+  positive,     ///< positive values that differ by factors, as areas of a scan: the same, on a logarithmic scale
   diverging,    ///< values around 0, which has the middle colour: eigenvectors, mean curvature
   distance,     ///< a length from 0 on: a sequential colour map with isolines
   label,        ///< integers that name things: a colour for each, negative ones grey
@@ -27,7 +28,9 @@ struct SceneField {
   /// N x c; each column is a picture of its own but for the kinds of two or three columns. NaN and infinite values are
   /// grey.
   Eigen::MatrixXd values;
-  std::string unit = {};  ///< of the values, for the legend; may be empty
+  std::string unit = {};                      ///< of the values, for the legend; may be empty
+  std::vector<std::string> label_names = {};  ///< of labels 0, 1, ... in the legend; labels beyond have their number
+  std::string no_value = {};                  ///< what grey means, for the legend; empty: "no value"
 };
 
 /// Points with what is known at them, for a page or a picture.

@@ -107,8 +107,10 @@ class Surface:
         if len(self) > _LARGEST_PAGE:
             return f"<pre>{html.escape(repr(self))}</pre>"
         labels = self.components.astype(np.float64).reshape(-1, 1)
-        fields = [("area of a point", "scalar", self.M.reshape(-1, 1), ""), ("component", "label", labels, ""),
-                  ("boundary", "label", self.boundary.astype(np.float64).reshape(-1, 1), "")]
+        boundary = self.boundary.astype(np.float64).reshape(-1, 1) - 1  # none is grey
+        fields = [("area of a point", "positive", self.M.reshape(-1, 1), "", [], ""),
+                  ("component", "label", labels, "", [], ""),
+                  ("boundary", "label", boundary, "", ["rim", "jump", "lost"], "none")]
         faces = np.zeros((0, 3), np.int32) if self._faces is None else self._faces
         page = _tufted.page(self._source or f"tufted.{type(self).__name__}", self._points, faces,
                             self._frame_parts()[0], fields)

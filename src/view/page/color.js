@@ -1,4 +1,4 @@
-// Colour maps, which come with the data, and the range that they are spread over.
+// Colour maps, which come with the data.
 import { ClampToEdgeWrapping, DataTexture, LinearFilter } from 'three';
 import { bytesOf } from './data.js';
 
@@ -22,17 +22,6 @@ export function mapTexture(map) {
   texture.wrapS = texture.wrapT = ClampToEdgeWrapping;
   texture.needsUpdate = true;
   return texture;
-}
-
-/** The values that have the first and the last colour. */
-export function colorRange(values, kind, is_middle) {
-  let [low, high] = is_middle ? [values.low, values.high] : [values.minimum, values.maximum];
-  if (kind === 'distance' || kind === 'vector' || kind === 'coordinates') low = Math.min(0, low);
-  if (kind === 'diverging') {
-    high = Math.max(Math.abs(low), Math.abs(high));
-    low = -high;
-  }
-  return [low, high];
 }
 
 /** The colour of a label, which the map gives again where it ends; null for negative ones and none. */

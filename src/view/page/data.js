@@ -2,6 +2,7 @@
 
 const top_level = 65534;
 const no_level = 65535;
+const middle_step = 128;
 
 export function bytesOf(base64) {
   if (Uint8Array.fromBase64) return Uint8Array.fromBase64(base64);
@@ -45,7 +46,7 @@ export class Values {
   constructor(count) {
     this.scaled = new Float32Array(count);
     this.known = new Uint8Array(count);
-    Object.assign(this, { least: 0, half_span: 0.5, minimum: 0, maximum: 0, low: 0, high: 0, finite: 0 });
+    Object.assign(this, { least: 0, half_span: 0.5, finite: 0, ranges: null });
   }
 
   toScaled(value) {
@@ -79,24 +80,17 @@ export async function levelValues(column) {
 }
 
 /** The lengths of vectors whose coordinates are columns of levels; `parts` are these. */
-export async function lengthValues(columns) {
+export async function lengthValues({ columns, ranges }) {
   const parts = [];
   for (const column of columns) parts.push(await levelValues(column));
   const count = parts[0].scaled.length;
   const values = new Values(count);
   const lengths = new Float64Array(count);
-  let finite = [];
   for (let i = 0; i < count; ++i) {
     lengths[i] = Math.hypot(...parts.map((part) => part.at(i)));
-    if (Number.isFinite(lengths[i])) finite.push(lengths[i]);
+    if (Number.isFinite(lengths[i])) ++values.finite;
   }
-  finite = Float64Array.from(finite).sort();
-  const rank = Math.floor(finite.length / 100);
-  if (finite.length > 0)
-    Object.assign(values, {
-      minimum: finite[0], maximum: finite.at(-1), low: finite[rank], high: finite[finite.length - 1 - rank],
-      half_span: finite.at(-1) / 2 || 0.5, finite: finite.length,
-    });
+  Object.assign(values, { ranges, half_span: ranges.all[1] / 2 || 0.5 });
   for (let i = 0; i < count; ++i) {
     if (!Number.isFinite(lengths[i])) continue;
     values.known[i] = 255;
@@ -112,6 +106,14 @@ export async function labels(column) {
   const names = await doubles(column.names);
   const indices = await integers(column.indices, Uint32Array);
   return { names, indices, at: (row) => names[indices[row]] ?? NaN };
+}
+
+/** The radius of the disc of each point, and their lower quartile, in the unit of `positions()`. */
+export async function radii(scene, { unit, count }) {
+  if (!scene.radii) return { each: new Float32Array(count), quartile: 0.02 };
+  const quartile = scene.radii.quartile / unit;
+  const steps = await integers(scene.radii.block, Uint8Array);
+  return { each: Float32Array.from(steps, (step) => quartile * 2 ** ((step - middle_step) * scene.radii.step)), quartile };
 }
 
 /** Positions of the points: `shown` for the graphics card, around 0 with the longest side of the box 1. */

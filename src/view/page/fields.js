@@ -1,5 +1,5 @@
 // A column of a field as it is shown: what the graphics card gets, what the legend says, and the value of a point.
-import { colorRange, labelColor } from './color.js';
+import { labelColor } from './color.js';
 import { integers, labels, lengthValues, levelValues } from './data.js';
 import { number, withUnit } from './format.js';
 
@@ -9,7 +9,7 @@ const kept = new Map();
 async function unpack(field, column) {
   if (field.kind === 'label') return labels(field.columns[column]);
   if (field.kind === 'color') return { colors: await integers(field.columns[0].colors, Uint32Array) };
-  if (field.kind === 'vector' || field.kind === 'coordinates') return lengthValues(field.columns);
+  if (field.kind === 'vector' || field.kind === 'coordinates') return lengthValues(field);
   return levelValues(field.columns[column]);
 }
 
@@ -46,32 +46,38 @@ export function pairsOf(values) {
   return pairs;
 }
 
+const noValue = (field) => field.noValue || 'no value';
+const labelText = (field, label) => (label >= 0 ? field.names[label] ?? number(label, 16) : noValue(field));
+
 /** What the page says of the value of a point. */
 export function valueText(field, values, row) {
   if (field.kind === 'color') {
     const color = values.colors[row];
     return color === 0 ? 'no value' : [0, 8, 16].map((shift) => (color >> shift) & 255).join(', ');
   }
-  if (field.kind === 'label') return number(values.at(row), 16);
+  if (field.kind === 'label') return labelText(field, values.at(row));
+  if (field.kind === 'positive') {
+    const value = 10 ** values.at(row);
+    return withUnit(number(value, 4), Number.isFinite(value) ? field.unit : '');
+  }
   if (values.parts && Number.isFinite(values.at(row)))
     return withUnit(`(${values.parts.map((part) => number(part.at(row))).join(', ')})`, field.unit);
   return withUnit(number(values.at(row), 5), Number.isFinite(values.at(row)) ? field.unit : '');
 }
 
-export function legendOf(field, column, values, map, { range, is_middle, interval, no_value }) {
+export function legendOf(field, column, values, map, { range, interval, no_value }) {
   const name = hasColumns(field) ? `${field.name} ${column + 1} of ${field.columns.length}` : field.name;
   const title = withUnit(name, field.unit && `(${field.unit})`);
-  if (field.kind === 'color') return { title, missing: values.colors.includes(0), no_value };
+  const missing_text = noValue(field);
+  if (field.kind === 'color') return { title, missing: values.colors.includes(0), missing_text, no_value };
   if (field.kind === 'label') {
     const named = Array.from(values.names).filter((label) => label >= 0);
     const is_missing = named.length < values.names.length || values.indices.includes(values.names.length);
-    return { title, no_value, missing: is_missing,
-             labels: named.map((label) => ({ text: number(label, 16), color: labelColor(map, label) })) };
+    return { title, no_value, missing: is_missing, missing_text,
+             labels: named.map((label) => ({ text: labelText(field, label), color: labelColor(map, label) })) };
   }
   const lines = interval > 0
     ? `${field.kind === 'coordinates' ? 'grid' : 'lines'} every ${withUnit(number(interval), field.unit)}` : null;
-  return { title, colors: map.colors, range, lines, missing: values.finite < values.scaled.length, no_value,
-           unit: field.unit, is_middle };
+  return { title, colors: map.colors, range, lines, missing: values.finite < values.scaled.length, missing_text, no_value,
+           unit: field.unit, is_logarithmic: field.kind === 'positive' };
 }
-
-export { colorRange };

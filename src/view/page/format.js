@@ -40,3 +40,17 @@ export function ticks(low, high, wanted = 4) {
   for (let k = Math.ceil(low / step - 1e-9); k * step <= high + step * 1e-9 && found.length < 20; ++k) found.push(k * step);
   return found.map((value) => Number(value.toPrecision(12)));
 }
+
+/** Logarithms to base 10 of round numbers, between those of the ends of a scale. */
+export function logarithmicTicks(low, high) {
+  if (!(high - low >= 1)) return ticks(10 ** low, 10 ** high).map(Math.log10);
+  const found = [];
+  const digits = high - low < 2.5 ? [1, 2, 5] : [1];
+  const every = Math.ceil((high - low) / 6);
+  for (let power = Math.floor(low); power <= high; ++power)
+    for (const digit of power % every === 0 ? digits : []) {
+      const place = power + Math.log10(digit);
+      if (place >= low - 1e-9 && place <= high + 1e-9) found.push(place);
+    }
+  return found;
+}

@@ -1,6 +1,6 @@
 // The legend, drawn on a canvas, so that saved pictures have the same one.
 import { cssColor } from './color.js';
-import { number, ticks, withUnit } from './format.js';
+import { logarithmicTicks, number, ticks, withUnit } from './format.js';
 
 const width = 268;
 const most_labels = 8;
@@ -20,7 +20,7 @@ export function legendLines(legend) {
     lines.push({ kind: 'swatch', color: label.color, text: label.text });
   if (legend.labels?.length > most_labels) lines.push({ kind: 'note', text: `and ${legend.labels.length - most_labels} more` });
   if (legend.lines) lines.push({ kind: 'note', text: legend.lines });
-  if (legend.missing > 0) lines.push({ kind: 'swatch', color: legend.no_value, text: 'no value' });
+  if (legend.missing > 0) lines.push({ kind: 'swatch', color: legend.no_value, text: legend.missing_text });
   return lines;
 }
 
@@ -39,11 +39,12 @@ function drawBar(context, legend, y, theme) {
   context.textAlign = 'center';
   const at = (value) => (high > low ? ((value - low) / (high - low)) * width : width / 2);
   let end = -Infinity;
-  for (const value of ticks(low, high)) {
-    const text = number(value);
+  const valueOf = (shown) => (legend.is_logarithmic ? 10 ** shown : shown);
+  for (const value of legend.is_logarithmic ? logarithmicTicks(low, high) : ticks(low, high)) {
+    const text = number(valueOf(value));
     const half = context.measureText(text).width / 2;
     const place = Math.min(Math.max(at(value), half), width - half);
-    if (place - half < end + 8) continue;
+    if (place - half < end + 8) continue; // no room
     end = place + half;
     context.fillRect(Math.min(Math.max(at(value), 0.5), width - 1.5), y + 12, 1, 4);
     context.fillText(text, place, y + 28);
@@ -74,7 +75,8 @@ export function drawLegend(context, legend, theme) {
 
 export function words(legend) {
   const parts = legendLines(legend).filter((line) => line.text).map((line) => line.text);
-  if (legend.colors) parts.push(`colours from ${number(legend.range[0])} to ${withUnit(number(legend.range[1]), legend.unit)}`);
+  const end = (i) => number(legend.is_logarithmic ? 10 ** legend.range[i] : legend.range[i]);
+  if (legend.colors) parts.push(`colours from ${end(0)} to ${withUnit(end(1), legend.unit)}`);
   return parts.join(', ');
 }
 

@@ -4,20 +4,20 @@
 // `first_picture` (milliseconds since the navigation), `state`, `stage`, `pick(x, y)` and `place(index)`, with places in
 // pixels of the canvas, and `set(changes)`, which changes the state as the panel does.
 import { Color, Vector3 } from 'three';
-import { colorMaps, colorRange, cssColor, mapTexture } from './color.js';
-import { integers, positions } from './data.js';
+import { canHaveLines, hasLines, intervalOf, mapOf, startState } from './choices.js';
+import { colorMaps, mapTexture } from './color.js';
+import { integers, positions, radii } from './data.js';
 import { hasColumns, legendOf, pairsOf, tintsOf, unpacked, valueText } from './fields.js';
-import { count, number, roundUp, stepped, withUnit } from './format.js';
-import { drawLegend, legendSize, showLegend } from './legend.js';
+import { count, number, stepped, withUnit } from './format.js';
+import { showLegend } from './legend.js';
+import * as panel from './panel.js';
 import { pickPoint, pickTriangle, placeOf } from './picking.js';
+import { savePicture } from './saving.js';
 import { Stage } from './stage.js';
-import { button, check, choice, element, fillHelp, select, slider } from './ui.js';
+import { element, fillHelp } from './ui.js';
 
 const get = (id) => document.getElementById(id);
-const state = {
-  field: 0, column: 0, map: {}, is_middle: false, lines: {}, line_step: 0, arrows: true, shown: 'points', size: 0,
-  is_lit: true, clip: 'off', clip_at: 0.5, is_flipped: false, theme: null,
-};
+const state = startState();
 let scene, stage, maps, current, legend, picked = null, pinned = null;
 
 class Plain extends Error {}
@@ -44,27 +44,6 @@ function applyTheme() {
 
 const field = () => scene.fields[state.field];
 
-/** The colour maps that suit a field. */
-function mapsFor({ kind }) {
-  if (kind === 'label') return maps.filter((map) => map.use === 'categorical');
-  return maps.filter((map) => map.use !== 'categorical');
-}
-
-function mapOf(one) {
-  const name = state.map[state.field] ?? one.map;
-  return maps.find((map) => map.name === name) ?? maps[0];
-}
-
-const hasLines = (one) => state.lines[state.field] ?? (one.kind === 'distance' || one.kind === 'coordinates');
-
-/** The interval of isolines: a round number, finer or coarser by the slider. */
-function intervalOf(one, [low, high]) {
-  if (!hasLines(one) || ['label', 'color', 'vector'].includes(one.kind) || !(high > low)) return 0;
-  // Lines of points are as wide as these, so at least this far apart; distances have the unit of positions.
-  const points = state.shown === 'points' && one.kind !== 'scalar' && one.kind !== 'diverging' ? 4.5 * stage.spacing * stage.positions.unit : 0;
-  return roundUp(Math.max((high - low) / (one.kind === 'coordinates' ? 8 : 16), Math.min(points, (high - low) / 3)) * 2 ** -state.line_step);
-}
-
 let wanted = 0;
 /** Shows the field and column of the state. Where another one is asked for meanwhile, that one wins. */
 async function showField() {
@@ -72,14 +51,15 @@ async function showField() {
   if (!field()) {
     stage.show({});
     stage.set({ mode: 0 });
-    legend = null;
+    stage.showArrows(null);
+    current = legend = null;
     return refresh();
   }
   const values = await unpacked(scene, state.field, state.column);
   if (turn !== wanted) return;
   current = values;
   const one = field();
-  const map = mapOf(one);
+  const map = mapOf(one, state, maps);
   if (one.kind === 'label' || one.kind === 'color') {
     stage.show({ tints: tintsOf(one, values, map) });
     stage.set({ mode: 2, is_flat: one.kind === 'label' });
@@ -91,15 +71,15 @@ async function showField() {
 
 function applyColors() {
   const one = field();
-  const map = mapOf(one);
+  const map = mapOf(one, state, maps);
   stage.uniforms.map.value?.dispose();
   stage.set({ map: mapTexture(map), interval: 0, grid: 0 });
   stage.showArrows(null);
   let range = [0, 1];
   let interval = 0;
   if (one.kind !== 'label' && one.kind !== 'color') {
-    range = colorRange(current, one.kind, state.is_middle);
-    interval = intervalOf(one, range);
+    range = current.ranges[state.range];
+    interval = intervalOf(one, state, range, stage.spacing * stage.positions.unit);
     const low = current.toScaled(range[0]);
     const width = current.toScaled(range[1]) - low;
     // All values equal: the middle colour.
@@ -152,7 +132,7 @@ async function set(changes) {
   if (has('field')) state.column = 0;
   if (has('clip', 'clip_at', 'is_flipped')) applyClip();
   if (has('field', 'column')) await showField();
-  else if (field() && has('map', 'is_middle', 'lines', 'line_step', 'arrows', 'shown')) {
+  else if (field() && has('map', 'range', 'lines', 'line_step', 'arrows', 'shown')) {
     if (field().kind === 'label') await showField();
     else if (current) applyColors();
   } else refresh();
@@ -163,70 +143,16 @@ async function set(changes) {
   }
 }
 
-function fieldSection() {
-  const one = field();
-  if (!one) return '';
-  const parts = [select('field', 'Field', scene.fields.map(({ name }, i) => [i, name || `field ${i + 1}`]), state.field,
-                        (value) => set({ field: Number(value) }))];
-  if (hasColumns(one))
-    parts.push(slider('column', 'Column', { least: 1, most: one.columns.length, step: 1, value: state.column + 1,
-                      text: (value) => `${value} of ${one.columns.length}` }, (value) => set({ column: value - 1 })));
-  if (one.kind !== 'color' && mapsFor(one).length > 1)
-    parts.push(select('map', 'Colours', mapsFor(one).map(({ name }) => [name, name.replaceAll('_', ' ')]), mapOf(one).name,
-                      (value) => set({ map: { ...state.map, [state.field]: value } })));
-  if (!['color', 'label'].includes(one.kind))
-    parts.push(select('range', 'Range', [['all', 'all values'], ['middle', 'middle 98 %']], state.is_middle ? 'middle' : 'all',
-                      (value) => set({ is_middle: value === 'middle' })));
-  if (one.kind === 'vector') parts.push(check('arrows', 'Arrows', state.arrows, (value) => set({ arrows: value })));
-  else if (!['color', 'label'].includes(one.kind)) {
-    parts.push(check('lines', one.kind === 'coordinates' ? 'Grid' : 'Isolines', hasLines(one),
-                     (value) => set({ lines: { ...state.lines, [state.field]: value } })));
-    if (hasLines(one))
-      parts.push(slider('line-step', 'Spacing', { least: -3, most: 3, step: 1, value: -state.line_step,
-                        text: (value) => ['finest', 'finer', 'fine', 'usual', 'wide', 'wider', 'widest'][value + 3] },
-                        (value) => set({ line_step: -value })));
-  }
-  return element('section', {}, ...parts);
-}
-
-function fillPanel() {
-  const focused = document.activeElement?.id;
-  const panel = get('panel');
-  const is_dark = document.documentElement.dataset.theme === 'dark';
-  const fold = element('button', { type: 'button', class: 'plain fold', id: 'fold', onclick: () => {
-    panel.classList.toggle('folded');
-    fold.textContent = panel.classList.contains('folded') ? '▴ Settings' : '▾ Settings';
-  } }, panel.classList.contains('folded') ? '▴ Settings' : '▾ Settings');
-  const shown = [['points', 'Points'], ['triangles', 'Triangles'], ['both', 'Both']];
-  panel.replaceChildren(
-    element('div', { class: 'bar' }, fold, element('span', { class: 'name' }, 'Settings'),
-            button('theme', is_dark ? '☀' : '☾', is_dark ? 'Light page (t)' : 'Dark page (t)', toggleTheme),
-            button('reset', '⟲', 'The view as it was (f)', reset), button('save', '⤓', 'Save a picture (s)', save),
-            button('help-button', '?', 'Mouse, touch and keys (h)', () => get('help').showModal())),
-    fieldSection(),
-    element('section', {},
-      stage.triangles ? choice('shown', 'Show', shown, state.shown, (value) => set({ shown: value })) : '',
-      slider('size', 'Point size', { least: -2, most: 3, step: 0.25, value: state.size, text: (value) => `${number(2 ** value, 2)} ×` },
-             (value) => set({ size: value })),
-      check('light', 'Light', state.is_lit, (value) => set({ is_lit: value }))),
-    element('section', {},
-      choice('clip', 'Cut', [['off', 'Off'], ['x', 'x'], ['y', 'y'], ['z', 'z'], ['view', 'View']], state.clip,
-             (value) => set({ clip: value })),
-      ...(state.clip === 'off' ? [] : [
-        slider('clip-at', 'At', { least: 0, most: 1, step: 0.005, value: state.clip_at, text: (value) => `${Math.round(100 * value)} %` },
-               (value) => set({ clip_at: value })),
-        check('flip', 'Other side', state.is_flipped, (value) => set({ is_flipped: value })),
-      ])));
-  if (focused) get(focused)?.focus();
-}
-
 const toggleTheme = () => set({ theme: document.documentElement.dataset.theme === 'dark' ? 'light' : 'dark' });
 
-function reset() {
-  const { eye, up } = scene.start;
-  const given = (direction) => (direction.some((part) => part !== 0) ? direction : null);
-  stage.look(given(eye), given(up));
+const reset = () => stage.look(scene.start.eye, scene.start.up, scene.start.zoom);
+
+function save() {
+  stage.drawNow(); // the browser forgets what was drawn before
+  savePicture(get('canvas'), legend, themeColors(), scene.title);
 }
+
+const fillPanel = () => panel.fillPanel({ state, scene, stage, maps, field: field() }, { set, toggleTheme, reset, save });
 
 function pick(x, y, reach = 6) {
   const row = state.shown === 'points' ? pickPoint(stage, x, y, reach) : pickTriangle(stage, x, y);
@@ -278,25 +204,6 @@ const pointer = {
   },
 };
 
-/** A picture of what is seen, with title and legend. */
-function save() {
-  const source = get('canvas');
-  stage.drawNow(); // the browser forgets what was drawn before
-  const canvas = element('canvas', { width: source.width, height: source.height });
-  const context = canvas.getContext('2d');
-  context.drawImage(source, 0, 0);
-  const scale = source.width / source.clientWidth;
-  if (legend) {
-    context.setTransform(scale, 0, 0, scale, 20 * scale, source.height - (18 + legendSize(legend)[1]) * scale);
-    drawLegend(context, legend, themeColors());
-  }
-  canvas.toBlob((blob) => {
-    const link = element('a', { href: URL.createObjectURL(blob), download: `${(scene.title || 'view').replace(/[^\p{L}\p{N}._ -]+/gu, '_')}.png` });
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(link.href), 1000);
-  });
-}
-
 function key(event) {
   if (event.ctrlKey || event.metaKey || event.altKey || get('help').open) return;
   if (event.target.tagName === 'SELECT' || (event.target.type === 'range' && event.key.startsWith('Arrow'))) return;
@@ -310,7 +217,8 @@ function key(event) {
   };
   const actions = {
     f: reset, s: save, t: toggleTheme, h: () => get('help').showModal(), '?': () => get('help').showModal(),
-    i: () => field() && set({ lines: { ...state.lines, [state.field]: !hasLines(field()) } }), l: () => set({ is_lit: !state.is_lit }),
+    i: () => field() && canHaveLines(field()) && set({ lines: { ...state.lines, [state.field]: !hasLines(field(), state) } }),
+    l: () => set({ is_lit: !state.is_lit }),
     ',': () => turn(-1), '.': () => turn(1), '[': () => move(-1), ']': () => move(1),
     Escape: () => { pinned = picked = null; showTip(); },
   };
@@ -343,7 +251,7 @@ async function start() {
   const places = await positions(scene.positions);
   const directions = scene.normals === undefined ? null : await integers(scene.normals, Uint8Array);
   const triangles = scene.triangles === undefined ? null : await integers(scene.triangles, Uint32Array);
-  stage = new Stage(get('canvas'), places, directions, triangles, pointer);
+  stage = new Stage(get('canvas'), places, await radii(scene, places), directions, triangles, pointer);
   if (stage.triangles) state.shown = 'triangles';
   fillHelp(get('help'));
   if (matchMedia('(max-width: 760px)').matches) get('panel').classList.add('folded');

@@ -39,10 +39,12 @@ const fragmentShared = `
 export const pointVertex = `
   ${vertexShared}
   attribute vec2 direction;
-  attribute float drawn;
-  uniform float size, least_size, pixels;  // size in space; least_size in pixels; pixels of a unit at distance 1
+  attribute float drawn, radius;
+  const float bulge = 0.05;
+  uniform float size, least_size, pixels;  // of discs in their radii; least_size in pixels; pixels of a unit at distance 1
   varying vec4 v_tint;
   varying float v_light, v_size;
+  flat varying vec4 v_depth;  // of the middle and its rim, and how depths become those of the screen
   vec3 unfolded(vec2 bytes) {
     vec2 p = (bytes - 128.0) / 127.0;
     vec3 n = vec3(p, 1.0 - abs(p.x) - abs(p.y));
@@ -56,7 +58,8 @@ export const pointVertex = `
     v_light = 1.0;
     if (direction.x > 0.5) v_light = abs(dot(normalize(normalMatrix * unfolded(direction)), normalize(eye.xyz)));
     gl_Position = projectionMatrix * eye;
-    gl_PointSize = v_size = clamp(size * pixels / max(-eye.z, 1e-6), least_size, 64.0);
+    gl_PointSize = v_size = clamp(size * radius * pixels / max(-eye.z, 1e-6), least_size, 64.0);
+    v_depth = vec4(eye.z, bulge * size * radius, projectionMatrix[2][2], projectionMatrix[3][2]);
     if (drawn < 0.5 || v_side > 0.0) gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
   }`;
 
@@ -65,9 +68,13 @@ export const pointFragment = `
   ${fragmentShared}
   varying vec4 v_tint;
   varying float v_light, v_size;
+  flat varying vec4 v_depth;
   void main() {
     vec2 q = 2.0 * gl_PointCoord - 1.0;
     if (v_size > 2.5 && dot(q, q) > 1.0) discard;
+    // Discs stand forward in their middle: of overlapping ones the nearest point is seen.
+    float z = v_depth.x - v_depth.y * min(dot(q, q), 1.0);
+    gl_FragDepth = 0.5 - 0.5 * (v_depth.z * z + v_depth.w) / z;
     vec3 color = colorOfValue(v_tint);
     // A point has one value: those near a line are dark.
     float part = 0.0;

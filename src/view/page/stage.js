@@ -10,40 +10,20 @@ import { domeFragment, domeVertex, pointFragment, pointVertex, triangleFragment,
 
 ColorManagement.enabled = false; // colours of the maps go to the screen as they are
 
-/** The distance of neighbouring points, that of the middle one of some: as a surface, its points would lie on a grid. */
-function spacingOf({ shown, drawn, count }) {
-  const queries = 24;
-  const nearest = 6; // on a square grid the fourth of these is at the distance of the grid
-  const found = [];
-  for (let q = 0; q < queries; ++q) {
-    // The golden ratio spreads the rows, and steps over no whole columns of a depth image, which may be missing.
-    let row = Math.floor(((q * 0.6180339887498949) % 1) * count);
-    while (row < count && !drawn[row]) ++row;
-    if (row === count) continue;
-    const [x, y, z] = shown.subarray(3 * row, 3 * row + 3);
-    const least = new Array(nearest).fill(Infinity);
-    for (let i = 0, k = 0; i < count; ++i, k += 3) {
-      const square = (shown[k] - x) ** 2 + (shown[k + 1] - y) ** 2 + (shown[k + 2] - z) ** 2;
-      if (square < least[nearest - 1] && square > 0 && drawn[i]) {
-        least[nearest - 1] = square;
-        least.sort((a, b) => a - b);
-      }
-    }
-    if (Number.isFinite(least[3])) found.push(Math.sqrt(least[3]));
-  }
-  found.sort((a, b) => a - b);
-  return found[Math.floor(found.length / 2)] ?? 0.02;
-}
+/** The width of a point in radii of its disc: less than a disc lying in the surface, as points face the eye. */
+const point_width = 1.3;
+/** The radius of a disc on a square grid, in its spacing: src/view/spacing.cpp. */
+const grid_radius = 0.85 * Math.SQRT2;
 
 export class Stage {
-  constructor(element, positions, directions, triangles, events) {
-    Object.assign(this, { element, positions, has_normals: Boolean(directions), events });
+  constructor(element, positions, radii, directions, triangles, events) {
+    Object.assign(this, { element, positions, radii, has_normals: Boolean(directions), events });
     this.renderer = new WebGLRenderer({ canvas: element, antialias: true, powerPreference: 'high-performance' });
     this.renderer.outputColorSpace = LinearSRGBColorSpace;
     this.camera = new PerspectiveCamera(30, 1, 0.01, 100);
     this.scene = new Scene();
     this.controls = new Controls(this.camera, element, { ...events, changed: () => { this.draw(); events.changed(); } });
-    this.spacing = spacingOf(positions);
+    this.spacing = radii.quartile / grid_radius;
     this.is_lit = true;
     this.is_waiting = true; // nothing is drawn before there is all that the first picture shows
     this.size_factor = 1;
@@ -71,6 +51,7 @@ export class Stage {
   makeGeometry(directions, triangles) {
     const { shown, drawn, count } = this.positions;
     const attributes = { position: new BufferAttribute(shown, 3) };
+    attributes.radius = new BufferAttribute(this.radii.each, 1);
     if (directions) attributes.direction = new BufferAttribute(directions, 2);
     attributes.drawn = new BufferAttribute(drawn, 1);
     this.points = new Points(new BufferGeometry(), this.material(pointVertex, pointFragment));
@@ -152,12 +133,9 @@ export class Stage {
     this.scene.add(this.arrows);
   }
 
-  /** Looks from a direction; by default one that suits the shape of the box. */
-  look(eye = null, up = null) {
-    const [x, y, z] = this.positions.sides;
-    const is_ground = z < 0.5 * Math.max(x, y);
-    this.controls.look(eye ?? (is_ground ? [-0.35, -0.9, 0.85] : [0.45, 0.3, 1]), up ?? (is_ground ? [0, 0, 1] : [0, 1, 0]),
-                       (toEye) => this.distanceToSee(toEye));
+  /** Looks at the middle from a direction, from where all is seen, or nearer by `zoom`. */
+  look(eye, up, zoom = 1) {
+    this.controls.look(eye, up, (toEye) => this.distanceToSee(toEye) / zoom);
   }
 
   /** How far the eye must be from the middle of the box to see all points in it, by the rows of the matrix `toEye`. */
@@ -205,7 +183,7 @@ export class Stage {
     this.camera.far = away + Math.max(4, this.controls.distance);
     this.camera.updateProjectionMatrix();
     this.set({
-      is_lit: this.is_lit, size: 1.5 * this.spacing * this.size_factor,
+      is_lit: this.is_lit, size: point_width * this.size_factor,
       least_size: 1.5 * Math.min(2, this.size_factor) * this.renderer.getPixelRatio(),
       pixels: size.y / (2 * Math.tan((this.camera.fov * Math.PI) / 360)),
     });
@@ -217,7 +195,7 @@ export class Stage {
       this.dome_uniforms.pixel.value.set(1 / size.x, 1 / size.y).multiplyScalar(this.renderer.getPixelRatio());
       this.dome_uniforms.near_far.value.set(this.camera.near, this.camera.far);
       // Large points are steps themselves; full light would draw each of them like a scale.
-      const splat = (this.uniforms.size.value * this.uniforms.pixels.value) / this.controls.distance;
+      const splat = (this.uniforms.size.value * this.radii.quartile * this.uniforms.pixels.value) / this.controls.distance;
       const softness = Math.min(1, Math.max(0.2, 4 / splat));
       this.dome_uniforms.strength.value = this.is_lit ? (this.has_normals ? 60 : 160) * softness : 0;
       this.renderer.render(this.dome, this.dome_camera);
