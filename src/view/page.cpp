@@ -144,7 +144,7 @@ Json fieldJson(const SceneField& field, PageBlocks& blocks) {
 
 /// The radius of the disc of each point, in steps of a factor from the lower quartile, as radii are rather too large.
 Json radiusJson(const view::NormalizedPoints& points, PageBlocks& blocks) {
-  const std::vector<float> radii = view::discRadii(points, 0);
+  const std::vector<float> radii = view::discsOf(points, 0).radii;
   std::vector<float> sorted;
   for (const int i : points.finite) sorted.push_back(radii[static_cast<std::size_t>(i)]);
   const auto quartile = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 4);
