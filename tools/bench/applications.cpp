@@ -296,8 +296,7 @@ void printQuery() {
       const DistanceSolver marching(laplacian, {.solver = one_thread});
       const double by_marching = leastTime([&] { marching.query({0}); });
       const double radius = std::sqrt(1000.0 / n * cloud.area / M_PI);
-      const DistanceSolver within(laplacian, {.maximum = radius, .solver = one_thread});
-      const double near = leastTime([&] { within.query({0}); });
+      const double near = leastTime([&] { tufted::pointsWithin(laplacian, {0}, radius); });
       std::printf("| %s, %d points | %.1f | %.0f | %.1f | %.0f | %.1f | %.2f |\n", name, n, solve,
                   1000 * heat.report().seconds, heat_query, 1000 * marching.report().seconds, by_marching, near);
       std::fflush(stdout);
