@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -108,27 +109,26 @@ Faces facesFromCover(const Laplacian& laplacian, const std::vector<int>& sources
 
 /// Faces with corners numbered from 0 in the order of the points.
 struct Patch {
-  std::vector<int> points;  ///< ascending
+  std::vector<int> points;                 ///< ascending
+  std::unordered_map<int, int> number_of;  ///< of each point
   std::vector<DistinctFace> faces;
   int exponent = 0;
-
-  int numberOf(int point) const {
-    return static_cast<int>(std::lower_bound(points.begin(), points.end(), point) - points.begin());
-  }
-  bool has(int point) const { return std::binary_search(points.begin(), points.end(), point); }
 };
 
-Patch patchOf(const Faces& faces) {
+Patch patchOf(Faces faces) {
   Patch patch;
-  for (const auto& corners : faces.corners) patch.points.insert(patch.points.end(), corners.begin(), corners.end());
+  patch.number_of.reserve(faces.corners.size() / 4);
+  for (const auto& corners : faces.corners)
+    for (const int corner : corners)
+      if (patch.number_of.try_emplace(corner, 0).second) patch.points.push_back(corner);
   std::sort(patch.points.begin(), patch.points.end());
-  patch.points.erase(std::unique(patch.points.begin(), patch.points.end()), patch.points.end());
+  for (std::size_t i = 0; i < patch.points.size(); ++i) patch.number_of[patch.points[i]] = static_cast<int>(i);
   IntrinsicTriangulation local;
   local.vertices = static_cast<int>(patch.points.size());
-  local.faces = faces.corners;
-  local.length = faces.length;
+  local.faces = std::move(faces.corners);
+  local.length = std::move(faces.length);
   for (auto& face : local.faces)
-    for (int& corner : face) corner = patch.numberOf(corner);
+    for (int& corner : face) corner = patch.number_of.find(corner)->second;
   const Progress silent;
   patch.faces = distinctFaces(local, Workers(1, silent));
   patch.exponent = unitOf(local.length);
@@ -142,7 +142,7 @@ std::vector<double> distancesOn(const Patch& patch, const std::vector<int>& sour
   for (int times = 1; times < split; ++times) faces = splitInFour(faces, workers);
   std::vector<MarchStart> starts;
   for (const int source : sources)
-    if (patch.has(source)) starts.push_back({patch.numberOf(source), 0, 0});
+    if (const auto at = patch.number_of.find(source); at != patch.number_of.end()) starts.push_back({at->second, 0, 0});
   std::vector<double> distance = march(faces, split > 0, starts, std::ldexp(radius, -faces.exponent), workers).distance;
   distance.resize(patch.points.size());
   for (double& d : distance) d = std::ldexp(d, faces.exponent);
@@ -174,10 +174,11 @@ NearbyPoints pointsWithin(const Laplacian& laplacian, const std::vector<int>& so
   Faces faces;
   bool is_complete = facesFromStars(laplacian, known, radius, faces);
   if (is_complete) {
-    patch = patchOf(faces);
+    patch = patchOf(std::move(faces));
     distance = distancesOn(patch, known, radius, split);
-    is_complete = std::all_of(known.begin(), known.end(), [&](int source) { return patch.has(source); }) &&
-                  isComplete(laplacian, patch, distance, radius);
+    is_complete =
+        std::all_of(known.begin(), known.end(), [&](int source) { return patch.number_of.count(source) > 0; }) &&
+        isComplete(laplacian, patch, distance, radius);
   }
   if (!is_complete) {
     patch = patchOf(facesFromCover(laplacian, known, radius));

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <utility>
+#include <optional>
 
 namespace tufted {
 namespace {
@@ -40,6 +40,11 @@ struct OpenDoor {
 struct Layout {
   Vector2d start, end;
   std::vector<OpenDoor> doors;
+
+  /// An end of a door; behind the last one the end of the strip.
+  const Vector2d& endOf(std::size_t door, bool is_left) const {
+    return door == doors.size() ? end : is_left ? doors[door].left : doors[door].right;
+  }
 };
 
 /// Unfolds a strip. The start lies at 0.
@@ -69,7 +74,7 @@ Layout layOut(const MarchFaces& faces, const Strip& strip) {
     is_counterclockwise = door.left_after == nextSide(enter);
     corners[door.left_after % 3] = door.left;
     corners[door.right_after % 3] = door.right;
-    // Beyond the door is to the left of the way from its right end to its left one, turned about: the way goes on.
+    // From its left end to its right one, what lies beyond the door is on the left.
     corners[enter % 3] =
         apexLeftOf(door.left, door.right, lengthOf(door.right_after), lengthOf(door.left_after), areaOf(enter));
     layout.doors.push_back(door);
@@ -84,46 +89,50 @@ struct Touch {
   bool is_left;
 };
 
+/// The funnel from the last turn: what is seen from there through the doors so far.
+class Funnel {
+ public:
+  /// @param door the first after the apex
+  Funnel(const Layout& layout, const Vector2d& apex, std::size_t door)
+      : layout_(layout), apex_(apex), left_(door), right_(door) {}
+
+  /// Narrows it by a door, or by the end of the strip. @returns the turn, if the door is out of sight
+  std::optional<Touch> pass(std::size_t door) {
+    const Vector2d right = endOf(door, false) - apex_, left = endOf(door, true) - apex_;
+    if (cross(endOf(right_, false) - apex_, right) >= 0) {
+      if (cross(endOf(left_, true) - apex_, right) > 0) return Touch{left_, true};
+      right_ = door;
+    }
+    if (cross(endOf(left_, true) - apex_, left) <= 0) {
+      if (cross(endOf(right_, false) - apex_, left) < 0) return Touch{right_, false};
+      left_ = door;
+    }
+    return {};
+  }
+
+ private:
+  Vector2d endOf(std::size_t door, bool is_left) const { return layout_.endOf(door, is_left); }
+
+  const Layout& layout_;
+  const Vector2d apex_;
+  std::size_t left_, right_;  ///< the doors whose ends bound it
+};
+
 /// The corners at which the shortest way through the doors turns, in order.
 std::vector<Touch> turnsOf(const Layout& layout) {
   std::vector<Touch> turns;
   const std::size_t count = layout.doors.size();
-  const auto leftOf = [&](std::size_t i) { return i == count ? layout.end : layout.doors[i].left; };
-  const auto rightOf = [&](std::size_t i) { return i == count ? layout.end : layout.doors[i].right; };
   Vector2d apex = layout.start;
-  std::size_t first = 0;  // door after the apex
-  while (first < count) {
-    std::size_t left = first, right = first, i = first + 1;
-    bool has_turned = false;
-    for (; i <= count && !has_turned; ++i) {
-      const Vector2d to_left = leftOf(left) - apex, to_right = rightOf(right) - apex;
-      const Vector2d next_right = rightOf(i) - apex, next_left = leftOf(i) - apex;
-      if (cross(to_right, next_right) >= 0) {
-        if (right != i && cross(to_left, next_right) > 0) {  // beyond the left end: the way turns there
-          turns.push_back({left, true});
-          apex = leftOf(left);
-          first = left;
-          has_turned = true;
-          break;
-        }
-        right = i;
-      }
-      if (cross(to_left, next_left) <= 0) {
-        if (cross(rightOf(right) - apex, next_left) < 0) {
-          turns.push_back({right, false});
-          apex = rightOf(right);
-          first = right;
-          has_turned = true;
-          break;
-        }
-        left = i;
-      }
-    }
-    if (!has_turned) break;
-    // The doors that end at the turn are passed there.
-    const bool is_left = turns.back().is_left;
-    const auto endOf = [&](std::size_t d) { return is_left ? leftOf(d) : rightOf(d); };
-    while (first < count && endOf(first) == apex) ++first;
+  for (std::size_t first = 0; first < count;) {
+    Funnel funnel(layout, apex, first);
+    std::optional<Touch> turn;
+    for (std::size_t door = first + 1; door <= count && !turn; ++door) turn = funnel.pass(door);
+    if (!turn) break;
+    turns.push_back(*turn);
+    apex = layout.endOf(turn->door, turn->is_left);
+    // The doors that end there are passed there.
+    first = turn->door;
+    while (first < count && layout.endOf(first, turn->is_left) == apex) ++first;
   }
   return turns;
 }
