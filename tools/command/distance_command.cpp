@@ -23,8 +23,8 @@ constexpr const char* footer =
     R"(Examples:
   tufted distance scan.ply --source 0 --out distance
   tufted distance scan.ply --near 1,2,0.5 --within 0.3 --out around
-  tufted distance mesh.obj --source 0,17,99 --labels --out cells
-  tufted distance mesh.obj --sources landmarks.txt --matrix --out landmarks
+  tufted distance scan.ply --source 0,17,99 --labels --out cells
+  tufted distance scan.ply --source 0,17,99 --matrix --out landmarks
 
 Distances are in the file's unit: 0 at sources, infinite where no path leads (other components,
 isolated points) and beyond --within. --near takes the point nearest to a position, says which, and warns where that is

@@ -14,8 +14,8 @@ constexpr const char* description = "Shortest path between two points, over the 
 
 constexpr const char* footer =
     R"(Examples:
-  tufted path scan.ply --from 0 --to 500 --out path
-  tufted path mesh.obj --from 1,0,0 --to -1,0,0 --out path
+  tufted path scan.ply --from 0 --to 99 --out path
+  tufted path mesh.off --from 1,0,0 --to -1,0,0 --out path
 
 The path follows the distance down to --from and is then straightened across the triangles until no path near it is
 shorter. A position names the point nearest to it.
