@@ -87,12 +87,12 @@ class Surface:
                progress: _Progress = None) -> _Floats: ...
     def distance(self, sources: npt.ArrayLike = (), *, faces: npt.ArrayLike | None = None,
                  barycentric: npt.ArrayLike | None = None, method: Literal["marching", "heat"] = "marching",
-                 split: int = 1, maximum: float = ..., time_step: float | None = None,
+                 split: int = 1, maximum: float | None = None, time_step: float | None = None,
                  unit: Literal["mean", "adapted"] | None = None, open_boundary: bool | None = None,
                  progress: _Progress = None) -> _Floats: ...
     def nearest_source(self, sources: npt.ArrayLike = (), *, faces: npt.ArrayLike | None = None,
                        barycentric: npt.ArrayLike | None = None, method: Literal["marching", "heat"] = "marching",
-                       split: int = 1, maximum: float = ..., time_step: float | None = None,
+                       split: int = 1, maximum: float | None = None, time_step: float | None = None,
                        unit: Literal["mean", "adapted"] | None = None, open_boundary: bool | None = None,
                        progress: _Progress = None) -> tuple[_Floats, npt.NDArray[np.int32]]: ...
     def path(self, start: int, end: int, *, progress: _Progress = None) -> Path: ...

@@ -201,7 +201,7 @@ class Surface:
 
     # Distances and what is carried along the surface
 
-    def distance(self, sources=(), *, faces=None, barycentric=None, method="marching", split=1, maximum=np.inf,
+    def distance(self, sources=(), *, faces=None, barycentric=None, method="marching", split=1, maximum=None,
                  time_step=None, unit=None, open_boundary=None, progress=None):
         """Geodesic distance from the nearest of some points.
 
@@ -209,7 +209,7 @@ class Surface:
         faces, barycentric: S faces of a mesh and S x 3 coordinates by corner: points inside triangles, as sources too.
         method: "marching" through the triangles, the more accurate one, or "heat", smooth where fronts meet.
         split: of marching, how often each triangle is cut into four, 0 to 2.
-        maximum: greater distances are infinite.
+        maximum: greater distances are infinite; None: no limit.
         time_step: of heat, in `unit`; larger ones smooth; None: 0.5. unit: of heat, "mean" squared edge (None) or
         "adapted" to uneven density. open_boundary: of heat, whether it passes the boundary as if the surface went on;
         None: True.
@@ -219,11 +219,12 @@ class Surface:
         solver = self._distance_solver(method, split, maximum, time_step, unit, open_boundary, progress)
         return solver.query(places, check.callback("distance", progress))
 
-    def nearest_source(self, sources=(), *, faces=None, barycentric=None, method="marching", split=1, maximum=np.inf,
+    def nearest_source(self, sources=(), *, faces=None, barycentric=None, method="marching", split=1, maximum=None,
                        time_step=None, unit=None, open_boundary=None, progress=None):
         """The nearest of some points along the surface: their geodesic Voronoi cells.
 
-        Arguments are those of `distance`.
+        Arguments are those of `distance`: sources, faces and barycentric; method, split, maximum, and time_step, unit and
+        open_boundary of heat.
         Returns N distances and N numbers: which of the sources is nearest, first `sources`, then `faces`, counted from
         0; -1 where none leads.
         """
@@ -556,7 +557,8 @@ class Surface:
             for name, value in (("time_step", time_step), ("unit", unit), ("open_boundary", open_boundary)):
                 if value is not None:
                     raise InvalidInput(f'distance: {name} = {value!r}, must be None unless method is "heat"')
-        settings = (method, check.whole("distance", "split", split, 0), check.number("distance", "maximum", maximum),
+        settings = (method, check.whole("distance", "split", split, 0),
+                    np.inf if maximum is None else check.number("distance", "maximum", maximum),
                     0.5 if time_step is None else check.number("distance", "time_step", time_step),
                     "mean" if unit is None else unit, True if open_boundary is None else bool(open_boundary))
         return self._keep(("distance", *settings), lambda: _tufted.DistanceSolver(
