@@ -1,5 +1,4 @@
 #include <CLI/CLI.hpp>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -115,25 +114,6 @@ tufted::Spectrum longWavesOfFolder(const Operator& source, double wavelength, co
                              ", write more by `tufted spectrum --count`");
 }
 
-/// Normals of points, of any sign, for the light of a picture: of the planes through the neighbours that L names.
-/// Points with fewer than two have none.
-tufted::Points normalsOf(const tufted::Points& points, const tufted::SparseMatrix& L) {
-  tufted::Points normals = tufted::Points::Zero(points.rows(), 3);
-  for (Eigen::Index i = 0; i < points.rows(); ++i) {
-    Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
-    int neighbors = 0;
-    for (tufted::SparseMatrix::InnerIterator entry(L, i); entry; ++entry) {
-      if (entry.row() == i || !(entry.value() < 0)) continue;
-      const Eigen::Vector3d edge = (points.row(entry.row()) - points.row(i)).transpose();
-      spread += edge * edge.transpose();
-      ++neighbors;
-    }
-    if (neighbors >= 2 && spread.allFinite())
-      normals.row(i) = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(spread).eigenvectors().col(0).transpose();
-  }
-  return normals;
-}
-
 Results compute(Settings& settings, Operator& source) {
   requireFinite(settings.values, source);
   const tufted::Spectrum spectrum = !settings.wavelength ? positivePairs(settings.pairs, source)
@@ -154,7 +134,6 @@ Results compute(Settings& settings, Operator& source) {
     source.geometry.points = filtered;
     source.geometry.normals.resize(0, 3);
     source.laplacian.frames = {};
-    source.laplacian.frames.normals = normalsOf(filtered, source.laplacian.L);
   }
   results.arrays = {{.name = "filtered", .values = std::move(filtered)}};
   return results;
