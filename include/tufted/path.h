@@ -25,8 +25,8 @@ struct SurfacePath {
 /// that it runs through are unfolded into a plane, where the shortest way through them is found (Lee, Preparata 1984),
 /// and where that turns at a point with less than half a circle on the other side, it is led around that side (Xin,
 /// Wang: "Efficiently determining a locally exact shortest path on polyhedral surfaces", 2007). In the end it is
-/// straight everywhere but at points with at least half a circle on each side, so that no path near it is shorter. Any
-/// number of triangles may meet at an edge.
+/// straight everywhere but at points with at least half a circle on each side, so that no path near it is shorter. That
+/// is done from both ends, and the shorter path is taken. Any number of triangles may meet at an edge.
 class PathSolver {
  public:
   /// Prepares the faces of a Laplacian's cover.

@@ -144,6 +144,7 @@ struct PathSolver::State {
   int checked(const char* name, int point) const;
   Steps firstPath(int from, int to, const Workers& workers) const;
   Points pointsOf(const Segments& path, int from) const;
+  SurfacePath straightened(int from, int to, const Workers& workers) const;
 };
 
 PathSolver::PathSolver(PathSolver&&) noexcept = default;
@@ -205,21 +206,34 @@ Points PathSolver::State::pointsOf(const Segments& path, int from) const {
   return points;
 }
 
+/// The shortest path of those that are near the edge path from `from` down the distance to `to`.
+SurfacePath PathSolver::State::straightened(int from, int to, const Workers& workers) const {
+  Segments path;
+  for (const Step& step : firstPath(from, to, workers))
+    path.push_back(straighten(faces, {step.start, step.end, {}}).front());
+  SurfacePath result;
+  result.shortenings = shorten(faces, path, workers);
+  result.length = std::ldexp(lengthOf(path), faces.exponent);
+  result.points = pointsOf(path, from);
+  return result;
+}
+
 SurfacePath PathSolver::path(int from, int to, const Progress& progress) const {
   const State& state = *state_;
   from = state.checked("from", from);
   to = state.checked("to", to);
   const Workers workers(state.threads, progress);
-  SurfacePath result;
-  Segments path;
-  if (from != to) {
-    for (const Step& step : state.firstPath(from, to, workers))
-      path.push_back(straighten(state.faces, {step.start, step.end, {}}).front());
-    result.shortenings = shorten(state.faces, path, workers);
+  if (from == to) return {state.positions.row(from), 0, 0};
+  SurfacePath there = state.straightened(from, to, workers);
+  // From the other end the first path may pass handles and hills on the other side.
+  SurfacePath back = state.straightened(to, from, workers);
+  const int shortenings = there.shortenings + back.shortenings;
+  if (back.length < there.length) {
+    there = std::move(back);
+    there.points = there.points.colwise().reverse().eval();
   }
-  result.length = std::ldexp(lengthOf(path), state.faces.exponent);
-  result.points = state.pointsOf(path, from);
-  return result;
+  there.shortenings = shortenings;
+  return there;
 }
 
 }  // namespace tufted
