@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <cstdint>
 
 #include "../support/joined_grids.h"
 #include "subcommands.h"
@@ -51,7 +52,9 @@ TEST_F(ApplicationCommands, DistanceStopsAtARadiusLabelsAndFillsMatrices) {
   run({"distance", cloud, "--source", "3,7", "--within", "0.5", "--labels", "--out", in("part")});
   run({"distance", cloud, "--source", "3,7", "--matrix", "--out", in("matrix")});
   const std::vector<double> whole = values("whole/distance.npy"), part = values("part/distance.npy"),
-                            label = values("part/labels.npy"), matrix = values("matrix/distance.npy");
+                            matrix = values("matrix/distance.npy");
+  const std::vector<std::int32_t> label = values<std::int32_t>("part/labels.npy");
+  ASSERT_EQ(label.size(), 500u);
   ASSERT_EQ(matrix.size(), 1000u);
   for (std::size_t i = 0; i < 500; ++i) {
     EXPECT_EQ(part[i], whole[i] <= 0.5 ? whole[i] : HUGE_VAL) << i;

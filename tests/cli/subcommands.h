@@ -71,12 +71,13 @@ class Subcommands : public testing::Test {
     EXPECT_LE(made["residual"], 1e-8) << folder << made;
     EXPECT_GT(made["seconds"], 0) << folder << made;
   }
-  /// The values of a .npy file of doubles.
-  std::vector<double> values(const std::string& file) const {
+  /// The values of a .npy file, of doubles or of another type that is named.
+  template <class T = double>
+  std::vector<T> values(const std::string& file) const {
     const std::string bytes = readAll(dir_ / file);
     const std::size_t start = 10 + static_cast<unsigned char>(bytes[8]) + 256 * static_cast<unsigned char>(bytes[9]);
-    std::vector<double> result((bytes.size() - start) / sizeof(double));
-    std::memcpy(result.data(), bytes.data() + start, result.size() * sizeof(double));
+    std::vector<T> result((bytes.size() - start) / sizeof(T));
+    std::memcpy(result.data(), bytes.data() + start, result.size() * sizeof(T));
     return result;
   }
 
