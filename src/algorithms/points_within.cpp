@@ -25,7 +25,7 @@ namespace {
 constexpr const char* function = "pointsWithin";
 constexpr int most_splits = 2;
 /// Faces that flips have moved, or that a point outside has found, may lie beyond the radius by this many spacings.
-constexpr double margin_in_spacings = 6;
+constexpr double margin_in_spacings = 3;
 /// The areas around a point, by the faces that were found and by those of the whole cover, agree within this part.
 constexpr double same_area = 1e-9;
 
