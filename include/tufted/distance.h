@@ -49,8 +49,9 @@ enum class DistanceMethod : std::uint8_t {
 /// Options of DistanceSolver.
 struct DistanceOptions {
   DistanceMethod method = DistanceMethod::marching;  ///< how distances are found
-  /// Marching: how often each triangle is cut into four, 0 to 2. Each time the error falls to about a half, and a query
-  /// takes four times as long.
+  /// Marching: how often each triangle is cut into four, 0 to 2. Each time the mean error falls to 0.6 of what it was
+  /// (the median of CGAL's meshes), and a query takes three to four times as long. On clouds of 64,000 points and more
+  /// the second time brings nothing.
   int split = 1;
   /// Farthest distance, in the points' unit, > 0: greater ones are infinite. Marching then visits no more of the
   /// surface than it must.

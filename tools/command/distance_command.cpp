@@ -32,8 +32,8 @@ farther from it than from its neighbours. On meshes --face names a point inside 
 coordinates.
 
 --method marching goes from triangle to triangle with the source unfolded into each. It needs no factor and is the more
-accurate one; --split 2 halves its error for four times the time. --method heat is smooth where fronts meet; --time-step,
---time-unit, --solver and --memory-limit belong to it.
+accurate one; --split 2 errs by 0.6 of that on meshes, for four times the time. --method heat is smooth where fronts
+meet; --time-step, --time-unit, --solver and --memory-limit belong to it.
 
 Writes into DIR, renamed one after the other when all are complete:
   distance.npy  N distances, float64; with --matrix N x K, a column for each source
