@@ -213,8 +213,8 @@ void expectPart(const Laplacian& laplacian, const std::vector<int>& sources, dou
 TEST(PointsWithin, AreThoseOfASolverOnClouds) {
   Points copies = shapes::sphere(3000).points;
   copies.row(17) = copies.row(4);
-  const Points clouds[] = {shapes::sphere(20000, shapes::Sampling::uniform, 101).points,
-                           shapes::withNoise(shapes::torus(8000), 0.01).points, shapes::disk(6000).points, copies};
+  const Points clouds[] = {shapes::sphere(6000, shapes::Sampling::uniform, 101).points,
+                           shapes::withNoise(shapes::torus(4000), 0.01).points, shapes::disk(3000).points, copies};
   for (const Points& points : clouds) {
     const Laplacian laplacian = pointCloudLaplacian(points);
     for (const int split : {0, 1, 2}) {
