@@ -22,7 +22,6 @@ namespace tufted {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-constexpr int most_splits = 2;
 
 constexpr const char* constructor = "DistanceSolver";
 constexpr const char* query_name = "DistanceSolver::query";
@@ -34,9 +33,7 @@ void checkArguments(const Laplacian& laplacian, const DistanceOptions& options) 
     throw InvalidInput(name + "time_step = " + numberText(options.time_step) + ", must be finite and above 0");
   if (!(options.maximum > 0))
     throw InvalidInput(name + "maximum = " + numberText(options.maximum) + ", must be above 0");
-  if (options.split < 0 || options.split > most_splits)
-    throw InvalidInput(name + "split = " + std::to_string(options.split) + ", must lie in [0, " +
-                       std::to_string(most_splits) + "]");
+  checkSplit(constructor, options.split);
   checkCover(constructor, laplacian);
 }
 
@@ -61,13 +58,13 @@ void checkSource(const SurfacePoint& source, int n) {
 
 struct DistanceSolver::State {
   Components components;
-  std::vector<bool> is_active;
   std::vector<int> representative;
   double maximum = infinity;
   std::optional<MarchingDistance> marching;
   std::optional<HeatDistance> heat;
   SolverReport report;
 
+  bool isActive(int point) const { return components.of[point] >= 0; }
   std::vector<SurfacePoint> checked(const std::vector<SurfacePoint>& sources) const;
   NearestSources nearestByHeat(const std::vector<SurfacePoint>& sources, const Progress& progress,
                                DistanceReport& made) const;
@@ -83,7 +80,6 @@ DistanceSolver::DistanceSolver(const Laplacian& laplacian, const DistanceOptions
   const Stopwatch watch;
   auto state = std::make_unique<State>();
   state->components = findComponents(laplacian);
-  for (const int component : state->components.of) state->is_active.push_back(component >= 0);
   state->representative = laplacian.representative;
   state->maximum = options.maximum;
   if (options.method == DistanceMethod::marching)
@@ -111,7 +107,7 @@ std::vector<SurfacePoint> DistanceSolver::State::checked(const std::vector<Surfa
     checkSource(source, static_cast<int>(representative.size()));
     for (int k = 0; k < 3; ++k) {
       source.corners[k] = representative[source.corners[k]];
-      has_one |= is_active[source.corners[k]] && source.weights[k] > 0;
+      has_one |= isActive(source.corners[k]) && source.weights[k] > 0;
     }
   }
   if (!has_one)
@@ -124,10 +120,10 @@ void DistanceSolver::State::finish(const std::vector<SurfacePoint>& sources, Nea
   std::vector<bool> has_source(static_cast<std::size_t>(components.count), false);
   for (const SurfacePoint& source : sources)
     for (int k = 0; k < 3; ++k)
-      if (is_active[source.corners[k]]) has_source[components.of[source.corners[k]]] = true;
+      if (isActive(source.corners[k])) has_source[components.of[source.corners[k]]] = true;
   for (std::size_t i = 0; i < representative.size(); ++i) {
     double& distance = found.distance[static_cast<Eigen::Index>(i)];
-    if (!is_active[i] || !has_source[components.of[i]] || distance > maximum) distance = infinity;
+    if (components.of[i] < 0 || !has_source[components.of[i]] || distance > maximum) distance = infinity;
     if (!found.source.empty() && distance == infinity) found.source[i] = -1;
   }
   for (std::size_t i = 0; i < representative.size(); ++i) {
@@ -141,8 +137,8 @@ NearestSources DistanceSolver::State::nearestByHeat(const std::vector<SurfacePoi
   const auto n = static_cast<Eigen::Index>(representative.size());
   NearestSources found{VectorXd::Constant(n, infinity), std::vector<int>(representative.size(), -1)};
   for (std::size_t s = 0; s < sources.size(); ++s) {
-    const auto isActive = [&](int corner) { return is_active[corner]; };
-    if (std::none_of(sources[s].corners.begin(), sources[s].corners.end(), isActive)) continue;
+    const auto& corners = sources[s].corners;
+    if (std::none_of(corners.begin(), corners.end(), [this](int corner) { return isActive(corner); })) continue;
     DistanceReport one;
     const VectorXd distance = heat->query(query_name, {sources[s]}, progress, one);
     made.rounds += one.rounds;
@@ -186,7 +182,7 @@ NearestSources DistanceSolver::nearest(const std::vector<SurfacePoint>& sources,
   const State& state = *state_;
   const std::vector<SurfacePoint> known = state.checked(sources);
   DistanceReport made;
-  NearestSources found = state.marching ? state.marching->query(known, state.is_active, progress, made)
+  NearestSources found = state.marching ? state.marching->query(known, state.components.of, progress, made)
                                         : state.nearestByHeat(known, progress, made);
   state.finish(known, found);
   made.seconds = watch.seconds();

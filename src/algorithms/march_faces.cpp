@@ -7,11 +7,13 @@
 
 #include "base/stage_clock.h"
 #include "cover/geometry.h"
+#include "tufted/errors.h"
 
 namespace tufted {
 namespace {
 
 constexpr std::int64_t block_size = 8192;
+constexpr int most_splits = 2;
 /// Sides between the same two ends are one edge if their lengths differ by at most this part: flips on the front and on
 /// the back round differently.
 constexpr double equal_lengths = 1e-9;
@@ -94,13 +96,7 @@ void groupByEdge(MarchFaces& result, const Workers& workers) {
   }
 }
 
-}  // namespace
-
-std::size_t MarchFaces::bytes() const {
-  return bytesOf(faces) + bytesOf(corner_offset) + bytesOf(corner_slots) + bytesOf(edge_offset) + bytesOf(edge_slots);
-}
-
-MarchFaces marchFaces(const std::vector<DistinctFace>& faces, int vertices, int exponent, const Workers& workers) {
+MarchFaces wholeFaces(const std::vector<DistinctFace>& faces, int vertices, int exponent, const Workers& workers) {
   MarchFaces result;
   result.vertices = vertices;
   result.exponent = exponent;
@@ -118,14 +114,12 @@ MarchFaces marchFaces(const std::vector<DistinctFace>& faces, int vertices, int 
   return result;
 }
 
+/// Every face cut into four at the middle of its sides.
 MarchFaces splitInFour(const MarchFaces& coarse, const Workers& workers) {
   std::vector<DistinctFace> faces(4 * coarse.faces.size());
-  const auto made = [](std::array<int, 3> corners, std::array<double, 3> opposite) {
-    std::array<std::pair<int, double>, 3> parts;
-    for (int k = 0; k < 3; ++k) parts[k] = {corners[k], opposite[k] / 2};
-    std::sort(parts.begin(), parts.end());
-    return DistinctFace{{parts[0].first, parts[1].first, parts[2].first},
-                        {parts[0].second, parts[1].second, parts[2].second}};
+  const auto part = [](const std::array<int, 3>& corners, const MarchFace& whole) {
+    const auto& [a, b, c] = whole.opposite;
+    return distinctFace(corners, {a / 2, b / 2, c / 2});
   };
   workers.forBlocks("faces", std::ssize(coarse.faces), block_size, [&](std::int64_t begin, std::int64_t end, int) {
     for (auto f = begin; f < end; ++f) {
@@ -133,15 +127,38 @@ MarchFaces splitInFour(const MarchFaces& coarse, const Workers& workers) {
       const int n = coarse.vertices;
       const auto& [i, j, k] = face.corners;
       const int opposite_i = n + face.edges[0], opposite_j = n + face.edges[1], opposite_k = n + face.edges[2];
-      faces[4 * f] = made({i, opposite_k, opposite_j}, face.opposite);
-      faces[4 * f + 1] = made({opposite_k, j, opposite_i}, face.opposite);
-      faces[4 * f + 2] = made({opposite_j, opposite_i, k}, face.opposite);
-      faces[4 * f + 3] = made({opposite_i, opposite_j, opposite_k}, face.opposite);
+      faces[4 * f] = part({i, opposite_k, opposite_j}, face);
+      faces[4 * f + 1] = part({opposite_k, j, opposite_i}, face);
+      faces[4 * f + 2] = part({opposite_j, opposite_i, k}, face);
+      faces[4 * f + 3] = part({opposite_i, opposite_j, opposite_k}, face);
     }
   });
-  MarchFaces fine = marchFaces(faces, coarse.vertices + coarse.edges, 0, workers);
+  MarchFaces fine = wholeFaces(faces, coarse.vertices + coarse.edges, 0, workers);
   fine.exponent = coarse.exponent;
   return fine;
+}
+
+}  // namespace
+
+std::size_t MarchFaces::bytes() const {
+  return bytesOf(faces) + bytesOf(corner_offset) + bytesOf(corner_slots) + bytesOf(edge_offset) + bytesOf(edge_slots);
+}
+
+MarchFaces marchFaces(const std::vector<DistinctFace>& faces, int vertices, int exponent, int split,
+                      const Workers& workers) {
+  MarchFaces result = wholeFaces(faces, vertices, exponent, workers);
+  for (int times = 1; times < split; ++times) result = splitInFour(result, workers);
+  return result;
+}
+
+MarchFaces marchFaces(const IntrinsicTriangulation& cover, int split, const Workers& workers) {
+  return marchFaces(distinctFaces(cover, workers), cover.vertices, unitOf(cover.length), split, workers);
+}
+
+void checkSplit(const std::string& function, int split) {
+  if (split >= 0 && split <= most_splits) return;
+  throw InvalidInput(function + ": split = " + std::to_string(split) + ", must lie in [0, " +
+                     std::to_string(most_splits) + "]");
 }
 
 }  // namespace tufted

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstddef>
+#include <string>
 #include <vector>
 
 #include "base/parallel.h"
@@ -29,14 +30,28 @@ struct MarchFaces {
   std::vector<int> corner_offset, corner_slots;  ///< vertices + 1; slots by the vertex at their corner
   std::vector<int> edge_offset, edge_slots;      ///< edges + 1; slots by the edge of their side
 
+  int vertexAt(int slot) const { return faces[slot / 3].corners[slot % 3]; }
+  int edgeAt(int slot) const { return faces[slot / 3].edges[slot % 3]; }
+  double lengthAt(int slot) const { return faces[slot / 3].opposite[slot % 3]; }
   std::size_t bytes() const;
 };
 
+/// The slot of a face that two others leave.
+constexpr int thirdSlot(int a, int b) {
+  return a / 3 * 3 + (3 - a % 3 - b % 3);
+}
+
 /// @param faces distinct ones with corners in [0, vertices)
 /// @param exponent of the unit in which lengths are kept: they are divided by 2^exponent
-MarchFaces marchFaces(const std::vector<DistinctFace>& faces, int vertices, int exponent, const Workers& workers);
+/// @param split how often a march is to cut each face into four: the last time it does so itself, and before that they
+/// are stored. The middle of edge e of the faces before is the vertex `vertices + e`.
+MarchFaces marchFaces(const std::vector<DistinctFace>& faces, int vertices, int exponent, int split,
+                      const Workers& workers);
+/// Those of a cover.
+MarchFaces marchFaces(const IntrinsicTriangulation& cover, int split, const Workers& workers);
 
-/// Every face cut into four at the middle of its sides. The middle of edge e is the vertex `vertices + e`.
-MarchFaces splitInFour(const MarchFaces& coarse, const Workers& workers);
+/// @param function how messages call the function that was asked
+/// @throws InvalidInput unless split lies in [0, 2]
+void checkSplit(const std::string& function, int split);
 
 }  // namespace tufted

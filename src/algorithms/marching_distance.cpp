@@ -32,9 +32,7 @@ MarchingDistance::MarchingDistance(const Laplacian& laplacian, const DistanceOpt
       maximum_(options.maximum),
       threads_(options.solver.threads) {
   const Workers workers(threads_, options.solver.progress);
-  const IntrinsicTriangulation& cover = laplacian.cover();
-  faces_ = marchFaces(distinctFaces(cover, workers), vertices_, unitOf(cover.length), workers);
-  for (int split = 1; split < options.split; ++split) faces_ = splitInFour(faces_, workers);
+  faces_ = marchFaces(laplacian.cover(), options.split, workers);
   report_.method = "marching";
   report_.unknowns = std::int64_t{faces_.vertices} + (split_ ? faces_.edges : 0);
   report_.bytes = faces_.bytes();
@@ -70,12 +68,12 @@ void MarchingDistance::startInFace(const SurfacePoint& source, int number, std::
   }
 }
 
-void MarchingDistance::startAt(const SurfacePoint& source, int number, const std::vector<bool>& is_active,
+void MarchingDistance::startAt(const SurfacePoint& source, int number, const std::vector<int>& component,
                                std::vector<MarchStart>& starts) const {
   bool all_active = true;
   for (int k = 0; k < 3; ++k) {
-    all_active &= is_active[source.corners[k]];
-    if (is_active[source.corners[k]])
+    all_active &= component[source.corners[k]] >= 0;
+    if (component[source.corners[k]] >= 0)
       starts.push_back({source.corners[k], std::ldexp(source.distances[k], -faces_.exponent), number});
   }
   const auto& [a, b, c] = source.corners;
@@ -84,10 +82,10 @@ void MarchingDistance::startAt(const SurfacePoint& source, int number, const std
   if (has_faces && all_active && a != b && b != c && c != a) startInFace(source, number, starts);
 }
 
-NearestSources MarchingDistance::query(const std::vector<SurfacePoint>& sources, const std::vector<bool>& is_active,
+NearestSources MarchingDistance::query(const std::vector<SurfacePoint>& sources, const std::vector<int>& component,
                                        const Progress& progress, DistanceReport& report) const {
   std::vector<MarchStart> starts;
-  for (std::size_t s = 0; s < sources.size(); ++s) startAt(sources[s], static_cast<int>(s), is_active, starts);
+  for (std::size_t s = 0; s < sources.size(); ++s) startAt(sources[s], static_cast<int>(s), component, starts);
   const Workers workers(threads_, progress);
   MarchResult found = march(faces_, split_, starts, std::ldexp(maximum_, -faces_.exponent), workers);
   report.visits = found.visits;

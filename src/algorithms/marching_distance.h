@@ -15,15 +15,15 @@ class MarchingDistance {
   MarchingDistance(const Laplacian& laplacian, const DistanceOptions& options);
 
   /// @param sources of which all corners are representatives
-  /// @param is_active N; other corners of sources are ignored
+  /// @param component N; corners of sources that have none, -1, are ignored
   /// @return distances in the points' unit and sources, wherever the faces of the cover lead; those of coincident
   /// points are not set
-  NearestSources query(const std::vector<SurfacePoint>& sources, const std::vector<bool>& is_active,
+  NearestSources query(const std::vector<SurfacePoint>& sources, const std::vector<int>& component,
                        const Progress& progress, DistanceReport& report) const;
   const SolverReport& report() const { return report_; }
 
  private:
-  void startAt(const SurfacePoint& source, int number, const std::vector<bool>& is_active,
+  void startAt(const SurfacePoint& source, int number, const std::vector<int>& component,
                std::vector<MarchStart>& starts) const;
   void startInFace(const SurfacePoint& source, int number, std::vector<MarchStart>& starts) const;
 

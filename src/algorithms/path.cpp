@@ -42,11 +42,9 @@ template <class Visit>
 void forEachStep(const MarchFaces& faces, int vertex, const Visit& visit) {
   for (int i = faces.corner_offset[vertex]; i < faces.corner_offset[vertex + 1]; ++i) {
     const int slot = faces.corner_slots[i];
-    const MarchFace& face = faces.faces[slot / 3];
-    for (const int end : {nextSide(slot), previousSide(slot)}) {
-      const int other = 3 - slot % 3 - end % 3;
-      if (face.corners[end % 3] != vertex) visit(Step{face.corners[end % 3], slot, end, face.opposite[other]});
-    }
+    for (const int end : {nextSide(slot), previousSide(slot)})
+      if (faces.vertexAt(end) != vertex)
+        visit(Step{faces.vertexAt(end), slot, end, faces.lengthAt(thirdSlot(slot, end))});
   }
 }
 
@@ -116,17 +114,16 @@ int shorten(const MarchFaces& faces, Segments& path, const Workers& workers) {
   if (after != path.end()) ++after;
   while (after != path.end()) {
     const auto before = std::prev(after);
-    const std::optional<Shortcut> shortcut = shortcutAt(faces, *before, *after);
-    std::vector<Segment> pieces;
-    if (shortcut && !shortcut->goes_back) pieces = straighten(faces, shortcut->strip);
+    std::optional<std::vector<Segment>> pieces = shortcutAt(faces, *before, *after);
     const double length = before->length + after->length;
-    if (!shortcut || !(lengthOf(pieces) < (1 - least_gain) * length)) {
+    if (!pieces || !(lengthOf(*pieces) < (1 - least_gain) * length)) {
       ++after;
       continue;
     }
     if (++count % between_reports == 0) workers.report("straighten", 0);
     const auto end = path.erase(before, std::next(after));
-    const auto first = path.insert(end, std::make_move_iterator(pieces.begin()), std::make_move_iterator(pieces.end()));
+    const auto first =
+        path.insert(end, std::make_move_iterator(pieces->begin()), std::make_move_iterator(pieces->end()));
     // The points before and after the new pieces have other angles now.
     after = first == path.begin() && first != path.end() ? std::next(first) : first;
   }
@@ -160,8 +157,7 @@ PathSolver::PathSolver(const Laplacian& laplacian, int threads, const Progress& 
                        " rows, must have " + std::to_string(n));
   const Workers workers(threads, progress);
   auto state = std::make_unique<State>();
-  const IntrinsicTriangulation& cover = laplacian.cover();
-  state->faces = marchFaces(distinctFaces(cover, workers), cover.vertices, unitOf(cover.length), workers);
+  state->faces = marchFaces(laplacian.cover(), 0, workers);
   state->positions = laplacian.positions;
   state->representative = laplacian.representative;
   state->threads = threads;
@@ -192,14 +188,13 @@ Points PathSolver::State::pointsOf(const Segments& path, int from) const {
   for (const Segment& segment : path) {
     for (std::size_t d = 0; d < segment.crossings.size(); ++d) {
       const int side = segment.strip.doors[d].leave;
-      const auto& corners = faces.faces[side / 3].corners;
-      const auto [low, high] = std::minmax(corners[nextSide(side) % 3], corners[previousSide(side) % 3]);
+      const int one = faces.vertexAt(nextSide(side)), other = faces.vertexAt(previousSide(side));
+      const int low = std::min(one, other), high = std::max(one, other);
       if (low == high) continue;  // around the rim and back to where it began
       const double share = segment.crossings[d];
       found.emplace_back((1 - share) * positions.row(low) + share * positions.row(high));
     }
-    const int end = segment.strip.end;
-    found.emplace_back(positions.row(faces.faces[end / 3].corners[end % 3]));
+    found.emplace_back(positions.row(faces.vertexAt(segment.strip.end)));
   }
   Points points(std::ssize(found), 3);
   for (Eigen::Index i = 0; i < points.rows(); ++i) points.row(i) = found[static_cast<std::size_t>(i)];

@@ -23,7 +23,6 @@ namespace tufted {
 namespace {
 
 constexpr const char* function = "pointsWithin";
-constexpr int most_splits = 2;
 /// Faces that flips have moved, or that a point outside has found, may lie beyond the radius by this many spacings.
 constexpr double margin_in_spacings = 3;
 /// The areas around a point, by the faces that were found and by those of the whole cover, agree within this part.
@@ -48,9 +47,7 @@ std::vector<int> checkedSources(const Laplacian& laplacian, const std::vector<in
                        std::to_string(n));
   if (!(radius > 0 && std::isfinite(radius)))
     throw InvalidInput(name + "radius = " + numberText(radius) + ", must be finite and above 0");
-  if (split < 0 || split > most_splits)
-    throw InvalidInput(name + "split = " + std::to_string(split) + ", must lie in [0, " + std::to_string(most_splits) +
-                       "]");
+  checkSplit(function, split);
   if (sources.empty()) throw InvalidInput(name + "sources is empty, must name at least one");
   std::vector<int> found;
   for (const int source : sources) {
@@ -138,8 +135,8 @@ Patch patchOf(Faces faces) {
 std::vector<double> distancesOn(const Patch& patch, const std::vector<int>& sources, double radius, int split) {
   const Progress silent;
   const Workers workers(1, silent);
-  MarchFaces faces = marchFaces(patch.faces, static_cast<int>(patch.points.size()), patch.exponent, workers);
-  for (int times = 1; times < split; ++times) faces = splitInFour(faces, workers);
+  const MarchFaces faces =
+      marchFaces(patch.faces, static_cast<int>(patch.points.size()), patch.exponent, split, workers);
   std::vector<MarchStart> starts;
   for (const int source : sources)
     if (const auto at = patch.number_of.find(source); at != patch.number_of.end()) starts.push_back({at->second, 0, 0});
@@ -188,12 +185,10 @@ NearbyPoints pointsWithin(const Laplacian& laplacian, const std::vector<int>& so
   for (std::size_t i = 0; i < distance.size(); ++i)
     if (distance[i] <= radius) found.emplace_back(patch.points[i], distance[i]);
   if (laplacian.report.coincident > 0) {
-    const auto ends = found;
     for (int i = 0; i < std::ssize(laplacian.representative); ++i) {
-      const int point = laplacian.representative[i];
-      if (point == i) continue;
-      const auto at = std::lower_bound(ends.begin(), ends.end(), std::pair(point, 0.0));
-      if (at != ends.end() && at->first == point) found.emplace_back(i, at->second);
+      const auto at = patch.number_of.find(laplacian.representative[i]);
+      if (at == patch.number_of.end() || at->first == i || !(distance[at->second] <= radius)) continue;
+      found.emplace_back(i, distance[at->second]);
     }
     std::sort(found.begin(), found.end());
   }

@@ -12,9 +12,6 @@ namespace {
 
 using Eigen::Vector2d;
 
-int vertexAt(const MarchFaces& faces, int slot) {
-  return faces.faces[slot / 3].corners[slot % 3];
-}
 double cross(const Vector2d& a, const Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
@@ -50,15 +47,14 @@ struct Layout {
 /// Unfolds a strip. The start lies at 0.
 Layout layOut(const MarchFaces& faces, const Strip& strip) {
   Layout layout;
-  const auto lengthOf = [&](int slot) { return faces.faces[slot / 3].opposite[slot % 3]; };
   const auto areaOf = [&](int slot) { return faces.faces[slot / 3].double_area; };
   // The first face counterclockwise from its start.
   const int second = nextSide(strip.start), third = previousSide(strip.start);
   std::array<Vector2d, 3> corners;  // by corner of the face
   corners[strip.start % 3] = Vector2d::Zero();
-  corners[second % 3] = Vector2d(lengthOf(third), 0);
-  corners[third % 3] = apexLeftOf(corners[strip.start % 3], corners[second % 3], lengthOf(second),
-                                  lengthOf(strip.start), areaOf(second));
+  corners[second % 3] = Vector2d(faces.lengthAt(third), 0);
+  corners[third % 3] = apexLeftOf(corners[strip.start % 3], corners[second % 3], faces.lengthAt(second),
+                                  faces.lengthAt(strip.start), areaOf(second));
   layout.start = corners[strip.start % 3];
   bool is_counterclockwise = true;
   for (const Strip::Door& passed : strip.doors) {
@@ -75,8 +71,8 @@ Layout layOut(const MarchFaces& faces, const Strip& strip) {
     corners[door.left_after % 3] = door.left;
     corners[door.right_after % 3] = door.right;
     // From its left end to its right one, what lies beyond the door is on the left.
-    corners[enter % 3] =
-        apexLeftOf(door.left, door.right, lengthOf(door.right_after), lengthOf(door.left_after), areaOf(enter));
+    corners[enter % 3] = apexLeftOf(door.left, door.right, faces.lengthAt(door.right_after),
+                                    faces.lengthAt(door.left_after), areaOf(enter));
     layout.doors.push_back(door);
   }
   layout.end = corners[strip.end % 3];
@@ -167,8 +163,8 @@ Segment segmentThrough(const MarchFaces& faces, const Strip& whole, const Layout
                              whole.doors.begin() + static_cast<std::ptrdiff_t>(end));
   if (segment.strip.isEdge()) {
     // Along an edge: the angle with itself is 0.
-    const int other = start / 3 * 3 + (3 - start % 3 - last % 3);
-    segment.length = faces.faces[start / 3].opposite[other % 3];
+    const int other = thirdSlot(start, last);
+    segment.length = faces.lengthAt(other);
     const double at_start = cornerAngle(faces, start), at_end = cornerAngle(faces, last);
     segment.at_start = {other == nextSide(start) ? 0 : at_start, other == nextSide(start) ? at_start : 0};
     segment.at_end = {other == nextSide(last) ? 0 : at_end, other == nextSide(last) ? at_end : 0};
@@ -182,7 +178,7 @@ Segment segmentThrough(const MarchFaces& faces, const Strip& whole, const Layout
     const double slope = cross(way, across);
     double share = slope != 0 ? cross(door.left - from, way) / slope : 0.5;
     share = std::clamp(std::isfinite(share) ? share : 0.5, 0.0, 1.0);
-    const bool left_is_smaller = vertexAt(faces, door.left_before) < vertexAt(faces, door.right_before);
+    const bool left_is_smaller = faces.vertexAt(door.left_before) < faces.vertexAt(door.right_before);
     segment.crossings.push_back(left_is_smaller ? share : 1 - share);
   }
   const auto anglesAt = [&](int slot, const OpenDoor& door, bool is_before, const Vector2d& corner,
@@ -201,10 +197,8 @@ Segment segmentThrough(const MarchFaces& faces, const Strip& whole, const Layout
 }  // namespace
 
 double cornerAngle(const MarchFaces& faces, int slot) {
-  const MarchFace& face = faces.faces[slot / 3];
-  const double a = face.opposite[slot % 3], b = face.opposite[nextSide(slot) % 3],
-               c = face.opposite[previousSide(slot) % 3];
-  return std::atan2(face.double_area, (b * b + (c - a) * (c + a)) / 2);
+  const double a = faces.lengthAt(slot), b = faces.lengthAt(nextSide(slot)), c = faces.lengthAt(previousSide(slot));
+  return std::atan2(faces.faces[slot / 3].double_area, (b * b + (c - a) * (c + a)) / 2);
 }
 
 std::vector<Segment> straighten(const MarchFaces& faces, const Strip& strip) {

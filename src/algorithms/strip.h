@@ -20,11 +20,9 @@ struct Strip {
     int partner;
 
     /// Where a corner of the edge lies in the face after, by its slot in the face before.
-    int after(int before) const { return before == nextSide(leave) ? partner : otherEnd(enter, partner); }
+    int after(int before) const { return before == nextSide(leave) ? partner : thirdSlot(enter, partner); }
     /// The other way round.
     int before(int after) const { return after == partner ? nextSide(leave) : previousSide(leave); }
-    /// The other corner of a side.
-    static int otherEnd(int side, int corner) { return corner == nextSide(side) ? previousSide(side) : nextSide(side); }
   };
   int start;                ///< slot of the corner where the strip starts, in its first face
   int end;                  ///< slot of the corner where the strip ends, in its last face

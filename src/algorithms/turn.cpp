@@ -35,14 +35,12 @@ class Link {
     for (int i = faces.corner_offset[vertex]; i < faces.corner_offset[vertex + 1]; ++i) {
       const int slot = faces.corner_slots[i];
       if (!isClear(faces.faces[slot / 3])) continue;
-      for (const int side : {nextSide(slot), previousSide(slot)}) sides_.push_back({edgeOf(side), slot, side});
+      for (const int side : {nextSide(slot), previousSide(slot)}) sides_.push_back({faces.edgeAt(side), slot, side});
     }
     std::sort(sides_.begin(), sides_.end());
     for (std::size_t i = 0; i < sides_.size(); ++i)
       if (i == 0 || sides_[i - 1].edge != sides_[i].edge) nodes_.push_back({sides_[i].edge, i, infinity, -1, -1});
   }
-
-  int edgeOf(int side) const { return faces_.faces[side / 3].edges[side % 3]; }
 
   /// Lets ways begin at an edge.
   void start(int edge, double angle) {
@@ -60,7 +58,7 @@ class Link {
       const std::size_t end = node + 1 < std::ssize(nodes_) ? nodes_[node + 1].first : sides_.size();
       for (std::size_t i = nodes_[node].first; i < end; ++i) {
         const int slot = sides_[i].slot;
-        const int other = nodeOf(edgeOf(sides_[i].side == nextSide(slot) ? previousSide(slot) : nextSide(slot)));
+        const int other = nodeOf(faces_.edgeAt(thirdSlot(slot, sides_[i].side)));
         const double reached = angle + cornerAngle(faces_, slot);
         if (!(reached < nodes_[other].angle)) continue;
         nodes_[other].angle = reached;
@@ -108,15 +106,14 @@ class Link {
   std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>, std::greater<>> queue_;
 };
 
-/// Of the two sides at a corner the one that is this edge.
-int sideAt(const Link& link, int slot, int edge) {
-  return link.edgeOf(nextSide(slot)) == edge ? nextSide(slot) : previousSide(slot);
+/// The side at a corner that is this edge.
+int sideAt(const MarchFaces& faces, int slot, int edge) {
+  return faces.edgeAt(nextSide(slot)) == edge ? nextSide(slot) : previousSide(slot);
 }
 
 /// The edge that a piece of a path is.
 int edgeOf(const MarchFaces& faces, const Strip& strip) {
-  const int face = strip.start / 3;
-  return faces.faces[face].edges[3 - strip.start % 3 - strip.end % 3];
+  return faces.edgeAt(thirdSlot(strip.start, strip.end));
 }
 
 /// Drops the triangles at both ends that the way only enters to come to a corner of the door.
@@ -132,22 +129,20 @@ void trim(Strip& strip) {
 
 /// Puts the triangles around the point between those of the pieces.
 /// @param edges,slots the way around it, see Link::wayTo()
-Strip join(const Link& link, const Strip& before, const Strip& after, const std::vector<int>& edges,
+Strip join(const MarchFaces& faces, const Strip& before, const Strip& after, const std::vector<int>& edges,
            std::vector<int> slots) {
   if (!before.isEdge()) slots.insert(slots.begin(), before.end);
   if (!after.isEdge()) slots.push_back(after.start);
   Strip strip{before.start, after.end, before.doors};
-  // Of an edge the other end is the corner opposite the other side there.
-  const auto farEnd = [&](int slot, int edge) {
-    return sideAt(link, slot, edge) == nextSide(slot) ? previousSide(slot) : nextSide(slot);
-  };
+  // The other end of an edge lies opposite the other side at the point.
+  const auto farEnd = [&](int slot, int edge) { return thirdSlot(slot, sideAt(faces, slot, edge)); };
   if (before.isEdge()) strip.start = farEnd(slots.front(), edges.front());
   if (after.isEdge()) strip.end = farEnd(slots.back(), edges.back());
   std::size_t edge = before.isEdge() ? 1 : 0;
   for (std::size_t i = 0; i + 1 < slots.size(); ++i, ++edge) {
-    const int leave = sideAt(link, slots[i], edges[edge]), enter = sideAt(link, slots[i + 1], edges[edge]);
+    const int leave = sideAt(faces, slots[i], edges[edge]), enter = sideAt(faces, slots[i + 1], edges[edge]);
     const bool is_next = nextSide(leave) == slots[i];  // the point itself
-    strip.doors.push_back({leave, enter, is_next ? slots[i + 1] : Strip::Door::otherEnd(enter, slots[i + 1])});
+    strip.doors.push_back({leave, enter, is_next ? slots[i + 1] : thirdSlot(enter, slots[i + 1])});
   }
   strip.doors.insert(strip.doors.end(), after.doors.begin(), after.doors.end());
   trim(strip);
@@ -156,23 +151,23 @@ Strip join(const Link& link, const Strip& before, const Strip& after, const std:
 
 }  // namespace
 
-std::optional<Shortcut> shortcutAt(const MarchFaces& faces, const Segment& before, const Segment& after) {
+std::optional<std::vector<Segment>> shortcutAt(const MarchFaces& faces, const Segment& before, const Segment& after) {
   const Strip &first = before.strip, &second = after.strip;
   const int slot = first.end;
-  if (first.isEdge() && second.isEdge() && edgeOf(faces, first) == edgeOf(faces, second)) return Shortcut{true, {}};
+  if (first.isEdge() && second.isEdge() && edgeOf(faces, first) == edgeOf(faces, second)) return std::vector<Segment>();
   if (!first.isEdge() && !second.isEdge() && first.end == second.start) {
     // Both in one triangle.
     if (!(std::abs(before.at_end[0] - after.at_start[0]) < std::numbers::pi - straight)) return {};
     Strip strip{first.start, second.end, first.doors};
     strip.doors.insert(strip.doors.end(), second.doors.begin(), second.doors.end());
-    return Shortcut{false, std::move(strip)};
+    return straighten(faces, strip);
   }
-  Link link(faces, faces.faces[slot / 3].corners[slot % 3]);
+  Link link(faces, faces.vertexAt(slot));
   if (first.isEdge()) {
     link.start(edgeOf(faces, first), 0);
   } else {
-    link.start(link.edgeOf(nextSide(slot)), before.at_end[0]);
-    link.start(link.edgeOf(previousSide(slot)), before.at_end[1]);
+    link.start(faces.edgeAt(nextSide(slot)), before.at_end[0]);
+    link.start(faces.edgeAt(previousSide(slot)), before.at_end[1]);
   }
   link.search();
   int goal = -1;
@@ -186,13 +181,13 @@ std::optional<Shortcut> shortcutAt(const MarchFaces& faces, const Segment& befor
   if (second.isEdge()) {
     offer(edgeOf(faces, second), 0);
   } else {
-    offer(link.edgeOf(nextSide(second.start)), after.at_start[0]);
-    offer(link.edgeOf(previousSide(second.start)), after.at_start[1]);
+    offer(faces.edgeAt(nextSide(second.start)), after.at_start[0]);
+    offer(faces.edgeAt(previousSide(second.start)), after.at_start[1]);
   }
   if (!(least < std::numbers::pi - straight)) return {};
   std::vector<int> edges, slots;
   link.wayTo(goal, edges, slots);
-  return Shortcut{false, join(link, first, second, edges, std::move(slots))};
+  return straighten(faces, join(faces, first, second, edges, std::move(slots)));
 }
 
 }  // namespace tufted

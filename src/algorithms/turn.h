@@ -1,18 +1,14 @@
 #pragma once
 
 #include <optional>
+#include <vector>
 
 #include "algorithms/strip.h"
 
 namespace tufted {
 
-/// What a path may do at a point where one straight piece ends and the next begins.
-struct Shortcut {
-  bool goes_back = false;  ///< the path returns along the edge that it came by: both pieces fall away
-  Strip strip;  ///< otherwise the triangles around the point, from the first piece's start to the second's end
-};
-
-/// The shorter way around the point between two pieces of a path, if it has less than half a circle on some side.
-std::optional<Shortcut> shortcutAt(const MarchFaces& faces, const Segment& before, const Segment& after);
+/// The way around the point between two pieces of a path, if it has less than half a circle on some side.
+/// @returns what takes the place of both; none where the path returns along the edge that it came by
+std::optional<std::vector<Segment>> shortcutAt(const MarchFaces& faces, const Segment& before, const Segment& after);
 
 }  // namespace tufted

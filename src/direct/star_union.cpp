@@ -74,9 +74,14 @@ bool StarUnion::appendFacesNear(const Eigen::Vector3d& center, double radius, st
   const bool is_moved = moved.rows() > 0;
   const std::size_t first_face = faces.size(), first_length = length.size();
   for (int p = 0; p < cloud_.size(); ++p) {
-    const double *at = points.data() + 3 * std::ptrdiff_t{p}, *by = moved.data() + 3 * std::ptrdiff_t{p};
-    const double dx = at[0] - x + (is_moved ? by[0] : 0), dy = at[1] - y + (is_moved ? by[1] : 0),
-                 dz = at[2] - z + (is_moved ? by[2] : 0);
+    const double* const at = points.data() + 3 * std::ptrdiff_t{p};
+    double dx = at[0] - x, dy = at[1] - y, dz = at[2] - z;
+    if (is_moved) {
+      const double* const by = moved.data() + 3 * std::ptrdiff_t{p};
+      dx += by[0];
+      dy += by[1];
+      dz += by[2];
+    }
     if (dx * dx + dy * dy + dz * dz <= square) cover_.appendFaces(p, faces, length);
   }
   for (std::size_t f = first_face; f < faces.size(); ++f)

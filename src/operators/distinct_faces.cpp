@@ -25,11 +25,16 @@ std::vector<int> facesByCorner(const IntrinsicTriangulation& cover, std::vector<
 
 }  // namespace
 
-DistinctFace distinctFace(const IntrinsicTriangulation& cover, int face) {
+DistinctFace distinctFace(const std::array<int, 3>& corners, const std::array<double, 3>& opposite) {
   std::array<std::pair<int, double>, 3> parts;
-  for (int s = 0; s < 3; ++s) parts[s] = {cover.faces[face][s], cover.length[3 * std::int64_t{face} + (s + 1) % 3]};
+  for (int s = 0; s < 3; ++s) parts[s] = {corners[s], opposite[s]};
   std::sort(parts.begin(), parts.end());
   return {{parts[0].first, parts[1].first, parts[2].first}, {parts[0].second, parts[1].second, parts[2].second}};
+}
+
+DistinctFace distinctFace(const IntrinsicTriangulation& cover, int face) {
+  const double* const length = cover.length.data() + 3 * std::int64_t{face};
+  return distinctFace(cover.faces[face], {length[1], length[2], length[0]});
 }
 
 void mergeCopies(std::vector<DistinctFace>& faces) {

@@ -21,6 +21,9 @@ struct DistinctFace {
   bool isCopyOf(const DistinctFace& other) const { return corners == other.corners && opposite == other.opposite; }
 };
 
+/// One copy of a face.
+/// @param corners,opposite in any order, the same in both
+DistinctFace distinctFace(const std::array<int, 3>& corners, const std::array<double, 3>& opposite);
 /// Face number `face` of a cover, as one copy.
 DistinctFace distinctFace(const IntrinsicTriangulation& cover, int face);
 

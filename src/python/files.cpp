@@ -90,7 +90,7 @@ class RecordedOptions {
  private:
   CloudOptions cloud_;
   MeshOptions mesh_;
-  // Of these the report says only whether there were some.
+  // The report says of normals and neighbourhoods only whether they were given.
   Points normals_;
   Neighborhoods neighborhoods_;
   ScanStructure structure_;
