@@ -57,7 +57,7 @@ FieldColors colorsOf(const Scene& scene, const PictureOptions& options) {
            ", must ascend");
   if (options.field < 0 || count == 0) return colors;
   const SceneField& field = scene.fields[static_cast<std::size_t>(options.field)];
-  const Eigen::Index columns = isWhole(field.kind) ? 1 : field.values.cols();
+  const Eigen::Index columns = showsAllColumns(field.kind) ? 1 : field.values.cols();
   if (options.column < 0 || options.column >= columns)
     refuse("column " + std::to_string(options.column) + " of field " + field.name + ", must be from 0 to " +
            std::to_string(columns - 1));

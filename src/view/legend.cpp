@@ -35,7 +35,7 @@ std::set<long long> labelsIn(const SceneField& field, int column) {
 
 std::string headingOf(const FieldColors& colors, const PictureOptions& options) {
   std::string text = colors.field->name;
-  if (!isWhole(colors.field->kind) && colors.field->values.cols() > 1)
+  if (!showsAllColumns(colors.field->kind) && colors.field->values.cols() > 1)
     text.append(" ").append(std::to_string(options.column));
   return text;
 }

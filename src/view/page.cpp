@@ -118,7 +118,7 @@ Json rangesJson(const view::ValueRanges& ranges) {
 /// A column of values as they are shown, with the ranges that their colours may have; of vectors and coordinates the
 /// field has these.
 Json valueColumn(const SceneField& field, int column, PageBlocks& blocks) {
-  if (view::isWhole(field.kind)) return levelColumn(field.values.col(column), blocks);
+  if (showsAllColumns(field.kind)) return levelColumn(field.values.col(column), blocks);
   const Eigen::VectorXd values = view::shownValues(field, column);
   Json json = levelColumn(values, blocks);
   json["ranges"] = rangesJson(view::rangesOf(field.kind, values));

@@ -12,11 +12,6 @@ inline bool isLogarithmic(FieldKind kind) {
   return kind == FieldKind::positive;
 }
 
-/// Whether all columns of a field are one picture.
-inline bool isWhole(FieldKind kind) {
-  return kind == FieldKind::vector || kind == FieldKind::coordinates || kind == FieldKind::color;
-}
-
 /// The numbers by which points are coloured: a column, its logarithms, or lengths of rows. NaN where there is none.
 Eigen::VectorXd shownValues(const SceneField& field, int column);
 
@@ -32,7 +27,7 @@ struct ValueRanges {
   ValueRange middle;  ///< from the 1st to the 99th percentile
 };
 
-/// Those of shownValues(). Lengths begin at 0, and values around 0 have the same range on both sides.
+/// @param values those of shownValues(). Lengths begin at 0, and values around 0 have the same range on both sides.
 ValueRanges rangesOf(FieldKind kind, const Eigen::Ref<const Eigen::VectorXd>& values);
 
 }  // namespace tufted::view

@@ -18,7 +18,7 @@ struct Ticks {
 /// @param low, high the ends of the scale; equal ones give one mark
 Ticks ticksOf(double low, double high);
 
-/// The same for a logarithmic scale.
+/// Marks of a logarithmic scale: powers of ten, and on a short scale their double and fivefold.
 /// @param low, high the logarithms to base 10 of the ends of the scale; so are the values of the marks
 Ticks logarithmicTicksOf(double low, double high);
 

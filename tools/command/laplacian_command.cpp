@@ -22,6 +22,7 @@
 #include "output.h"
 #include "peak_memory.h"
 #include "progress_bar.h"
+#include "scene_fields.h"
 #include "summary.h"
 #include "tufted/errors.h"
 #include "tufted/io/read.h"

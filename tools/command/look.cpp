@@ -15,6 +15,7 @@
 
 #include "options.h"
 #include "point_options.h"
+#include "scene_fields.h"
 #include "suggestion.h"
 #include "tufted/errors.h"
 #include "tufted/view/color_map.h"
@@ -81,41 +82,12 @@ void checkFile(const std::string& option, const std::filesystem::path& file) {
     throw tufted::IoError(file.string() + ": cannot write: no permission in " + folder.string());
 }
 
-Eigen::MatrixXd valuesOf(const tufted::Field& field, Eigen::Index rows) {
-  Eigen::MatrixXd values(rows, field.count);
-  for (Eigen::Index i = 0; i < rows; ++i)
-    for (int k = 0; k < field.count; ++k)
-      values(i, k) = tufted::valueOf(field, static_cast<std::size_t>(i * field.count + k));
-  return values;
-}
-
-/// Red, green and blue of a packed colour.
-Eigen::MatrixXd unpacked(const tufted::Field& field, Eigen::Index rows) {
-  Eigen::MatrixXd values(rows, 3);
-  for (Eigen::Index i = 0; i < rows; ++i) {
-    std::uint32_t packed = 0;
-    std::memcpy(&packed, field.bytes.data() + 4 * i, 4);
-    for (int k = 0; k < 3; ++k) values(i, k) = (packed >> (16 - 8 * k)) & 0xff;
-  }
-  return values;
-}
-
-bool isOneOf(const std::string& name, std::initializer_list<const char*> names) {
-  return std::find(names.begin(), names.end(), name) != names.end();
-}
-
 /// What the fields of a file are called here: their names, and `color` for colours.
 std::vector<std::string> namesOf(const tufted::Geometry& geometry) {
   std::vector<std::string> names;
   for (const tufted::Field& field : geometry.fields)
     names.push_back(isOneOf(field.name, {"rgb", "rgba", "red", "green", "blue"}) ? "color" : field.name);
   return names;
-}
-
-/// The names in `results` that are files of one array per point.
-bool isShown(const std::string& name) {
-  return !isOneOf(name, {"evals", "principal_directions", "frames", "measured_positions", "M", "status",
-                         "representative", "components"});
 }
 
 int indexOf(const tufted::Scene& scene, const std::string& name) {
@@ -153,8 +125,7 @@ tufted::PictureOptions pictureOf(const tufted::Scene& scene, const Look& look) {
   options.field = indexOf(scene, look.color);
   if (scene.fields.empty() || options.field < 0) return options;
   const SceneField& field = scene.fields[static_cast<std::size_t>(options.field)];
-  const bool has_columns =
-      field.kind != FieldKind::vector && field.kind != FieldKind::coordinates && field.kind != FieldKind::color;
+  const bool has_columns = !tufted::showsAllColumns(field.kind);
   const Eigen::Index columns = has_columns ? field.values.cols() : 1;
   options.column = look.column.value_or(has_columns ? firstVarying(field.values) : 0);
   if (options.column >= columns)
@@ -219,96 +190,6 @@ void checkColor(const Look& look, const tufted::Geometry& geometry, const std::v
   std::string all;
   for (const std::string& name : known) all += (all.empty() ? "" : ", ") + name;
   throw tufted::InvalidInput("--color " + look.color + " is none of " + all + didYouMean(look.color, known));
-}
-
-FieldKind kindOfResult(const std::string& name, Eigen::Index columns) {
-  static const std::map<std::string, FieldKind> meanings = {
-      {"evecs", FieldKind::diverging},      {"embedding", FieldKind::diverging}, {"curvature", FieldKind::diverging},
-      {"green", FieldKind::diverging},      {"u", FieldKind::diverging},         {"distance", FieldKind::distance},
-      {"labels", FieldKind::label},         {"label", FieldKind::label},         {"component", FieldKind::label},
-      {"components", FieldKind::label},     {"boundary", FieldKind::label},      {"status", FieldKind::label},
-      {"classification", FieldKind::label}, {"vectors", FieldKind::vector},      {"normals", FieldKind::vector},
-      {"logmap", FieldKind::coordinates},   {"color", FieldKind::color},         {"mass", FieldKind::positive},
-      {"hks", FieldKind::positive}};
-  const auto kind = meanings.find(name);
-  if (kind == meanings.end()) return FieldKind::scalar;
-  const bool fits = (kind->second != FieldKind::vector && kind->second != FieldKind::color) || columns == 3;
-  return fits && (kind->second != FieldKind::coordinates || columns == 2) ? kind->second : FieldKind::scalar;
-}
-
-SceneField boundaryField(Eigen::MatrixXd values) {
-  values.array() -= 1;  // none is grey
-  return {.name = "boundary",
-          .kind = FieldKind::label,
-          .values = std::move(values),
-          .label_names = {"rim", "jump", "lost"},
-          .no_value = "none"};
-}
-
-std::vector<SceneField> fieldsOf(const tufted::Geometry& geometry) {
-  const Eigen::Index n = geometry.points.rows();
-  std::vector<SceneField> fields;
-  Eigen::MatrixXd color;
-  for (const tufted::Field& field : geometry.fields) {
-    const bool is_packed = isOneOf(field.name, {"rgb", "rgba"}) && field.count == 1 &&
-                           field.bytes.size() == 4 * static_cast<std::size_t>(n);
-    if (is_packed) {
-      color = unpacked(field, n);
-    } else if (isOneOf(field.name, {"red", "green", "blue"})) {
-      if (color.rows() != n) color = Eigen::MatrixXd::Zero(n, 3);
-      const double scale = field.type == tufted::FieldType::uint16 ? 1.0 / 257 : 1;
-      color.col(field.name == "red" ? 0 : field.name == "green" ? 1 : 2) = scale * valuesOf(field, n).col(0);
-    } else if (field.count > 0) {
-      fields.push_back({field.name, kindOfResult(field.name, field.count), valuesOf(field, n)});
-    }
-  }
-  if (color.rows() == n && color.cols() == 3) fields.insert(fields.begin(), {"color", FieldKind::color, color});
-  return fields;
-}
-
-tufted::Scene sceneOf(const std::string& title, const tufted::Geometry& geometry, const tufted::Laplacian& laplacian,
-                      const std::vector<tufted::ResultArray>& arrays) {
-  tufted::Scene scene = {.title = title, .positions = geometry.points};
-  const Eigen::Index n = geometry.points.rows();
-  if (geometry.is_mesh) scene.triangles = geometry.triangles;
-  if (geometry.normals.rows() == n)
-    scene.normals = geometry.normals;
-  else if (laplacian.frames.normals.rows() == n)
-    scene.normals = laplacian.frames.normals;
-  for (const tufted::ResultArray& array : arrays)
-    if (isShown(array.name) && array.values.rows() == n && array.values.cols() > 0)
-      scene.fields.push_back({array.name, kindOfResult(array.name, array.values.cols()), array.values});
-  for (SceneField& field : scene.fields) {
-    if (field.kind == FieldKind::label) continue;
-    for (Eigen::Index i = 0; i < n && !laplacian.status.empty(); ++i) {
-      const tufted::PointStatus status = laplacian.status[static_cast<std::size_t>(i)];
-      if (status != tufted::PointStatus::active && status != tufted::PointStatus::coincident)
-        field.values.row(i).setConstant(std::numeric_limits<double>::quiet_NaN());
-    }
-  }
-  const auto has_part = [&](std::size_t size) { return n > 0 && static_cast<Eigen::Index>(size) == n; };
-  if (has_part(static_cast<std::size_t>(laplacian.M.size()))) {
-    Eigen::MatrixXd mass = laplacian.M;
-    for (Eigen::Index i = 0; i < n; ++i)
-      if (!(mass(i, 0) > 0)) mass(i, 0) = std::numeric_limits<double>::quiet_NaN();
-    scene.fields.push_back({"mass", FieldKind::positive, std::move(mass)});
-  }
-  if (has_part(laplacian.boundary.size())) {
-    Eigen::MatrixXd boundary(n, 1);
-    for (Eigen::Index i = 0; i < n; ++i)
-      boundary(i, 0) = static_cast<double>(laplacian.boundary[static_cast<std::size_t>(i)]);
-    scene.fields.push_back(boundaryField(std::move(boundary)));
-  }
-  if (has_part(laplacian.component.size())) {
-    Eigen::MatrixXd component(n, 1);
-    for (Eigen::Index i = 0; i < n; ++i) component(i, 0) = laplacian.component[static_cast<std::size_t>(i)];
-    scene.fields.push_back({"component", FieldKind::label, std::move(component)});
-  }
-  for (SceneField& field : fieldsOf(geometry)) {
-    const auto is_same = [&](const SceneField& other) { return other.name == field.name; };
-    if (std::none_of(scene.fields.begin(), scene.fields.end(), is_same)) scene.fields.push_back(std::move(field));
-  }
-  return scene;
 }
 
 void lookFromSensor(const tufted::Geometry& geometry, Look& look) {

@@ -39,20 +39,6 @@ void checkLook(const Look& look);
 /// @throws InvalidInput
 void checkColor(const Look& look, const tufted::Geometry& geometry, const std::vector<std::string>& results);
 
-/// What the values of a result of a command mean, by its name.
-tufted::FieldKind kindOfResult(const std::string& name, Eigen::Index columns);
-
-/// The field of kinds of boundary, which are those of tufted::Boundary as numbers.
-tufted::SceneField boundaryField(Eigen::MatrixXd values);
-
-/// The fields of a file, with its colours as one field `color`.
-std::vector<tufted::SceneField> fieldsOf(const tufted::Geometry& geometry);
-
-/// The scene of results: arrays per point first, then mass, boundary and components of the Laplacian, then the fields
-/// of the file. Points that take no part have no value.
-tufted::Scene sceneOf(const std::string& title, const tufted::Geometry& geometry, const tufted::Laplacian& laplacian,
-                      const std::vector<tufted::ResultArray>& arrays);
-
 /// Looks from where the sensor of a depth image stood, where the command line does not say from where.
 void lookFromSensor(const tufted::Geometry& geometry, Look& look);
 

@@ -16,6 +16,7 @@
 #include "output.h"
 #include "peak_memory.h"
 #include "progress_bar.h"
+#include "scene_fields.h"
 #include "tufted/errors.h"
 
 namespace {

@@ -9,6 +9,7 @@
 #include "look.h"
 #include "options.h"
 #include "progress_bar.h"
+#include "scene_fields.h"
 #include "suggestion.h"
 #include "tufted/errors.h"
 

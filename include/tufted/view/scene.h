@@ -21,6 +21,11 @@ enum class FieldKind : std::uint8_t {
   color,        ///< three columns, red, green and blue from 0 to 255
 };
 
+/// Whether all columns of a field of this kind are one picture; otherwise each is one.
+inline bool showsAllColumns(FieldKind kind) {
+  return kind == FieldKind::vector || kind == FieldKind::coordinates || kind == FieldKind::color;
+}
+
 /// Values at the points that can be looked at.
 struct SceneField {
   std::string name;                    ///< any text
