@@ -11,6 +11,7 @@
 #include "oracles/planar.h"
 #include "shapes/random.h"
 #include "shapes/shapes.h"
+#include "support/compare.h"
 #include "support/overshoot.h"
 #include "tufted/tufted.h"
 #ifdef TUFTED_DATA_DIR
@@ -20,9 +21,7 @@
 namespace tufted {
 namespace {
 
-double meanError(const VectorXd& distance, const VectorXd& exact) {
-  return (distance - exact).cwiseAbs().sum() / exact.sum();
-}
+using support::meanError;
 
 TEST(Applications, DistanceOnASphereIsAsGoodAsThatOfTheHull) {
   const Points points = shapes::sphere(16000).points;

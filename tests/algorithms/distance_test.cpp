@@ -16,10 +16,7 @@
 namespace tufted {
 namespace {
 
-/// Mean of |d - exact| over the mean of exact.
-double meanError(const VectorXd& distance, const VectorXd& exact) {
-  return (distance - exact).cwiseAbs().sum() / exact.sum();
-}
+using support::meanError;
 
 VectorXd straight(const Points& points, const Eigen::RowVector3d& from) {
   return (points.rowwise() - from).rowwise().norm();
@@ -256,42 +253,6 @@ TEST(Distance, InWindowsOfHeatIsThatOfTheWhole) {
   }
 }
 
-TEST(Distance, GoesOnWhereNotEvenAWindowHasAFactor) {
-  // By conjugate gradients heat is seen over 9 decades, some ten edges.
-  const Laplacian laplacian = pointCloudLaplacian(shapes::square(20000).points);
-  const VectorXd distance = DistanceSolver(laplacian, {.method = DistanceMethod::heat}).query({0});
-  DistanceReport report;
-  const VectorXd again =
-      DistanceSolver(laplacian, {.method = DistanceMethod::heat, .solver = {.memory_limit = 1}}).query({0}, &report);
-  EXPECT_GE(report.rounds, 5);
-  EXPECT_LE(report.rounds, 30);
-  EXPECT_GT(report.iterations, 0);
-  EXPECT_LE(meanError(again, distance), 3e-3);  // the method itself errs by 9e-3
-}
-
-TEST(Distance, ByMultigridIsAsGoodAsItsTolerance) {
-  // Heat is looked at far below its largest value: a loose tolerance must not reach it.
-  const Laplacian laplacian = pointCloudLaplacian(shapes::square(4000).points);
-  const VectorXd distance = DistanceSolver(laplacian, {.method = DistanceMethod::heat}).query({0});
-  for (const double tolerance : {0.1, 1e-2, 1e-4}) {
-    const SolverOptions options = {.method = SolverMethod::multigrid, .tolerance = tolerance};
-    const VectorXd loose = DistanceSolver(laplacian, {.method = DistanceMethod::heat, .solver = options}).query({0});
-    EXPECT_LE(meanError(loose, distance), 3e-3 + tolerance) << tolerance;
-  }
-}
-
-TEST(Distance, KeepsAllItsFactorsWithinTheLimit) {
-  const Laplacian laplacian = pointCloudLaplacian(shapes::disk(2000).points);
-  const std::size_t one = Solver::laplacian(laplacian).report().factor_bytes;
-  const auto iterationsWithin = [&](std::size_t limit) {
-    DistanceReport report;
-    DistanceSolver(laplacian, {.method = DistanceMethod::heat, .solver = {.memory_limit = limit}}).query({0}, &report);
-    return report.iterations;
-  };
-  EXPECT_EQ(iterationsWithin(4 * one), 0);
-  EXPECT_GT(iterationsWithin(3 * one / 2), 0);  // one fits, three do not
-}
-
 TEST(Distance, NamesWhatACallerGotWrong) {
   Points points = shapes::sphere(500).points;
   points.row(3).setConstant(NAN);
@@ -320,36 +281,6 @@ TEST(Distance, NamesWhatACallerGotWrong) {
   EXPECT_NE(refusal([&] { SurfacePoint::inFace(points, triangles, 1, {1, -0.1, 0}); }), "accepted");
   EXPECT_NE(refusal([&] { SurfacePoint::inFace(points, triangles, 1, {0, 0, 0}); }), "accepted");
   EXPECT_NE(refusal([&] { DistanceSolver(pointCloudLaplacian(points, {.keep_cover = false})); }), "accepted");
-}
-
-TEST(Distance, FailsTypedWhenItCannotBeSolved) {
-  Laplacian laplacian = pointCloudLaplacian(shapes::sphere(500).points);
-  laplacian.L *= -10;
-  EXPECT_THROW(DistanceSolver(laplacian, {.method = DistanceMethod::heat}), SolverFailure);
-  laplacian.L *= NAN;
-  EXPECT_THROW(DistanceSolver(laplacian, {.method = DistanceMethod::heat}), SolverFailure);
-}
-
-TEST(Distance, ReportsWhatItsFactorisationsTake) {
-  const Points disk = shapes::disk(2000).points;  // that ends: three systems
-  const Laplacian laplacian = pointCloudLaplacian(disk);
-  const SolverReport one = Solver::laplacian(laplacian).report();
-  const SolverReport all = DistanceSolver(laplacian, {.method = DistanceMethod::heat}).report();
-  EXPECT_EQ(all.method, one.method);
-  EXPECT_FALSE(all.iterative);
-  EXPECT_EQ(all.components, 1);
-  EXPECT_GT(all.seconds, 0);
-  EXPECT_GT(all.unknowns, 2 * one.unknowns + 1);
-  EXPECT_NEAR(static_cast<double>(all.bytes), 3.0 * static_cast<double>(one.bytes), 0.5 * one.bytes);
-  EXPECT_EQ(all.bytes, all.factor_bytes);
-  const SolverReport closed =
-      DistanceSolver(laplacian, {.method = DistanceMethod::heat, .open_boundary = false}).report();
-  EXPECT_EQ(closed.unknowns, 2000 + 1999);
-  const SolverReport by_multigrid =
-      DistanceSolver(laplacian, {.method = DistanceMethod::heat, .solver = {.method = SolverMethod::multigrid}})
-          .report();
-  EXPECT_TRUE(by_multigrid.iterative);
-  EXPECT_EQ(by_multigrid.method.find(" and "), std::string::npos) << by_multigrid.method;
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "oracles/planar.h"
 #include "shapes/random.h"
 #include "shapes/shapes.h"
+#include "support/odd_cloud.h"
 #include "support/overshoot.h"
 #include "support/refusal.h"
 #include "tufted/tufted.h"
@@ -137,14 +138,7 @@ TEST(Harmonic, IsRefinedWhateverTheToleranceAndReportsWhatIsMissingInTheEnd) {
 }
 
 TEST(Interpolation, IsNotANumberWhereNoPinIsAndCopiesFollow) {
-  Points points(2004, 3);
-  points.topRows(1000) = shapes::sphere(1000).points;
-  points.middleRows(1000, 1000) = shapes::sphere(1000, shapes::Sampling::uniform, 2).points.array() + 10;
-  points.row(2000) = points.row(5);
-  points.row(2001) = points.row(8);
-  points.row(2002).setConstant(NAN);
-  points.row(2003) << 1e6, 0, 0;
-  const Laplacian laplacian = pointCloudLaplacian(points);
+  const Laplacian laplacian = pointCloudLaplacian(support::oddCloud());
   const Pins pins{{5, 2000, 700, 2002}, Eigen::VectorXd{{1, 3, 0, 7}}};
   for (const Eigen::MatrixXd& u : {harmonic(laplacian, pins), biharmonic(laplacian, pins),
                                    poisson(laplacian, Eigen::MatrixXd::Constant(2004, 1, 0.1), pins)}) {

@@ -13,6 +13,7 @@
 #include "shapes/shapes.h"
 #include "support/compare.h"
 #include "support/joined_grids.h"
+#include "support/odd_cloud.h"
 #include "support/refusal.h"
 #include "tufted/tufted.h"
 
@@ -24,16 +25,8 @@ using support::refusal;
 using Mask = std::vector<std::uint8_t>;
 using Shared = std::shared_ptr<const Laplacian>;
 
-/// Two spheres apart, with copies, points that are not finite and one that is isolated.
 Shared oddCloud() {
-  Points points(2004, 3);
-  points.topRows(1000) = shapes::sphere(1000).points;
-  points.middleRows(1000, 1000) = shapes::sphere(1000, shapes::Sampling::uniform, 2).points.array() + 10;
-  points.row(2000) = points.row(5);
-  points.row(2001) = points.row(8);
-  points.row(2002).setConstant(NAN);
-  points.row(2003) << 1e6, 0, 0;
-  return std::make_shared<const Laplacian>(pointCloudLaplacian(points));
+  return std::make_shared<const Laplacian>(pointCloudLaplacian(support::oddCloud()));
 }
 
 Shared torus(int n = 3000) {

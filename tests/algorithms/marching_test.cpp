@@ -16,15 +16,14 @@
 #include "oracles/planar.h"
 #include "shapes/random.h"
 #include "shapes/shapes.h"
+#include "support/compare.h"
 #include "support/refusal.h"
 #include "tufted/tufted.h"
 
 namespace tufted {
 namespace {
 
-double meanError(const VectorXd& distance, const VectorXd& exact) {
-  return (distance - exact).cwiseAbs().sum() / exact.sum();
-}
+using support::meanError;
 
 /// Rows of equilateral triangles of side 1 in the plane.
 shapes::Mesh equilateral(int n) {

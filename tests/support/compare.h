@@ -17,6 +17,11 @@ inline Points permuted(const Points& points, const std::vector<int>& source) {
   return result;
 }
 
+/// The mean of |d - exact| over the mean of exact.
+inline double meanError(const VectorXd& distance, const VectorXd& exact) {
+  return (distance - exact).cwiseAbs().sum() / exact.sum();
+}
+
 inline bool sameBits(const double* a, const double* b, std::size_t count) {
   return count == 0 || std::memcmp(a, b, count * sizeof(double)) == 0;
 }

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cmath>
+
+#include "shapes/shapes.h"
+
+namespace tufted::support {
+
+/// Two spheres apart of 1000 points each, with copies of points 5 and 8, one that is not finite and one that is
+/// isolated.
+inline Points oddCloud() {
+  Points points(2004, 3);
+  points.topRows(1000) = shapes::sphere(1000).points;
+  points.middleRows(1000, 1000) = shapes::sphere(1000, shapes::Sampling::uniform, 2).points.array() + 10;
+  points.row(2000) = points.row(5);
+  points.row(2001) = points.row(8);
+  points.row(2002).setConstant(NAN);
+  points.row(2003) << 1e6, 0, 0;
+  return points;
+}
+
+}  // namespace tufted::support
