@@ -252,7 +252,7 @@ TEST_F(Validate, NoWorkerOutlivesTheCommand) {
   Process tufted = startTufted({"validate", large});
   const std::vector<pid_t> workers = awaitWorkers(large, true);
   ASSERT_EQ(workers.size(), 1u);
-  awaitTicks(workers[0], 10);
+  awaitTicks(workers[0], 100);  // sanitizers need 20 to load the program, which has asked for nothing by then
   kill(workers[0], SIGSTOP);  // it would not end by itself any more
   kill(tufted.pid(), SIGKILL);
   tufted.finish();
