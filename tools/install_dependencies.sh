@@ -19,7 +19,7 @@ packages=(
   help2man                                                            # its manual pages
   zlib1g-dev libpng-dev libfreetype-dev  # pages and pictures to look at
   python3 python3-dev pybind11-dev python3-numpy python3-scipy python3-pip python3-venv  # the package for Python
-  libgtest-dev libspectra-dev libbenchmark-dev libnanoflann-dev  # tests and benchmark
+  libgtest-dev libgmock-dev libspectra-dev libbenchmark-dev libnanoflann-dev  # tests and benchmark
 )
 
 sanitizers=false
