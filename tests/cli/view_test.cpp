@@ -110,6 +110,17 @@ TEST_F(View, CopiesOfThePointsHaveColoursAndQuality) {
   EXPECT_FALSE(contains(readAll(dir_ / "plain/points.ply").substr(0, 3000), "quality"));
 }
 
+TEST_F(View, PicturesMayLieInTheFolderThatResultsMake) {
+  run({"distance", cloud_, "--source", "0", "--out", in("new/distance"), "--png", in("new/distance/a.png")});
+  EXPECT_TRUE(exists("new/distance/a.png"));
+  run({"laplacian", cloud_, "--out", in("new/./a/b/"), "--png", in("new/a/b.png"), "--view", in("new/a/b/c.html")});
+  EXPECT_TRUE(exists("new/a/b.png"));
+  EXPECT_TRUE(exists("new/a/b/c.html"));
+  expectRefusal({"laplacian", cloud_, "--out", in("newer/a"), "--png", in("newer/b/a.png")}, "there is no directory",
+                1);
+  EXPECT_FALSE(exists("newer"));
+}
+
 TEST_F(View, MistakesAreRefusedBeforeTheBuild) {
   const std::vector<std::string> distance = {"distance", cloud_, "--source", "0"};
   const auto with = [&](std::vector<std::string> more) {

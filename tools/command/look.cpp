@@ -69,13 +69,23 @@ void setCamera(const std::string& text, tufted::Camera& camera) {
   if (numbers.size() == 3) camera.zoom = numbers[2];
 }
 
+/// Whether a folder is there as soon as the results are.
+bool isMadeWith(const std::filesystem::path& out, const std::filesystem::path& folder) {
+  if (out.empty()) return false;
+  const std::filesystem::path wanted = std::filesystem::absolute(folder / ".").lexically_normal();
+  std::filesystem::path made = std::filesystem::absolute(out / ".").lexically_normal();
+  while (made != wanted && made.has_relative_path()) made = (made.parent_path().parent_path() / "").lexically_normal();
+  return made == wanted;
+}
+
 /// Refuses a file that cannot be written.
-void checkFile(const std::string& option, const std::filesystem::path& file) {
+void checkFile(const std::string& option, const std::filesystem::path& file, const std::filesystem::path& out) {
   if (file.empty()) return;
   std::error_code error;
   if (std::filesystem::is_directory(file, error))
     throw tufted::InvalidInput(option + " " + file.string() + ": is a directory");
   const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  if (!std::filesystem::exists(folder, error) && isMadeWith(out, folder)) return;
   if (!std::filesystem::is_directory(folder, error))
     throw tufted::IoError(file.string() + ": cannot write: there is no directory " + folder.string());
   if (::access(folder.c_str(), W_OK | X_OK) != 0)
@@ -171,9 +181,9 @@ void addLookOptions(CLI::App& command, Look& look) {
   addPictureOptions(command, look);
 }
 
-void checkLook(const Look& look) {
-  checkFile("--png", look.png);
-  checkFile("--view", look.page);
+void checkLook(const Look& look, const std::filesystem::path& out) {
+  checkFile("--png", look.png, out);
+  checkFile("--view", look.page, out);
   if (!look.png.empty() && look.png == look.page)
     throw tufted::InvalidInput("--png and --view are one file, " + look.png.string());
 }

@@ -32,8 +32,9 @@ void addPictureOptions(CLI::App& command, Look& look);
 void addLookOptions(CLI::App& command, Look& look);
 
 /// Refuses files that cannot be written, before anything is computed.
+/// @param out where the results go: it and the folders above it are made if they are missing; empty: nowhere
 /// @throws InvalidInput, IoError
-void checkLook(const Look& look);
+void checkLook(const Look& look, const std::filesystem::path& out = {});
 /// Refuses a name of --color that is none of the fields that there will be.
 /// @param results names of results per point
 /// @throws InvalidInput
