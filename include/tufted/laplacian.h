@@ -27,6 +27,12 @@ struct Frames {
   Orientation orientation = Orientation::arbitrary;  ///< of the normals
 };
 
+/// A closed ball.
+struct Ball {
+  Eigen::Vector3d center;
+  double radius;
+};
+
 /// Builds a cover when it is asked for.
 class CoverSource {
  public:
@@ -36,15 +42,15 @@ class CoverSource {
   /// The area of each point in its own star, N values in length^2, which Mass::star takes for M wherever it is
   /// positive; size 0 with Mass::cover. Measured again with each call, by all threads of the build.
   virtual VectorXd starAreas() const { return {}; }
-  /// The faces that points in a ball have found, without building the cover: all of them, if the ball is a little
+  /// The faces that points in some balls have found, without building the cover: all of them, if the balls are a little
   /// larger than the part of the surface that is asked about. A face that is there more often is appended more often.
-  /// @param center,radius of the ball, in the caller's unit, of the positions that lengths are measured between
+  /// @param balls in the caller's unit, of the positions that lengths are measured between
   /// @param[in,out] faces corners are appended, numbered as the caller's points
   /// @param[in,out] length three for each face: from each corner to the next, in the caller's unit
   /// @return false: this source cannot, and nothing was appended
-  virtual bool appendFacesNear(const Eigen::Vector3d& center, double radius, std::vector<std::array<int, 3>>& faces,
+  virtual bool appendFacesNear(const std::vector<Ball>& balls, std::vector<std::array<int, 3>>& faces,
                                std::vector<double>& length) const {
-    (void)center, (void)radius, (void)faces, (void)length;
+    (void)balls, (void)faces, (void)length;
     return false;
   }
 };

@@ -16,6 +16,7 @@
 #include "operators/check_cover.h"
 #include "operators/distinct_faces.h"
 #include "tufted/check.h"
+#include "tufted/components.h"
 #include "tufted/distance.h"
 #include "tufted/errors.h"
 
@@ -38,7 +39,7 @@ int checkedSource(const Laplacian& laplacian, int source) {
 }
 
 /// The sources that lie on the surface, without copies.
-std::vector<int> checkedSources(const Laplacian& laplacian, const std::vector<int>& sources, double radius, int split) {
+std::vector<int> checkedSources(const Laplacian& laplacian, const std::vector<int>& sources, double radius) {
   const std::string name = std::string(function) + ": ";
   const auto n = std::ssize(laplacian.status);
   if (!laplacian.hasCover()) throw InvalidInput(name + "the Laplacian has no cover, must have one");
@@ -47,7 +48,6 @@ std::vector<int> checkedSources(const Laplacian& laplacian, const std::vector<in
                        std::to_string(n));
   if (!(radius > 0 && std::isfinite(radius)))
     throw InvalidInput(name + "radius = " + numberText(radius) + ", must be finite and above 0");
-  checkSplit(function, split);
   if (sources.empty()) throw InvalidInput(name + "sources is empty, must name at least one");
   std::vector<int> found;
   for (const int source : sources) {
@@ -59,6 +59,23 @@ std::vector<int> checkedSources(const Laplacian& laplacian, const std::vector<in
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
 }
+
+/// The components that sources lie on. Stored labels are not made anew, which would take a pass over L.
+class SourceComponents {
+ public:
+  SourceComponents(const Laplacian& laplacian, const std::vector<int>& sources)
+      : made_(laplacian.component.empty() ? componentLabels(laplacian) : std::vector<int>()),
+        label_(laplacian.component.empty() ? made_ : laplacian.component) {
+    for (const int source : sources) components_.push_back(label_[source]);
+    std::sort(components_.begin(), components_.end());
+  }
+  bool contain(int point) const { return std::binary_search(components_.begin(), components_.end(), label_[point]); }
+
+ private:
+  const std::vector<int> made_;
+  const std::vector<int>& label_;
+  std::vector<int> components_;
+};
 
 struct Faces {
   std::vector<std::array<int, 3>> corners;
@@ -76,12 +93,10 @@ double spacingAt(const Laplacian& laplacian, int point) {
 /// Faces from the stars of points in balls. Not sure to be all that are needed, see isComplete().
 bool facesFromStars(const Laplacian& laplacian, const std::vector<int>& sources, double radius, Faces& faces) {
   if (laplacian.stored_cover || !laplacian.cover_source || laplacian.cover_areas.size() == 0) return false;
-  for (const int source : sources) {
-    const double reach = radius + margin_in_spacings * spacingAt(laplacian, source);
-    if (!laplacian.cover_source->appendFacesNear(laplacian.positions.row(source), reach, faces.corners, faces.length))
-      return false;
-  }
-  return true;
+  std::vector<Ball> balls;
+  for (const int source : sources)
+    balls.push_back({laplacian.positions.row(source), radius + margin_in_spacings * spacingAt(laplacian, source)});
+  return laplacian.cover_source->appendFacesNear(balls, faces.corners, faces.length);
 }
 
 /// All faces with a corner in one of the balls around the sources, which no path is shorter than.
@@ -164,26 +179,29 @@ bool isComplete(const Laplacian& laplacian, const Patch& patch, const std::vecto
 
 }  // namespace
 
-NearbyPoints pointsWithin(const Laplacian& laplacian, const std::vector<int>& sources, double radius, int split) {
-  const std::vector<int> known = checkedSources(laplacian, sources, radius, split);
+NearbyPoints pointsWithin(const Laplacian& laplacian, const std::vector<int>& sources, double radius,
+                          std::optional<int> split) {
+  const std::vector<int> known = checkedSources(laplacian, sources, radius);
+  const int times = checkedSplit(function, split, std::ssize(laplacian.status));
   Patch patch;
   std::vector<double> distance;
   Faces faces;
   bool is_complete = facesFromStars(laplacian, known, radius, faces);
   if (is_complete) {
     patch = patchOf(std::move(faces));
-    distance = distancesOn(patch, known, radius, split);
+    distance = distancesOn(patch, known, radius, times);
     is_complete =
         std::all_of(known.begin(), known.end(), [&](int source) { return patch.number_of.count(source) > 0; }) &&
         isComplete(laplacian, patch, distance, radius);
   }
   if (!is_complete) {
     patch = patchOf(facesFromCover(laplacian, known, radius));
-    distance = distancesOn(patch, known, radius, split);
+    distance = distancesOn(patch, known, radius, times);
   }
   std::vector<std::pair<int, double>> found;
+  const SourceComponents components(laplacian, known);
   for (std::size_t i = 0; i < distance.size(); ++i)
-    if (distance[i] <= radius) found.emplace_back(patch.points[i], distance[i]);
+    if (distance[i] <= radius && components.contain(patch.points[i])) found.emplace_back(patch.points[i], distance[i]);
   if (laplacian.report.coincident > 0) {
     for (int i = 0; i < std::ssize(laplacian.representative); ++i) {
       const auto at = patch.number_of.find(laplacian.representative[i]);

@@ -25,6 +25,7 @@ StarUnion::StarUnion(Stars stars, Buffer<std::uint8_t> disagrees, RankedCloud cl
       size_(size),
       threads_(workers.count()),
       has_own_areas_(has_own_areas),
+      boxes_(length_.points, length_.displacement, workers),
       cycles_(stars_, disagrees_, cloud_.points, workers),
       cover_(stars_, length_, cycles_) {}
 
@@ -65,25 +66,16 @@ const IntrinsicTriangulation& StarUnion::cover() const {
   return whole_;
 }
 
-bool StarUnion::appendFacesNear(const Eigen::Vector3d& center, double radius, std::vector<std::array<int, 3>>& faces,
+bool StarUnion::appendFacesNear(const std::vector<Ball>& balls, std::vector<std::array<int, 3>>& faces,
                                 std::vector<double>& length) const {
   const PowerOfTwo unit(cloud_.exponent), to_ranked(-cloud_.exponent);
-  const double x = to_ranked.times(center.x()), y = to_ranked.times(center.y()), z = to_ranked.times(center.z());
-  const double reach = to_ranked.times(radius), square = reach * reach;
-  const PointsView points = length_.points, moved = length_.displacement;
-  const bool is_moved = moved.rows() > 0;
   const std::size_t first_face = faces.size(), first_length = length.size();
-  for (int p = 0; p < cloud_.size(); ++p) {
-    const double* const at = points.data() + 3 * std::ptrdiff_t{p};
-    double dx = at[0] - x, dy = at[1] - y, dz = at[2] - z;
-    if (is_moved) {
-      const double* const by = moved.data() + 3 * std::ptrdiff_t{p};
-      dx += by[0];
-      dy += by[1];
-      dz += by[2];
-    }
-    if (dx * dx + dy * dy + dz * dz <= square) cover_.appendFaces(p, faces, length);
+  std::vector<Ball> ranked = balls;
+  for (Ball& ball : ranked) {
+    for (double& coordinate : ball.center) coordinate = to_ranked.times(coordinate);
+    ball.radius = to_ranked.times(ball.radius);
   }
+  boxes_.visitBalls(ranked, [&](int p) { cover_.appendFaces(p, faces, length); });
   for (std::size_t f = first_face; f < faces.size(); ++f)
     for (int& corner : faces[f]) corner = cloud_.input_index[corner];
   for (std::size_t i = first_length; i < length.size(); ++i) length[i] = unit.times(length[i]);

@@ -12,6 +12,7 @@
 #include "direct/star_areas.h"
 #include "direct/star_metric.h"
 #include "neighbors/morton.h"
+#include "neighbors/run_boxes.h"
 #include "stars/stars.h"
 #include "tufted/laplacian.h"
 
@@ -49,7 +50,7 @@ class StarUnion final : public CoverSource {
   /// The whole cover, which is made when it is first asked for.
   const IntrinsicTriangulation& cover() const override;
   VectorXd starAreas() const override;
-  bool appendFacesNear(const Eigen::Vector3d& center, double radius, std::vector<std::array<int, 3>>& faces,
+  bool appendFacesNear(const std::vector<Ball>& balls, std::vector<std::array<int, 3>>& faces,
                        std::vector<double>& length) const override;
 
   /// What mollification has added to each edge.
@@ -65,6 +66,7 @@ class StarUnion final : public CoverSource {
   const int size_, threads_;
   const bool has_own_areas_;
   EdgeLengths length_{cloud_.points, stars_.displacement};
+  const RunBoxes boxes_;
   double mollify_area_ = 0;
   RadialCycles cycles_;
   CoverNearFlips cover_;

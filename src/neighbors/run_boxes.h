@@ -1,0 +1,58 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <vector>
+
+#include "base/buffer.h"
+#include "base/parallel.h"
+#include "base/point_buffer.h"
+#include "tufted/laplacian.h"
+
+namespace tufted {
+
+/// Bounding boxes of runs of points along the Morton curve: who asks for the points in balls looks at few of them.
+class RunBoxes {
+ public:
+  /// @param points n x 3, which must outlive this
+  /// @param displacement added to them, n x 3 or empty, which must outlive this
+  RunBoxes(const PointsView& points, const PointsView& displacement, const Workers& workers);
+
+  /// Calls visit(p) for the points in any of the balls, each once, ascending.
+  template <class Visit>
+  void visitBalls(const std::vector<Ball>& balls, const Visit& visit) const {
+    std::vector<Ball> near;
+    for (std::size_t run = 0; run < boxes_.size(); ++run) {
+      near.clear();
+      for (const Ball& ball : balls)
+        if (gapTo(boxes_[run], ball.center) <= ball.radius) near.push_back(ball);
+      if (near.empty()) continue;
+      for (int p = first(run), end = first(run + 1); p < end; ++p) {
+        const Eigen::Vector3d at = position(p);
+        if (std::any_of(near.begin(), near.end(),
+                        [&at](const Ball& ball) { return (at - ball.center).norm() <= ball.radius; }))
+          visit(p);
+      }
+    }
+  }
+
+ private:
+  struct Box {
+    Eigen::Vector3d least, greatest;
+  };
+
+  /// How far a place lies outside of a box.
+  static double gapTo(const Box& box, const Eigen::Vector3d& place) {
+    return (box.least - place).cwiseMax(place - box.greatest).cwiseMax(0).norm();
+  }
+  int first(std::size_t run) const;
+  Eigen::Vector3d position(int p) const {
+    const Eigen::Vector3d point = points_.row(p).transpose();
+    return displacement_.rows() > 0 ? point + displacement_.row(p).transpose() : point;
+  }
+
+  const PointsView points_, displacement_;
+  Buffer<Box> boxes_;
+};
+
+}  // namespace tufted

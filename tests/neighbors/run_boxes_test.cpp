@@ -1,0 +1,43 @@
+#include "neighbors/run_boxes.h"
+
+#include <gtest/gtest.h>
+
+#include <vector>
+
+#include "shapes/shapes.h"
+
+namespace tufted {
+namespace {
+
+std::vector<int> pointsIn(const std::vector<Ball>& balls, const Points& points, const Points& displacement) {
+  const Progress silent;
+  std::vector<int> found;
+  RunBoxes(points, displacement, Workers(2, silent)).visitBalls(balls, [&found](int p) { found.push_back(p); });
+  return found;
+}
+
+std::vector<int> pointsInByAllDistances(const std::vector<Ball>& balls, const Points& places) {
+  std::vector<int> found;
+  for (int p = 0; p < places.rows(); ++p) {
+    bool is_in = false;
+    for (const Ball& ball : balls) is_in |= (places.row(p).transpose() - ball.center).norm() <= ball.radius;
+    if (is_in) found.push_back(p);
+  }
+  return found;
+}
+
+TEST(RunBoxes, FindThePointsOfAllBallsOnce) {
+  const Points none(0, 3);
+  for (const int n : {1, 255, 256, 257, 3000}) {
+    const Points points = shapes::sphere(n).points, moved = 0.1 * shapes::torus(n).points, places = points + moved;
+    for (const double radius : {0.0, 0.05, 0.7, 100.0}) {
+      const std::vector<Ball> balls = {{points.row(0), radius}, {points.row(n / 2), 2 * radius}};
+      EXPECT_EQ(pointsIn(balls, points, none), pointsInByAllDistances(balls, points)) << n << " " << radius;
+      EXPECT_EQ(pointsIn(balls, points, moved), pointsInByAllDistances(balls, places)) << n << " " << radius;
+    }
+  }
+  EXPECT_TRUE(pointsIn({{{0, 0, 0}, 1}}, none, none).empty());
+}
+
+}  // namespace
+}  // namespace tufted
