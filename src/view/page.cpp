@@ -143,8 +143,8 @@ Json fieldJson(const SceneField& field, PageBlocks& blocks) {
 }
 
 /// The radius of the disc of each point, in steps of a factor from the lower quartile, as radii are rather too large.
-Json radiusJson(const view::NormalizedPoints& points, PageBlocks& blocks) {
-  const std::vector<float> radii = view::discsOf(points, 0).radii;
+Json radiusJson(const Scene& scene, const view::NormalizedPoints& points, PageBlocks& blocks) {
+  const std::vector<float> radii = view::discsOf(scene, points, 0).radii;
   std::vector<float> sorted;
   for (const int i : points.finite) sorted.push_back(radii[static_cast<std::size_t>(i)]);
   const auto quartile = sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 4);
@@ -200,7 +200,7 @@ Json sceneJson(const Scene& scene, const PageOptions& options, PageBlocks& block
     if (scene.positions.rows() > 0) coordinates = scene.positions.col(axis);
     json["positions"].push_back(levelColumn(coordinates, blocks));
   }
-  if (!points.finite.empty()) json["radii"] = radiusJson(points, blocks);
+  if (!points.finite.empty()) json["radii"] = radiusJson(scene, points, blocks);
   if (scene.normals.rows() > 0) json["normals"] = normalBlock(scene.normals, blocks);
   if (scene.triangles.rows() > 0)
     json["triangles"] =

@@ -190,7 +190,7 @@ SeenScene look(const Scene& scene, const NormalizedPoints& points, const Project
   std::vector<int> discs;
   seen.radii.assign(static_cast<std::size_t>(n), 0);
   if (std::any_of(points.finite.begin(), points.finite.end(), is_disc)) {
-    Discs all = discsOf(points, threads);
+    Discs all = discsOf(scene, points, threads);
     seen.radii = std::move(all.radii);
     discs = std::move(all.order);
     std::erase_if(discs, [&](int i) { return !is_disc(i); });

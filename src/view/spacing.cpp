@@ -80,7 +80,7 @@ class Nearest {
 
 }  // namespace
 
-Discs discsOf(const NormalizedPoints& points, int threads) {
+Discs discsOf(const Scene& scene, const NormalizedPoints& points, int threads) {
   const auto count = static_cast<std::int64_t>(points.finite.size());
   std::vector<float> radii(static_cast<std::size_t>(points.positions.rows()), std::numeric_limits<float>::infinity());
   // Neighbours in space may be far on the curve where it passes between large cells; on one of two curves that are
@@ -114,8 +114,14 @@ Discs discsOf(const NormalizedPoints& points, int threads) {
   for (const int i : points.finite) sorted.push_back(radii[static_cast<std::size_t>(i)]);
   const auto at = sorted.begin() + static_cast<std::ptrdiff_t>(0.5 * static_cast<double>(count - 1));
   std::nth_element(sorted.begin(), at, sorted.end());
-  const float most = std::min(most_of_scene, most_of_others * *at);
+  const float median = *at, most = std::min(most_of_scene, most_of_others * median);
   for (float& radius : radii) radius = std::isfinite(radius) ? std::min(radius, most) : lone_radius;
+  if (!scene.fields.empty()) {
+    const Eigen::MatrixXd& values = scene.fields.front().values;
+    for (const int i : points.finite)
+      if (std::isnan(values(i, 0)))
+        radii[static_cast<std::size_t>(i)] = std::min(radii[static_cast<std::size_t>(i)], median);
+  }
   return {std::move(radii), std::move(order)};
 }
 

@@ -245,6 +245,30 @@ TEST(PictureOf, PointsWithoutAValueAreGrey) {
   EXPECT_EQ(tufted::pointColors(scene), std::vector<Rgb>(3'000, tufted::no_value_color));
 }
 
+TEST(PictureOf, FarPointsOfNoSurfaceAreDots) {
+  Scene scene;
+  scene.fields = {{.name = "label", .kind = FieldKind::label, .values = {}}};
+  addSquare(0, 1, scene);
+  const Eigen::Index surface = scene.positions.rows(), far = 16;
+  scene.positions.conservativeResize(surface + far, 3);
+  scene.fields[0].values.conservativeResize(surface + far, 1);
+  const auto otherPixels = [&](double value) {
+    for (Eigen::Index i = 0; i < far; ++i) {
+      scene.positions.row(surface + i) << 1.2 + 0.2 * (i % 4), 0, 0.2 * (i / 4);
+      scene.fields[0].values(surface + i, 0) = value;
+    }
+    const Rgb color = tufted::pointColors(scene).back();
+    const Picture picture = tufted::drawPicture(scene, {.width = 300, .height = 200, .light = false, .legend = false});
+    int count = 0;
+    for (int y = 0; y < picture.height; ++y)
+      for (int x = 0; x < picture.width; ++x) count += pixelOf(picture, x, y) == color ? 1 : 0;
+    return count;
+  };
+  const int with_values = otherPixels(2), without = otherPixels(nan);
+  EXPECT_GE(without, 16);
+  EXPECT_GE(with_values, 4 * without);
+}
+
 TEST_F(PictureFile, ATransparentOneKeepsItsColours) {
   const PictureOptions options = {
       .width = 120, .height = 90, .background = tufted::Background::transparent, .light = false, .legend = false};
