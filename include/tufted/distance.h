@@ -51,8 +51,9 @@ struct DistanceOptions {
   DistanceMethod method = DistanceMethod::marching;  ///< how distances are found
   /// Marching: how often each triangle is cut into four, 0 to 2. Each time the mean error falls to 0.6 of what it was
   /// (the median of CGAL's meshes), and a query takes three to four times as long. On clouds of 64,000 points and more
-  /// the second time brings nothing.
-  int split = 1;
+  /// the second time brings nothing. By default twice on surfaces of up to 5,000 points, whose triangles are coarse and
+  /// few, else once.
+  std::optional<int> split = {};
   /// Farthest distance, in the points' unit, > 0: greater ones are infinite. Marching then visits no more of the
   /// surface than it must.
   double maximum = std::numeric_limits<double>::infinity();
@@ -74,6 +75,7 @@ struct DistanceOptions {
 
 /// What a query did.
 struct DistanceReport {
+  int split = 0;              ///< marching: how often each triangle was cut into four
   std::int64_t visits = 0;    ///< marching: points and middles of edges that were reached, see DistanceOptions::split
   std::int64_t lowered = 0;   ///< marching: of these, how many lay farther than a neighbour by more than their edge
   int rounds = 0;             ///< rounds of heat: one per some 500 edge lengths, in windows per 100 or 10
@@ -82,6 +84,9 @@ struct DistanceReport {
   double backward_error = 0;  ///< greatest backward error of any solve, see SolveReport
   double seconds = 0;         ///< wall-clock
   std::optional<WeakJoint> weak_joint = {};  ///< where the system is nearly disconnected, see SolveReport
+
+  /// Takes in what another query did: sums of visits, rounds and seconds, else the greatest of both.
+  void add(const DistanceReport& other);
 };
 
 /// Distances with the source that each is measured from.
@@ -99,13 +104,15 @@ struct NearbyPoints {
 /// All points whose geodesic distance from the nearest of some points is at most a radius, with the distances that
 /// DistanceSolver marches to. Only the surface around the sources is looked at, and no solver is made: on a cloud,
 /// whose cover is not built for it, a pass over the positions and then time in proportion to the points that are found;
-/// on a mesh a pass over its faces.
+/// on a mesh a pass over its faces. Other components than those of the sources are left out, as DistanceSolver does,
+/// but by the labels of the Laplacian where these are stored.
 /// @param sources indices of points; those that are isolated or not finite are ignored
 /// @param radius > 0, finite, in the points' unit
 /// @param split how often each triangle is cut into four, 0 to 2, see DistanceOptions::split
 /// @throws InvalidInput for no source, an index out of range, no source on any component, another radius or split, or
 /// a Laplacian without cover or positions
-NearbyPoints pointsWithin(const Laplacian& laplacian, const std::vector<int>& sources, double radius, int split = 1);
+NearbyPoints pointsWithin(const Laplacian& laplacian, const std::vector<int>& sources, double radius,
+                          std::optional<int> split = {});
 
 /// Geodesic distance on the distinct faces of the tufted cover. Prepared once, queried often; queries may run side by
 /// side.
@@ -113,7 +120,7 @@ NearbyPoints pointsWithin(const Laplacian& laplacian, const std::vector<int>& so
 /// Marching (Kimmel, Sethian: "Computing geodesic paths on manifolds", 1998): the nearest point that is not done is
 /// done, and gives its neighbours their distance along an edge or, if that is less, through a triangle, from the source
 /// unfolded into its plane by the distances of two corners. In the end no distance exceeds that of a neighbour by more
-/// than the length of their edge. Each face is cut into four first (see `DistanceOptions::split`).
+/// than the length of their edge. Each face is cut into four first, once or twice (see `DistanceOptions::split`).
 ///
 /// Heat (Crane, Weischedel, Wardetzky: "The heat method for distance computation", 2017): u is the heat that spreads
 /// from the sources, (M + t L) u = delta; X = -grad u / |grad u| its direction; and the distance the function whose

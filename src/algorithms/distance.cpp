@@ -33,7 +33,7 @@ void checkArguments(const Laplacian& laplacian, const DistanceOptions& options) 
     throw InvalidInput(name + "time_step = " + numberText(options.time_step) + ", must be finite and above 0");
   if (!(options.maximum > 0))
     throw InvalidInput(name + "maximum = " + numberText(options.maximum) + ", must be above 0");
-  checkSplit(constructor, options.split);
+  checkedSplit(constructor, options.split, std::ssize(laplacian.status));
   checkCover(constructor, laplacian);
 }
 
@@ -70,6 +70,18 @@ struct DistanceSolver::State {
                                DistanceReport& made) const;
   void finish(const std::vector<SurfacePoint>& sources, NearestSources& found) const;
 };
+
+void DistanceReport::add(const DistanceReport& other) {
+  split = std::max(split, other.split);
+  visits += other.visits;
+  lowered += other.lowered;
+  rounds += other.rounds;
+  iterations = std::max(iterations, other.iterations);
+  residual = greater(residual, other.residual);
+  backward_error = greater(backward_error, other.backward_error);
+  seconds += other.seconds;
+  if (other.weak_joint) weak_joint = other.weak_joint;
+}
 
 DistanceSolver::DistanceSolver(DistanceSolver&&) noexcept = default;
 DistanceSolver& DistanceSolver::operator=(DistanceSolver&&) noexcept = default;
@@ -141,11 +153,7 @@ NearestSources DistanceSolver::State::nearestByHeat(const std::vector<SurfacePoi
     if (std::none_of(corners.begin(), corners.end(), [this](int corner) { return isActive(corner); })) continue;
     DistanceReport one;
     const VectorXd distance = heat->query(query_name, {sources[s]}, progress, one);
-    made.rounds += one.rounds;
-    made.iterations = std::max(made.iterations, one.iterations);
-    made.residual = greater(made.residual, one.residual);
-    made.backward_error = greater(made.backward_error, one.backward_error);
-    if (one.weak_joint) made.weak_joint = one.weak_joint;
+    made.add(one);
     for (const int i : components.points) {
       if (!(distance[i] < found.distance[i])) continue;
       found.distance[i] = distance[i];

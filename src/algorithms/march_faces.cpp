@@ -14,6 +14,9 @@ namespace {
 
 constexpr std::int64_t block_size = 8192;
 constexpr int most_splits = 2;
+/// Points of a surface that is cut twice unless the caller says otherwise: its triangles are coarse, and a query takes
+/// some 30 ms.
+constexpr std::int64_t few_points = 5000;
 /// Sides between the same two ends are one edge if their lengths differ by at most this part: flips on the front and on
 /// the back round differently.
 constexpr double equal_lengths = 1e-9;
@@ -151,13 +154,26 @@ MarchFaces marchFaces(const std::vector<DistinctFace>& faces, int vertices, int 
   return result;
 }
 
-MarchFaces marchFaces(const IntrinsicTriangulation& cover, int split, const Workers& workers) {
-  return marchFaces(distinctFaces(cover, workers), cover.vertices, unitOf(cover.length), split, workers);
+MarchFaces marchFaces(const IntrinsicTriangulation& cover, int split, const Workers& workers,
+                      const std::vector<int>& number) {
+  return marchFaces(distinctFaces(cover, workers, number), cover.vertices, unitOf(cover.length), split, workers);
 }
 
-void checkSplit(const std::string& function, int split) {
-  if (split >= 0 && split <= most_splits) return;
-  throw InvalidInput(function + ": split = " + std::to_string(split) + ", must lie in [0, " +
+std::vector<int> numbersByFaces(const IntrinsicTriangulation& cover) {
+  std::vector<int> number(static_cast<std::size_t>(cover.vertices), -1);
+  int next = 0;
+  for (const auto& corners : cover.faces)
+    for (const int corner : corners)
+      if (number[corner] < 0) number[corner] = next++;
+  for (int& of_unused : number)
+    if (of_unused < 0) of_unused = next++;
+  return number;
+}
+
+int checkedSplit(const std::string& function, std::optional<int> split, std::int64_t points) {
+  if (!split) return points <= few_points ? 2 : 1;
+  if (*split >= 0 && *split <= most_splits) return *split;
+  throw InvalidInput(function + ": split = " + std::to_string(*split) + ", must lie in [0, " +
                      std::to_string(most_splits) + "]");
 }
 

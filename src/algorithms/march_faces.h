@@ -2,6 +2,8 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -48,10 +50,18 @@ constexpr int thirdSlot(int a, int b) {
 MarchFaces marchFaces(const std::vector<DistinctFace>& faces, int vertices, int exponent, int split,
                       const Workers& workers);
 /// Those of a cover.
-MarchFaces marchFaces(const IntrinsicTriangulation& cover, int split, const Workers& workers);
+/// @param number of each vertex in the result, a permutation; empty: as in the cover
+MarchFaces marchFaces(const IntrinsicTriangulation& cover, int split, const Workers& workers,
+                      const std::vector<int>& number = {});
 
+/// Numbers the vertices of a cover in the order in which its faces name them. Clouds have theirs along a curve, so
+/// neighbours get numbers, and places in memory, near each other.
+std::vector<int> numbersByFaces(const IntrinsicTriangulation& cover);
+
+/// How often to cut the faces, see DistanceOptions::split.
 /// @param function how messages call the function that was asked
+/// @param points of the whole surface
 /// @throws InvalidInput unless split lies in [0, 2]
-void checkSplit(const std::string& function, int split);
+int checkedSplit(const std::string& function, std::optional<int> split, std::int64_t points);
 
 }  // namespace tufted

@@ -26,10 +26,13 @@ class MarchingDistance {
   void startAt(const SurfacePoint& source, int number, const std::vector<int>& component,
                std::vector<MarchStart>& starts) const;
   void startInFace(const SurfacePoint& source, int number, std::vector<MarchStart>& starts) const;
+  struct CoverFace;
+  CoverFace coverFace(int face) const;
 
+  std::vector<int> number_;  ///< of each point in `faces_`
   MarchFaces faces_;
   int vertices_;
-  bool split_;
+  int split_;
   double maximum_;
   int threads_;
   SolverReport report_;

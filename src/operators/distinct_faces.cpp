@@ -10,10 +10,17 @@ namespace {
 
 constexpr std::int64_t block_size = 8192;
 
+std::array<int, 3> cornersOf(const IntrinsicTriangulation& cover, std::int64_t face, const std::vector<int>& number) {
+  const auto& [a, b, c] = cover.faces[face];
+  return number.empty() ? cover.faces[face] : std::array{number[a], number[b], number[c]};
+}
+
 /// The numbers of the faces, grouped by their smallest corner.
-std::vector<int> facesByCorner(const IntrinsicTriangulation& cover, std::vector<int>& offset) {
+std::vector<int> facesByCorner(const IntrinsicTriangulation& cover, const std::vector<int>& number,
+                               std::vector<int>& offset) {
   const auto owner = [&](std::int64_t face) {
-    return *std::min_element(cover.faces[face].begin(), cover.faces[face].end());
+    const std::array<int, 3> corners = cornersOf(cover, face, number);
+    return *std::min_element(corners.begin(), corners.end());
   };
   offset.assign(static_cast<std::size_t>(cover.vertices) + 1, 0);
   for (std::int64_t f = 0; f < cover.size(); ++f) ++offset[owner(f) + 1];
@@ -32,9 +39,9 @@ DistinctFace distinctFace(const std::array<int, 3>& corners, const std::array<do
   return {{parts[0].first, parts[1].first, parts[2].first}, {parts[0].second, parts[1].second, parts[2].second}};
 }
 
-DistinctFace distinctFace(const IntrinsicTriangulation& cover, int face) {
+DistinctFace distinctFace(const IntrinsicTriangulation& cover, int face, const std::vector<int>& number) {
   const double* const length = cover.length.data() + 3 * std::int64_t{face};
-  return distinctFace(cover.faces[face], {length[1], length[2], length[0]});
+  return distinctFace(cornersOf(cover, face, number), {length[1], length[2], length[0]});
 }
 
 void mergeCopies(std::vector<DistinctFace>& faces) {
@@ -49,15 +56,16 @@ void mergeCopies(std::vector<DistinctFace>& faces) {
   faces.resize(kept);
 }
 
-std::vector<DistinctFace> distinctFaces(const IntrinsicTriangulation& cover, const Workers& workers) {
+std::vector<DistinctFace> distinctFaces(const IntrinsicTriangulation& cover, const Workers& workers,
+                                        const std::vector<int>& number) {
   std::vector<int> offset;
-  const std::vector<int> list = facesByCorner(cover, offset);
+  const std::vector<int> list = facesByCorner(cover, number, offset);
   std::vector<std::vector<DistinctFace>> parts((cover.vertices + block_size - 1) / block_size);
   workers.forBlocks("faces", cover.vertices, block_size, [&](std::int64_t begin, std::int64_t end, int) {
     std::vector<DistinctFace> around;
     for (auto v = begin; v < end; ++v) {
       around.clear();
-      for (int i = offset[v]; i < offset[v + 1]; ++i) around.push_back(distinctFace(cover, list[i]));
+      for (int i = offset[v]; i < offset[v + 1]; ++i) around.push_back(distinctFace(cover, list[i], number));
       mergeCopies(around);
       parts[begin / block_size].insert(parts[begin / block_size].end(), around.begin(), around.end());
     }

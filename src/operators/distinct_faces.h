@@ -25,13 +25,16 @@ struct DistinctFace {
 /// @param corners,opposite in any order, the same in both
 DistinctFace distinctFace(const std::array<int, 3>& corners, const std::array<double, 3>& opposite);
 /// Face number `face` of a cover, as one copy.
-DistinctFace distinctFace(const IntrinsicTriangulation& cover, int face);
+/// @param number that corners have in the result; empty: as in the cover
+DistinctFace distinctFace(const IntrinsicTriangulation& cover, int face, const std::vector<int>& number = {});
 
 /// Sorts faces and merges equal ones.
 void mergeCopies(std::vector<DistinctFace>& faces);
 
 /// The distinct faces of a cover (front and back, and the copies that clouds find of each triangle, are one), sorted.
-std::vector<DistinctFace> distinctFaces(const IntrinsicTriangulation& cover, const Workers& workers);
+/// @param number of each vertex in the result, a permutation; empty: as in the cover
+std::vector<DistinctFace> distinctFaces(const IntrinsicTriangulation& cover, const Workers& workers,
+                                        const std::vector<int>& number = {});
 
 /// A power of two near the mean of these lengths, as its exponent; 0 if none is positive or one is not finite.
 int unitOf(const std::vector<double>& lengths);

@@ -1,6 +1,7 @@
 // Geodesic distances and paths.
 #include "tufted/distance.h"
 
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -15,7 +16,7 @@ namespace py = pybind11;
 namespace tufted::python {
 namespace {
 
-DistanceSolver solverOf(const Laplacian& laplacian, const std::string& method, int split, double maximum,
+DistanceSolver solverOf(const Laplacian& laplacian, const std::string& method, std::optional<int> split, double maximum,
                         double time_step, const std::string& unit, bool open_boundary, const Solving& solving,
                         const py::object& progress) {
   DistanceOptions options = {
@@ -58,6 +59,13 @@ py::tuple nearest(const DistanceSolver& solver, const std::vector<SurfacePoint>&
   return py::make_tuple(std::move(found.distance), owned(std::move(found.source)));
 }
 
+/// The points within a radius of some points, ascending, and their distances.
+py::tuple within(const Laplacian& laplacian, const Integers& sources, double radius, std::optional<int> split) {
+  const std::vector<int> places = indicesOf(sources);
+  NearbyPoints found = run(py::none(), [&](const Progress&) { return pointsWithin(laplacian, places, radius, split); });
+  return py::make_tuple(owned(std::move(found.points)), owned(std::move(found.distances)));
+}
+
 PathSolver pathSolverOf(const Laplacian& laplacian, const Solving& solving, const py::object& progress) {
   return run(progress,
              [&](const Progress& called) { return PathSolver(laplacian, solving.options(called).threads, called); });
@@ -74,6 +82,7 @@ py::tuple pathBetween(const PathSolver& solver, int from, int to, const py::obje
 void addDistance(py::module_& module) {
   py::class_<SurfacePoint>(module, "SurfacePoint");
   module.def("surface_points", &placesOf);
+  module.def("points_within", &within);
   py::class_<DistanceSolver>(module, "DistanceSolver")
       .def(py::init(&solverOf))
       .def("query", &query)

@@ -73,9 +73,24 @@ TEST(Marching, FromInsideAFaceIsExactInThePlane) {
   Eigen::RowVector3d place = Eigen::RowVector3d::Zero();
   for (int k = 0; k < 3; ++k) place += source.weights[k] * mesh.points.row(source.corners[k]);
   const VectorXd exact = (mesh.points.rowwise() - place).rowwise().norm();
-  const VectorXd distance =
-      DistanceSolver(meshLaplacian(mesh.points, mesh.triangles, {.mollify = 0})).queryAt({source});
-  EXPECT_LE((distance - exact).cwiseAbs().maxCoeff(), 1e-12);
+  const Laplacian laplacian = meshLaplacian(mesh.points, mesh.triangles, {.mollify = 0});
+  for (const int split : {1, 2}) {
+    const VectorXd distance = DistanceSolver(laplacian, {.split = split}).queryAt({source});
+    EXPECT_LE((distance - exact).cwiseAbs().maxCoeff(), 1e-12) << split;
+  }
+}
+
+TEST(Marching, CutsTheTrianglesOfSmallSurfacesTwice) {
+  for (const int n : {5000, 5001}) {
+    const Laplacian laplacian = pointCloudLaplacian(shapes::sphere(n).points);
+    const int split = n == 5000 ? 2 : 1;
+    DistanceReport report;
+    const VectorXd distance = DistanceSolver(laplacian).query({0}, &report);
+    EXPECT_EQ(report.split, split);
+    EXPECT_EQ(distance, DistanceSolver(laplacian, {.split = split}).query({0}));
+    const NearbyPoints near = pointsWithin(laplacian, {0}, 0.5), asked = pointsWithin(laplacian, {0}, 0.5, split);
+    EXPECT_EQ(near.distances, asked.distances);
+  }
 }
 
 TEST(Marching, MeetsExactPathsTwiceAsWellAsHeat) {
@@ -235,14 +250,31 @@ TEST(PointsWithin, AreThoseOfASolverOnMeshes) {
   }
 }
 
+TEST(PointsWithin, StayOnTheComponentsOfTheSources) {
+  const Points points = shapes::twoSpheres(0.1);
+  Laplacian laplacian = pointCloudLaplacian(points);
+  ASSERT_EQ(componentSizes(laplacian.component).size(), 2u);
+  const auto stays = [&](const NearbyPoints& near) {
+    return std::all_of(near.points.begin(), near.points.end(),
+                       [&](int point) { return laplacian.component[point] == laplacian.component[0]; });
+  };
+  EXPECT_TRUE(stays(pointsWithin(laplacian, {0}, 100)));
+  expectPart(laplacian, {0}, 100, 1);
+  // The same faces, and labels that part one of the spheres by themselves.
+  const NearbyPoints all = pointsWithin(laplacian, {0}, 100);
+  for (int i = 1; i < std::ssize(laplacian.component); i += 2) laplacian.component[i] = 7;
+  EXPECT_LT(pointsWithin(laplacian, {0}, 100).points.size(), all.points.size());
+  EXPECT_TRUE(stays(pointsWithin(laplacian, {0}, 100)));
+}
+
 TEST(PointsWithin, DoNotBuildTheCoverOfAClearCloud) {
   const Laplacian laplacian = pointCloudLaplacian(shapes::sphere(20000, shapes::Sampling::uniform, 101).points);
   struct Refusing : CoverSource {
     explicit Refusing(std::shared_ptr<const CoverSource> source) : source_(std::move(source)) {}
     const IntrinsicTriangulation& cover() const override { throw std::logic_error("the cover is asked for"); }
-    bool appendFacesNear(const Eigen::Vector3d& center, double radius, std::vector<std::array<int, 3>>& faces,
+    bool appendFacesNear(const std::vector<Ball>& balls, std::vector<std::array<int, 3>>& faces,
                          std::vector<double>& length) const override {
-      return source_->appendFacesNear(center, radius, faces, length);
+      return source_->appendFacesNear(balls, faces, length);
     }
     std::shared_ptr<const CoverSource> source_;
   };
@@ -258,6 +290,20 @@ TEST(PointsWithin, NameWhatACallerGotWrong) {
   EXPECT_EQ(refusal([&] { pointsWithin(laplacian, {500}, 1); }), "pointsWithin: source 500, must lie in [0, 500)");
   EXPECT_EQ(refusal([&] { pointsWithin(laplacian, {0}, 0); }), "pointsWithin: radius = 0, must be finite and above 0");
   EXPECT_EQ(refusal([&] { pointsWithin(laplacian, {0}, 1, 3); }), "pointsWithin: split = 3, must lie in [0, 2]");
+}
+
+TEST(DistanceReport, AddsAnotherQuery) {
+  DistanceReport sum{.split = 1, .visits = 3, .rounds = 2, .residual = 1e-14, .seconds = 1};
+  sum.add({.split = 2, .visits = 4, .rounds = 1, .iterations = 9, .residual = 1e-15, .backward_error = 1e-16, .seconds = 2});
+  EXPECT_EQ(sum.split, 2);
+  EXPECT_EQ(sum.visits, 7);
+  EXPECT_EQ(sum.rounds, 3);
+  EXPECT_EQ(sum.iterations, 9);
+  EXPECT_EQ(sum.residual, 1e-14);
+  EXPECT_EQ(sum.backward_error, 1e-16);
+  EXPECT_EQ(sum.seconds, 3);
+  sum.add({.residual = std::nan("")});
+  EXPECT_TRUE(std::isnan(sum.residual));
 }
 
 TEST(Marching, SurvivesScalesNeedlesAndCopies) {

@@ -1,6 +1,7 @@
 // The subcommands distance, interpolate and green.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
@@ -65,12 +66,24 @@ TEST_F(ApplicationCommands, DistanceStopsAtARadiusLabelsAndFillsMatrices) {
   EXPECT_EQ(label[3], 0);
   EXPECT_EQ(label[7], 1);
   EXPECT_LT(report("part")["report"]["visits"], report("whole")["report"]["visits"]);
+  run({"distance", cloud, "--source", "3,7", "--within", "0.5", "--out", in("near")});
+  EXPECT_EQ(values("near/distance.npy"), part);
+  EXPECT_FALSE(report("near")["report"].contains("solver"));  // the whole surface is not prepared
   expectRefusal({"distance", cloud, "--source", "0", "--within", "0"}, "--within");
   expectRefusal({"distance", cloud, "--source", "0", "--split", "3"}, "--split");
   expectRefusal({"distance", cloud, "--source", "0", "--time-step", "1"}, "--time-step applies to --method heat");
   expectRefusal({"distance", cloud, "--source", "0", "--split", "1", "--method", "heat"},
                 "--split applies to --method marching");
   expectRefusal({"distance", cloud, "--source", "0", "--labels", "--matrix"}, "--matrix");
+}
+
+TEST_F(ApplicationCommands, DistanceReportsTheGreatestResidualOfAMatrix) {
+  const std::string cloud = dir_.write("sphere.xyz", sphere(500));
+  const auto residual = [&](const std::string& sources) {
+    run({"distance", cloud, "--source", sources, "--matrix", "--method", "heat", "--out", in(sources)});
+    return report(sources)["report"]["residual"].get<double>();
+  };
+  EXPECT_EQ(residual("3,7,99"), std::max({residual("3"), residual("7"), residual("99")}));
 }
 
 TEST_F(ApplicationCommands, PlacesComeFromFiles) {

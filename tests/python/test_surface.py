@@ -77,6 +77,14 @@ def test_the_nearest_source_is_the_one_that_the_distance_is_from(cloud):
     np.testing.assert_array_equal(near, np.where(each[0] <= 0.5, each[0], np.inf))
 
 
+def test_points_within_a_radius_are_those_of_the_distance(cloud):
+    points, distances = cloud.points_within([0, 150], 0.5)
+    whole = cloud.distance([0, 150])
+    np.testing.assert_array_equal(points, np.flatnonzero(whole <= 0.5))
+    np.testing.assert_array_equal(distances, whole[points])
+    assert points.dtype == np.int32
+
+
 def test_a_source_inside_a_triangle_lies_between_its_corners(mesh):
     corners = mesh.faces[7]
     distance = mesh.distance(faces=7, barycentric=[1, 1, 1])

@@ -76,7 +76,8 @@ void addReport(const tufted::SpectrumReport& report, Results& results) {
 
 void addReport(const tufted::DistanceReport& report, const tufted::SolverReport& solver, Results& results) {
   if (solver.method == "marching") {
-    results.report["report"] = {{"visits", report.visits},
+    results.report["report"] = {{"split", report.split},
+                                {"visits", report.visits},
                                 {"lowered", report.lowered},
                                 {"seconds", report.seconds},
                                 {"solver", toJson(solver)}};

@@ -201,14 +201,14 @@ class Surface:
 
     # Distances and what is carried along the surface
 
-    def distance(self, sources=(), *, faces=None, barycentric=None, method="marching", split=1, maximum=None,
+    def distance(self, sources=(), *, faces=None, barycentric=None, method="marching", split=None, maximum=None,
                  time_step=None, unit=None, open_boundary=None, progress=None):
         """Geodesic distance from the nearest of some points.
 
         sources: an index or several.
         faces, barycentric: S faces of a mesh and S x 3 coordinates by corner: points inside triangles, as sources too.
         method: "marching" through the triangles, the more accurate one, or "heat", smooth where fronts meet.
-        split: of marching, how often each triangle is cut into four, 0 to 2.
+        split: of marching, how often each triangle is cut into four, 0 to 2; None: twice up to 5,000 points, else once.
         maximum: greater distances are infinite; None: no limit.
         time_step: of heat, in `unit`; larger ones smooth; None: 0.5. unit: of heat, "mean" squared edge (None) or
         "adapted" to uneven density. open_boundary: of heat, whether it passes the boundary as if the surface went on;
@@ -219,7 +219,7 @@ class Surface:
         solver = self._distance_solver(method, split, maximum, time_step, unit, open_boundary, progress)
         return solver.query(places, check.callback("distance", progress))
 
-    def nearest_source(self, sources=(), *, faces=None, barycentric=None, method="marching", split=1, maximum=None,
+    def nearest_source(self, sources=(), *, faces=None, barycentric=None, method="marching", split=None, maximum=None,
                        time_step=None, unit=None, open_boundary=None, progress=None):
         """The nearest of some points along the surface: their geodesic Voronoi cells.
 
@@ -231,6 +231,19 @@ class Surface:
         places = self._places("nearest_source", sources, faces, barycentric)
         solver = self._distance_solver(method, split, maximum, time_step, unit, open_boundary, progress)
         return solver.nearest(places, check.callback("nearest_source", progress))
+
+    def points_within(self, sources, radius, *, split=None):
+        """The points whose distance along the surface from the nearest of some points is at most a radius.
+
+        sources: an index or several. radius: length.
+        split: as in `distance`, whose values by marching these are.
+        Returns (points, distances): K indices, ascending, and K values, length. On a cloud nothing but the surface
+        around the sources is looked at.
+        """
+        self._need_cover("points_within")
+        where = check.indices("points_within", "sources", sources, len(self))
+        return _tufted.points_within(self._laplacian, where, check.number("points_within", "radius", radius),
+                                     None if split is None else check.whole("points_within", "split", split, 0))
 
     def path(self, start, end, *, progress=None):
         """The shortest path between two points, straight across the triangles.
@@ -557,7 +570,7 @@ class Surface:
             for name, value in (("time_step", time_step), ("unit", unit), ("open_boundary", open_boundary)):
                 if value is not None:
                     raise InvalidInput(f'distance: {name} = {value!r}, must be None unless method is "heat"')
-        settings = (method, check.whole("distance", "split", split, 0),
+        settings = (method, None if split is None else check.whole("distance", "split", split, 0),
                     np.inf if maximum is None else check.number("distance", "maximum", maximum),
                     0.5 if time_step is None else check.number("distance", "time_step", time_step),
                     "mean" if unit is None else unit, True if open_boundary is None else bool(open_boundary))
