@@ -25,11 +25,25 @@ draw() {
 }
 
 building=$samples/points_3/building.ply
-on_bunny=("$samples/meshes/bunny00.off" --as cloud --up y --camera 20,12 --size 560x500)
+bunny=$samples/meshes/bunny00.off
+view=(--up y --camera 20,12 --size 560x500)
+on_bunny=("$bunny" --as cloud "${view[@]}")
 table=$clouds/mosd_learn0.pcd
 draw distance distance "$building" --source 3446 --camera -128,24 --size 760x480
 draw eigenvector spectrum "${on_bunny[@]}" --count 8 --column 5
 draw parts segment "${on_bunny[@]}" --count 12
 draw logmap logmap "$clouds/cturtle.pcd" --near 0,0,2 --size 760x500
 draw boundary_kinds laplacian "$table" --color boundary --size 640x420
+# The mesh with normal noise, a third of its spacing, before and after.
+awk 'function normal() { return sqrt(-2 * log(1 - rand())) * cos(6.283185307 * rand()) }
+     BEGIN { srand(101); sigma = 0.002 }
+     NR == 2 { points = $1 }
+     NR > 2 && NF >= 3 && moved < points {
+       ++moved
+       printf "%.6f %.6f %.6f\n", $1 + sigma * normal(), $2 + sigma * normal(), $3 + sigma * normal()
+       next
+     }
+     { print }' "$bunny" >"$work/noisy.off"
+"$tufted" view "$work/noisy.off" --png "$figures/noisy.png" "${view[@]}" --color none --quiet
+draw filtered filter "$work/noisy.off" --positions --count 1000 "${view[@]}" --color none
 ls -l "$figures"/*.png
