@@ -253,7 +253,7 @@ TEST_F(Validate, NoWorkerOutlivesTheCommand) {
   const std::vector<pid_t> workers = awaitWorkers(large, true);
   ASSERT_EQ(workers.size(), 1u);
   awaitTicks(workers[0], 100);  // sanitizers need 20 to load the program, which has asked for nothing by then
-  kill(workers[0], SIGSTOP);  // it would not end by itself any more
+  kill(workers[0], SIGSTOP);    // it would not end by itself any more
   kill(tufted.pid(), SIGKILL);
   tufted.finish();
   awaitWorkers(large, false);
