@@ -29,8 +29,8 @@ struct Frames {
 
 /// A closed ball.
 struct Ball {
-  Eigen::Vector3d center;
-  double radius;
+  Eigen::Vector3d center;  ///< in the caller's unit
+  double radius;           ///< in the caller's unit, >= 0
 };
 
 /// Builds a cover when it is asked for.
