@@ -294,7 +294,13 @@ TEST(PointsWithin, NameWhatACallerGotWrong) {
 
 TEST(DistanceReport, AddsAnotherQuery) {
   DistanceReport sum{.split = 1, .visits = 3, .rounds = 2, .residual = 1e-14, .seconds = 1};
-  sum.add({.split = 2, .visits = 4, .rounds = 1, .iterations = 9, .residual = 1e-15, .backward_error = 1e-16, .seconds = 2});
+  sum.add({.split = 2,
+           .visits = 4,
+           .rounds = 1,
+           .iterations = 9,
+           .residual = 1e-15,
+           .backward_error = 1e-16,
+           .seconds = 2});
   EXPECT_EQ(sum.split, 2);
   EXPECT_EQ(sum.visits, 7);
   EXPECT_EQ(sum.rounds, 3);
