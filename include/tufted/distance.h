@@ -85,7 +85,8 @@ struct DistanceReport {
   double seconds = 0;         ///< wall-clock
   std::optional<WeakJoint> weak_joint = {};  ///< where the system is nearly disconnected, see SolveReport
 
-  /// Takes in what another query did: sums of visits, rounds and seconds, else the greatest of both.
+  /// Takes in what another query did: sums of visits, lowered, rounds and seconds, the greater of the other numbers,
+  /// and its weak joint if it has one.
   void add(const DistanceReport& other);
 };
 
@@ -102,17 +103,19 @@ struct NearbyPoints {
 };
 
 /// All points whose geodesic distance from the nearest of some points is at most a radius, with the distances that
-/// DistanceSolver marches to. Only the surface around the sources is looked at, and no solver is made: on a cloud,
-/// whose cover is not built for it, a pass over the positions and then time in proportion to the points that are found;
-/// on a mesh a pass over its faces. Other components than those of the sources are left out, as DistanceSolver does,
-/// but by the labels of the Laplacian where these are stored.
+/// DistanceSolver marches to. Only the surface around the sources is looked at, and no solver is made. On a cloud,
+/// whose cover is not built for it, that takes time in proportion to the points that are found; the first call bounds
+/// runs of points by boxes. Where there are coincident points, all are passed over, and on a mesh all faces. Other
+/// components than those of the sources are left out: those of Laplacian::component or, if it is empty, of
+/// componentLabels(), which also join by weights so small that DistanceSolver takes them for none.
 /// @param sources indices of points; those that are isolated or not finite are ignored
 /// @param radius > 0, finite, in the points' unit
 /// @param split how often each triangle is cut into four, 0 to 2, see DistanceOptions::split
 /// @throws InvalidInput for no source, an index out of range, no source on any component, another radius or split, or
-/// a Laplacian without cover or positions
+/// a Laplacian without cover or positions, or with other than N components
+/// @throws Cancelled when `progress` returns false
 NearbyPoints pointsWithin(const Laplacian& laplacian, const std::vector<int>& sources, double radius,
-                          std::optional<int> split = {});
+                          std::optional<int> split = {}, const Progress& progress = {});
 
 /// Geodesic distance on the distinct faces of the tufted cover. Prepared once, queried often; queries may run side by
 /// side.
@@ -120,7 +123,8 @@ NearbyPoints pointsWithin(const Laplacian& laplacian, const std::vector<int>& so
 /// Marching (Kimmel, Sethian: "Computing geodesic paths on manifolds", 1998): the nearest point that is not done is
 /// done, and gives its neighbours their distance along an edge or, if that is less, through a triangle, from the source
 /// unfolded into its plane by the distances of two corners. In the end no distance exceeds that of a neighbour by more
-/// than the length of their edge. Each face is cut into four first, once or twice (see `DistanceOptions::split`).
+/// than the length of their edge. Each face is cut into four first, by default once or twice (see
+/// `DistanceOptions::split`).
 ///
 /// Heat (Crane, Weischedel, Wardetzky: "The heat method for distance computation", 2017): u is the heat that spreads
 /// from the sources, (M + t L) u = delta; X = -grad u / |grad u| its direction; and the distance the function whose

@@ -33,7 +33,6 @@ void checkArguments(const Laplacian& laplacian, const DistanceOptions& options) 
     throw InvalidInput(name + "time_step = " + numberText(options.time_step) + ", must be finite and above 0");
   if (!(options.maximum > 0))
     throw InvalidInput(name + "maximum = " + numberText(options.maximum) + ", must be above 0");
-  checkedSplit(constructor, options.split, std::ssize(laplacian.status));
   checkCover(constructor, laplacian);
 }
 
@@ -89,13 +88,14 @@ DistanceSolver::~DistanceSolver() = default;
 
 DistanceSolver::DistanceSolver(const Laplacian& laplacian, const DistanceOptions& options) {
   checkArguments(laplacian, options);
+  const int split = checkedSplit(constructor, options.split, std::ssize(laplacian.status));
   const Stopwatch watch;
   auto state = std::make_unique<State>();
   state->components = findComponents(laplacian);
   state->representative = laplacian.representative;
   state->maximum = options.maximum;
   if (options.method == DistanceMethod::marching)
-    state->report = state->marching.emplace(laplacian, options).report();
+    state->report = state->marching.emplace(laplacian, split, options).report();
   else
     state->report = state->heat.emplace(laplacian, state->components, options).report();
   state->report.seconds = watch.seconds();

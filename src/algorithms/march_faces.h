@@ -58,10 +58,10 @@ MarchFaces marchFaces(const IntrinsicTriangulation& cover, int split, const Work
 /// neighbours get numbers, and places in memory, near each other.
 std::vector<int> numbersByFaces(const IntrinsicTriangulation& cover);
 
-/// How often to cut the faces, see DistanceOptions::split.
+/// How often to cut the faces: as the caller says or, where he does not, as DistanceOptions::split.
 /// @param function how messages call the function that was asked
 /// @param points of the whole surface
-/// @throws InvalidInput unless split lies in [0, 2]
+/// @throws InvalidInput for a split outside [0, 2]
 int checkedSplit(const std::string& function, std::optional<int> split, std::int64_t points);
 
 }  // namespace tufted

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <span>
 
 #include "algorithms/march.h"
 #include "base/parallel.h"
@@ -33,15 +34,15 @@ bool hasCorner(const MarchFace& face, int vertex) {
 
 /// A face of the cover that is cut once or twice.
 struct MarchingDistance::CoverFace {
-  MarchFace face;                       ///< without its edges
-  std::array<int, 3> middle;            ///< the vertex in the middle of each side
-  std::vector<const MarchFace*> parts;  ///< what is stored of it; empty if that is the face itself
+  MarchFace face;                    ///< without its edges
+  std::array<int, 3> middle;         ///< the vertex in the middle of each side
+  std::span<const MarchFace> parts;  ///< what is stored of it
 };
 
-MarchingDistance::MarchingDistance(const Laplacian& laplacian, const DistanceOptions& options)
+MarchingDistance::MarchingDistance(const Laplacian& laplacian, int split, const DistanceOptions& options)
     : number_(numbersByFaces(laplacian.cover())),
       vertices_(laplacian.cover().vertices),
-      split_(checkedSplit("DistanceSolver", options.split, laplacian.cover().vertices)),
+      split_(split),
       maximum_(options.maximum),
       threads_(options.solver.threads) {
   const Workers workers(threads_, options.solver.progress);
@@ -54,14 +55,14 @@ MarchingDistance::MarchingDistance(const Laplacian& laplacian, const DistanceOpt
 /// @param face a stored one
 MarchingDistance::CoverFace MarchingDistance::coverFace(int face) const {
   const MarchFace& stored = faces_.faces[face];
-  CoverFace result = {stored, {}, {}};
+  CoverFace result = {stored, {}, {&stored, 1}};
   if (split_ == 1) {
     for (int k = 0; k < 3; ++k) result.middle[k] = vertices_ + stored.edges[k];
     return result;
   }
   // Four parts in a row: one at each corner, and one between the middles of the sides.
   const MarchFace* const part = &faces_.faces[face / 4 * 4];
-  for (int p = 0; p < 4; ++p) result.parts.push_back(part + p);
+  result.parts = {part, 4};
   result.face.double_area = 4 * part[3].double_area;
   for (int k = 0; k < 3; ++k) {
     const auto& corners = part[k].corners;
@@ -82,6 +83,8 @@ void MarchingDistance::startInFace(const SurfacePoint& source, int number, std::
   for (int s = faces_.corner_offset[first]; s < faces_.corner_offset[first + 1]; ++s) {
     const CoverFace whole = coverFace(faces_.corner_slots[s] / 3);
     const MarchFace& face = whole.face;
+    if (face.corners[0] == face.corners[1] || face.corners[1] == face.corners[2] || face.corners[2] == face.corners[0])
+      continue;  // after flips; the source lies in another face of its corners
     const Plane corner = layOut(face);
     Eigen::Vector2d place = Eigen::Vector2d::Zero();
     std::array<int, 3> number_of{};  // corner of the source, by corner of the face
@@ -109,10 +112,10 @@ void MarchingDistance::startInFace(const SurfacePoint& source, int number, std::
       return middle(
           corner, static_cast<int>(std::find(whole.middle.begin(), whole.middle.end(), vertex) - whole.middle.begin()));
     };
-    for (const MarchFace* const part : whole.parts) {
-      const Plane plane = {at(part->corners[0]), at(part->corners[1]), at(part->corners[2])};
+    for (const MarchFace& part : whole.parts) {
+      const Plane plane = {at(part.corners[0]), at(part.corners[1]), at(part.corners[2])};
       for (int i = 0; i < 3; ++i)
-        starts.push_back({faces_.vertices + part->edges[i], (place - middle(plane, i)).norm(), number});
+        starts.push_back({faces_.vertices + part.edges[i], (place - middle(plane, i)).norm(), number});
     }
     return;
   }

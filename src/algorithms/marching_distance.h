@@ -12,7 +12,8 @@ namespace tufted {
 class MarchingDistance {
  public:
   /// @param laplacian with a cover that was checked
-  MarchingDistance(const Laplacian& laplacian, const DistanceOptions& options);
+  /// @param split see checkedSplit()
+  MarchingDistance(const Laplacian& laplacian, int split, const DistanceOptions& options);
 
   /// @param sources of which all corners are representatives
   /// @param component N; corners of sources that have none, -1, are ignored

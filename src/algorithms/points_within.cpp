@@ -46,6 +46,9 @@ std::vector<int> checkedSources(const Laplacian& laplacian, const std::vector<in
   if (laplacian.positions.rows() != n || std::ssize(laplacian.representative) != n)
     throw InvalidInput(name + "positions has " + std::to_string(laplacian.positions.rows()) + " rows, must have " +
                        std::to_string(n));
+  if (!laplacian.component.empty() && std::ssize(laplacian.component) != n)
+    throw InvalidInput(name + "component has " + std::to_string(laplacian.component.size()) + " values, must have " +
+                       std::to_string(n));
   if (!(radius > 0 && std::isfinite(radius)))
     throw InvalidInput(name + "radius = " + numberText(radius) + ", must be finite and above 0");
   if (sources.empty()) throw InvalidInput(name + "sources is empty, must name at least one");
@@ -59,23 +62,6 @@ std::vector<int> checkedSources(const Laplacian& laplacian, const std::vector<in
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;
 }
-
-/// The components that sources lie on. Stored labels are not made anew, which would take a pass over L.
-class SourceComponents {
- public:
-  SourceComponents(const Laplacian& laplacian, const std::vector<int>& sources)
-      : made_(laplacian.component.empty() ? componentLabels(laplacian) : std::vector<int>()),
-        label_(laplacian.component.empty() ? made_ : laplacian.component) {
-    for (const int source : sources) components_.push_back(label_[source]);
-    std::sort(components_.begin(), components_.end());
-  }
-  bool contain(int point) const { return std::binary_search(components_.begin(), components_.end(), label_[point]); }
-
- private:
-  const std::vector<int> made_;
-  const std::vector<int>& label_;
-  std::vector<int> components_;
-};
 
 struct Faces {
   std::vector<std::array<int, 3>> corners;
@@ -127,7 +113,7 @@ struct Patch {
   int exponent = 0;
 };
 
-Patch patchOf(Faces faces) {
+Patch patchOf(Faces faces, const Workers& workers) {
   Patch patch;
   patch.number_of.reserve(faces.corners.size() / 4);
   for (const auto& corners : faces.corners)
@@ -141,15 +127,13 @@ Patch patchOf(Faces faces) {
   local.length = std::move(faces.length);
   for (auto& face : local.faces)
     for (int& corner : face) corner = patch.number_of.find(corner)->second;
-  const Progress silent;
-  patch.faces = distinctFaces(local, Workers(1, silent));
+  patch.faces = distinctFaces(local, workers);
   patch.exponent = unitOf(local.length);
   return patch;
 }
 
-std::vector<double> distancesOn(const Patch& patch, const std::vector<int>& sources, double radius, int split) {
-  const Progress silent;
-  const Workers workers(1, silent);
+std::vector<double> distancesOn(const Patch& patch, const std::vector<int>& sources, double radius, int split,
+                                const Workers& workers) {
   const MarchFaces faces =
       marchFaces(patch.faces, static_cast<int>(patch.points.size()), patch.exponent, split, workers);
   std::vector<MarchStart> starts;
@@ -177,31 +161,46 @@ bool isComplete(const Laplacian& laplacian, const Patch& patch, const std::vecto
   return true;
 }
 
+/// Makes distances infinite on components without a source. Stored labels are not made anew, which would take a pass
+/// over L.
+void leaveOtherComponents(const Laplacian& laplacian, const std::vector<int>& sources, const Patch& patch,
+                          std::vector<double>& distance) {
+  const std::vector<int> made = laplacian.component.empty() ? componentLabels(laplacian) : std::vector<int>();
+  const std::vector<int>& label = laplacian.component.empty() ? made : laplacian.component;
+  std::vector<int> kept;
+  for (const int source : sources) kept.push_back(label[source]);
+  std::sort(kept.begin(), kept.end());
+  for (std::size_t i = 0; i < distance.size(); ++i)
+    if (!std::binary_search(kept.begin(), kept.end(), label[patch.points[i]])) distance[i] = HUGE_VAL;
+}
+
 }  // namespace
 
 NearbyPoints pointsWithin(const Laplacian& laplacian, const std::vector<int>& sources, double radius,
-                          std::optional<int> split) {
+                          std::optional<int> split, const Progress& progress) {
   const std::vector<int> known = checkedSources(laplacian, sources, radius);
   const int times = checkedSplit(function, split, std::ssize(laplacian.status));
+  const Workers workers(1, progress);
+  workers.report("march", 0);
   Patch patch;
   std::vector<double> distance;
   Faces faces;
   bool is_complete = facesFromStars(laplacian, known, radius, faces);
   if (is_complete) {
-    patch = patchOf(std::move(faces));
-    distance = distancesOn(patch, known, radius, times);
+    patch = patchOf(std::move(faces), workers);
+    distance = distancesOn(patch, known, radius, times, workers);
     is_complete =
         std::all_of(known.begin(), known.end(), [&](int source) { return patch.number_of.count(source) > 0; }) &&
         isComplete(laplacian, patch, distance, radius);
   }
   if (!is_complete) {
-    patch = patchOf(facesFromCover(laplacian, known, radius));
-    distance = distancesOn(patch, known, radius, times);
+    patch = patchOf(facesFromCover(laplacian, known, radius), workers);
+    distance = distancesOn(patch, known, radius, times, workers);
   }
+  leaveOtherComponents(laplacian, known, patch, distance);
   std::vector<std::pair<int, double>> found;
-  const SourceComponents components(laplacian, known);
   for (std::size_t i = 0; i < distance.size(); ++i)
-    if (distance[i] <= radius && components.contain(patch.points[i])) found.emplace_back(patch.points[i], distance[i]);
+    if (distance[i] <= radius) found.emplace_back(patch.points[i], distance[i]);
   if (laplacian.report.coincident > 0) {
     for (int i = 0; i < std::ssize(laplacian.representative); ++i) {
       const auto at = patch.number_of.find(laplacian.representative[i]);

@@ -25,7 +25,6 @@ StarUnion::StarUnion(Stars stars, Buffer<std::uint8_t> disagrees, RankedCloud cl
       size_(size),
       threads_(workers.count()),
       has_own_areas_(has_own_areas),
-      boxes_(length_.points, length_.displacement, workers),
       cycles_(stars_, disagrees_, cloud_.points, workers),
       cover_(stars_, length_, cycles_) {}
 
@@ -75,7 +74,11 @@ bool StarUnion::appendFacesNear(const std::vector<Ball>& balls, std::vector<std:
     for (double& coordinate : ball.center) coordinate = to_ranked.times(coordinate);
     ball.radius = to_ranked.times(ball.radius);
   }
-  boxes_.visitBalls(ranked, [&](int p) { cover_.appendFaces(p, faces, length); });
+  std::call_once(boxes_once_, [this] {
+    const Progress silent;
+    boxes_.emplace(length_.points, length_.displacement, Workers(threads_, silent));
+  });
+  boxes_->visitBalls(ranked, [&](int p) { cover_.appendFaces(p, faces, length); });
   for (std::size_t f = first_face; f < faces.size(); ++f)
     for (int& corner : faces[f]) corner = cloud_.input_index[corner];
   for (std::size_t i = first_length; i < length.size(); ++i) length[i] = unit.times(length[i]);

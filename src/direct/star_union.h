@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <mutex>
+#include <optional>
 
 #include "base/buffer.h"
 #include "base/parallel.h"
@@ -66,12 +67,13 @@ class StarUnion final : public CoverSource {
   const int size_, threads_;
   const bool has_own_areas_;
   EdgeLengths length_{cloud_.points, stars_.displacement};
-  const RunBoxes boxes_;
   double mollify_area_ = 0;
   RadialCycles cycles_;
   CoverNearFlips cover_;
   mutable std::once_flag once_;
   mutable IntrinsicTriangulation whole_;
+  mutable std::once_flag boxes_once_;
+  mutable std::optional<RunBoxes> boxes_;  ///< made when faces near something are first asked for
 };
 
 }  // namespace tufted

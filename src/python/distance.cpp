@@ -60,9 +60,11 @@ py::tuple nearest(const DistanceSolver& solver, const std::vector<SurfacePoint>&
 }
 
 /// The points within a radius of some points, ascending, and their distances.
-py::tuple within(const Laplacian& laplacian, const Integers& sources, double radius, std::optional<int> split) {
+py::tuple within(const Laplacian& laplacian, const Integers& sources, double radius, std::optional<int> split,
+                 const py::object& progress) {
   const std::vector<int> places = indicesOf(sources);
-  NearbyPoints found = run(py::none(), [&](const Progress&) { return pointsWithin(laplacian, places, radius, split); });
+  NearbyPoints found =
+      run(progress, [&](const Progress& called) { return pointsWithin(laplacian, places, radius, split, called); });
   return py::make_tuple(owned(std::move(found.points)), owned(std::move(found.distances)));
 }
 

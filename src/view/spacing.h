@@ -10,8 +10,8 @@ namespace tufted::view {
 struct Discs {
   /// N, in the coordinates of the points: discs so wide that, together with their neighbours', they leave no hole in
   /// the surface; at most a share of the scene, and not much more than others have, so that a point far from all others
-  /// is a dot. Points without a value in the first field, NaN, lie on no surface that could have holes: their discs are
-  /// no larger than the median.
+  /// is a dot. Discs of points without a value in the first field, NaN, are no larger than the median: mostly these lie
+  /// on no surface, and would hide what lies behind them.
   std::vector<float> radii;
   /// The finite points along a curve on which neighbours are near each other, so that memory is when they are drawn.
   std::vector<int> order;

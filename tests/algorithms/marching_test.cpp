@@ -80,6 +80,25 @@ TEST(Marching, FromInsideAFaceIsExactInThePlane) {
   }
 }
 
+TEST(Marching, FromACornerOfAFaceIsFromThatPoint) {
+  // Flips at an obtuse rim leave faces of the cover that have the same corner twice.
+  const oracles::PlanarMesh mesh = oracles::obtuseSquare(60, 8, 101);
+  const Laplacian laplacian = meshLaplacian(mesh.points, mesh.triangles);
+  for (const int split : {1, 2}) {
+    const DistanceSolver solver(laplacian, {.split = split});
+    for (int face = 0; face < mesh.triangles.rows(); ++face) {
+      for (int k = 0; k < 3; ++k) {
+        std::array<double, 3> corner = {0, 0, 0};
+        corner[k] = 1;
+        const VectorXd from_face = solver.queryAt({SurfacePoint::inFace(mesh.points, mesh.triangles, face, corner)});
+        const VectorXd from_point = solver.query({mesh.triangles(face, k)});
+        // Long triangles cost each a fiftieth of the side.
+        ASSERT_LE((from_face - from_point).cwiseAbs().maxCoeff(), 0.02) << split << " " << face << " " << k;
+      }
+    }
+  }
+}
+
 TEST(Marching, CutsTheTrianglesOfSmallSurfacesTwice) {
   for (const int n : {5000, 5001}) {
     const Laplacian laplacian = pointCloudLaplacian(shapes::sphere(n).points);
@@ -260,6 +279,14 @@ TEST(PointsWithin, StayOnTheComponentsOfTheSources) {
   };
   EXPECT_TRUE(stays(pointsWithin(laplacian, {0}, 100)));
   expectPart(laplacian, {0}, 100, 1);
+  // A copy goes with its point.
+  Points with_copies(points.rows() + 2, 3);
+  with_copies << points, points.row(1), points.row(1500);
+  Laplacian copied = pointCloudLaplacian(with_copies);
+  ASSERT_EQ(copied.report.coincident, 2);
+  for (int i = 0; i < 1000; ++i)
+    if (i % 2 == 1) copied.component[i] = 7;
+  EXPECT_EQ(std::ranges::count(pointsWithin(copied, {0}, 100).points, 2000), 0);
   // The same faces, and labels that part one of the spheres by themselves.
   const NearbyPoints all = pointsWithin(laplacian, {0}, 100);
   for (int i = 1; i < std::ssize(laplacian.component); i += 2) laplacian.component[i] = 7;
@@ -290,6 +317,10 @@ TEST(PointsWithin, NameWhatACallerGotWrong) {
   EXPECT_EQ(refusal([&] { pointsWithin(laplacian, {500}, 1); }), "pointsWithin: source 500, must lie in [0, 500)");
   EXPECT_EQ(refusal([&] { pointsWithin(laplacian, {0}, 0); }), "pointsWithin: radius = 0, must be finite and above 0");
   EXPECT_EQ(refusal([&] { pointsWithin(laplacian, {0}, 1, 3); }), "pointsWithin: split = 3, must lie in [0, 2]");
+  EXPECT_THROW(pointsWithin(laplacian, {0}, 1, {}, [](std::string_view, double) { return false; }), Cancelled);
+  Laplacian labelled = laplacian;
+  labelled.component.pop_back();
+  EXPECT_EQ(refusal([&] { pointsWithin(labelled, {0}, 1); }), "pointsWithin: component has 499 values, must have 500");
 }
 
 TEST(DistanceReport, AddsAnotherQuery) {

@@ -34,8 +34,9 @@ coordinates.
 
 --method marching goes from triangle to triangle with the source unfolded into each. It needs no factor and is the more
 accurate one; each --split of the triangles lowers the error on meshes to 0.6 of what it was, for three to four times
-the time. --within looks at nothing but the surface around the sources (up to 64). --method heat is smooth where fronts
-meet; --time-step, --time-unit, --solver and --memory-limit belong to it.
+the time. --within by marching, without --labels, --matrix and --face and from up to 64 sources, prepares nothing but
+the surface around them. --method heat is smooth where fronts meet; --time-step, --time-unit, --solver and
+--memory-limit belong to it.
 
 Writes into DIR, renamed one after the other when all are complete:
   distance.npy  N distances, float64; with --matrix N x K, a column for each source
@@ -138,7 +139,7 @@ Eigen::MatrixXd addNearby(const Settings& settings, const std::vector<tufted::Su
   for (const tufted::SurfacePoint& point : sources) points.push_back(point.corners[0]);
   const auto start = std::chrono::steady_clock::now();
   const tufted::NearbyPoints near =
-      tufted::pointsWithin(source.laplacian, points, settings.options.maximum, settings.options.split);
+      tufted::pointsWithin(source.laplacian, points, settings.options.maximum, settings.options.split, source.progress);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   Eigen::MatrixXd distance = Eigen::MatrixXd::Constant(source.points(), 1, std::numeric_limits<double>::infinity());
   for (std::size_t i = 0; i < near.points.size(); ++i) distance(near.points[i], 0) = near.distances[i];

@@ -72,10 +72,10 @@ void setCamera(const std::string& text, tufted::Camera& camera) {
 /// Whether a folder is there as soon as the results are.
 bool isMadeWith(const std::filesystem::path& out, const std::filesystem::path& folder) {
   if (out.empty()) return false;
-  const std::filesystem::path wanted = std::filesystem::absolute(folder / ".").lexically_normal();
-  std::filesystem::path made = std::filesystem::absolute(out / ".").lexically_normal();
-  while (made != wanted && made.has_relative_path()) made = (made.parent_path().parent_path() / "").lexically_normal();
-  return made == wanted;
+  const auto whole = [](const std::filesystem::path& path) {
+    return std::filesystem::absolute(path).lexically_normal();
+  };
+  return *whole(out).lexically_relative(whole(folder)).begin() != "..";
 }
 
 /// Refuses a file that cannot be written.

@@ -232,7 +232,7 @@ class Surface:
         solver = self._distance_solver(method, split, maximum, time_step, unit, open_boundary, progress)
         return solver.nearest(places, check.callback("nearest_source", progress))
 
-    def points_within(self, sources, radius, *, split=None):
+    def points_within(self, sources, radius, *, split=None, progress=None):
         """The points whose distance along the surface from the nearest of some points is at most a radius.
 
         sources: an index or several. radius: length.
@@ -243,7 +243,8 @@ class Surface:
         self._need_cover("points_within")
         where = check.indices("points_within", "sources", sources, len(self))
         return _tufted.points_within(self._laplacian, where, check.number("points_within", "radius", radius),
-                                     None if split is None else check.whole("points_within", "split", split, 0))
+                                     None if split is None else check.whole("points_within", "split", split, 0),
+                                     check.callback("points_within", progress))
 
     def path(self, start, end, *, progress=None):
         """The shortest path between two points, straight across the triangles.
