@@ -9,6 +9,7 @@
 
 #include "base/parallel.h"
 #include "operators/distinct_faces.h"
+#include "tufted/intrinsic_triangulation.h"
 
 // The triangles that distances march over.
 
@@ -31,10 +32,18 @@ struct MarchFaces {
   std::vector<MarchFace> faces;
   std::vector<int> corner_offset, corner_slots;  ///< vertices + 1; slots by the vertex at their corner
   std::vector<int> edge_offset, edge_slots;      ///< edges + 1; slots by the edge of their side
+  /// For sides from a vertex to itself, whose ends the vertices do not tell apart, which end the corner after the
+  /// side's own is: 0 or 1, or -1 where that is not known. Empty, or 3 for each face; see setLoopEnds().
+  std::vector<std::int8_t> loop_end;
 
   int vertexAt(int slot) const { return faces[slot / 3].corners[slot % 3]; }
   int edgeAt(int slot) const { return faces[slot / 3].edges[slot % 3]; }
   double lengthAt(int slot) const { return faces[slot / 3].opposite[slot % 3]; }
+  bool isLoop(int side) const { return vertexAt(nextSide(side)) == vertexAt(previousSide(side)); }
+  /// Which end of an edge from a vertex to itself a corner of its side is; 0 on other edges.
+  int endAt(int side, int corner) const {
+    return !isLoop(side) ? 0 : corner == nextSide(side) ? loop_end[side] : 1 - loop_end[side];
+  }
   std::size_t bytes() const;
 };
 
@@ -53,6 +62,11 @@ MarchFaces marchFaces(const std::vector<DistinctFace>& faces, int vertices, int 
 /// @param number of each vertex in the result, a permutation; empty: as in the cover
 MarchFaces marchFaces(const IntrinsicTriangulation& cover, int split, const Workers& workers,
                       const std::vector<int>& number = {});
+
+/// Tells the ends of sides from a vertex to itself by how the cover is glued. Flips leave them behind at rims, where
+/// their halves lie on the front and on the back, and around necks.
+/// @param faces those of the cover, with its numbers and not cut
+void setLoopEnds(const IntrinsicTriangulation& cover, MarchFaces& faces);
 
 /// Numbers the vertices of a cover in the order in which its faces name them. Clouds have theirs along a curve, so
 /// neighbours get numbers, and places in memory, near each other.

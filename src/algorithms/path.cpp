@@ -1,4 +1,4 @@
-// Shortest paths: an edge path down the distance, straightened.
+// Shortest paths: a path down the distance, straightened.
 #include "tufted/path.h"
 
 #include <algorithm>
@@ -10,9 +10,9 @@
 #include <utility>
 #include <vector>
 
+#include "algorithms/first_path.h"
 #include "algorithms/march.h"
 #include "algorithms/march_faces.h"
-#include "algorithms/march_heap.h"
 #include "algorithms/strip.h"
 #include "algorithms/turn.h"
 #include "operators/check_cover.h"
@@ -30,72 +30,6 @@ constexpr const char* query_name = "PathSolver::path";
 constexpr double least_gain = 1e-13;
 /// Shortenings between two calls of `progress`.
 constexpr int between_reports = 64;
-
-/// An edge as a strip: from the corner at one slot to the corner at the other.
-struct Step {
-  int to, start, end;
-  double length;
-};
-
-/// Calls visit(step) for the edges at a vertex, once for each triangle.
-template <class Visit>
-void forEachStep(const MarchFaces& faces, int vertex, const Visit& visit) {
-  for (int i = faces.corner_offset[vertex]; i < faces.corner_offset[vertex + 1]; ++i) {
-    const int slot = faces.corner_slots[i];
-    for (const int end : {nextSide(slot), previousSide(slot)})
-      if (faces.vertexAt(end) != vertex)
-        visit(Step{faces.vertexAt(end), slot, end, faces.lengthAt(thirdSlot(slot, end))});
-  }
-}
-
-using Steps = std::vector<Step>;
-
-/// The edge path from a vertex down the distances to where they are 0; empty where it meets a vertex without a nearer
-/// neighbour, as where points are closer than their distances tell.
-Steps downhill(const MarchFaces& faces, const std::vector<double>& distance, int from) {
-  Steps steps;
-  for (int at = from; distance[at] > 0;) {
-    Step best{-1, -1, -1, 0};
-    double least = infinity;
-    forEachStep(faces, at, [&](const Step& step) {
-      const double way = distance[step.to] + step.length;
-      if (distance[step.to] < distance[at] && way < least) {
-        least = way;
-        best = step;
-      }
-    });
-    if (best.to < 0) return {};
-    steps.push_back(best);
-    at = best.to;
-  }
-  return steps;
-}
-
-/// The shortest edge path (Dijkstra).
-Steps alongEdges(const MarchFaces& faces, int from, int to) {
-  std::vector<double> distance(static_cast<std::size_t>(faces.vertices), infinity);
-  std::vector<int> before(distance.size(), -1);
-  std::vector<Step> step_to(distance.size());
-  MarchHeap heap(distance.size());
-  distance[from] = 0;
-  heap.lower(from, 0);
-  while (!heap.empty() && heap.top().number != to) {
-    const int at = heap.top().number;
-    heap.pop();
-    forEachStep(faces, at, [&](const Step& step) {
-      const double way = distance[at] + step.length;
-      if (!(way < distance[step.to])) return;
-      distance[step.to] = way;
-      before[step.to] = at;
-      step_to[step.to] = step;
-      heap.lower(step.to, way);
-    });
-  }
-  Steps steps;
-  for (int at = to; before[at] >= 0; at = before[at]) steps.push_back(step_to[at]);
-  std::reverse(steps.begin(), steps.end());
-  return steps;
-}
 
 using Segments = std::list<Segment>;
 
@@ -139,7 +73,7 @@ struct PathSolver::State {
   int threads = 0;
 
   int checked(const char* name, int point) const;
-  Steps firstPath(int from, int to, const Workers& workers) const;
+  std::vector<Strip> firstPath(int from, int to, const Workers& workers) const;
   Points pointsOf(const Segments& path, int from) const;
   SurfacePath straightened(int from, int to, const Workers& workers) const;
 };
@@ -158,6 +92,7 @@ PathSolver::PathSolver(const Laplacian& laplacian, int threads, const Progress& 
   const Workers workers(threads, progress);
   auto state = std::make_unique<State>();
   state->faces = marchFaces(laplacian.cover(), 0, workers);
+  setLoopEnds(laplacian.cover(), state->faces);
   state->positions = laplacian.positions;
   state->representative = laplacian.representative;
   state->threads = threads;
@@ -172,15 +107,15 @@ int PathSolver::State::checked(const char* name, int point) const {
   return representative[point];
 }
 
-/// The edge path to straighten, from `from` on.
-Steps PathSolver::State::firstPath(int from, int to, const Workers& workers) const {
+/// The path to straighten, from `from` on.
+std::vector<Strip> PathSolver::State::firstPath(int from, int to, const Workers& workers) const {
   const std::vector<double> distance = marchUntil(from, faces, true, {{to, 0, 0}}, workers).distance;
   if (!(distance[from] < infinity)) {
     throw InvalidInput(std::string(query_name) + ": no path leads from " + std::to_string(from) + " to " +
                        std::to_string(to) + ", must lie on one component");
   }
-  Steps steps = downhill(faces, distance, from);
-  return steps.empty() ? alongEdges(faces, from, to) : steps;
+  std::vector<Strip> strips = stripsDownhill(faces, distance, from);
+  return strips.empty() ? stripsAlongEdges(faces, from, to) : strips;
 }
 
 Points PathSolver::State::pointsOf(const Segments& path, int from) const {
@@ -201,11 +136,13 @@ Points PathSolver::State::pointsOf(const Segments& path, int from) const {
   return points;
 }
 
-/// The shortest path of those that are near the edge path from `from` down the distance to `to`.
+/// The shortest path of those that are near the one from `from` down the distance to `to`.
 SurfacePath PathSolver::State::straightened(int from, int to, const Workers& workers) const {
   Segments path;
-  for (const Step& step : firstPath(from, to, workers))
-    path.push_back(straighten(faces, {step.start, step.end, {}}).front());
+  for (const Strip& strip : firstPath(from, to, workers)) {
+    std::vector<Segment> segments = straighten(faces, strip);
+    path.insert(path.end(), std::make_move_iterator(segments.begin()), std::make_move_iterator(segments.end()));
+  }
   SurfacePath result;
   result.shortenings = shorten(faces, path, workers);
   result.length = std::ldexp(lengthOf(path), faces.exponent);

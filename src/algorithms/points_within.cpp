@@ -80,6 +80,7 @@ double spacingAt(const Laplacian& laplacian, int point) {
 bool facesFromStars(const Laplacian& laplacian, const std::vector<int>& sources, double radius, Faces& faces) {
   if (laplacian.stored_cover || !laplacian.cover_source || laplacian.cover_areas.size() == 0) return false;
   std::vector<Ball> balls;
+  balls.reserve(sources.size());
   for (const int source : sources)
     balls.push_back({laplacian.positions.row(source), radius + margin_in_spacings * spacingAt(laplacian, source)});
   return laplacian.cover_source->appendFacesNear(balls, faces.corners, faces.length);
@@ -168,6 +169,7 @@ void leaveOtherComponents(const Laplacian& laplacian, const std::vector<int>& so
   const std::vector<int> made = laplacian.component.empty() ? componentLabels(laplacian) : std::vector<int>();
   const std::vector<int>& label = laplacian.component.empty() ? made : laplacian.component;
   std::vector<int> kept;
+  kept.reserve(sources.size());
   for (const int source : sources) kept.push_back(label[source]);
   std::sort(kept.begin(), kept.end());
   for (std::size_t i = 0; i < distance.size(); ++i)

@@ -196,9 +196,27 @@ Segment segmentThrough(const MarchFaces& faces, const Strip& whole, const Layout
 
 }  // namespace
 
+bool hasClearEdges(const MarchFaces& faces, int face) {
+  const auto& [a, b, c] = faces.faces[face].corners;  // ascending
+  if (a == c) return false;
+  for (int side = 3 * face; side < 3 * face + 3; ++side)
+    if (faces.isLoop(side) && faces.loop_end[side] < 0) return false;
+  return true;
+}
+
 double cornerAngle(const MarchFaces& faces, int slot) {
   const double a = faces.lengthAt(slot), b = faces.lengthAt(nextSide(slot)), c = faces.lengthAt(previousSide(slot));
   return std::atan2(faces.faces[slot / 3].double_area, (b * b + (c - a) * (c + a)) / 2);
+}
+
+void trim(Strip& strip) {
+  while (!strip.doors.empty() && strip.end != strip.doors.back().enter) {
+    strip.end = strip.doors.back().before(strip.end);
+    strip.doors.pop_back();
+  }
+  auto first = strip.doors.begin();
+  for (; first != strip.doors.end() && strip.start != first->leave; ++first) strip.start = first->after(strip.start);
+  strip.doors.erase(strip.doors.begin(), first);
 }
 
 std::vector<Segment> straighten(const MarchFaces& faces, const Strip& strip) {

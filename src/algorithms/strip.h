@@ -32,6 +32,9 @@ struct Strip {
   bool isEdge() const { return doors.empty(); }
 };
 
+/// Drops the triangles at both ends that the way only enters to come to a corner of the door.
+void trim(Strip& strip);
+
 /// A straight piece of a path: from the corner where a strip starts to the one where it ends.
 struct Segment {
   Strip strip;
@@ -42,6 +45,9 @@ struct Segment {
   /// one opposite the next corner of the face, and the one opposite the corner after that.
   std::array<double, 2> at_start, at_end;
 };
+
+/// Whether the ends of all edges of a face can be told apart.
+bool hasClearEdges(const MarchFaces& faces, int face);
 
 /// The angle at a corner.
 double cornerAngle(const MarchFaces& faces, int slot);

@@ -69,12 +69,23 @@ TEST(Path, IsStraightInThePlane) {
   }
 }
 
+TEST(Path, IsStraightAlongARimThatEdgesWereFlippedOver) {
+  const oracles::PlanarMesh mesh = oracles::obtuseSquare(120, 10, 101);
+  const PathSolver solver(meshLaplacian(mesh.points, mesh.triangles, {.mollify = 0}));
+  for (int from = 0; from < mesh.points.rows(); from += 5) {
+    for (int to = 0; to < mesh.points.rows(); ++to) {
+      const double straight = (mesh.points.row(to) - mesh.points.row(from)).norm();
+      EXPECT_NEAR(solver.path(from, to).length, straight, 1e-9) << "from " << from << " to " << to;
+    }
+  }
+}
+
 TEST(Path, IsAsLongAsExactOnesOnMeshes) {
   const shapes::Mesh meshes[] = {shapes::cubeMesh(8, shapes::Quality::good), shapes::icosphere(3)};
   for (const shapes::Mesh& mesh : meshes) {
     const Comparison made = compareOn(mesh, 4, 50, 101);
     EXPECT_GE(made.pairs, 180) << mesh.name;
-    EXPECT_LE(made.long_ones, made.pairs / 20) << mesh.name;
+    EXPECT_LE(made.long_ones, made.pairs / 100) << mesh.name;
     EXPECT_GE(made.least, -1e-12) << mesh.name;
   }
 }
@@ -103,10 +114,11 @@ TEST(Path, CrossesTheSpineOfABook) {
   for (int to = 0; to < exact.size(); ++to) {
     const double length = solver.path(from, to).length;
     EXPECT_GE(length, (1 - 1e-12) * exact[to]) << to;
+    EXPECT_LE(length, 1.02 * exact[to]) << to;
     EXPECT_LE(length, 1.02 * exact[to]) << to;  // next to rims, around which edges were flipped
     long_ones += length > (1 + 1e-9) * exact[to] ? 1 : 0;
   }
-  EXPECT_LE(long_ones, exact.size() / 20);
+  EXPECT_LE(long_ones, 3);
 }
 
 TEST(Path, IsAsLongBackwards) {

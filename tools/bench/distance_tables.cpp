@@ -1,6 +1,7 @@
 #include "bench/distance_tables.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -78,6 +79,20 @@ void forEachMesh(const Visit& visit) {
     if (const auto exact = oracles::exactDistances(geometry.points, geometry.triangles, 0, {1, 0, 0}))
       visit(file, geometry, *exact);
   }
+}
+
+/// The exact distance of the first corner of the first triangle from a vertex.
+double exactFrom(const Geometry& geometry, int vertex) {
+  for (int face = 0; face < geometry.triangles.rows(); ++face) {
+    for (int k = 0; k < 3; ++k) {
+      if (geometry.triangles(face, k) != vertex) continue;
+      std::array<double, 3> corner = {0, 0, 0};
+      corner[k] = 1;
+      return oracles::exactDistances(geometry.points, geometry.triangles, face, corner)
+          .value()[geometry.triangles(0, 0)];
+    }
+  }
+  return HUGE_VAL;
 }
 
 /// The shares of paths that are longer than exact ones by more than half a percent and than one percent.
@@ -178,6 +193,8 @@ void printMeshes() {
 }
 
 void printPaths() {
+  // CGAL's search rounds: from one end of a pair it may miss the shortest way that it finds from the other.
+  constexpr double rounding = 1e-9;
   std::printf(
       "| paths | pairs | longer by 0.5 %% | by 1 %% | least excess | greatest | ms for each |\n"
       "|---|---|---|---|---|---|---|\n");
@@ -190,12 +207,15 @@ void printPaths() {
   forEachMesh([&](const std::filesystem::path&, const Geometry& geometry, const VectorXd& exact) {
     const Laplacian laplacian = meshLaplacian(geometry.points, geometry.triangles);
     const PathSolver solver(laplacian, 1);
+    std::vector<std::pair<int, double>> lengths;
     const Stopwatch watch;
     for (int t = 0; t < targets; ++t) {
       const int to = drawn(exact.size());
-      if (exact[to] > 0) meshes.add(solver.path(geometry.triangles(0, 0), to).length, exact[to]);
+      if (exact[to] > 0) lengths.emplace_back(to, solver.path(geometry.triangles(0, 0), to).length);
     }
     milliseconds += watch.milliseconds();
+    for (const auto& [to, length] : lengths)
+      meshes.add(length, length < (1 - rounding) * exact[to] ? exactFrom(geometry, to) : exact[to]);
   });
   meshes.print("CGAL's meshes", milliseconds);
   for (const int n : {4000, 16000, 64000}) {
