@@ -87,15 +87,23 @@ class March {
   }
 
  private:
+  struct Corner {
+    int at;
+    MarchTriangle triangle;
+  };
+
   /// Freezes all vertices that are nearest. @returns whether there are some
   bool takeNearest() {
     nearest_.clear();
     if (heap_.empty()) return false;
     const double distance = heap_.top().key;
+    const bool is_late = distance < farthest_;
+    farthest_ = std::max(farthest_, distance);
     while (!heap_.empty() && heap_.top().key == distance) {
       const int a = heap_.top().number;
       heap_.pop();
       frozen_[a] = 1;
+      if (is_late) late_.push_back(a);
       if (isUseful(a)) nearest_.push_back(a);
       if (++result_.visits % between_reports == 0)
         workers_.report("march", static_cast<double>(result_.visits) / static_cast<double>(faces_.size()));
@@ -105,9 +113,11 @@ class March {
 
   /// Offers distances to the neighbours of the nearest vertices.
   void spread() {
-    for (const int a : nearest_) alongEdges(a);
+    fans_.clear();
+    for (const int a : nearest_) faces_.around(a, [&](const MarchTriangle& t) { fans_.push_back({a, t}); });
+    for (const auto& [a, triangle] : fans_) alongEdges(a, triangle);
     offers_.clear();
-    for (const int a : nearest_) throughFaces(a);
+    for (const auto& [a, triangle] : fans_) throughFace(a, triangle);
     for (const MarchStart& known : offers_) offer(known.vertex, known.distance, known.source);
   }
 
@@ -130,42 +140,38 @@ class March {
     }
   }
 
-  void alongEdges(int a) {
-    const double distance = result_.distance[a];
-    const int source = result_.source[a];
-    faces_.around(a, [&](const MarchTriangle& t) {
-      if (frozen_[t.b] == 0) offer(t.b, distance + t.ab, source);
-      if (frozen_[t.c] == 0) offer(t.c, distance + t.ac, source);
-    });
+  void alongEdges(int a, const MarchTriangle& t) {
+    if (frozen_[t.b] == 0) offer(t.b, result_.distance[a] + t.ab, result_.source[a]);
+    if (frozen_[t.c] == 0) offer(t.c, result_.distance[a] + t.ac, result_.source[a]);
   }
 
-  void throughFaces(int a) {
-    faces_.around(a, [&](const MarchTriangle& t) {
-      if (frozen_[t.c] == 0) throughEdge(a, t.b, t.c, t.ab, t.ac, t.bc, t.double_area);
-      if (frozen_[t.b] == 0) throughEdge(a, t.c, t.b, t.ac, t.ab, t.bc, t.double_area);
-    });
+  void throughFace(int a, const MarchTriangle& t) {
+    if (frozen_[t.c] == 0) throughEdge(a, t.b, t.c, t.ab, t.ac, t.bc, t.double_area);
+    if (frozen_[t.b] == 0) throughEdge(a, t.c, t.b, t.ac, t.ab, t.bc, t.double_area);
   }
 
   void throughEdge(int a, int b, int c, double ab, double ac, double bc, double double_area) {
     const double from_a = result_.distance[a], from_b = result_.distance[b];
     // Waves from two sources have no common source to unfold.
-    if (result_.source[a] != result_.source[b] || !(std::abs(from_a - from_b) < ab)) return;
+    if (!(std::abs(from_a - from_b) < ab) || result_.source[a] != result_.source[b]) return;
     const double distance = distanceThrough(ab, ac, bc, double_area, from_a, from_b);
     if (distance < result_.distance[c]) offers_.push_back({c, distance, result_.source[a]});
   }
 
-  /// Lowers distances along edges until none exceeds that of a neighbour by more than the length of their edge.
+  /// Lowers distances along edges until none exceeds that of a neighbour by more than the length of their edge. Only
+  /// what was frozen after a farther neighbour can lower it.
   void limitSlopes() {
+    const auto lower = [&](int a, int b, double ab) {
+      const double distance = result_.distance[a] + ab;
+      if (frozen_[b] != 0 && distance < result_.distance[b]) offer(b, distance, result_.source[a]);
+    };
     const auto relax = [&](int a) {
       faces_.around(a, [&](const MarchTriangle& t) {
-        if (result_.distance[a] + t.ab < result_.distance[t.b])
-          offer(t.b, result_.distance[a] + t.ab, result_.source[a]);
-        if (result_.distance[a] + t.ac < result_.distance[t.c])
-          offer(t.c, result_.distance[a] + t.ac, result_.source[a]);
+        lower(a, t.b, t.ab);
+        lower(a, t.c, t.ac);
       });
     };
-    for (std::size_t a = 0; a < faces_.size(); ++a)
-      if (result_.distance[a] < infinity) relax(static_cast<int>(a));
+    for (const int a : late_) relax(a);
     while (!heap_.empty()) {
       const int a = heap_.top().number;
       heap_.pop();
@@ -180,7 +186,10 @@ class March {
   MarchResult result_;
   std::vector<std::uint8_t> frozen_;
   MarchHeap heap_;
+  double farthest_ = 0;    ///< of all that are frozen
+  std::vector<int> late_;  ///< those that were frozen after farther ones
   std::vector<int> nearest_;
+  std::vector<Corner> fans_;  ///< the triangles around each of `nearest_`
   std::vector<MarchStart> offers_;
 };
 
