@@ -186,9 +186,10 @@ class StripMaker {
 std::vector<Strip> stripsDownhill(const MarchFaces& faces, const std::vector<double>& distance, int from) {
   StripMaker strips(faces);
   Step step{from, -1, -1, 0, distance[from]};
+  std::size_t left = 3 * faces.faces.size();  // who crosses more sides than there are goes in circles by rounding
   while (step.to >= faces.vertices || distance[step.to] > 0) {
     const Step next = step.to < faces.vertices ? stepFrom(faces, distance, step.to) : stepOn(faces, distance, step);
-    if (next.to < 0 || !(next.left < step.left)) return {};
+    if (next.to < 0 || !(next.left < step.left) || left-- == 0) return {};
     strips.add(next);
     step = next;
   }
