@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "algorithms/apex.h"
 #include "algorithms/march_heap.h"
 
 namespace tufted {
@@ -38,34 +39,32 @@ int cornerBeyond(const MarchFaces& faces, int corner, int leave, int enter) {
 struct Layout {
   Vector2d after, before, own;
 
-  Layout(const MarchFaces& faces, int slot) : after(0, 0), before(faces.lengthAt(slot), 0), own(0, 0) {
-    const double length = before.x(), to_after = faces.lengthAt(previousSide(slot)),
-                 to_before = faces.lengthAt(nextSide(slot));
-    if (length > 0)
-      own = {(length + (to_after - to_before) * ((to_after + to_before) / length)) / 2,
-             faces.faces[slot / 3].double_area / length};
-    else
-      own = {to_after, 0};
-  }
+  Layout(const MarchFaces& faces, int slot)
+      : after(0, 0),
+        before(faces.lengthAt(slot), 0),
+        own(apexLeftOf(after, before, faces.lengthAt(previousSide(slot)), faces.lengthAt(nextSide(slot)),
+                       faces.faces[slot / 3].double_area)) {}
 };
 
-/// The best way on from one point of a face to a side of it, by the distances at the ends and the middle of the side:
+/// The best of the ways from a point to sides of its faces, by the distances at the ends and the middle of each side:
 /// the target is unfolded beyond each half.
-class WayThroughFace {
+class BestStep {
  public:
-  /// @param at where the point lies
-  WayThroughFace(const MarchFaces& faces, const std::vector<double>& distance, const Vector2d& at, Step& best,
-                 double& least)
-      : faces_(faces), distance_(distance), at_(at), best_(best), least_(least) {}
+  BestStep(const MarchFaces& faces, const std::vector<double>& distance) : faces_(faces), distance_(distance) {}
 
   /// @param start slot of the corner or side that the point lies on
+  /// @param at where the point lies, in the plane of the face
   /// @param after,before where the ends of the side lie
-  void offer(int start, int side, const Vector2d& after, const Vector2d& before) {
+  void offer(int start, const Vector2d& at, int side, const Vector2d& after, const Vector2d& before) {
     const int edge = faces_.edgeAt(side), middle = faces_.vertices + edge;
     const Vector2d half = (after + before) / 2;
-    offerHalf({after, half, distance_[faces_.vertexAt(nextSide(side))], distance_[middle], 0, 0.5}, start, side);
-    offerHalf({half, before, distance_[middle], distance_[faces_.vertexAt(previousSide(side))], 0.5, 1}, start, side);
+    offerHalf({after, half, distance_[faces_.vertexAt(nextSide(side))], distance_[middle], 0, 0.5}, start, at, side);
+    offerHalf({half, before, distance_[middle], distance_[faces_.vertexAt(previousSide(side))], 0.5, 1}, start, at,
+              side);
   }
+
+  /// Its `to` is -1 if there is no way.
+  const Step& step() const { return best_; }
 
  private:
   struct Half {
@@ -74,7 +73,7 @@ class WayThroughFace {
     double first, last;     ///< fractions of the side
   };
 
-  void offerHalf(const Half& half, int start, int side) {
+  void offerHalf(const Half& half, int start, const Vector2d& at, int side) {
     if (!(half.at_from < infinity && half.at_to < infinity)) return;
     const Vector2d along = half.to - half.from;
     const double length = along.norm();
@@ -84,7 +83,7 @@ class WayThroughFace {
       const Vector2d unit = along / length, across(-unit.y(), unit.x());
       const double x = (length + (half.at_from - half.at_to) * ((half.at_from + half.at_to) / length)) / 2;
       const double y = std::sqrt(std::max(0.0, (half.at_from - x) * (half.at_from + x)));
-      const Vector2d point = at_ - half.from;
+      const Vector2d point = at - half.from;
       const double height = std::abs(across.dot(point)), foot = unit.dot(point);
       const double crossing = height + y > 0 ? foot + (x - foot) * (height / (height + y)) : foot;
       share = std::clamp(crossing / length, 0.0, 1.0);
@@ -92,7 +91,7 @@ class WayThroughFace {
       left = share <= 0 ? half.at_from : share >= 1 ? half.at_to : std::hypot(crossing - x, y);
     }
     const double fraction = half.first + share * (half.last - half.first);
-    const double way = left + (at_ - (half.from + share * along)).norm();
+    const double way = left + (at - (half.from + share * along)).norm();
     const int edge = faces_.edgeAt(side);
     const bool is_rim = faces_.edge_offset[edge + 1] - faces_.edge_offset[edge] == 1;
     if (!(way < least_) || (is_rim && fraction > 0 && fraction < 1)) return;
@@ -107,93 +106,73 @@ class WayThroughFace {
 
   const MarchFaces& faces_;
   const std::vector<double>& distance_;
-  const Vector2d at_;
-  Step& best_;
-  double& least_;
+  Step best_{-1, -1, -1, 0, 0};
+  double least_ = infinity;
 };
 
 /// The best step from a vertex.
 Step stepFrom(const MarchFaces& faces, const std::vector<double>& distance, int vertex) {
-  Step best{-1, -1, -1, 0, 0};
-  double least = infinity;
+  BestStep best(faces, distance);
   for (int i = faces.corner_offset[vertex]; i < faces.corner_offset[vertex + 1]; ++i) {
     const int slot = faces.corner_slots[i];
     if (!hasClearEdges(faces, slot / 3)) continue;
     const Layout face(faces, slot);
-    WayThroughFace(faces, distance, face.own, best, least).offer(slot, slot, face.after, face.before);
+    best.offer(slot, face.own, slot, face.after, face.before);
   }
-  return best;
+  return best.step();
 }
 
 /// The best step from where the step before has met an edge.
 Step stepOn(const MarchFaces& faces, const std::vector<double>& distance, const Step& step) {
   const int edge = step.to - faces.vertices;
-  Step best{-1, -1, -1, 0, 0};
-  double least = infinity;
+  BestStep best(faces, distance);
   for (int i = faces.edge_offset[edge]; i < faces.edge_offset[edge + 1]; ++i) {
     const int slot = faces.edge_slots[i];
     if (slot == step.end || !hasClearEdges(faces, slot / 3)) continue;
     const Layout face(faces, slot);
     const bool is_turned = cornerBeyond(faces, nextSide(step.end), step.end, slot) != nextSide(slot);
     const double fraction = is_turned ? 1 - step.fraction : step.fraction;
-    WayThroughFace way(faces, distance, fraction * face.before, best, least);
-    // The corner after that of the side `nextSide(slot)` is `previousSide(slot)`, and so on.
-    way.offer(slot, nextSide(slot), face.before, face.own);
-    way.offer(slot, previousSide(slot), face.own, face.after);
+    const Vector2d at = fraction * face.before;
+    best.offer(slot, at, nextSide(slot), face.before, face.own);
+    best.offer(slot, at, previousSide(slot), face.own, face.after);
   }
-  return best;
+  return best.step();
 }
 
-/// Makes strips of steps from vertex to vertex.
-class StripMaker {
- public:
-  explicit StripMaker(const MarchFaces& faces) : faces_(faces) {}
-
-  void add(const Step& step) {
-    if (!is_open_) {
-      strip_ = {step.start, step.end, {}};
-      is_open_ = true;
-    } else {
-      pass(step);
-    }
-    if (step.to >= faces_.vertices) return;  // goes on from the middle of a side
-    trim(strip_);
-    strips_.push_back(strip_);
-    is_open_ = false;
+/// Takes a strip that has come to a side one step on.
+/// @param strip its `end` is the slot of that side
+void goOn(const MarchFaces& faces, const Step& step, Strip& strip) {
+  const int leave = strip.end, enter = step.start;
+  if (step.to < faces.vertices && step.end != enter) {  // along the side to one of its ends
+    strip.end = cornerBeyond(faces, step.end, enter, leave);
+  } else {
+    strip.doors.push_back({leave, enter, cornerBeyond(faces, nextSide(leave), leave, enter)});
+    strip.end = step.end;
   }
-  std::vector<Strip> finish() { return std::move(strips_); }
-
- private:
-  /// Goes on from the middle of a side where the strip ends.
-  void pass(const Step& step) {
-    const int leave = strip_.end, enter = step.start;
-    if (step.to < faces_.vertices && step.end != enter) {  // along the side to one of its ends
-      strip_.end = cornerBeyond(faces_, step.end, enter, leave);
-    } else {
-      strip_.doors.push_back({leave, enter, cornerBeyond(faces_, nextSide(leave), leave, enter)});
-      strip_.end = step.end;
-    }
-  }
-
-  const MarchFaces& faces_;
-  std::vector<Strip> strips_;
-  Strip strip_{};  ///< `end` is a corner or, between steps, the side that was reached
-  bool is_open_ = false;
-};
+}
 
 }  // namespace
 
 std::vector<Strip> stripsDownhill(const MarchFaces& faces, const std::vector<double>& distance, int from) {
-  StripMaker strips(faces);
+  std::vector<Strip> strips;
+  Strip strip;
   Step step{from, -1, -1, 0, distance[from]};
   std::size_t left = 3 * faces.faces.size();  // who crosses more sides than there are goes in circles by rounding
   while (step.to >= faces.vertices || distance[step.to] > 0) {
-    const Step next = step.to < faces.vertices ? stepFrom(faces, distance, step.to) : stepOn(faces, distance, step);
+    const bool is_at_vertex = step.to < faces.vertices;
+    const Step next = is_at_vertex ? stepFrom(faces, distance, step.to) : stepOn(faces, distance, step);
     if (next.to < 0 || !(next.left < step.left) || left-- == 0) return {};
-    strips.add(next);
+    if (is_at_vertex)
+      strip = {next.start, next.end, {}};
+    else
+      goOn(faces, next, strip);
+    if (next.to < faces.vertices) {
+      trim(strip);
+      strips.push_back(strip);
+    }
     step = next;
   }
-  return strips.finish();
+  return strips;
 }
 
 std::vector<Strip> stripsAlongEdges(const MarchFaces& faces, int from, int to) {

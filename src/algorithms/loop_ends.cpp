@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <tuple>
 #include <utility>
 
 #include "algorithms/march_faces.h"
@@ -19,19 +20,14 @@ PlacedSide placedSide(const IntrinsicTriangulation& cover, const MarchFaces& fac
   const auto& corners = cover.faces[face];
   std::array<double, 3> opposite;
   for (int i = 0; i < 3; ++i) opposite[i] = std::ldexp(cover.length[3 * face + (i + 1) % 3], -faces.exponent);
-  // As distinctFace() sorts them.
+  // The corners in the order into which distinctFace() sorts them.
   std::array<int, 3> order = {0, 1, 2};
   std::sort(order.begin(), order.end(),
             [&](int a, int b) { return std::pair(corners[a], opposite[a]) < std::pair(corners[b], opposite[b]); });
-  DistinctFace key = {{}, {}};
-  for (int i = 0; i < 3; ++i) {
-    key.corners[i] = corners[order[i]];
-    key.opposite[i] = opposite[order[i]];
-  }
-  const auto found =
-      std::lower_bound(faces.faces.begin(), faces.faces.end(), key, [](const MarchFace& a, const DistinctFace& b) {
-        return a.corners != b.corners ? a.corners < b.corners : a.opposite < b.opposite;
-      });
+  const auto found = std::lower_bound(faces.faces.begin(), faces.faces.end(), distinctFace(corners, opposite),
+                                      [](const MarchFace& a, const DistinctFace& b) {
+                                        return std::tie(a.corners, a.opposite) < std::tie(b.corners, b.opposite);
+                                      });
   const int first = 3 * static_cast<int>(found - faces.faces.begin());
   const auto slotOf = [&](int corner) {
     return first + static_cast<int>(std::find(order.begin(), order.end(), corner) - order.begin());

@@ -6,6 +6,7 @@
 #include <limits>
 #include <span>
 
+#include "algorithms/apex.h"
 #include "algorithms/march.h"
 #include "base/parallel.h"
 #include "base/stage_clock.h"
@@ -22,8 +23,8 @@ using Plane = std::array<Eigen::Vector2d, 3>;
 /// The corners of a face in its plane.
 Plane layOut(const MarchFace& face) {
   const auto& [a, b, c] = face.opposite;
-  const double x = c > 0 ? (c + (b - a) * ((b + a) / c)) / 2 : 0, y = c > 0 ? face.double_area / c : b;
-  return {Eigen::Vector2d(0, 0), Eigen::Vector2d(c, 0), Eigen::Vector2d(x, y)};
+  const Eigen::Vector2d first(0, 0), second(c, 0);
+  return {first, second, apexLeftOf(first, second, b, a, face.double_area)};
 }
 
 bool hasCorner(const MarchFace& face, int vertex) {

@@ -2,7 +2,6 @@
 #include "tufted/path.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <list>

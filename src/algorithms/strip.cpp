@@ -7,6 +7,8 @@
 #include <cmath>
 #include <optional>
 
+#include "algorithms/apex.h"
+
 namespace tufted {
 namespace {
 
@@ -14,17 +16,6 @@ using Eigen::Vector2d;
 
 double cross(const Vector2d& a, const Vector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
-}
-
-/// Where the corner opposite a side lies, to the left of the side from `a` to `b`.
-/// @param to_a, to_b lengths of the other two sides
-Vector2d apexLeftOf(const Vector2d& a, const Vector2d& b, double to_a, double to_b, double double_area) {
-  const Vector2d along = b - a;
-  const double length = along.norm();
-  if (!(length > 0)) return a + Vector2d(to_a, 0);
-  const Vector2d unit = along / length;
-  const double x = (length + (to_a - to_b) * ((to_a + to_b) / length)) / 2, y = double_area / length;
-  return a + x * unit + y * Vector2d(-unit.y(), unit.x());
 }
 
 /// A door in the plane, as who goes through it sees its ends.
