@@ -1,0 +1,203 @@
+// Spectral conformal parameterisation (Mullen, Tong, Alliez, Desbrun 2008).
+#include "algorithms/conformal_map.h"
+
+#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include "algorithms/chart_metric.h"
+#include "algorithms/linear_system.h"
+#include "base/number_text.h"
+#include "tufted/errors.h"
+
+namespace tufted {
+namespace {
+
+using Complex = std::complex<double>;
+using Eigen::MatrixXcd;
+using Eigen::VectorXcd;
+
+/// L_C is singular, so B times this times the number of points over that of the rim is added. It must stay above what a
+/// factor rounds by, and far below the second eigenvalue, which is about the squared length of an edge.
+constexpr double least_shift = 1e-13;
+/// The factor by which the shift grows if the matrix is not positive definite, and how often it does.
+constexpr double shift_growth = 100;
+constexpr int most_shifts = 4;
+/// How many eigenvectors are sought together, of which the first one is taken.
+constexpr int block_columns = 6;
+/// The part of the eigenvalue of (L_C + shift B)^-1 B that the eigenvector's residual may be.
+constexpr double most_residual = 1e-9;
+constexpr int most_iterations = 500;
+/// The least length that belongs to a point of the rim, in the mean one.
+constexpr double least_rim_mass = 1e-3;
+
+/// The matrix of twice the conformal energy, 2n x 2n; rows 2i and 2i + 1 are u and v of point i.
+SparseMatrix conformalMatrix(const Points& positions, const Chart& chart, int exponent, int n,
+                             const std::vector<int>& local) {
+  std::vector<Eigen::Triplet<double>> entries;
+  entries.reserve(24 * chart.triangles.size());
+  for (const auto& corners : chart.triangles) {
+    const TriangleSides sides = measureTriangle(positions, corners, exponent);
+    for (int k = 0; k < 3; ++k) {
+      const int a = local[corners[(k + 1) % 3]], b = local[corners[(k + 2) % 3]];
+      const double weight = sides.cotan[k] / 2;
+      for (int d = 0; d < 2; ++d) {
+        entries.emplace_back(2 * a + d, 2 * a + d, weight);
+        entries.emplace_back(2 * b + d, 2 * b + d, weight);
+        entries.emplace_back(2 * a + d, 2 * b + d, -weight);
+        entries.emplace_back(2 * b + d, 2 * a + d, -weight);
+      }
+    }
+  }
+  // The area in the plane: terms of inner edges cancel.
+  for (const std::vector<int>& rim : chart.rims) {
+    for (std::size_t k = 0; k < rim.size(); ++k) {
+      const int a = local[rim[k]], b = local[rim[(k + 1) % rim.size()]];
+      entries.emplace_back(2 * a, 2 * b + 1, -0.5);
+      entries.emplace_back(2 * b + 1, 2 * a, -0.5);
+      entries.emplace_back(2 * a + 1, 2 * b, 0.5);
+      entries.emplace_back(2 * b, 2 * a + 1, 0.5);
+    }
+  }
+  SparseMatrix A(2 * n, 2 * n);
+  A.setFromTriplets(entries.begin(), entries.end());
+  return A;
+}
+
+/// The points of all rims and the length that belongs to each.
+struct RimMasses {
+  std::vector<int> points;  ///< local, ascending
+  VectorXd masses;          ///< mean 1
+};
+
+RimMasses rimMasses(const Points& positions, const Chart& chart, int exponent, int n, const std::vector<int>& local) {
+  VectorXd length = VectorXd::Constant(n, -1);
+  for (const std::vector<int>& rim : chart.rims) {
+    for (std::size_t k = 0; k < rim.size(); ++k) {
+      const int a = rim[k], b = rim[(k + 1) % rim.size()];
+      const double half = std::ldexp((positions.row(a) - positions.row(b)).stableNorm(), -exponent) / 2;
+      for (const int i : {local[a], local[b]}) length[i] = std::max(length[i], 0.0) + half;
+    }
+  }
+  RimMasses rim;
+  for (int i = 0; i < n; ++i)
+    if (length[i] >= 0) rim.points.push_back(i);
+  rim.masses = length(rim.points);
+  const double mean = rim.masses.mean();
+  if (mean > 0)
+    rim.masses = (rim.masses / mean).cwiseMax(least_rim_mass);
+  else
+    rim.masses.setOnes();
+  rim.masses /= rim.masses.mean();
+  return rim;
+}
+
+/// Factorises L_C + shift B, and finds a shift with which that can be done.
+LinearSystem shiftedSystem(const char* function, const SparseMatrix& A, const RimMasses& rim,
+                           const SolverOptions& options) {
+  const SystemNames names = {.function = function,
+                             .matrix = "L_C + s B",
+                             .if_indefinite = "the triangles have angles too small to be accurate",
+                             .if_large = "take fewer points",
+                             .if_too_large = IfTooLarge::refuse};
+  double shift = least_shift * static_cast<double>(A.rows()) / 2 / static_cast<double>(rim.points.size());
+  for (int round = 1;; ++round, shift *= shift_growth) {
+    SparseMatrix shifted = A;
+    for (std::size_t k = 0; k < rim.points.size(); ++k)
+      for (int d = 0; d < 2; ++d)
+        shifted.coeffRef(2 * rim.points[k] + d, 2 * rim.points[k] + d) += shift * rim.masses[static_cast<int>(k)];
+    try {
+      return LinearSystem::positiveDefinite(names, shifted, options);
+    } catch (const SolverFailure&) {
+      if (round == most_shifts) throw;
+    }
+  }
+}
+
+/// A start that is the same on every system: the positions in three planes, and waves.
+MatrixXcd firstColumns(const Points& positions, const std::vector<int>& points, const RimMasses& rim, int exponent,
+                       int columns) {
+  MatrixXcd start(std::ssize(rim.points), columns);
+  const Eigen::RowVector3d origin = positions.row(points[0]);
+  std::uint64_t state = 1;
+  const auto next = [&] {
+    state = state * 6364136223846793005U + 1442695040888963407U;
+    return static_cast<double>(state >> 11) * 0x1p-53 - 0.5;
+  };
+  for (Eigen::Index k = 0; k < start.rows(); ++k) {
+    const Eigen::RowVector3d p = positions.row(points[rim.points[k]]) - origin;
+    const double x[] = {std::ldexp(p.x(), -exponent), std::ldexp(p.y(), -exponent), std::ldexp(p.z(), -exponent)};
+    for (int c = 0; c < columns; ++c)
+      start(k, c) = c < 3 ? Complex(x[c], x[(c + 1) % 3]) + 1e-3 * Complex(next(), next()) : Complex(next(), next());
+  }
+  return start;
+}
+
+}  // namespace
+
+Eigen::MatrixX2d conformalMap(const char* function, const Points& positions, const Chart& chart,
+                              const std::vector<int>& points, const std::vector<int>& local,
+                              const SolverOptions& options, ParameterizationReport& report) {
+  const int n = static_cast<int>(points.size());
+  const int exponent = exponentOf(positions, chart.triangles);
+  const SparseMatrix A = conformalMatrix(positions, chart, exponent, n, local);
+  const RimMasses rim = rimMasses(positions, chart, exponent, n, local);
+  const LinearSystem system = shiftedSystem(function, A, rim, options);
+  report.solver_method = system.report().method;
+
+  // Inverse iteration with Rayleigh and Ritz on sqrt(B) x at the rim, which is all that B sees.
+  const VectorXd root = rim.masses.cwiseSqrt();
+  const VectorXd constant = root / root.norm();
+  const int columns = std::min<int>(block_columns, static_cast<int>(rim.points.size()) - 1);
+  const auto deflate = [&](MatrixXcd& x) {
+    const Eigen::RowVectorXcd parts = constant.cast<Complex>().adjoint() * x;
+    x -= constant.cast<Complex>() * parts;
+  };
+  const auto orthonormal = [&](MatrixXcd x) {
+    deflate(x);
+    for (int c = 0; c < x.cols(); ++c) x.col(c).stableNormalize();
+    return MatrixXcd(Eigen::HouseholderQR<MatrixXcd>(x).householderQ() * MatrixXcd::Identity(x.rows(), x.cols()));
+  };
+  MatrixXcd x = orthonormal(root.asDiagonal() * firstColumns(positions, points, rim, exponent, columns));
+  for (int iteration = 1;; ++iteration) {
+    Eigen::MatrixXd b = Eigen::MatrixXd::Zero(2 * Eigen::Index{n}, columns);
+    for (Eigen::Index k = 0; k < x.rows(); ++k) {
+      b.row(2 * rim.points[k]) = root[k] * x.row(k).real();
+      b.row(2 * rim.points[k] + 1) = root[k] * x.row(k).imag();
+    }
+    SolveReport solved;
+    const Eigen::MatrixXd y = system.solve(function, b, &solved, options.progress);
+    MatrixXcd image(x.rows(), columns);
+    for (Eigen::Index k = 0; k < x.rows(); ++k)
+      for (int c = 0; c < columns; ++c)
+        image(k, c) = root[k] * Complex(y(2 * rim.points[k], c), y(2 * rim.points[k] + 1, c));
+    deflate(image);
+    const MatrixXcd small = x.adjoint() * image;
+    const Eigen::SelfAdjointEigenSolver<MatrixXcd> ritz((small + small.adjoint()) / 2);
+    const double theta = ritz.eigenvalues()[columns - 1];
+    const VectorXcd weights = ritz.eigenvectors().col(columns - 1);
+    const double residual = (image * weights - theta * (x * weights)).norm() / theta;
+    if (residual <= most_residual) {
+      report.iterations = std::max(report.iterations, iteration);
+      report.residual = std::max(report.residual, residual);
+      Eigen::MatrixX2d uv(n, 2);
+      for (int i = 0; i < n; ++i) {
+        const Complex z = (y.row(2 * i).cast<Complex>() + Complex(0, 1) * y.row(2 * i + 1).cast<Complex>()) * weights;
+        uv.row(i) << z.real() / theta, z.imag() / theta;
+      }
+      return uv;
+    }
+    if (iteration == most_iterations || !std::isfinite(residual))
+      throw SolverFailure(std::string(function) + ": the residual of the eigenvector is " + numberText(residual) +
+                          " after " + std::to_string(iteration) + " iterations, must be at most " +
+                          numberText(most_residual));
+    x = orthonormal(image * ritz.eigenvectors());
+  }
+}
+
+}  // namespace tufted
