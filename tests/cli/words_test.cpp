@@ -33,8 +33,8 @@ TEST_F(Words, AnUnknownCommandIsNamedWithTheNearest) {
   expectSaid(
       {"xyz"},
       "unknown command `xyz`, must be one of info, view, validate, laplacian, operators, distance, path, logmap, "
-      "transport, interpolate, extend, poisson, green, spectrum, hks, embed, filter, normals, curvature, segment (see "
-      "tufted --help)");
+      "transport, interpolate, extend, poisson, green, spectrum, hks, embed, filter, normals, curvature, segment, "
+      "parameterize (see tufted --help)");
   expectSaid({"--hlep"}, "unknown option `--hlep`; did you mean `--help`? (see tufted --help)");
 }
 

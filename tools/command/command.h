@@ -31,6 +31,7 @@ void addCurvature(CLI::App& app, Run& run);
 void addExtend(CLI::App& app, Run& run);
 void addTransport(CLI::App& app, Run& run);
 void addLogmap(CLI::App& app, Run& run);
+void addParameterize(CLI::App& app, Run& run);
 void addSegment(CLI::App& app, Run& run);
 void addNormals(CLI::App& app, Run& run);
 void addOperators(CLI::App& app, Run& run);

@@ -44,8 +44,8 @@ FieldKind kindOfResult(const std::string& name, Eigen::Index columns) {
       {"labels", FieldKind::label},         {"label", FieldKind::label},         {"component", FieldKind::label},
       {"components", FieldKind::label},     {"boundary", FieldKind::label},      {"status", FieldKind::label},
       {"classification", FieldKind::label}, {"vectors", FieldKind::vector},      {"normals", FieldKind::vector},
-      {"logmap", FieldKind::coordinates},   {"color", FieldKind::color},         {"mass", FieldKind::positive},
-      {"hks", FieldKind::positive}};
+      {"logmap", FieldKind::coordinates},   {"uv", FieldKind::coordinates},      {"color", FieldKind::color},
+      {"mass", FieldKind::positive},        {"hks", FieldKind::positive}};
   const auto kind = meanings.find(name);
   if (kind == meanings.end()) return FieldKind::scalar;
   const bool fits = (kind->second != FieldKind::vector && kind->second != FieldKind::color) || columns == 3;

@@ -1,0 +1,136 @@
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <map>
+#include <string>
+
+#include "command.h"
+#include "operator.h"
+#include "options.h"
+#include "oriented.h"
+#include "point_options.h"
+#include "tufted/errors.h"
+#include "tufted/parameterization.h"
+#include "tufted/surface_triangles.h"
+
+namespace {
+
+constexpr const char* description = "Lay the surface out in the plane: two coordinates for each point.";
+
+constexpr const char* footer =
+    R"(Examples:
+  tufted parameterize scan.ply --method harmonic --rim rim.txt --out map
+  tufted parameterize open.off --out map
+
+  conformal  angles are kept as well as can be, the rim is free; any number of rims and of parts, which lie beside
+             each other. A part has the area that it has on the surface.
+  harmonic   the rim lies on a circle of radius 1, or where --rim puts it; each point is a mean of its neighbours, by
+             the weights of L or by mean-value weights, which flip no triangle. The surface must be a disk.
+Of a cloud the triangles are those that `tufted view` shows. A closed or one-sided surface is refused.
+--rim is a text file of lines INDEX or INDEX U V, the points of the rim in order.
+
+Writes into DIR, renamed one after the other when all are complete:
+  uv.npy       N x 2, float64; NaN at points that take no part, or in parts that no plane can hold
+  points.ply   the points with the field uv, float32; points.pcd with --format pcd
+  report.json  method, charts, rims, flipped triangles, quasi_conformal_error (1: angles are kept), residual, seconds
+FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written of a cloud
+with --format npz,ply,cover.)";
+
+using tufted::HarmonicWeights;
+using tufted::ParameterizationMethod;
+
+const std::map<std::string, ParameterizationMethod> methods = {{"conformal", ParameterizationMethod::conformal},
+                                                               {"harmonic", ParameterizationMethod::harmonic}};
+const std::map<std::string, HarmonicWeights> weights = {{"laplacian", HarmonicWeights::laplacian},
+                                                        {"mean-value", HarmonicWeights::mean_value}};
+
+struct Settings {
+  OperatorSettings source;
+  std::filesystem::path rim;
+  tufted::ParameterizationOptions options;
+
+  std::vector<std::string> files() const { return {"uv.npy"}; }
+};
+
+void check(Settings& settings, const Operator& source) {
+  checkPositions(source);
+  tufted::ParameterizationOptions& options = settings.options;
+  const bool is_harmonic = options.method == ParameterizationMethod::harmonic;
+  if (!is_harmonic && options.weights != HarmonicWeights::laplacian)
+    throw tufted::InvalidInput("--weights needs --method harmonic");
+  if (settings.rim.empty()) return;
+  if (!is_harmonic) throw tufted::InvalidInput("--rim needs --method harmonic");
+  options.rim.clear();
+  std::vector<double> values;
+  for (const Row& row : readRows(settings.rim)) {
+    const std::size_t count = row.numbers.size();
+    if (count != 1 && count != 3) throw tufted::IoError(row.name + ": is not INDEX or INDEX U V");
+    options.rim.push_back(placeOf({row.numbers[0]}, source.points(), row.name).index);
+    values.insert(values.end(), row.numbers.begin() + 1, row.numbers.end());
+    if (!values.empty() && values.size() != 2 * options.rim.size())
+      throw tufted::IoError(row.name + ": has " + std::to_string(count) + " numbers, must have as many as the first");
+  }
+  if (options.rim.size() < 3)
+    throw tufted::IoError(settings.rim.string() + ": has " + std::to_string(options.rim.size()) +
+                          " points, must have at least 3");
+  options.rim_positions.resize(static_cast<Eigen::Index>(values.size() / 2), 2);
+  for (Eigen::Index k = 0; k < options.rim_positions.size(); ++k) options.rim_positions(k / 2, k % 2) = values[k];
+  if (!options.rim_positions.allFinite())
+    throw tufted::IoError(settings.rim.string() + ": a position is not finite, must be");
+}
+
+/// The triangles of a mesh, or those found on a cloud.
+tufted::Triangles trianglesOf(const Operator& source) {
+  if (source.laplacian.kind == tufted::Kind::cloud)
+    return tufted::surfaceTriangles(source.laplacian, {.progress = source.progress});
+  if (!source.geometry.is_mesh)
+    throw tufted::IoError(source.name + ": is the Laplacian of a mesh without its triangles; give the mesh as FILE");
+  return source.geometry.triangles;
+}
+
+Results compute(Settings& settings, Operator& source) {
+  Results results;
+  settings.options.solver = source.solverOptions();
+  const tufted::Triangles triangles = trianglesOf(source);
+  tufted::ParameterizationReport made;
+  const Eigen::MatrixX2d uv = tufted::parameterize(source.laplacian, triangles, settings.options, &made);
+  const bool is_harmonic = settings.options.method == ParameterizationMethod::harmonic;
+  const char* const method = !is_harmonic                                              ? "conformal"
+                             : settings.options.weights == HarmonicWeights::mean_value ? "harmonic, mean values"
+                                                                                       : "harmonic";
+  results.report["report"] = {{"method", method},
+                              {"charts", made.charts},
+                              {"closed", made.closed},
+                              {"nonorientable", made.nonorientable},
+                              {"nonmanifold", made.nonmanifold},
+                              {"rims", made.rims},
+                              {"shared_points", made.shared_points},
+                              {"not_mapped", made.not_mapped},
+                              {"triangles", made.triangles},
+                              {"flipped", made.flipped},
+                              {"quasi_conformal_error", made.quasi_conformal_error},
+                              {"iterations", made.iterations},
+                              {"residual", made.residual},
+                              {"solver", made.solver_method},
+                              {"seconds", made.seconds}};
+  results.summary.add("charts", "%lld, with %lld rims", static_cast<long long>(made.charts),
+                      static_cast<long long>(made.rims));
+  results.summary.add("triangles", "%lld, %lld flipped", static_cast<long long>(made.triangles),
+                      static_cast<long long>(made.flipped));
+  results.summary.add("angles", "quasi-conformal error %.4f, 1 where they are kept", made.quasi_conformal_error);
+  results.summary.add("not mapped", "%lld points, which are NaN", static_cast<long long>(made.not_mapped));
+  results.arrays = {{.name = "uv", .values = uv}};
+  return results;
+}
+
+}  // namespace
+
+void addParameterize(CLI::App& app, Run& run) {
+  const auto [command, settings] =
+      addOperatorCommand<Settings>(app, run, "parameterize", description, footer, compute, check);
+  settings->source.needs_cover = true;
+  addChoice(*command, "--method", settings->options.method, methods, "How the surface is laid out (conformal)");
+  addChoice(*command, "--weights", settings->options.weights, weights, "Of harmonic maps (laplacian)");
+  command->add_option("--rim", settings->rim, "Of harmonic maps: a text file of the rim's points, INDEX or INDEX U V")
+      ->check(notEmpty)
+      ->type_name("TEXT");
+}
