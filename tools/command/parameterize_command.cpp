@@ -18,8 +18,8 @@ constexpr const char* description = "Lay the surface out in the plane: two coord
 
 constexpr const char* footer =
     R"(Examples:
-  tufted parameterize scan.ply --method harmonic --rim rim.txt --out map
   tufted parameterize open.off --out map
+  tufted parameterize open.off --method harmonic --weights mean-value --out disc
 
   conformal  angles are kept as well as can be, the rim is free; any number of rims and of parts, which lie beside
              each other. A part has the area that it has on the surface.
