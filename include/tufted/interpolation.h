@@ -91,10 +91,11 @@ class InterpolationSolver {
   /// @return as harmonic() or biharmonic(), whose errors it throws
   Eigen::MatrixXd interpolate(const Eigen::MatrixXd& values, SolveReport* report = nullptr,
                               const Progress& progress = {}) const;
-  /// Solves L u = M f at all points that are not pinned, with these values at the pins.
+  /// Solves L u = M f at all points that are not pinned, with these values at the pins. Of Interpolation::biharmonic the
+  /// function whose Laplacian M^-1 L u is nearest to f, in the norm of M: L M^-1 L u = L f there.
   /// @param f N x c, finite at active points
   /// @param values P x c, finite
-  /// @return as poisson() with pins, whose errors it throws; also InvalidInput for Interpolation::biharmonic
+  /// @return as poisson() with pins, whose errors it throws
   Eigen::MatrixXd poisson(const Eigen::MatrixXd& f, const Eigen::MatrixXd& values, SolveReport* report = nullptr,
                           const Progress& progress = {}) const;
 

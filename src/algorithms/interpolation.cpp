@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "algorithms/coincident.h"
 #include "algorithms/connected.h"
 #include "algorithms/linear_system.h"
 #include "algorithms/nearly_disconnected.h"
@@ -28,16 +29,9 @@ constexpr double promised = 1e-12, promised_of_bending = 1e-3;
 /// Masses below this part of the mean count as that much where they are divided by: zero areas would bend nothing.
 constexpr double least_mass = 1e-9;
 
-/// Gives coincident points the values of their representative; pinned copies keep the mean of their place.
-void copyToCoincident(const Laplacian& laplacian, Eigen::MatrixXd& u) {
-  for (Eigen::Index i = 0; i < u.rows(); ++i) {
-    if (laplacian.status[i] == PointStatus::coincident) u.row(i) = u.row(laplacian.representative[i]);
-  }
-}
-
 Eigen::MatrixXd finish(const Laplacian& laplacian, Eigen::MatrixXd u, const Stopwatch& watch, SolveReport made,
                        SolveReport* report) {
-  copyToCoincident(laplacian, u);
+  copyToCoincident(laplacian, u);  // pinned copies keep the mean of their place
   if (!(made.residual <= large_residual)) made.weak_joint = weakestJoint(laplacian.L);
   made.seconds = watch.seconds();
   if (report != nullptr) *report = made;
@@ -92,7 +86,7 @@ class Interpolator {
       return b.row(i) - rowOfDifferences(L, u, i);
     };
     const Missing of_biharmonic = [&](const Eigen::MatrixXd& u, int i) {
-      Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(u.cols());
+      Eigen::RowVectorXd sum = b.row(i);
       for (SparseMatrix::InnerIterator entry(L, i); entry; ++entry) {
         const int j = static_cast<int>(entry.row());
         sum -= entry.value() * inverse_[j] * rowOfDifferences(L, u, j);
@@ -106,6 +100,15 @@ class Interpolator {
     made.iterations = iterations;
     Eigen::MatrixXd u = refinement.run(is_harmonic ? L : bending_, progress, made);
     return finish(laplacian, std::move(u), watch, made, report);
+  }
+
+  /// The right side with which M^-1 L u is as near to f as it can be, in the norm of M.
+  /// @param f N x c
+  Eigen::MatrixXd rightOf(const Laplacian& laplacian, const Eigen::MatrixXd& f) const {
+    Eigen::MatrixXd b = weighted(laplacian, f);
+    if (kind_ == Interpolation::harmonic) return b;
+    for (Eigen::Index i = 0; i < b.rows(); ++i) b.row(i) *= inverse_[i];
+    return laplacian.L * b;
   }
 
   Interpolation kind() const { return kind_; }
@@ -282,12 +285,11 @@ Eigen::MatrixXd InterpolationSolver::poisson(const Eigen::MatrixXd& f, const Eig
   const Stopwatch watch;
   const Laplacian& laplacian = *state_->laplacian;
   const Interpolator& interpolator = state_->interpolator;
-  if (interpolator.kind() != Interpolation::harmonic)
-    throw InvalidInput("poisson: the solver's kind is biharmonic, must be harmonic");
   checkRight("poisson", laplacian, f);
   checkPinnedValues("poisson", interpolator.points(), values);
   checkColumns(f, values);
-  return interpolator.solve("poisson", laplacian, values, weighted(laplacian, f), watch, 0, progress, report);
+  return interpolator.solve("poisson", laplacian, values, interpolator.rightOf(laplacian, f), watch, 0, progress,
+                            report);
 }
 
 const SolverReport& InterpolationSolver::report() const {

@@ -24,8 +24,10 @@ struct PinnedValues {
 
 /// Checks the points of pins and transfers them to the active points.
 /// @param function to be named in errors
+/// @param what the points are called there
 /// @throws InvalidInput
-PinnedPoints pinnedPoints(const std::string& function, const Laplacian& laplacian, const std::vector<int>& points);
+PinnedPoints pinnedPoints(const std::string& function, const Laplacian& laplacian, const std::vector<int>& points,
+                          const std::string& what = "pins.points");
 
 /// Checks the values of pins.
 /// @throws InvalidInput

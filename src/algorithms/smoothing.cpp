@@ -1,4 +1,4 @@
-// Smoothing by implicit (backward Euler) steps of the heat equation.
+// Smoothing by implicit (backward Euler) steps of the heat equation, or as Taubin (1995).
 #include "tufted/smoothing.h"
 
 #include <algorithm>
@@ -7,6 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "algorithms/coincident.h"
+#include "algorithms/enclosed_volume.h"
 #include "algorithms/linear_system.h"
 #include "base/number_text.h"
 #include "base/parallel.h"
@@ -29,15 +31,25 @@ void checkRows(const std::string& function, const Laplacian& laplacian, const ch
                      ", one per point of the Laplacian");
 }
 
-void checkPoints(const Laplacian& laplacian, const PointsRef& points, int iterations) {
-  const std::string name = std::string(smooth_name) + ": ";
-  checkRows(smooth_name, laplacian, "points", points.rows());
+/// @param what "points" or "values"
+void checkValues(const std::string& function, const Laplacian& laplacian, const char* what,
+                 const Eigen::MatrixXd& values, int iterations) {
+  const std::string name = function + ": ";
+  checkRows(function, laplacian, what, values.rows());
   if (iterations < 1) throw InvalidInput(name + "iterations = " + std::to_string(iterations) + ", must be at least 1");
-  for (Eigen::Index i = 0; i < points.rows(); ++i) {
-    if (laplacian.status[i] == PointStatus::active && !points.row(i).allFinite()) {
+  for (Eigen::Index i = 0; i < values.rows(); ++i) {
+    if (laplacian.status[i] == PointStatus::active && !values.row(i).allFinite()) {
       throw InvalidInput(name + "point " + std::to_string(i) + " is not finite, must be: the Laplacian has it active");
     }
   }
+}
+
+void checkFixed(const std::string& function, const Laplacian& laplacian, const std::vector<std::uint8_t>* fixed) {
+  if (fixed != nullptr) checkRows(function, laplacian, "fixed", static_cast<Eigen::Index>(fixed->size()));
+}
+
+void checkThreads(const std::string& function, int threads) {
+  if (threads < 0) throw InvalidInput(function + ": threads = " + std::to_string(threads) + ", must be >= 0");
 }
 
 /// Whether a point moves.
@@ -73,9 +85,9 @@ SparseMatrix systemMatrix(const Laplacian& laplacian, const std::vector<bool>& i
 
 /// The right side -L (x + moved) at the free points. It comes from differences of neighbours alone, as the rows of L
 /// sum to 0, so distance from the origin costs no digits.
-Eigen::MatrixXd pull(const Laplacian& laplacian, const std::vector<bool>& is_free, const PointsRef& points,
+Eigen::MatrixXd pull(const Laplacian& laplacian, const std::vector<bool>& is_free, const Eigen::MatrixXd& points,
                      const Eigen::MatrixXd& moved) {
-  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(points.rows(), 3);
+  Eigen::MatrixXd result = Eigen::MatrixXd::Zero(points.rows(), points.cols());
   for (int i = 0; i < points.rows(); ++i) {
     if (!is_free[i]) continue;
     for (SparseMatrix::InnerIterator entry(laplacian.L, i); entry; ++entry) {
@@ -96,12 +108,11 @@ struct Step {
   Step(const std::string& function, const Laplacian& laplacian, double time_step,
        const std::vector<std::uint8_t>* fixed, const SolverOptions& options) {
     checkSizes(function, laplacian);
-    if (fixed != nullptr) checkRows(function, laplacian, "fixed", static_cast<Eigen::Index>(fixed->size()));
+    checkFixed(function, laplacian, fixed);
     if (!(time_step >= 0 && std::isfinite(time_step))) {
       throw InvalidInput(function + ": time_step = " + numberText(time_step) + ", must be finite and at least 0");
     }
-    if (options.threads < 0)
-      throw InvalidInput(function + ": threads = " + std::to_string(options.threads) + ", must be >= 0");
+    checkThreads(function, options.threads);
     is_free = freePoints(laplacian, fixed);
     if (time_step == 0 || std::find(is_free.begin(), is_free.end(), true) == is_free.end()) return;
     const SystemNames names = {.function = function,
@@ -112,39 +123,108 @@ struct Step {
     report = system->report();
   }
 
-  Points smooth(const Laplacian& laplacian, const PointsRef& points, int iterations, const Progress& progress) const {
-    Points result = points;
+  /// @param points N x c
+  Eigen::MatrixXd smooth(const std::string& function, const Laplacian& laplacian, const Eigen::MatrixXd& points,
+                         int iterations, const Progress& progress) const {
+    Eigen::MatrixXd result = points;
     if (!system) return result;
     const Workers workers(1, progress);
     // Solved for the way each point goes: x' = x + d with (M + t L) d = -t L x.
-    Eigen::MatrixXd moved = Eigen::MatrixXd::Zero(points.rows(), 3);
+    Eigen::MatrixXd moved = Eigen::MatrixXd::Zero(points.rows(), points.cols());
     for (int step = 0; step < iterations; ++step) {
       const auto before = static_cast<double>(step);
       workers.report("smooth", before / iterations);
       const Progress within = [&](std::string_view, double fraction) {
         return progress == nullptr || progress("smooth", (before + fraction) / iterations);
       };
-      moved += system->solve(smooth_name, pull(laplacian, is_free, points, moved), nullptr, within);
+      moved += system->solve(function, pull(laplacian, is_free, points, moved), nullptr, within);
     }
     for (int i = 0; i < points.rows(); ++i)
       if (is_free[i]) result.row(i) += moved.row(i);
-    for (std::size_t i = 0; i < laplacian.status.size(); ++i) {
-      if (laplacian.status[i] != PointStatus::coincident) continue;
-      result.row(static_cast<Eigen::Index>(i)) = result.row(laplacian.representative[i]);
-    }
+    copyToCoincident(laplacian, result);
     workers.report("done", 1);
     return result;
   }
 };
 
+/// A step towards the means of the neighbours, or away from them: x -= share D^-1 L x at the free points.
+void stepToMeans(const Laplacian& laplacian, const std::vector<bool>& is_free, double share, const Workers& workers,
+                 Eigen::MatrixXd& x) {
+  constexpr std::int64_t block = 4096;
+  const Eigen::MatrixXd old = x;
+  workers.forBlocks("smooth", x.rows(), block, [&](std::int64_t begin, std::int64_t end, int) {
+    for (auto i = static_cast<int>(begin); i < end; ++i) {
+      if (!is_free[i]) continue;
+      double sum = 0;
+      Eigen::RowVectorXd pulled = Eigen::RowVectorXd::Zero(x.cols());
+      for (SparseMatrix::InnerIterator entry(laplacian.L, i); entry; ++entry) {
+        const auto j = entry.row();
+        if (j == i) continue;
+        sum -= entry.value();
+        pulled -= entry.value() * (old.row(j) - old.row(i));
+      }
+      if (sum > 0) x.row(i) += share / sum * pulled;
+    }
+  });
+}
+
+Eigen::MatrixXd smoothByTaubin(const std::string& function, const Laplacian& laplacian, const Eigen::MatrixXd& points,
+                               const SmoothingOptions& options) {
+  const auto [lambda, mu] = std::pair(options.lambda, options.mu);
+  if (!(lambda > 0 && lambda <= 1))
+    throw InvalidInput(function + ": lambda = " + numberText(lambda) + ", must lie in (0, 1]");
+  if (!(mu >= -1 && mu <= 0)) throw InvalidInput(function + ": mu = " + numberText(mu) + ", must lie in [-1, 0]");
+  if (!((1 - 2 * lambda) * (1 - 2 * mu) >= -1))
+    throw InvalidInput(function + ": lambda = " + numberText(lambda) + " and mu = " + numberText(mu) +
+                       ", must have (1 - 2 lambda) (1 - 2 mu) >= -1, or short waves grow");
+  checkThreads(function, options.threads);
+  const Workers workers(options.threads, options.progress);
+  const std::vector<bool> is_free = freePoints(laplacian, options.fixed);
+  Eigen::MatrixXd x = points;
+  for (int step = 0; step < options.iterations; ++step) {
+    stepToMeans(laplacian, is_free, lambda, workers, x);
+    if (mu != 0) stepToMeans(laplacian, is_free, mu, workers, x);
+  }
+  copyToCoincident(laplacian, x);
+  return x;
+}
+
+/// @param what "points" or "values"
+Eigen::MatrixXd smoothed(const std::string& function, const Laplacian& laplacian, const char* what,
+                         const Eigen::MatrixXd& values, const SmoothingOptions& options) {
+  checkSizes(function, laplacian);
+  checkValues(function, laplacian, what, values, options.iterations);
+  checkFixed(function, laplacian, options.fixed);
+  if (options.method == SmoothingMethod::taubin) return smoothByTaubin(function, laplacian, values, options);
+  const Step step(function, laplacian, options.time_step, options.fixed,
+                  {.threads = options.threads, .progress = options.progress});
+  return step.smooth(function, laplacian, values, options.iterations, options.progress);
+}
+
 }  // namespace
 
 Points smooth(const Laplacian& laplacian, const PointsRef& points, const SmoothingOptions& options) {
-  checkSizes(smooth_name, laplacian);
-  checkPoints(laplacian, points, options.iterations);
-  const Step step(smooth_name, laplacian, options.time_step, options.fixed,
-                  {.threads = options.threads, .progress = options.progress});
-  return step.smooth(laplacian, points, options.iterations, options.progress);
+  std::optional<EnclosedVolume> volume;
+  if (options.volume_of != nullptr) {
+    if (options.fixed != nullptr)
+      throw InvalidInput(std::string(smooth_name) + ": volume_of and fixed are given, must be one of both");
+    checkSizes(smooth_name, laplacian);
+    volume.emplace(smooth_name, laplacian, *options.volume_of);
+  }
+  Eigen::MatrixXd x = smoothed(smooth_name, laplacian, "points", points, options);
+  if (volume) {
+    volume->restore(points, x);
+    copyToCoincident(laplacian, x);
+  }
+  return x;
+}
+
+Eigen::MatrixXd smoothValues(const Laplacian& laplacian, const Eigen::MatrixXd& values,
+                             const SmoothingOptions& options) {
+  constexpr const char* function = "smoothValues";
+  if (options.volume_of != nullptr)
+    throw InvalidInput(std::string(function) + ": volume_of is given, must be with positions alone");
+  return smoothed(function, laplacian, "values", values, options);
 }
 
 struct SmoothingSolver::State {
@@ -161,8 +241,9 @@ SmoothingSolver::SmoothingSolver(std::shared_ptr<const Laplacian> laplacian, dou
 }
 
 Points SmoothingSolver::smooth(const PointsRef& points, int iterations, const Progress& progress) const {
-  checkPoints(*state_->laplacian, points, iterations);
-  return state_->step.smooth(*state_->laplacian, points, iterations, progress);
+  const Eigen::MatrixXd values = points;
+  checkValues(smooth_name, *state_->laplacian, "points", values, iterations);
+  return state_->step.smooth(smooth_name, *state_->laplacian, values, iterations, progress);
 }
 
 const SolverReport& SmoothingSolver::report() const {

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <Eigen/Core>
+
+#include "tufted/laplacian.h"
+
+namespace tufted {
+
+/// Gives coincident points the values of their representative.
+/// @param values N x c
+inline void copyToCoincident(const Laplacian& laplacian, Eigen::MatrixXd& values) {
+  for (Eigen::Index i = 0; i < values.rows(); ++i)
+    if (laplacian.status[i] == PointStatus::coincident) values.row(i) = values.row(laplacian.representative[i]);
+}
+
+}  // namespace tufted

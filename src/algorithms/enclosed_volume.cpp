@@ -1,0 +1,73 @@
+#include "algorithms/enclosed_volume.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "tufted/errors.h"
+
+namespace tufted {
+namespace {
+
+[[noreturn]] void refuse(const std::string& function, int point, const std::string& why) {
+  throw InvalidInput(function + ": the component of point " + std::to_string(point) + " " + why);
+}
+
+}  // namespace
+
+EnclosedVolume::EnclosedVolume(const std::string& function, const Laplacian& laplacian, const TrianglesRef& triangles)
+    : function_(function),
+      components_(findComponents(laplacian)),
+      weights_(components_.weights(laplacian.M)),
+      points_(static_cast<std::size_t>(components_.count)),
+      of_(static_cast<std::size_t>(components_.count)),
+      charts_(findCharts(function.c_str(), laplacian, triangles)) {
+  for (const int i : components_.points) points_[components_.of[i]].push_back(i);
+  for (const Chart& chart : charts_) of_[components_.of[chart.triangles.front()[0]]].push_back(&chart);
+  for (int c = 0; c < components_.count; ++c) {
+    const int first = points_[c].front();
+    if (of_[c].empty()) refuse(function, first, "has no triangles, must have some to enclose a volume");
+    for (const Chart* chart : of_[c]) {
+      if (!chart->is_manifold) refuse(function, first, "has an edge of more than two triangles, must have none");
+      if (!chart->is_orientable) refuse(function, first, "is nonorientable, must have two sides");
+      if (!chart->rims.empty()) refuse(function, first, "has a rim, must be closed");
+    }
+  }
+}
+
+EnclosedVolume::Body EnclosedVolume::measure(const Eigen::MatrixXd& x, int component) const {
+  const std::vector<int>& points = points_[component];
+  const Eigen::RowVector3d origin = x.row(points.front());
+  Eigen::RowVector3d mean = Eigen::RowVector3d::Zero();
+  for (const int i : points) mean += weights_[i] * (x.row(i) - origin);
+  Body body{origin + mean, 0, 0};
+  double extent = 0;
+  for (const int i : points) extent = std::max(extent, (x.row(i) - body.centre).cwiseAbs().maxCoeff());
+  if (!(extent > 0)) return body;
+  body.exponent = std::ilogb(extent);
+  const auto at = [&](int i) -> Eigen::RowVector3d {
+    Eigen::RowVector3d p = x.row(i) - body.centre;
+    for (double& value : p) value = std::ldexp(value, -body.exponent);
+    return p;
+  };
+  for (const Chart* chart : of_[component]) {
+    double sum = 0;
+    for (const auto& [a, b, c] : chart->triangles) sum += at(a).dot(at(b).cross(at(c)));
+    body.volume += std::abs(sum) / 6;
+  }
+  return body;
+}
+
+void EnclosedVolume::restore(const Eigen::MatrixXd& before, Eigen::MatrixXd& x) const {
+  for (int c = 0; c < components_.count; ++c) {
+    const Body old = measure(before, c), now = measure(x, c);
+    for (const auto& [body, when] : {std::pair(old, "before"), std::pair(now, "after")})
+      if (!(body.volume > 0))
+        refuse(function_, points_[c].front(), std::string("encloses no volume ") + when + " smoothing");
+    const double factor = std::ldexp(std::cbrt(old.volume / now.volume), old.exponent - now.exponent);
+    for (const int i : points_[c]) x.row(i) = now.centre + factor * (x.row(i) - now.centre);
+  }
+}
+
+}  // namespace tufted

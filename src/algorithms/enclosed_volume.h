@@ -1,0 +1,42 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "algorithms/charts.h"
+#include "algorithms/connected.h"
+
+namespace tufted {
+
+/// The volumes that closed surfaces enclose.
+class EnclosedVolume {
+ public:
+  /// @param function to be named in errors
+  /// @throws InvalidInput for a component that has no triangles, or whose triangles have a rim, an edge of more than
+  /// two
+  ///         triangles or one side alone, and for indices out of range
+  EnclosedVolume(const std::string& function, const Laplacian& laplacian, const TrianglesRef& triangles);
+
+  /// Scales each component about its centre of mass so that it encloses what it enclosed before.
+  /// @param before,x N x 3, finite at active points; rows of points that are not active are left alone
+  /// @throws InvalidInput where a component encloses no volume before, or after
+  void restore(const Eigen::MatrixXd& before, Eigen::MatrixXd& x) const;
+
+ private:
+  /// Centre of mass and volume of one component.
+  struct Body {
+    Eigen::RowVector3d centre;
+    int exponent;   ///< binary, of the largest distance from the centre along an axis
+    double volume;  ///< in units of 2^(3 exponent)
+  };
+  Body measure(const Eigen::MatrixXd& x, int component) const;
+
+  std::string function_;
+  Components components_;
+  VectorXd weights_;                           ///< N; M over its sum per component
+  std::vector<std::vector<int>> points_;       ///< by component
+  std::vector<std::vector<const Chart*>> of_;  ///< by component
+  std::vector<Chart> charts_;
+};
+
+}  // namespace tufted

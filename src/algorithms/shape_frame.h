@@ -1,0 +1,35 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <string>
+
+#include "tufted/laplacian.h"
+
+namespace tufted {
+
+/// Coordinates about the middle of the active points, in a power of two near their extent, in which shapes are
+/// computed: no unit is too large or too small, and no place too far away.
+class ShapeFrame {
+ public:
+  /// @param function to be named in errors
+  /// @throws InvalidInput for arrays of the wrong size, or positions of active points that are not finite
+  ShapeFrame(const std::string& function, const Laplacian& laplacian);
+
+  /// @param positions N x 3, in the caller's unit
+  /// @return N x 3
+  Eigen::MatrixXd toFrame(const Eigen::Ref<const Eigen::MatrixXd>& positions) const;
+  Eigen::RowVector3d toCaller(const Eigen::RowVector3d& position) const;
+  /// A length in the caller's unit.
+  double toCaller(double length) const;
+  /// An area in the caller's unit squared.
+  double areaToCaller(double area) const;
+  /// The largest side of the box around the active points, in [1/2, 1] of the frame's unit; 0: one place, or none.
+  double extent() const { return extent_; }
+
+ private:
+  Eigen::RowVector3d origin_ = Eigen::RowVector3d::Zero();
+  int exponent_ = 0;
+  double extent_ = 0;
+};
+
+}  // namespace tufted
