@@ -12,6 +12,7 @@ PYBIND11_MODULE(_tufted, module) {  // NOLINT
   addInterpolation(module);
   addVectorHeat(module);
   addShape(module);
+  addMoving(module);
   addOperators(module);
   addFiles(module);
   addView(module);

@@ -1,4 +1,4 @@
-// What a surface is like: normals, curvature, triangles, segments; and smoothing.
+// What a surface is like: normals, curvature, triangles, segments.
 #include <optional>
 #include <string>
 #include <utility>
@@ -12,7 +12,6 @@
 #include "tufted/nearest_point.h"
 #include "tufted/normals.h"
 #include "tufted/segments.h"
-#include "tufted/smoothing.h"
 #include "tufted/surface_triangles.h"
 
 namespace py = pybind11;
@@ -65,17 +64,6 @@ py::tuple segmentsOf(const Laplacian& laplacian, const std::string& method, int 
   return py::make_tuple(owned(std::move(found.labels)), std::move(found.areas), owned(std::move(found.seeds)));
 }
 
-using Marks = py::array_t<std::uint8_t, py::array::c_style>;
-
-SmoothingSolver smoothingSolver(const Shared& laplacian, double time_step, const std::optional<Marks>& fixed,
-                                const Solving& solving, const py::object& progress) {
-  std::vector<std::uint8_t> stays;
-  if (fixed) stays.assign(fixed->data(), fixed->data() + fixed->size());
-  return run(progress, [&](const Progress& called) {
-    return SmoothingSolver(laplacian, time_step, fixed ? &stays : nullptr, solving.options(called));
-  });
-}
-
 }  // namespace
 
 void addShape(py::module_& module) {
@@ -90,13 +78,6 @@ void addShape(py::module_& module) {
   module.def("oriented_frames", &oriented);
   module.def("curvature", &curvature);
   module.def("segments", &segmentsOf);
-  py::class_<SmoothingSolver>(module, "SmoothingSolver")
-      .def(py::init(&smoothingSolver))
-      .def("smooth",
-           [](const SmoothingSolver& solver, const Doubles& points, int iterations, const py::object& progress) {
-             const auto view = pointsOf(points);
-             return run(progress, [&](const Progress& called) { return solver.smooth(view, iterations, called); });
-           });
   module.def("triangles", [](const Laplacian& laplacian, const py::object& progress) {
     return run(progress, [&](const Progress& called) {
       return surfaceTriangles(laplacian, TriangleOptions{.progress = called});

@@ -92,6 +92,8 @@ TEST_F(ConsoleOutput, EveryExampleOfEveryHelpRuns) {
   dir_.write("scan.xyz", sphere(400));
   dir_.write("mesh.off", tetrahedron);
   dir_.write("open.off", "OFF 4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n");  // has a rim, as maps need
+  dir_.write("handles.txt", "0 0 0 1  # there\n3\n");
+  dir_.write("rim.txt", "0\n1\n3\n");
   dir_.write("scans/mesh.off", tetrahedron);
   run({"laplacian", in("scan.xyz"), "--out", in("made")});
   fs::copy_file(dir_ / "made/points.ply", dir_ / "scan.ply", fs::copy_options::overwrite_existing);

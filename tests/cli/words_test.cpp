@@ -34,7 +34,7 @@ TEST_F(Words, AnUnknownCommandIsNamedWithTheNearest) {
       {"xyz"},
       "unknown command `xyz`, must be one of info, view, validate, laplacian, operators, distance, path, logmap, "
       "transport, interpolate, extend, poisson, green, spectrum, hks, embed, filter, normals, curvature, segment, "
-      "parameterize (see tufted --help)");
+      "parameterize, smooth, minimal, deform (see tufted --help)");
   expectSaid({"--hlep"}, "unknown option `--hlep`; did you mean `--help`? (see tufted --help)");
 }
 

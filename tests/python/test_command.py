@@ -55,6 +55,9 @@ def test_algorithms(name, tmp_path):
         (["extend", "--pin", "3=1", "--pin", "90=2"], "values", lambda: surface.extend([3, 90], [1.0, 2.0])),
         (["transport", "--source", "3", "--vector", "1,2,3"], "vectors", lambda: surface.transport(3, [1, 2, 3])),
         (["logmap", "--source", "3"], "logmap", lambda: surface.log_map(3).coordinates),
+        (["smooth", "--time-step", "3"], "positions", lambda: surface.smooth(time_step=3)),
+        (["smooth", "--method", "taubin", "--field", "x"], "smoothed",
+         lambda: surface.smooth_values(surface.points[:, 0], method="taubin")),
         (["normals"], "normals", lambda: surface.normals()),
         (["segment", "--count", "4"], "labels", lambda: surface.segments(4).labels),
         (["filter", "--field", "x", "--count", "20"], "filtered",
@@ -64,6 +67,23 @@ def test_algorithms(name, tmp_path):
         out = tmp_path / "-".join(arguments[:2]).replace("/", "_")
         run(arguments[0], DATASETS / name, *arguments[1:], "--out", out)
         np.testing.assert_array_equal(np.load(out / f"{file}.npy"), compute(), err_msg=" ".join(arguments))
+
+
+def test_maps_and_moved_points(tmp_path):
+    file = DATASETS / "saddle_uniform.ply"
+    surface = tufted.read(file)
+    (tmp_path / "handles.txt").write_text("0\n5 0.1 0.2 0.9\n9\n")
+    targets = surface.points[[0, 5, 9]].copy()
+    targets[1] = [0.1, 0.2, 0.9]
+    handles = ["deform", "--handles", tmp_path / "handles.txt"]
+    cases = [(["parameterize"], "uv", lambda: surface.parameterize().uv),
+             (["minimal"], "positions", lambda: surface.minimal_surface().points),
+             (handles, "positions", lambda: surface.deform([0, 5, 9], targets).points),
+             ([*handles, "--method", "linear"], "positions",
+              lambda: surface.deform([0, 5, 9], targets, method="linear").points)]
+    for words, name, compute in cases:
+        run(words[0], file, *words[1:], "--out", tmp_path / "out")
+        np.testing.assert_array_equal(np.load(tmp_path / "out" / f"{name}.npy"), compute())
 
 
 def test_curvature_and_operators(tmp_path):

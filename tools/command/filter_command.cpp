@@ -8,6 +8,7 @@
 #include "command.h"
 #include "eigenpairs.h"
 #include "extent.h"
+#include "moved_points.h"
 #include "operator.h"
 #include "options.h"
 #include "reports.h"
@@ -56,8 +57,7 @@ void check(Settings& settings, const Operator& source) {
     settings.values = readSignals(settings.signals, source, settings.source.out);
   } else {
     if (has_signals) throw tufted::InvalidInput("--positions excludes --field and --values");
-    if (source.geometry.points.rows() == 0 && source.points() > 0)
-      throw tufted::IoError(source.name + ": has no points, which --positions filters");
+    checkHasPoints(source);
     settings.values = source.geometry.points;
   }
   if (!settings.wavelength || !settings.pairs.folder.empty()) checkPairs(settings.pairs, source, settings.source.out);
@@ -129,13 +129,10 @@ Results compute(Settings& settings, Operator& source) {
   results.summary.add("eigenvectors", "%lld, the shortest wave %.6g", static_cast<long long>(count), shortest);
   addReport(spectrum.report, results);
   if (settings.positions) {
-    const Eigen::MatrixXd moved = (filtered - Eigen::MatrixXd(source.geometry.points)).rowwise().norm();
-    results.shown = {{.name = "displacement", .values = moved}};
-    source.geometry.points = filtered;
-    source.geometry.normals.resize(0, 3);
-    source.laplacian.frames = {};
+    movePoints("filtered", filtered, source, results);
+  } else {
+    results.arrays = {{.name = "filtered", .values = std::move(filtered)}};
   }
-  results.arrays = {{.name = "filtered", .values = std::move(filtered)}};
   return results;
 }
 

@@ -4,13 +4,13 @@
 #include <string>
 
 #include "command.h"
+#include "moved_points.h"
 #include "operator.h"
 #include "options.h"
 #include "oriented.h"
 #include "point_options.h"
 #include "tufted/errors.h"
 #include "tufted/parameterization.h"
-#include "tufted/surface_triangles.h"
 
 namespace {
 
@@ -64,7 +64,7 @@ void check(Settings& settings, const Operator& source) {
   for (const Row& row : readRows(settings.rim)) {
     const std::size_t count = row.numbers.size();
     if (count != 1 && count != 3) throw tufted::IoError(row.name + ": is not INDEX or INDEX U V");
-    options.rim.push_back(placeOf({row.numbers[0]}, source.points(), row.name).index);
+    options.rim.push_back(indexOf({row.name, {row.numbers[0]}}, source.points()));
     values.insert(values.end(), row.numbers.begin() + 1, row.numbers.end());
     if (!values.empty() && values.size() != 2 * options.rim.size())
       throw tufted::IoError(row.name + ": has " + std::to_string(count) + " numbers, must have as many as the first");
@@ -76,15 +76,6 @@ void check(Settings& settings, const Operator& source) {
   for (Eigen::Index k = 0; k < options.rim_positions.size(); ++k) options.rim_positions(k / 2, k % 2) = values[k];
   if (!options.rim_positions.allFinite())
     throw tufted::IoError(settings.rim.string() + ": a position is not finite, must be");
-}
-
-/// The triangles of a mesh, or those found on a cloud.
-tufted::Triangles trianglesOf(const Operator& source) {
-  if (source.laplacian.kind == tufted::Kind::cloud)
-    return tufted::surfaceTriangles(source.laplacian, {.progress = source.progress});
-  if (!source.geometry.is_mesh)
-    throw tufted::IoError(source.name + ": is the Laplacian of a mesh without its triangles; give the mesh as FILE");
-  return source.geometry.triangles;
 }
 
 Results compute(Settings& settings, Operator& source) {

@@ -101,6 +101,11 @@ Place placeOf(const std::vector<double>& numbers, int points, const std::string&
   return place;
 }
 
+int indexOf(const Row& row, int points) {
+  if (row.numbers.size() != 1) throw tufted::IoError(row.name + ": is not INDEX");
+  return placeOf(row.numbers, points, row.name).index;
+}
+
 std::vector<int> locate(const std::vector<Place>& places, const Operator& source, Results& results) {
   std::vector<int> points;
   std::vector<std::size_t> by_position;  // which of them are

@@ -37,6 +37,10 @@ struct Place {
 /// @throws InvalidInput unless it is an index of one of so many points, or a finite position
 Place placeOf(const std::vector<double>& numbers, int points, const std::string& name);
 
+/// The index of a point that a line names.
+/// @throws IoError for a line of several numbers, InvalidInput as placeOf()
+int indexOf(const Row& row, int points);
+
 /// Finds the points that the user names. Notes in the summary and the report of `results` which are nearest to
 /// positions and how far away they are, and warns of those that are farther from the position than from all their
 /// neighbours.

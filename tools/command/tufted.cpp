@@ -58,7 +58,8 @@ const Purpose purposes[] = {
     {"Distances and directions along the surface", {addDistance, addPath, addLogmap, addTransport}},
     {"Values on the surface", {addInterpolate, addExtend, addPoisson, addGreen}},
     {"Frequencies", {addSpectrum, addHks, addEmbed, addFilter}},
-    {"Shape", {addNormals, addCurvature, addSegment, addParameterize}}};
+    {"Shape", {addNormals, addCurvature, addSegment, addParameterize}},
+    {"Moving the points", {addSmooth, addMinimal, addDeform}}};
 
 void addSubcommands(CLI::App& app, Run& run) {
   const auto is_new = [](const CLI::App* command) { return command->get_group() == "Subcommands"; };

@@ -9,14 +9,15 @@ from ._clouds import Mesh, PointCloud, load, read
 from ._drop_in import (MeshHeatMethodDistanceSolver, MeshVectorHeatSolver, PointCloudHeatSolver, compute_distance,
                        compute_distance_multisource, mesh_laplacian, point_cloud_laplacian, read_mesh,
                        read_point_cloud)
-from ._results import Curvature, Gradients, LogMap, Path, Segments, Spectrum
+from ._results import (Curvature, Deformation, Gradients, LogMap, MinimalSurface, Parameterization, Path, Segments,
+                       Spectrum)
 from ._surface import Surface
 from ._tufted import Cancelled, FileTooLarge, InvalidInput, IoError, SolverFailure
 from ._tufted import version as __version__
 
 __all__ = [
-    "Cancelled", "Curvature", "FileTooLarge", "Gradients", "InvalidInput", "IoError", "LogMap", "Mesh",
-    "MeshHeatMethodDistanceSolver", "MeshVectorHeatSolver", "Path", "PointCloud", "PointCloudHeatSolver",
-    "Segments", "SolverFailure", "Spectrum", "Surface", "compute_distance", "compute_distance_multisource", "load",
+    "Cancelled", "Curvature", "Deformation", "FileTooLarge", "Gradients", "InvalidInput", "IoError", "LogMap", "Mesh",
+    "MeshHeatMethodDistanceSolver", "MeshVectorHeatSolver", "MinimalSurface", "Parameterization", "Path", "PointCloud",
+    "PointCloudHeatSolver", "Segments", "SolverFailure", "Spectrum", "Surface", "compute_distance", "compute_distance_multisource", "load",
     "mesh_laplacian", "point_cloud_laplacian", "read", "read_mesh", "read_point_cloud",
 ]

@@ -41,6 +41,22 @@ class Segments(NamedTuple):
     areas: _Floats
     seeds: _Integers
 
+class Parameterization(NamedTuple):
+    uv: _Floats
+    quasi_conformal_error: float
+    triangles: int
+    flipped: int
+
+class MinimalSurface(NamedTuple):
+    points: _Floats
+    area: float
+    converged: bool
+
+class Deformation(NamedTuple):
+    points: _Floats
+    stretch: float
+    converged: bool
+
 class Path(NamedTuple):
     points: _Floats
     length: float
@@ -121,8 +137,21 @@ class Surface:
     def curvature(self, *, method: Literal["fit", "laplacian"] = "fit", progress: _Progress = None) -> Curvature: ...
     def segments(self, count: int = 8, *, method: Literal["voronoi", "spectral"] = "voronoi",
                  seeds: npt.ArrayLike | None = None, progress: _Progress = None) -> Segments: ...
-    def smooth(self, points: npt.ArrayLike | None = None, *, time_step: float = 1.0, iterations: int = 1,
-               fixed: npt.ArrayLike | None = None, progress: _Progress = None) -> _Floats: ...
+    def smooth(self, points: npt.ArrayLike | None = None, *, method: Literal["implicit", "taubin"] = "implicit",
+               time_step: float = 1.0, lambda_: float = 0.5, mu: float = -0.53, iterations: int = 1,
+               fixed: npt.ArrayLike | None = None, keep_volume: bool = False,
+               progress: _Progress = None) -> _Floats: ...
+    def smooth_values(self, values: npt.ArrayLike, *, method: Literal["implicit", "taubin"] = "implicit",
+                      time_step: float = 1.0, lambda_: float = 0.5, mu: float = -0.53, iterations: int = 1,
+                      fixed: npt.ArrayLike | None = None, progress: _Progress = None) -> _Floats: ...
+    def parameterize(self, *, method: Literal["conformal", "harmonic"] = "conformal",
+                     weights: Literal["laplacian", "mean-value"] = "laplacian", rim: npt.ArrayLike | None = None,
+                     rim_positions: npt.ArrayLike | None = None, progress: _Progress = None) -> Parameterization: ...
+    def minimal_surface(self, fixed: npt.ArrayLike | None = None, *, tolerance: float = 1e-4,
+                        max_iterations: int = 300, progress: _Progress = None) -> MinimalSurface: ...
+    def deform(self, handles: npt.ArrayLike, targets: npt.ArrayLike, *,
+               method: Literal["rigid", "linear"] = "rigid", tolerance: float = 1e-3, max_iterations: int = 500,
+               progress: _Progress = None) -> Deformation: ...
     def nearest(self, positions: npt.ArrayLike, *, progress: _Progress = None) -> Any: ...
     def validate(self, *, progress: _Progress = None) -> dict[str, Any]: ...
     def restricted_to(self: _Self, components: str | npt.ArrayLike = "largest", *,

@@ -33,6 +33,28 @@ class Segments(NamedTuple):
     seeds: np.ndarray
 
 
+class Parameterization(NamedTuple):
+    """A surface laid out in the plane."""
+    uv: np.ndarray
+    quasi_conformal_error: float
+    triangles: int
+    flipped: int
+
+
+class MinimalSurface(NamedTuple):
+    """A surface of least area."""
+    points: np.ndarray
+    area: float
+    converged: bool
+
+
+class Deformation(NamedTuple):
+    """A surface that has followed its handles."""
+    points: np.ndarray
+    stretch: float
+    converged: bool
+
+
 class Path(NamedTuple):
     """A path over the surface."""
     points: np.ndarray

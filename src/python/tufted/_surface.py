@@ -5,7 +5,8 @@ import numpy as np
 
 from . import _arguments as check
 from . import _tufted
-from ._results import Curvature, Gradients, LogMap, Path, Segments, Spectrum
+from ._results import (Curvature, Deformation, Gradients, LogMap, MinimalSurface, Parameterization, Path, Segments,
+                       Spectrum)
 from ._tufted import InvalidInput
 
 # Points that a notebook shows: a page of more would make its file larger than some ten megabytes.
@@ -426,26 +427,101 @@ class Surface:
         return Segments(*_tufted.segments(self._laplacian, method, count, where, self._solver(),
                                           check.callback("segments", progress)))
 
-    def smooth(self, points=None, *, time_step=1.0, iterations=1, fixed=None, progress=None):
-        """Smooths positions by implicit steps of the heat equation.
+    # New places of the points
 
-        points: N x 3; None: the own ones. time_step: >= 0, in mean squared edges. iterations: steps >= 1.
-        fixed: N booleans; points with True stay in place.
+    def smooth(self, points=None, *, method="implicit", time_step=1.0, lambda_=0.5, mu=-0.53, iterations=1, fixed=None,
+               keep_volume=False, progress=None):
+        """Smooths positions.
+
+        points: N x 3; None: the own ones. method: "implicit" steps of the heat equation, which shrink, or "taubin": a
+        step towards the mean of the neighbours, by lambda_, then one away from it, by mu, which hardly shrink.
+        time_step: of implicit steps, >= 0, in mean squared edges. lambda_: in (0, 1]; mu: in [-1, 0].
+        iterations: steps >= 1. fixed: N booleans; points with True stay in place.
+        keep_volume: scale each component, which must be closed, to the volume it had.
         Returns N x 3.
         """
         points = self._points if points is None else check.rows_of_three("smooth", "points", points, len(self))
-        if fixed is not None:
-            fixed = np.asarray(fixed)
-            if fixed.shape != (len(self),):
-                raise InvalidInput(f"smooth: fixed has {fixed.size} values, must have {len(self)}, one per point")
-            fixed = np.ascontiguousarray(fixed.astype(bool), dtype=np.uint8)
+        fixed = self._marks("smooth", fixed)
         time_step = check.number("smooth", "time_step", time_step)
         iterations = check.whole("smooth", "iterations", iterations, 1)
         progress = check.callback("smooth", progress)
-        key = time_step, None if fixed is None else fixed.tobytes()
-        solver = self._keep_last("smooth", key, lambda: _tufted.SmoothingSolver(
-            self._laplacian, time_step, fixed, self._solver(), progress))
-        return solver.smooth(points, iterations, progress)
+        if method == "implicit" and not keep_volume:
+            key = time_step, None if fixed is None else fixed.tobytes()
+            solver = self._keep_last("smooth", key, lambda: _tufted.SmoothingSolver(
+                self._laplacian, time_step, fixed, self._solver(), progress))
+            return solver.smooth(points, iterations, progress)
+        return _tufted.smooth(
+            self._laplacian, points, method, time_step, check.number("smooth", "lambda_", lambda_),
+            check.number("smooth", "mu", mu), iterations, fixed, self._surface_faces("smooth") if keep_volume else None,
+            self._solving["threads"], progress)
+
+    def smooth_values(self, values, *, method="implicit", time_step=1.0, lambda_=0.5, mu=-0.53, iterations=1,
+                      fixed=None, progress=None):
+        """Smooths functions on the points; arguments are those of smooth().
+
+        values: N or N x c, finite at active points. fixed: N booleans; points with True keep their values.
+        Returns the shape of values.
+        """
+        table, flat = check.columns("smooth_values", "values", values, len(self))
+        result = _tufted.smooth_values(
+            self._laplacian, table, method, check.number("smooth_values", "time_step", time_step),
+            check.number("smooth_values", "lambda_", lambda_), check.number("smooth_values", "mu", mu),
+            check.whole("smooth_values", "iterations", iterations, 1), self._marks("smooth_values", fixed),
+            self._solving["threads"], check.callback("smooth_values", progress))
+        return result[:, 0] if flat else result
+
+    def parameterize(self, *, method="conformal", weights="laplacian", rim=None, rim_positions=None, progress=None):
+        """Lays the surface out in the plane.
+
+        method: "conformal" keeps angles as well as can be, with a free rim; "harmonic" has the rim on a circle of
+        radius 1 or where rim_positions puts it, and each other point is a mean of its neighbours.
+        weights: of harmonic maps: of the "laplacian", or "mean-value", which flip no triangle.
+        rim: of harmonic maps: the points of the rim in order; None: found. rim_positions: one row u, v for each.
+        Returns uv (N x 2, NaN where a point has no place), quasi_conformal_error (1: angles are kept), and how many
+        triangles were laid out and how many of them are flipped.
+        """
+        where = np.zeros(0, np.int32) if rim is None else check.indices("parameterize", "rim", rim, len(self))
+        places = np.zeros((0, 2))
+        if rim_positions is not None:
+            places, _ = check.columns("parameterize", "rim_positions", rim_positions, where.size)
+            if places.shape[1] != 2:
+                raise InvalidInput(f"parameterize: rim_positions has {places.shape[1]} columns, must have 2")
+        return Parameterization(*_tufted.parameterize(
+            self._laplacian, self._surface_faces("parameterize"), method, weights, where, places, self._solver(),
+            check.callback("parameterize", progress)))
+
+    def minimal_surface(self, fixed=None, *, tolerance=1e-4, max_iterations=300, progress=None):
+        """The surface of the least area that its rim, or given points, span.
+
+        fixed: the points that stay in place; None: those of the rim. tolerance: iterations end where no point moves off
+        the surface by more than this part of its extent.
+        Returns points (N x 3), their area, and whether iterations converged.
+        """
+        where = np.zeros(0, np.int32) if fixed is None else check.indices("minimal_surface", "fixed", fixed, len(self))
+        return MinimalSurface(*_tufted.minimal_surface(
+            self._laplacian, self._surface_faces("minimal_surface"), where,
+            check.number("minimal_surface", "tolerance", tolerance),
+            check.whole("minimal_surface", "max_iterations", max_iterations, 1), self._solver(),
+            check.callback("minimal_surface", progress)))
+
+    def deform(self, handles, targets, *, method="rigid", tolerance=1e-3, max_iterations=500, progress=None):
+        """Moves some points to given places, and lets all others follow.
+
+        handles: P indices. targets: P x 3, where they shall lie.
+        method: "rigid", as rigid as possible: neighbourhoods turn but hardly stretch; or "linear", for small turns.
+        tolerance: of "rigid": iterations end where no point moves by more than this part of the longest way of a
+        handle. The factor for the last handles is kept.
+        Returns points (N x 3), by how much edges stretch in their length, and whether iterations converged.
+        """
+        where = check.indices("deform", "handles", handles, len(self))
+        places = check.rows_of_three("deform", "targets", targets, where.size)
+        tolerance = check.number("deform", "tolerance", tolerance)
+        max_iterations = check.whole("deform", "max_iterations", max_iterations, 1)
+        progress = check.callback("deform", progress)
+        solver = self._keep_last("deform", (where.tobytes(), method, tolerance, max_iterations),
+                                 lambda: _tufted.DeformationSolver(self._laplacian, where, method, tolerance,
+                                                                   max_iterations, self._solver(), progress))
+        return Deformation(*solver.deform(places, progress))
 
     def nearest(self, positions, *, progress=None):
         """The active points nearest to positions.
@@ -516,6 +592,21 @@ class Surface:
     def _need_cover(self, function):
         if not self._laplacian.has_cover:
             raise InvalidInput(f"{function}: the cover is missing, must be saved: formats=('npz', 'ply', 'cover')")
+
+    def _surface_faces(self, function):
+        """The triangles of a mesh, or those found on a cloud."""
+        if self._faces is None:
+            self._need_cover(function)
+        return self._keep("faces", self.triangles)
+
+    def _marks(self, function, fixed):
+        """N booleans as bytes, or None."""
+        if fixed is None:
+            return None
+        fixed = np.asarray(fixed)
+        if fixed.shape != (len(self),):
+            raise InvalidInput(f"{function}: fixed has {fixed.size} values, must have {len(self)}, one per point")
+        return np.ascontiguousarray(fixed.astype(bool), dtype=np.uint8)
 
     def _frame_parts(self):
         """Normals and tangents."""

@@ -1,0 +1,114 @@
+#include <CLI/CLI.hpp>
+#include <limits>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "command.h"
+#include "moved_points.h"
+#include "operator.h"
+#include "options.h"
+#include "oriented.h"
+#include "point_options.h"
+#include "tufted/deformation.h"
+#include "tufted/errors.h"
+
+namespace {
+
+constexpr const char* description = "Move some points to given places and let the surface follow.";
+
+constexpr const char* footer =
+    R"(Examples:
+  tufted deform mesh.off --handles handles.txt --out bent
+  tufted deform scan.ply --handles handles.txt --method linear --out bent
+
+--handles is a text file of lines INDEX X Y Z, where a point shall lie, and INDEX, a point that stays.
+  rigid   each neighbourhood turns but hardly stretches; iterates (as rigid as possible)
+  linear  two linear solves that keep how the surface bends; for small turns
+
+Writes into DIR, renamed one after the other when all are complete:
+  positions.npy  N x 3, float64; points of components without a handle stay, coincident ones lie where their
+                 representative does
+  points.ply     the points where they are now, without normals; points.pcd with --format pcd
+  report.json    method, handles, points that moved, iterations, whether they converged, stretch of edges, seconds
+FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written.)";
+
+using tufted::DeformationMethod;
+
+const std::map<std::string, DeformationMethod> methods = {{"rigid", DeformationMethod::as_rigid_as_possible},
+                                                          {"linear", DeformationMethod::linear}};
+
+struct Settings {
+  OperatorSettings source;
+  std::filesystem::path handles_file;
+  tufted::DeformationOptions options;
+  std::vector<int> handles;
+  tufted::Points targets;
+
+  std::vector<std::string> files() const { return {"positions.npy"}; }
+};
+
+void check(Settings& settings, const Operator& source) {
+  checkPositions(source);
+  checkHasPoints(source);
+  const std::vector<Row> rows = readRows(settings.handles_file);
+  if (rows.empty()) throw tufted::IoError(settings.handles_file.string() + ": names no point, must name one");
+  settings.targets.resize(std::ssize(rows), 3);
+  for (Eigen::Index k = 0; k < std::ssize(rows); ++k) {
+    const Row& row = rows[static_cast<std::size_t>(k)];
+    if (row.numbers.size() != 1 && row.numbers.size() != 4)
+      throw tufted::IoError(row.name + ": is not INDEX or INDEX X Y Z");
+    const int point = indexOf({row.name, {row.numbers[0]}}, source.points());
+    settings.handles.push_back(point);
+    if (row.numbers.size() == 4)
+      settings.targets.row(k) << row.numbers[1], row.numbers[2], row.numbers[3];
+    else
+      settings.targets.row(k) = source.geometry.points.row(point);
+    if (!settings.targets.row(k).allFinite()) throw tufted::IoError(row.name + ": the place is not finite, must be");
+  }
+}
+
+Results compute(Settings& settings, Operator& source) {
+  Results results;
+  settings.options.solver = source.solverOptions();
+  tufted::DeformationReport made;
+  const tufted::Points moved = forOption("--handles " + settings.handles_file.string(), [&] {
+    return tufted::deform(source.laplacian, settings.handles, settings.targets, settings.options, &made);
+  });
+  const bool is_linear = settings.options.method == DeformationMethod::linear;
+  results.report["report"] = {{"method", is_linear ? "linear" : "rigid"},
+                              {"handles", made.handles},
+                              {"moved", made.moved},
+                              {"floating", made.floating},
+                              {"longest_way", made.longest_way},
+                              {"iterations", made.iterations},
+                              {"last_move", made.last_move},
+                              {"converged", made.converged},
+                              {"stretch", made.stretch},
+                              {"seconds", made.seconds}};
+  results.summary.add("handles", "%lld, the longest way %.6g", static_cast<long long>(made.handles), made.longest_way);
+  results.summary.add("iterations", "%d, edges stretch by %.3g of their length", made.iterations, made.stretch);
+  if (made.floating > 0)
+    results.warnings.push_back(std::to_string(made.floating) + " points lie on components without a handle; they stay");
+  if (!made.converged)
+    results.warnings.push_back("points still move by " + numberText(made.last_move) + "; --iterations was too small");
+  movePoints("positions", moved, source, results);
+  return results;
+}
+
+}  // namespace
+
+void addDeform(CLI::App& app, Run& run) {
+  const auto [command, settings] =
+      addOperatorCommand<Settings>(app, run, "deform", description, footer, compute, check);
+  command->add_option("--handles", settings->handles_file, "A text file of points and where they shall lie")
+      ->check(notEmpty)
+      ->required()
+      ->type_name("TEXT");
+  addChoice(*command, "--method", settings->options.method, methods, "How the rest follows (rigid)");
+  addNumber(*command, "--iterations", settings->options.max_iterations, 1, 1000000, "Of rigid: at most so many (500)")
+      ->type_name("N");
+  addNumber(*command, "--tolerance", settings->options.tolerance, std::numeric_limits<double>::min(), 1.0,
+            "Of rigid: end where no point moves by more than this part of the longest way (1e-3)")
+      ->type_name("T");
+}

@@ -1,0 +1,92 @@
+#include <CLI/CLI.hpp>
+#include <limits>
+#include <string>
+
+#include "command.h"
+#include "moved_points.h"
+#include "operator.h"
+#include "options.h"
+#include "oriented.h"
+#include "point_options.h"
+#include "tufted/errors.h"
+#include "tufted/minimal_surface.h"
+
+namespace {
+
+constexpr const char* description = "The surface of the least area that a rim, or given points, span.";
+
+constexpr const char* footer =
+    R"(Examples:
+  tufted minimal open.off --out soap
+  tufted minimal open.off --fixed rim.txt --out soap
+
+The points of the rim stay in place, or those in --fixed; all others move until each is a mean of its neighbours, with
+the weights of the surface as it lies then. Of a cloud the triangles are those that `tufted view` shows.
+
+Writes into DIR, renamed one after the other when all are complete:
+  positions.npy  N x 3, float64; points on no triangle, and on parts without a fixed point, stay
+  points.ply     the points where they are now, without normals; points.pcd with --format pcd
+  report.json    points that stayed and moved, area before and after, iterations, whether they converged, seconds
+FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written of a cloud
+with --format npz,ply,cover.)";
+
+struct Settings {
+  OperatorSettings source;
+  std::filesystem::path fixed;
+  tufted::MinimalSurfaceOptions options;
+
+  std::vector<std::string> files() const { return {"positions.npy"}; }
+};
+
+void check(Settings& settings, const Operator& source) {
+  checkPositions(source);
+  checkHasPoints(source);
+  if (settings.fixed.empty()) return;
+  for (const Row& row : readRows(settings.fixed)) settings.options.fixed.push_back(indexOf(row, source.points()));
+  if (settings.options.fixed.empty())
+    throw tufted::IoError(settings.fixed.string() + ": names no point, must name one");
+}
+
+Results compute(Settings& settings, Operator& source) {
+  Results results;
+  settings.options.solver = source.solverOptions();
+  tufted::MinimalSurfaceReport made;
+  const tufted::Points moved = tufted::minimalSurface(source.laplacian, trianglesOf(source), settings.options, &made);
+  results.report["report"] = {{"fixed", made.fixed},
+                              {"moved", made.moved},
+                              {"floating", made.floating},
+                              {"iterations", made.iterations},
+                              {"last_move", made.last_move},
+                              {"converged", made.converged},
+                              {"area_before", made.area_before},
+                              {"area", made.area},
+                              {"seconds", made.seconds}};
+  results.summary.add("points", "%lld stayed, %lld moved", static_cast<long long>(made.fixed),
+                      static_cast<long long>(made.moved));
+  results.summary.add("area", "%.6g, before %.6g", made.area, made.area_before);
+  results.summary.add("iterations", "%d, in the last one points moved by at most %.3g", made.iterations,
+                      made.last_move);
+  if (made.floating > 0)
+    results.warnings.push_back(std::to_string(made.floating) + " points lie on parts without a fixed point; they stay");
+  if (!made.converged)
+    results.warnings.push_back("the surface still moves by " + numberText(made.last_move) +
+                               "; --iterations was too small");
+  movePoints("positions", moved, source, results);
+  return results;
+}
+
+}  // namespace
+
+void addMinimal(CLI::App& app, Run& run) {
+  const auto [command, settings] =
+      addOperatorCommand<Settings>(app, run, "minimal", description, footer, compute, check);
+  settings->source.needs_cover = true;
+  command->add_option("--fixed", settings->fixed, "A text file of points that stay, an INDEX per line")
+      ->check(notEmpty)
+      ->type_name("TEXT");
+  addNumber(*command, "--iterations", settings->options.max_iterations, 1, 1000000, "At most so many systems (300)")
+      ->type_name("N");
+  addNumber(*command, "--tolerance", settings->options.tolerance, std::numeric_limits<double>::min(), 1.0,
+            "End where no point moves off the surface by more than this part of its extent (1e-4)")
+      ->type_name("T");
+}

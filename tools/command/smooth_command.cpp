@@ -1,0 +1,134 @@
+#include <CLI/CLI.hpp>
+#include <limits>
+#include <map>
+#include <optional>
+#include <string>
+
+#include "command.h"
+#include "moved_points.h"
+#include "operator.h"
+#include "options.h"
+#include "point_options.h"
+#include "signal_options.h"
+#include "tufted/errors.h"
+#include "tufted/smoothing.h"
+
+namespace {
+
+constexpr const char* description = "Smooth the positions of the points, or fields.";
+
+constexpr const char* footer =
+    R"(Examples:
+  tufted smooth scan.ply --time-step 4 --out smooth
+  tufted smooth mesh.off --method taubin --iterations 20 --out fair
+  tufted smooth mesh.off --time-step 10 --keep-volume --out round
+
+  implicit  steps of the heat equation, of any size: all stays within the range of what was, shapes shrink
+  taubin    a step towards the mean of the neighbours, by lambda, then one away from it, by mu: shapes hardly shrink
+--keep-volume scales each component about its centre of mass to the volume it had; all must be closed.
+
+Writes into DIR, renamed one after the other when all are complete:
+  positions.npy  N x 3, float64; points that are not finite or isolated stay, coincident ones lie where their
+                 representative does. With --field or --values: smoothed.npy, N values, or N x c for c columns
+  points.ply     the points where they are now, without normals; with --field or --values the points as they were, with
+                 the field smoothed, float32; points.pcd with --format pcd
+  report.json    method, its parameters, the farthest and the mean way of a point
+FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written.)";
+
+using tufted::SmoothingMethod;
+
+const std::map<std::string, SmoothingMethod> methods = {{"implicit", SmoothingMethod::implicit},
+                                                        {"taubin", SmoothingMethod::taubin}};
+
+struct Settings {
+  OperatorSettings source;
+  SignalOptions signals;
+  SmoothingMethod method = SmoothingMethod::implicit;
+  std::optional<double> time_step, lambda, mu;
+  int iterations = 1;
+  bool keep_volume = false;
+  std::filesystem::path fixed_file;
+  Eigen::MatrixXd values;  ///< 0 columns: positions
+  std::vector<std::uint8_t> fixed;
+
+  bool hasSignals() const { return !signals.fields.empty() || !signals.values.empty(); }
+  std::vector<std::string> files() const { return {hasSignals() ? "smoothed.npy" : "positions.npy"}; }
+};
+
+void check(Settings& settings, const Operator& source) {
+  const bool is_taubin = settings.method == SmoothingMethod::taubin;
+  if (is_taubin && settings.time_step) throw tufted::InvalidInput("--time-step needs --method implicit");
+  if (!is_taubin && (settings.lambda || settings.mu))
+    throw tufted::InvalidInput(std::string(settings.lambda ? "--lambda" : "--mu") + " needs --method taubin");
+  if (settings.hasSignals()) {
+    if (settings.keep_volume) throw tufted::InvalidInput("--keep-volume excludes --field and --values");
+    settings.values = readSignals(settings.signals, source, settings.source.out);
+  } else {
+    checkHasPoints(source);
+  }
+  if (settings.fixed_file.empty()) return;
+  if (settings.keep_volume) throw tufted::InvalidInput("--keep-volume excludes --fixed");
+  settings.fixed.assign(static_cast<std::size_t>(source.points()), 0);
+  for (const Row& row : readRows(settings.fixed_file))
+    settings.fixed[static_cast<std::size_t>(indexOf(row, source.points()))] = 1;
+}
+
+Results compute(Settings& settings, Operator& source) {
+  Results results;
+  tufted::SmoothingOptions options = {.method = settings.method,
+                                      .iterations = settings.iterations,
+                                      .fixed = settings.fixed.empty() ? nullptr : &settings.fixed,
+                                      .threads = source.threads,
+                                      .progress = source.progress};
+  options.time_step = settings.time_step.value_or(options.time_step);
+  options.lambda = settings.lambda.value_or(options.lambda);
+  options.mu = settings.mu.value_or(options.mu);
+  const bool is_taubin = settings.method == SmoothingMethod::taubin;
+  results.report["report"] = {{"method", is_taubin ? "taubin" : "implicit"}, {"iterations", options.iterations}};
+  nlohmann::ordered_json& report = results.report["report"];
+  if (is_taubin) {
+    report["lambda"] = options.lambda;
+    report["mu"] = options.mu;
+  } else {
+    report["time_step"] = options.time_step;
+  }
+  report["keep_volume"] = settings.keep_volume;
+  if (settings.hasSignals()) {
+    requireFinite(settings.values, source);
+    results.arrays = {{.name = "smoothed", .values = tufted::smoothValues(source.laplacian, settings.values, options)}};
+    results.summary.add("smoothed", "%lld columns", static_cast<long long>(settings.values.cols()));
+    return results;
+  }
+  tufted::Triangles triangles;
+  if (settings.keep_volume) {
+    triangles = trianglesOf(source);
+    options.volume_of = &triangles;
+  }
+  const tufted::Points moved = tufted::smooth(source.laplacian, source.geometry.points, options);
+  movePoints("positions", moved, source, results);
+  return results;
+}
+
+}  // namespace
+
+void addSmooth(CLI::App& app, Run& run) {
+  const auto [command, settings] =
+      addOperatorCommand<Settings>(app, run, "smooth", description, footer, compute, check);
+  constexpr double least = std::numeric_limits<double>::min(), most = std::numeric_limits<double>::max();
+  addChoice(*command, "--method", settings->method, methods, "How points are smoothed (implicit)");
+  addNumber(*command, "--time-step", settings->time_step, least, most,
+            "Of implicit steps, in mean squared lengths of edges (1)")
+      ->type_name("T");
+  addNumber(*command, "--lambda", settings->lambda, least, 1.0, "Of taubin: part of the way to the mean (0.5)")
+      ->type_name("L");
+  addNumber(*command, "--mu", settings->mu, -1.0, 0.0, "Of taubin: part of the way back, negative (-0.53)")
+      ->type_name("MU");
+  addNumber(*command, "--iterations", settings->iterations, 1, 1000000, "Number of steps (1)")->type_name("N");
+  command->add_flag_callback(
+      "--keep-volume", [settings = settings.get()] { settings->keep_volume = settings->source.needs_cover = true; },
+      "Keep the volume of each component; all must be closed");
+  command->add_option("--fixed", settings->fixed_file, "A text file of points that stay, an INDEX per line")
+      ->check(notEmpty)
+      ->type_name("TEXT");
+  addSignalOptions(*command, settings->signals, "What to smooth in place of the positions");
+}
