@@ -86,9 +86,9 @@ struct DeformationSolver::State {
 
   /// What is missing at the free points so that the edges are as the neighbourhoods turn them.
   Eigen::MatrixXd missing(const Eigen::MatrixXd& moved, const Rotations& rotations, const Workers& workers) const {
-    constexpr std::int64_t block = 4096;
+    constexpr std::int64_t block_size = 4096;
     Eigen::MatrixXd rest = Eigen::MatrixXd::Zero(x.rows(), 3);
-    workers.forBlocks("deform", x.rows(), block, [&](std::int64_t begin, std::int64_t end, int) {
+    workers.forBlocks("deform", x.rows(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
       for (auto i = static_cast<int>(begin); i < end; ++i) {
         if (pinned.free[i] == 0) continue;
         forEdges(i, rotations, [&](double weight, int j, const Eigen::RowVector3d& wanted) {

@@ -8,9 +8,9 @@ namespace tufted {
 
 std::vector<Eigen::Matrix3d> localRotations(const SparseMatrix& L, const Eigen::MatrixXd& x,
                                             const Eigen::MatrixXd& moved, const Workers& workers) {
-  constexpr std::int64_t block = 1024;
+  constexpr std::int64_t block_size = 1024;
   std::vector<Eigen::Matrix3d> rotations(static_cast<std::size_t>(x.rows()), Eigen::Matrix3d::Identity());
-  workers.forBlocks("rotations", x.rows(), block, [&](std::int64_t begin, std::int64_t end, int) {
+  workers.forBlocks("rotations", x.rows(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
     for (auto i = static_cast<int>(begin); i < end; ++i) {
       Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
       for (SparseMatrix::InnerIterator entry(L, i); entry; ++entry) {

@@ -61,9 +61,8 @@ double spacingOf(const SparseMatrix& L, const Points& positions) {
   return std::ldexp(std::sqrt(sum / count), exponent);
 }
 
-/// The matrix A + mass, where each point has `width` rows.
-SparseMatrix withMass(const SparseMatrix& A, const VectorXd& mass, int width) {
-  SparseMatrix sum = A;
+/// The matrix `sum` + mass, where each point has `width` rows.
+SparseMatrix withMass(SparseMatrix sum, const VectorXd& mass, int width) {
   for (int i = 0; i < sum.outerSize(); ++i) {
     for (SparseMatrix::InnerIterator entry(sum, i); entry; ++entry)
       if (entry.row() == i) entry.valueRef() += mass[i / width];

@@ -98,6 +98,7 @@ Gradients fitGradients(const Laplacian& laplacian, const PointsRef& points, cons
       .regularization = options.regularization,
       .planes = planes};
   std::vector<SlopeFitter> fitters;
+  fitters.reserve(static_cast<std::size_t>(workers.count()));
   for (int worker = 0; worker < workers.count(); ++worker) fitters.emplace_back(laplacian.L, points, frames, fits);
   Gradients result{SparseMatrix(n, n), SparseMatrix(n, n), frames, {}};
   const auto has_surface = [&](int i) {

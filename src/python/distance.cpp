@@ -82,7 +82,7 @@ py::tuple pathBetween(const PathSolver& solver, int from, int to, const py::obje
 }  // namespace
 
 void addDistance(py::module_& module) {
-  py::class_<SurfacePoint>(module, "SurfacePoint");
+  py::class_<SurfacePoint>(module, "SurfacePoint");  // NOLINT(bugprone-unused-raii): registers it
   module.def("surface_points", &placesOf);
   module.def("points_within", &within);
   py::class_<DistanceSolver>(module, "DistanceSolver")

@@ -19,7 +19,7 @@ using FieldTuple =
     std::tuple<std::string, std::string, Eigen::MatrixXd, std::string, std::vector<std::string>, std::string>;
 
 std::string page(std::string title, const Doubles& points, const Integers& faces, Points normals,
-                 std::vector<FieldTuple> fields) {
+                 const std::vector<FieldTuple>& fields) {
   const std::map<std::string, FieldKind> kinds = {
       {"scalar", FieldKind::scalar}, {"diverging", FieldKind::diverging}, {"distance", FieldKind::distance},
       {"label", FieldKind::label},   {"vector", FieldKind::vector},       {"coordinates", FieldKind::coordinates},
@@ -28,9 +28,8 @@ std::string page(std::string title, const Doubles& points, const Integers& faces
                  .positions = pointsOf(points),
                  .triangles = trianglesOf(faces),
                  .normals = std::move(normals)};
-  for (auto& [name, kind, values, unit, label_names, no_value] : fields)
-    scene.fields.push_back(
-        {name, chosen<FieldKind>("page: kind", kind, kinds), std::move(values), unit, label_names, no_value});
+  for (const auto& [name, kind, values, unit, label_names, no_value] : fields)
+    scene.fields.push_back({name, chosen<FieldKind>("page: kind", kind, kinds), values, unit, label_names, no_value});
   const py::gil_scoped_release release;
   return pageOf(scene);
 }

@@ -138,8 +138,8 @@ class Shader {
     const float step = std::max(radius / blend_steps, 1.0F);
     std::array<int, 2 * blend_steps + 1> offsets;
     std::array<float, 2 * blend_steps + 1> bell;
-    for (int k = -blend_steps; k <= blend_steps; ++k) {
-      const auto index = static_cast<std::size_t>(k + blend_steps);
+    for (std::size_t index = 0; index < offsets.size(); ++index) {
+      const int k = static_cast<int>(index) - blend_steps;
       offsets[index] = static_cast<int>(std::floor(static_cast<float>(k) * step + 0.5F));
       const float far = static_cast<float>(offsets[index]) / (blend_width * radius);
       bell[index] = std::exp(-0.5F * far * far);

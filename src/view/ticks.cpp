@@ -44,7 +44,8 @@ Ticks ticksOf(double low, double high) {
   if (is_one_value) {
     ticks.values = {low};
   } else {
-    for (double k = std::ceil(low / step - 1e-6); k <= high / step + 1e-6; ++k) ticks.values.push_back(k * step);
+    const double first = std::ceil(low / step - 1e-6), last = std::floor(high / step + 1e-6);
+    for (int k = 0; k <= static_cast<int>(last - first); ++k) ticks.values.push_back((first + k) * step);
   }
   const double shift = ticks.exponent;
   const double shown = std::log10(is_one_value ? std::max(most, 1e-300) / 1e3 : step) - shift;

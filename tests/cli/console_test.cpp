@@ -48,7 +48,8 @@ class ConsoleOutput : public Subcommands {
   /// Runs an example; the files and folders that it names are in the folder of the test.
   void tryExample(std::vector<std::string> words) {
     const auto isFile = [](const std::string& word) {
-      return word == "scans" || word.ends_with(".ply") || word.ends_with(".off") || word.ends_with(".png");
+      return word == "scans" || word.ends_with(".ply") || word.ends_with(".off") || word.ends_with(".png") ||
+             word.ends_with(".txt");
     };
     for (std::size_t i = 1; i < words.size(); ++i)
       if (words[i - 1] == "--out" || words[i - 1] == "view" || isFile(words[i])) words[i] = in(words[i]);
@@ -62,10 +63,10 @@ TEST_F(ConsoleOutput, WithoutArgumentsIsTheHelpWithSubcommandsByPurposeAndThreeE
   for (const std::vector<std::string>& other : {std::vector<std::string>{}, {"help"}, {"-h"}})
     EXPECT_EQ(help(other), text);
   for (const char* purpose : {"Look at files:", "Matrices:", "Distances and directions along the surface:",
-                              "Values on the surface:", "Frequencies:", "Shape:"})
+                              "Values on the surface:", "Frequencies:", "Shape:", "Moving the points:"})
     EXPECT_TRUE(contains(text, purpose)) << purpose;
   EXPECT_EQ(examples(text).size(), 3u);
-  std::set<std::string> expected = {"info", "validate", "view"};
+  std::set<std::string> expected = {"info", "validate", "view", "parameterize", "minimal", "deform"};
   for (const std::vector<std::string>& command : commands) expected.insert(command[0]);
   const std::vector<std::string> listed = names();
   EXPECT_EQ(std::set<std::string>(listed.begin(), listed.end()), expected) << text;

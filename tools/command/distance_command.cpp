@@ -136,6 +136,7 @@ bool isLocal(const Settings& settings) {
 Eigen::MatrixXd addNearby(const Settings& settings, const std::vector<tufted::SurfacePoint>& sources,
                           const Operator& source, Results& results) {
   std::vector<int> points;
+  points.reserve(sources.size());
   for (const tufted::SurfacePoint& point : sources) points.push_back(point.corners[0]);
   const auto start = std::chrono::steady_clock::now();
   const tufted::NearbyPoints near =

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <string>
 
-#include "tufted/errors.h"
 #include "tufted/surface_triangles.h"
 
 tufted::Triangles trianglesOf(const Operator& source) {

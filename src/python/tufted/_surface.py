@@ -457,9 +457,10 @@ class Surface:
 
     def smooth_values(self, values, *, method="implicit", time_step=1.0, lambda_=0.5, mu=-0.53, iterations=1,
                       fixed=None, progress=None):
-        """Smooths functions on the points; arguments are those of smooth().
+        """Smooths functions on the points.
 
-        values: N or N x c, finite at active points. fixed: N booleans; points with True keep their values.
+        values: N or N x c, finite at active points. method, time_step, lambda_, mu, iterations: as in smooth().
+        fixed: N booleans; points with True keep their values.
         Returns the shape of values.
         """
         table, flat = check.columns("smooth_values", "values", values, len(self))
@@ -494,7 +495,7 @@ class Surface:
         """The surface of the least area that its rim, or given points, span.
 
         fixed: the points that stay in place; None: those of the rim. tolerance: iterations end where no point moves off
-        the surface by more than this part of its extent.
+        the surface by more than this part of its extent, or after max_iterations.
         Returns points (N x 3), their area, and whether iterations converged.
         """
         where = np.zeros(0, np.int32) if fixed is None else check.indices("minimal_surface", "fixed", fixed, len(self))
@@ -510,7 +511,7 @@ class Surface:
         handles: P indices. targets: P x 3, where they shall lie.
         method: "rigid", as rigid as possible: neighbourhoods turn but hardly stretch; or "linear", for small turns.
         tolerance: of "rigid": iterations end where no point moves by more than this part of the longest way of a
-        handle. The factor for the last handles is kept.
+        handle, or after max_iterations. The factor for the last handles is kept.
         Returns points (N x 3), by how much edges stretch in their length, and whether iterations converged.
         """
         where = check.indices("deform", "handles", handles, len(self))

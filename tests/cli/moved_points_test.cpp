@@ -1,0 +1,129 @@
+// The subcommands parameterize, smooth, minimal and deform.
+#include <cmath>
+
+#include "subcommands.h"
+
+namespace {
+
+/// A unit square of n x n cells that a bump lifts in its middle.
+std::string bump(int n, double height) {
+  std::string text = "OFF\n" + std::to_string((n + 1) * (n + 1)) + " " + std::to_string(2 * n * n) + " 0\n";
+  for (int i = 0; i <= n; ++i)
+    for (int j = 0; j <= n; ++j) {
+      const double x = static_cast<double>(i) / n, y = static_cast<double>(j) / n;
+      const double z = height * std::sin(M_PI * x) * std::sin(M_PI * y);
+      text += std::to_string(x) + " " + std::to_string(y) + " " + std::to_string(z) + "\n";
+    }
+  const auto triangle = [&](int a, int b, int c) {
+    text += "3 " + std::to_string(a) + " " + std::to_string(b) + " " + std::to_string(c) + "\n";
+  };
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j) {
+      const int a = i * (n + 1) + j, b = a + n + 1;
+      triangle(a, b, b + 1);
+      triangle(a, b + 1, a + 1);
+    }
+  return text;
+}
+
+class MovedPoints : public Subcommands {
+ protected:
+  /// The greatest third coordinate of N x 3 values.
+  double highest(const std::string& file) const {
+    const std::vector<double> x = values(file);
+    double high = -1;
+    for (std::size_t i = 2; i < x.size(); i += 3) high = std::max(high, x[i]);
+    return high;
+  }
+
+  std::string open_ = dir_.write("open.off", bump(8, 0.4)), closed_ = dir_.write("closed.off", tetrahedron);
+  std::string cloud_ = dir_.write("sphere.xyz", sphere(400));
+};
+
+TEST_F(MovedPoints, ParameterizeWritesTheMapAndHowGoodItIs) {
+  run({"parameterize", open_, "--out", in("conformal")});
+  EXPECT_EQ(values("conformal/uv.npy").size(), 2u * 81);
+  nlohmann::json made = report("conformal")["report"];
+  EXPECT_EQ(made["method"], "conformal");
+  EXPECT_EQ(made["flipped"], 0);
+  EXPECT_LT(made["quasi_conformal_error"], 1.2);
+  run({"parameterize", open_, "--method", "harmonic", "--weights", "mean-value", "--out", in("disc")});
+  for (const double value : values("disc/uv.npy")) EXPECT_LE(std::abs(value), 1 + 1e-12);
+  dir_.write("rim.txt", "0 0 0\n72, 1, 0\n80 1 1\n8 0 1\n");
+  run({"parameterize", open_, "--method", "harmonic", "--rim", in("rim.txt"), "--out", in("corners")});
+  const std::vector<double> uv = values("corners/uv.npy");
+  EXPECT_EQ(uv[2 * 72], 1);
+  EXPECT_EQ(uv[2 * 72 + 1], 0);
+}
+
+TEST_F(MovedPoints, ParameterizeRefusesWhatItCannotLayOut) {
+  expectRefusal({"parameterize", closed_}, "is closed, must have a rim", 1);
+  expectRefusal({"parameterize", cloud_}, "is closed, must have a rim", 1);
+  expectRefusal({"parameterize", open_, "--weights", "mean-value"}, "--weights needs --method harmonic");
+  expectRefusal({"parameterize", open_, "--method", "flat"}, "flat is none of conformal|harmonic");
+  dir_.write("rim.txt", "0\n5 1\n");
+  expectRefusal({"parameterize", open_, "--rim", in("rim.txt")}, "--rim needs --method harmonic");
+  expectRefusal({"parameterize", open_, "--method", "harmonic", "--rim", in("rim.txt")},
+                "line 2: is not INDEX or INDEX U V", 1);
+}
+
+TEST_F(MovedPoints, SmoothMovesPointsOrFields) {
+  run({"smooth", open_, "--time-step", "4", "--out", in("implicit")});
+  EXPECT_LT(highest("implicit/positions.npy"), 0.38);
+  EXPECT_GT(report("implicit")["way"]["farthest"], 0.02);
+  run({"smooth", open_, "--method", "taubin", "--iterations", "5", "--out", in("taubin")});
+  EXPECT_GT(highest("taubin/positions.npy"), 0.38);
+  EXPECT_EQ(report("taubin")["report"]["mu"], -0.53);
+  run({"smooth", cloud_, "--time-step", "20", "--keep-volume", "--out", in("round")});
+  const std::vector<double> x = values("round/positions.npy");
+  EXPECT_NEAR(std::hypot(x[0], x[1], x[2]), 1, 0.05);
+  run({"smooth", open_, "--field", "z", "--out", in("field")});
+  EXPECT_EQ(values("field/smoothed.npy").size(), 81u);
+  dir_.write("fixed.txt", "40\n");
+  run({"smooth", open_, "--fixed", in("fixed.txt"), "--out", in("fixed")});
+  EXPECT_NEAR(highest("fixed/positions.npy"), 0.4, 1e-6);
+}
+
+TEST_F(MovedPoints, SmoothRefusesOptionsThatDoNotFit) {
+  expectRefusal({"smooth", open_, "--mu", "-0.5"}, "--mu needs --method taubin");
+  expectRefusal({"smooth", open_, "--method", "taubin", "--time-step", "1"}, "--time-step needs --method implicit");
+  expectRefusal({"smooth", open_, "--lambda", "2", "--method", "taubin"}, "--lambda: 2 is not a number in (0, 1]");
+  expectRefusal({"smooth", open_, "--keep-volume", "--field", "x"}, "--keep-volume excludes --field");
+  expectRefusal({"smooth", open_, "--keep-volume"}, "has a rim, must be closed", 1);
+  dir_.write("fixed.txt", "1\n81\n");
+  expectRefusal({"smooth", open_, "--fixed", in("fixed.txt")}, "line 2 is no index in [0, 81)");
+}
+
+TEST_F(MovedPoints, MinimalFlattensWithinAFlatRim) {
+  run({"minimal", open_, "--out", in("soap")});
+  EXPECT_LE(highest("soap/positions.npy"), 1e-3);
+  const nlohmann::json made = report("soap")["report"];
+  EXPECT_TRUE(made["converged"]);
+  EXPECT_EQ(made["fixed"], 32);
+  EXPECT_NEAR(made["area"], 1, 1e-4);
+  const Result few = runTufted({"minimal", open_, "--iterations", "1", "--out", in("few")});
+  EXPECT_EQ(few.code, 0);
+  EXPECT_NE(few.err.find("--iterations was too small"), std::string::npos) << few.err;
+  expectRefusal({"minimal", closed_}, "has no rim, so points that stay in place must be given", 1);
+  dir_.write("fixed.txt", "# none\n");
+  expectRefusal({"minimal", open_, "--fixed", in("fixed.txt")}, "names no point, must name one", 1);
+}
+
+TEST_F(MovedPoints, DeformPutsHandlesWhereTheyShallLie) {
+  dir_.write("handles.txt", "0\n8\n72\n80\n40 0.5 0.5 1  # up\n");
+  for (const char* method : {"rigid", "linear"}) {
+    run({"deform", open_, "--handles", in("handles.txt"), "--method", method, "--out", in("out")});
+    const std::vector<double> x = values("out/positions.npy");
+    EXPECT_EQ(x[3 * 40 + 2], 1);
+    EXPECT_EQ(x[2], 0);
+    EXPECT_EQ(report("out")["report"]["method"], method);
+    EXPECT_GT(report("out")["report"]["stretch"], 0);
+  }
+  dir_.write("bad.txt", "0\n8 1 2\n");
+  expectRefusal({"deform", open_, "--handles", in("bad.txt")}, "line 2: is not INDEX or INDEX X Y Z", 1);
+  dir_.write("bad.txt", "0\n8 1 2 nan\n");
+  expectRefusal({"deform", open_, "--handles", in("bad.txt")}, "line 2", 1);
+  expectRefusal({"deform", open_}, "--handles");
+}
+
+}  // namespace
