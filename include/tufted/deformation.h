@@ -54,8 +54,7 @@ struct DeformationReport {
 /// @return N x 3. Points of components without a handle, and those that are isolated or not finite, stay at
 ///         Laplacian::positions; a coincident point lies where its representative does
 /// @throws InvalidInput for arrays of the wrong size, indices or options out of range, targets or positions that are
-/// not
-///         finite, or no handle on any component
+///         not finite, or no handle on any component
 /// @throws SolverFailure when a system cannot be solved
 /// @throws Cancelled when `options.solver.progress` returns false
 Points deform(const Laplacian& laplacian, const std::vector<int>& handles, const PointsRef& targets,

@@ -91,8 +91,8 @@ class InterpolationSolver {
   /// @return as harmonic() or biharmonic(), whose errors it throws
   Eigen::MatrixXd interpolate(const Eigen::MatrixXd& values, SolveReport* report = nullptr,
                               const Progress& progress = {}) const;
-  /// Solves L u = M f at all points that are not pinned, with these values at the pins. Of Interpolation::biharmonic the
-  /// function whose Laplacian M^-1 L u is nearest to f, in the norm of M: L M^-1 L u = L f there.
+  /// Solves L u = M f at all points that are not pinned, with these values at the pins. Of Interpolation::biharmonic
+  /// the function whose Laplacian M^-1 L u is nearest to f, in the norm of M: L M^-1 L u = L f there.
   /// @param f N x c, finite at active points
   /// @param values P x c, finite
   /// @return as poisson() with pins, whose errors it throws

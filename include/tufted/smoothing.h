@@ -33,7 +33,8 @@ struct SmoothingOptions {
   int iterations = 1;                                ///< steps >= 1, all with the Laplacian given
   const std::vector<std::uint8_t>* fixed = nullptr;  ///< N; points with an entry other than 0 stay in place; borrowed
   /// F x 3 triangles of closed surfaces, as those of a mesh or surfaceTriangles(), whose volume is kept: in the end
-  /// each component is scaled about its centre of mass (Desbrun et al. 1999). Not with `fixed`. Borrowed.
+  /// each component is scaled about its centre of mass (Desbrun et al. 1999). On a cloud they may have holes of at most
+  /// 5 % of the area. Not with `fixed`. Borrowed.
   const Triangles* volume_of = nullptr;
   int threads = 0;         ///< at most this many; 0: one per processor
   Progress progress = {};  ///< called while it smooths

@@ -10,13 +10,17 @@
 namespace tufted {
 namespace {
 
+/// The holes of a cloud's triangles may have this part of their area.
+constexpr double most_hole_area = 0.05;
+
 [[noreturn]] void refuse(const std::string& function, int point, const std::string& why) {
   throw InvalidInput(function + ": the component of point " + std::to_string(point) + " " + why);
 }
 
 }  // namespace
 
-EnclosedVolume::EnclosedVolume(const std::string& function, const Laplacian& laplacian, const TrianglesRef& triangles)
+EnclosedVolume::EnclosedVolume(const std::string& function, const Laplacian& laplacian, const TrianglesRef& triangles,
+                               const Eigen::MatrixXd& points)
     : function_(function),
       components_(findComponents(laplacian)),
       weights_(components_.weights(laplacian.M)),
@@ -31,8 +35,10 @@ EnclosedVolume::EnclosedVolume(const std::string& function, const Laplacian& lap
     for (const Chart* chart : of_[c]) {
       if (!chart->is_manifold) refuse(function, first, "has an edge of more than two triangles, must have none");
       if (!chart->is_orientable) refuse(function, first, "is nonorientable, must have two sides");
-      if (!chart->rims.empty()) refuse(function, first, "has a rim, must be closed");
+      if (!chart->rims.empty() && laplacian.kind == Kind::mesh) refuse(function, first, "has a rim, must be closed");
     }
+    const Body body = measure(points, c);
+    if (!(body.hole_area <= most_hole_area * body.area)) refuse(function, first, "has a rim, must be closed");
   }
 }
 
@@ -41,7 +47,7 @@ EnclosedVolume::Body EnclosedVolume::measure(const Eigen::MatrixXd& x, int compo
   const Eigen::RowVector3d origin = x.row(points.front());
   Eigen::RowVector3d mean = Eigen::RowVector3d::Zero();
   for (const int i : points) mean += weights_[i] * (x.row(i) - origin);
-  Body body{origin + mean, 0, 0};
+  Body body{origin + mean, 0, 0, 0, 0};
   double extent = 0;
   for (const int i : points) extent = std::max(extent, (x.row(i) - body.centre).cwiseAbs().maxCoeff());
   if (!(extent > 0)) return body;
@@ -53,7 +59,20 @@ EnclosedVolume::Body EnclosedVolume::measure(const Eigen::MatrixXd& x, int compo
   };
   for (const Chart* chart : of_[component]) {
     double sum = 0;
-    for (const auto& [a, b, c] : chart->triangles) sum += at(a).dot(at(b).cross(at(c)));
+    for (const auto& [i, j, k] : chart->triangles) {
+      const Eigen::RowVector3d a = at(i), b = at(j), c = at(k);
+      sum += a.dot(b.cross(c));
+      body.area += (b - a).cross(c - a).norm() / 2;
+    }
+    for (const std::vector<int>& rim : chart->rims) {
+      Eigen::RowVector3d middle = Eigen::RowVector3d::Zero();
+      for (const int i : rim) middle += at(i) / static_cast<double>(rim.size());
+      for (std::size_t k = 0; k < rim.size(); ++k) {
+        const Eigen::RowVector3d a = at(rim[k]), b = at(rim[(k + 1) % rim.size()]);
+        sum += middle.dot(b.cross(a));  // the other way than the triangle beside it
+        body.hole_area += (a - middle).cross(b - middle).norm() / 2;
+      }
+    }
     body.volume += std::abs(sum) / 6;
   }
   return body;

@@ -146,6 +146,7 @@ Points minimalSurface(const Laplacian& laplacian, const TrianglesRef& given, con
   std::vector<std::uint8_t> is_free = named;
   for (const int i : fixed) is_free[i] = 0;
   made.fixed = std::ssize(fixed);
+  std::vector<std::uint8_t> has_moved(named.size(), 0);
   while (made.iterations < options.max_iterations && !made.converged) {
     workers.report("minimal surface", static_cast<double>(made.iterations) / options.max_iterations);
     const Progress within = [&](std::string_view, double) {
@@ -162,6 +163,7 @@ Points minimalSurface(const Laplacian& laplacian, const TrianglesRef& given, con
       const auto row = static_cast<Eigen::Index>(i);
       const bool moves = is_free[i] != 0 && next.row(row).allFinite();
       if (is_free[i] != 0) ++(moves ? made.moved : made.floating);
+      has_moved[i] |= static_cast<std::uint8_t>(moves);
       if (!moves) next.row(row) = x.row(row);
     }
     const double farthest = farthestOff(x, next, triangles);
@@ -173,7 +175,7 @@ Points minimalSurface(const Laplacian& laplacian, const TrianglesRef& given, con
   made.area = frame.areaToCaller(areaOf(x, triangles));
   Eigen::MatrixXd result = laplacian.positions;
   for (std::size_t i = 0; i < named.size(); ++i)
-    if (is_free[i] != 0) result.row(static_cast<Eigen::Index>(i)) = frame.toCaller(Eigen::RowVector3d(x.row(i)));
+    if (has_moved[i] != 0) result.row(static_cast<Eigen::Index>(i)) = frame.toCaller(Eigen::RowVector3d(x.row(i)));
   copyToCoincident(laplacian, result);
   workers.report("done", 1);
   made.seconds = watch.seconds();

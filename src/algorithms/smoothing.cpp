@@ -209,7 +209,8 @@ Points smooth(const Laplacian& laplacian, const PointsRef& points, const Smoothi
     if (options.fixed != nullptr)
       throw InvalidInput(std::string(smooth_name) + ": volume_of and fixed are given, must be one of both");
     checkSizes(smooth_name, laplacian);
-    volume.emplace(smooth_name, laplacian, *options.volume_of);
+    checkValues(smooth_name, laplacian, "points", points, options.iterations);
+    volume.emplace(smooth_name, laplacian, *options.volume_of, points);
   }
   Eigen::MatrixXd x = smoothed(smooth_name, laplacian, "points", points, options);
   if (volume) {

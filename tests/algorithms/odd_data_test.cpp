@@ -95,6 +95,21 @@ TEST_F(OddlyBuiltCloud, IsSmoothed) {
   for (int i = 0; i < 5000; ++i) EXPECT_EQ(smoothed.row(i).allFinite(), points.row(i).allFinite()) << i;
 }
 
+TEST_F(OddlyBuiltCloud, IsMovedWhereItHasHandlesAndRims) {
+  const Points points = oddCloud();
+  const std::vector<int> handles = {0, 1500};
+  for (const DeformationMethod method : {DeformationMethod::as_rigid_as_possible, DeformationMethod::linear}) {
+    Points targets = built->positions(handles, Eigen::all);
+    targets(0, 2) += 0.1;
+    const Points moved = deform(*built, handles, targets, {.method = method});
+    for (int i = 0; i < 5000; ++i) ASSERT_EQ(moved.row(i).allFinite(), points.row(i).allFinite()) << i;
+    support::expectCopies(*built, moved);
+  }
+  const Triangles triangles = surfaceTriangles(*built);
+  const Points soap = minimalSurface(*built, triangles, {.fixed = {0, 10, 20, 30}, .max_iterations = 2});
+  for (int i = 0; i < 5000; ++i) ASSERT_EQ(soap.row(i).allFinite(), points.row(i).allFinite()) << i;
+}
+
 class OddMesh : public testing::Test {
  protected:
   /// Components by number.
@@ -183,6 +198,24 @@ TEST_F(OddMesh, IsFilteredAndSmoothedWhereItHasTriangles) {
       }
     }
   }
+}
+
+TEST_F(OddMesh, IsMovedWhereItHasHandlesAndRims) {
+  const auto isDefined = [&](const Points& moved) {
+    for (int i = 0; i <= last(); ++i) {
+      if (component_[i] >= 0) {
+        ASSERT_TRUE(moved.row(i).allFinite()) << i;
+      }
+    }
+    EXPECT_EQ(moved.row(first_[sphere]), points_.row(first_[sphere]));  // closed, and without a handle
+  };
+  isDefined(minimalSurface(built, triangles_));
+  const std::vector<int> handles = {first_[book], first_[double_rows], last()};
+  Points targets = points_(handles, Eigen::all);
+  targets.row(0) += Eigen::RowVector3d(0, 0, 1);
+  for (const DeformationMethod method : {DeformationMethod::as_rigid_as_possible, DeformationMethod::linear})
+    isDefined(deform(built, handles, targets, {.method = method}));
+  EXPECT_TRUE(smooth(built, points_, {.method = SmoothingMethod::taubin}).row(first_[book]).allFinite());
 }
 
 TEST_F(OddMesh, HasDistancesWhereSourcesAre) {

@@ -320,6 +320,20 @@ TEST(Smoothing, KeepsTheVolumeOfEachComponentInAnyUnit) {
   }
 }
 
+TEST(Smoothing, KeepsTheVolumeOfNoisyClouds) {
+  const Points points = shapes::withNoise(shapes::sphere(4000), 0.05).points;
+  const Laplacian laplacian = pointCloudLaplacian(points);
+  const Triangles triangles = surfaceTriangles(laplacian);
+  ASSERT_LT(triangles.rows(), 7990);  // holes
+  const SmoothingOptions options{.time_step = 10, .volume_of = &triangles};
+  EXPECT_NEAR(smooth(laplacian, points, options).rowwise().norm().mean(), 1, 1e-2);
+  const Points disk = shapes::disk(1000).points;
+  const Laplacian open = pointCloudLaplacian(disk);
+  const Triangles found = surfaceTriangles(open);
+  EXPECT_EQ(support::refusal([&] { smooth(open, disk, {.volume_of = &found}); }),
+            "smooth: the component of point 0 has a rim, must be closed");
+}
+
 TEST(Smoothing, ByTaubinHardlyShrinksASphere) {
   const Points points = shapes::sphere(4000).points;
   const Laplacian laplacian = pointCloudLaplacian(points);

@@ -8,12 +8,13 @@
 #include <vector>
 
 #include "bench/distance_tables.h"
+#include "bench/shape_tables.h"
 #include "oracles/oracles.h"
 #include "oracles/planar.h"
 #include "shapes/shapes.h"
 #include "tufted/interpolation.h"
 
-// Tables of what distances, interpolation and Green's functions reach, in Markdown.
+// Tables of what the algorithms reach, in Markdown.
 
 namespace {
 
@@ -70,10 +71,12 @@ void printGreen() {
 
 int main(int argc, char** argv) {
   const std::map<std::string, void (*)()> tables = {
-      {"meshes", bench::printMeshes}, {"paths", bench::printPaths}, {"nonmanifold", bench::printNonmanifold},
-      {"sphere", bench::printSphere}, {"torus", bench::printTorus}, {"symmetry", bench::printSymmetry},
-      {"query", bench::printQuery},   {"obtuse", printObtuse},      {"green", printGreen}};
-  CLI::App app("Tables of distances, interpolation and Green's functions against what is exact.");
+      {"meshes", bench::printMeshes},      {"paths", bench::printPaths}, {"nonmanifold", bench::printNonmanifold},
+      {"sphere", bench::printSphere},      {"torus", bench::printTorus}, {"symmetry", bench::printSymmetry},
+      {"query", bench::printQuery},        {"obtuse", printObtuse},      {"green", printGreen},
+      {"maps", bench::printMaps},          {"disks", bench::printDisks}, {"minimal", bench::printMinimal},
+      {"smoothing", bench::printSmoothing}};
+  CLI::App app("Tables of distances, interpolation, Green's functions, maps and moved points against what is exact.");
   std::vector<std::string> names;
   std::vector<std::string> known;
   for (const auto& [name, print] : tables) known.push_back(name);

@@ -51,7 +51,8 @@ Results compute(Settings& settings, Operator& source) {
   Results results;
   settings.options.solver = source.solverOptions();
   tufted::MinimalSurfaceReport made;
-  const tufted::Points moved = tufted::minimalSurface(source.laplacian, trianglesOf(source), settings.options, &made);
+  const tufted::Points moved = blameSurface(
+      source, [&] { return tufted::minimalSurface(source.laplacian, trianglesOf(source), settings.options, &made); });
   results.report["report"] = {{"fixed", made.fixed},
                               {"moved", made.moved},
                               {"floating", made.floating},

@@ -83,7 +83,8 @@ Results compute(Settings& settings, Operator& source) {
   settings.options.solver = source.solverOptions();
   const tufted::Triangles triangles = trianglesOf(source);
   tufted::ParameterizationReport made;
-  const Eigen::MatrixX2d uv = tufted::parameterize(source.laplacian, triangles, settings.options, &made);
+  const Eigen::MatrixX2d uv =
+      blameSurface(source, [&] { return tufted::parameterize(source.laplacian, triangles, settings.options, &made); });
   const bool is_harmonic = settings.options.method == ParameterizationMethod::harmonic;
   const char* const method = !is_harmonic                                              ? "conformal"
                              : settings.options.weights == HarmonicWeights::mean_value ? "harmonic, mean values"

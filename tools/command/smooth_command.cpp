@@ -104,7 +104,8 @@ Results compute(Settings& settings, Operator& source) {
     triangles = trianglesOf(source);
     options.volume_of = &triangles;
   }
-  const tufted::Points moved = tufted::smooth(source.laplacian, source.geometry.points, options);
+  const tufted::Points moved =
+      blameSurface(source, [&] { return tufted::smooth(source.laplacian, source.geometry.points, options); });
   movePoints("positions", moved, source, results);
   return results;
 }

@@ -1,0 +1,12 @@
+#pragma once
+
+// Tables of maps to the plane and of moved points, in Markdown.
+
+namespace tufted::bench {
+
+void printMaps();       ///< conformal maps of half spheres and planes
+void printDisks();      ///< harmonic maps of CGAL's meshes that are disks
+void printMinimal();    ///< the catenoid
+void printSmoothing();  ///< a noisy sphere
+
+}  // namespace tufted::bench
