@@ -184,7 +184,7 @@ Eigen::MatrixX2d harmonicMap(const Laplacian& laplacian, const std::vector<Chart
       options.rim_positions.rows() > 0 ? options.rim_positions : onCircle(laplacian.positions, rim);
   if (!is_mean_value) {
     SolveReport solved;
-    const Eigen::MatrixX2d uv = harmonic(laplacian, {rim, values}, options.solver, &solved);
+    Eigen::MatrixX2d uv = harmonic(laplacian, {rim, values}, options.solver, &solved);
     report.iterations = solved.iterations;
     report.residual = solved.residual;
     report.solver_method = solved.method;

@@ -12,11 +12,11 @@ PinnedPoints pinnedPoints(const std::string& function, const Laplacian& laplacia
                           const std::string& what) {
   checkSizes(function, laplacian);
   const auto n = laplacian.status.size();
+  const std::string name = function + ": " + what;
   PinnedPoints result{findComponents(laplacian), std::vector<std::uint8_t>(n, 0), std::vector<std::uint8_t>(n, 0)};
   for (const int point : points) {
     if (point < 0 || static_cast<std::size_t>(point) >= n) {
-      throw InvalidInput(function + ": " + what + " has " + std::to_string(point) + ", must lie in [0, " +
-                         std::to_string(n) + ")");
+      throw InvalidInput(name + " has " + std::to_string(point) + ", must lie in [0, " + std::to_string(n) + ")");
     }
     result.pinned[laplacian.representative[point]] = 1;
   }
@@ -25,7 +25,7 @@ PinnedPoints pinnedPoints(const std::string& function, const Laplacian& laplacia
   for (const int i : components.points)
     if (result.pinned[i] != 0) has_pin[components.of[i]] = true;
   if (std::find(has_pin.begin(), has_pin.end(), true) == has_pin.end()) {
-    throw InvalidInput(function + ": " + what + " has no point on a component, must have at least one active point");
+    throw InvalidInput(name + " has no point on a component, must have at least one active point");
   }
   for (const int i : components.points) result.free[i] = result.pinned[i] == 0 && has_pin[components.of[i]] ? 1 : 0;
   return result;

@@ -62,6 +62,7 @@ double spacingOf(const SparseMatrix& L, const Points& positions) {
 }
 
 /// The matrix `sum` + mass, where each point has `width` rows.
+// NOLINTNEXTLINE(performance-unnecessary-value-param): changed through iterators
 SparseMatrix withMass(SparseMatrix sum, const VectorXd& mass, int width) {
   for (int i = 0; i < sum.outerSize(); ++i) {
     for (SparseMatrix::InnerIterator entry(sum, i); entry; ++entry)
