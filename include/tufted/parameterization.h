@@ -40,6 +40,7 @@ struct ParameterizationReport {
   std::int64_t charts = 0;         ///< that were laid out
   std::int64_t closed = 0;         ///< charts without a rim, which no plane can hold
   std::int64_t nonorientable = 0;  ///< charts without two sides
+  std::int64_t cut = 0;            ///< triangles of a cloud left out, as orientations met there that did not agree
   std::int64_t nonmanifold = 0;    ///< charts with an edge of more than two triangles
   std::int64_t shared_points = 0;  ///< points of several charts that were laid out; they lie in the largest one
   std::int64_t not_mapped = 0;     ///< active points that lie in no chart that was laid out; NaN
@@ -68,7 +69,9 @@ struct ParameterizationReport {
 /// Harmonic: one chart that is a disk, of which one simple rim is pinned, and each other point is a mean of its
 /// neighbours. With the weights of L that holds for all points of L's component, also without triangles.
 ///
-/// Triangles are oriented as the largest number of those given; turning all of them mirrors the result.
+/// The triangles of a cloud are cut where orientations meet that do not agree, as single wrong ones make them do on
+/// scans; a mesh with one side is refused. Triangles are oriented as the largest number of those given; turning all of
+/// them mirrors the result.
 /// @param laplacian with its positions
 /// @param triangles F x 3: those of the mesh, or surfaceTriangles() of a cloud. Those that name a point twice, or one
 /// that is not active, are left out.

@@ -108,8 +108,9 @@ std::vector<std::vector<int>> rimsOf(const std::vector<Corners>& triangles) {
 
 /// Finds the chart of a triangle: marks it in `seen`, turns its triangles.
 /// @param crowd_of of a side, its place in Sides::crowds(); -1: none
+/// @param disagreeing gets of each edge at which orientations do not agree the triangle that was found later
 Chart chartOf(int first, const Sides& sides, const std::vector<int>& crowd_of, std::vector<Corners>& triangles,
-              const std::vector<Corners>& given, std::vector<std::uint8_t>& seen) {
+              const std::vector<Corners>& given, std::vector<std::uint8_t>& seen, std::vector<int>& disagreeing) {
   Chart chart;
   std::vector<int> members = {first};
   std::vector<std::uint8_t>& turned = seen;  // 0: not seen, 1: as given, 2: turned
@@ -137,6 +138,7 @@ Chart chartOf(int first, const Sides& sides, const std::vector<int>& crowd_of, s
         members.push_back(mate / 3);
       } else if (turned[mate / 3] != wanted) {
         chart.is_orientable = false;
+        disagreeing.push_back(t);
       }
     }
   }
@@ -156,10 +158,8 @@ Chart chartOf(int first, const Sides& sides, const std::vector<int>& crowd_of, s
   return chart;
 }
 
-}  // namespace
-
-std::vector<Chart> findCharts(const char* function, const Laplacian& laplacian, const TrianglesRef& triangles) {
-  const std::vector<Corners> given = usableTriangles(function, laplacian, triangles);
+/// @param disagreeing as chartOf()
+std::vector<Chart> chartsOf(const std::vector<Corners>& given, std::vector<int>& disagreeing) {
   const Sides sides(given);
   std::vector<int> crowd_of(3 * given.size(), -1);
   for (std::size_t c = 0; c < sides.crowds().size(); ++c)
@@ -169,13 +169,34 @@ std::vector<Chart> findCharts(const char* function, const Laplacian& laplacian, 
   for (int t = 0; t < static_cast<int>(given.size()); ++t) {
     if (seen[t] != 0) continue;
     std::vector<Corners> members;
-    Chart chart = chartOf(t, sides, crowd_of, members, given, seen);
+    Chart chart = chartOf(t, sides, crowd_of, members, given, seen, disagreeing);
     chart.triangles = std::move(members);
     if (chart.is_manifold && chart.is_orientable) chart.rims = rimsOf(chart.triangles);
     charts.push_back(std::move(chart));
   }
   std::stable_sort(charts.begin(), charts.end(),
                    [](const Chart& a, const Chart& b) { return a.triangles.size() > b.triangles.size(); });
+  return charts;
+}
+
+}  // namespace
+
+std::vector<Chart> findCharts(const char* function, const Laplacian& laplacian, const TrianglesRef& triangles,
+                              std::int64_t* cut) {
+  std::vector<Corners> given = usableTriangles(function, laplacian, triangles);
+  std::vector<int> disagreeing;
+  std::vector<Chart> charts = chartsOf(given, disagreeing);
+  while (cut != nullptr && laplacian.kind == Kind::cloud && !disagreeing.empty()) {
+    std::vector<std::uint8_t> is_left_out(given.size(), 0);
+    for (const int t : disagreeing) is_left_out[t] = 1;
+    std::size_t kept = 0;
+    for (std::size_t t = 0; t < given.size(); ++t)
+      if (is_left_out[t] == 0) given[kept++] = given[t];
+    *cut += static_cast<std::int64_t>(given.size() - kept);
+    given.resize(kept);
+    disagreeing.clear();
+    charts = chartsOf(given, disagreeing);
+  }
   return charts;
 }
 

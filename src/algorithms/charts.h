@@ -26,7 +26,10 @@ struct Chart {
 
 /// The charts of some triangles, those of more triangles first. Those that name a point twice or one that is not active
 /// are left out, and of those with the same corners all but the first.
+/// @param cut if given, charts of a cloud are cut where orientations meet that do not agree, as single wrong triangles
+///        make them do: gets the number of triangles that are left out for that
 /// @throws InvalidInput for an index out of range, in the name of `function`
-std::vector<Chart> findCharts(const char* function, const Laplacian& laplacian, const TrianglesRef& triangles);
+std::vector<Chart> findCharts(const char* function, const Laplacian& laplacian, const TrianglesRef& triangles,
+                              std::int64_t* cut = nullptr);
 
 }  // namespace tufted

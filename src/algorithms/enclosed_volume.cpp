@@ -26,7 +26,7 @@ EnclosedVolume::EnclosedVolume(const std::string& function, const Laplacian& lap
       weights_(components_.weights(laplacian.M)),
       points_(static_cast<std::size_t>(components_.count)),
       of_(static_cast<std::size_t>(components_.count)),
-      charts_(findCharts(function.c_str(), laplacian, triangles)) {
+      charts_(findCharts(function.c_str(), laplacian, triangles, &cut_)) {
   for (const int i : components_.points) points_[components_.of[i]].push_back(i);
   for (const Chart& chart : charts_) of_[components_.of[chart.triangles.front()[0]]].push_back(&chart);
   for (int c = 0; c < components_.count; ++c) {

@@ -40,6 +40,7 @@ class EnclosedVolume {
   VectorXd weights_;                           ///< N; M over its sum per component
   std::vector<std::vector<int>> points_;       ///< by component
   std::vector<std::vector<const Chart*>> of_;  ///< by component
+  std::int64_t cut_ = 0;                       ///< triangles that are left out as their orientations do not agree
   std::vector<Chart> charts_;
 };
 

@@ -212,7 +212,7 @@ Eigen::MatrixX2d parameterize(const Laplacian& laplacian, const TrianglesRef& tr
   checkArguments(laplacian, options);
   Workers(options.solver.threads, options.solver.progress).report("charts", 0);
   ParameterizationReport made;
-  const std::vector<Chart> charts = findCharts(function_name, laplacian, triangles);
+  const std::vector<Chart> charts = findCharts(function_name, laplacian, triangles, &made.cut);
   const std::vector<const Chart*> mapped = mappableCharts(charts, made);
   std::vector<int> owner(laplacian.status.size(), -1);
   Eigen::MatrixX2d uv;

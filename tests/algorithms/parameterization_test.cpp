@@ -258,6 +258,20 @@ TEST(Parameterize, GivesOddCloudsADefinedResult) {
   EXPECT_EQ(report.not_mapped, 500);
 }
 
+TEST(Parameterize, CutsTheSurfaceOfACloudThatHasOneSide) {
+  const shapes::Mesh strip = shapes::moebius(12);
+  Laplacian laplacian = pointCloudLaplacian(strip.points);
+  ParameterizationReport report;
+  const MatrixX2d uv = parameterize(laplacian, strip.triangles, {}, &report);
+  EXPECT_TRUE(uv.allFinite());
+  EXPECT_GE(report.cut, 12);  // across the strip
+  EXPECT_LE(report.cut, 30);
+  EXPECT_EQ(report.charts, 1);
+  EXPECT_EQ(report.nonorientable, 0);
+  laplacian.kind = Kind::mesh;
+  EXPECT_NE(refusal([&] { parameterize(laplacian, strip.triangles); }).find("is nonorientable"), std::string::npos);
+}
+
 TEST(Parameterize, GivesOddMeshesADefinedResult) {
   for (const shapes::Mesh& mesh :
        {shapes::slivers(8), shapes::zeroLengthEdges(6), shapes::repeatedVertices(6), shapes::unreferencedVertices(6),

@@ -93,6 +93,7 @@ Results compute(Settings& settings, Operator& source) {
                               {"charts", made.charts},
                               {"closed", made.closed},
                               {"nonorientable", made.nonorientable},
+                              {"cut", made.cut},
                               {"nonmanifold", made.nonmanifold},
                               {"rims", made.rims},
                               {"shared_points", made.shared_points},
