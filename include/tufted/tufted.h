@@ -24,6 +24,7 @@
 #include "tufted/report.h"
 #include "tufted/scan_structure.h"
 #include "tufted/segments.h"
+#include "tufted/signed_distance.h"
 #include "tufted/smoothing.h"
 #include "tufted/solver.h"
 #include "tufted/spectral.h"

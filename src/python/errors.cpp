@@ -36,6 +36,8 @@ constexpr std::array functions = {
     Name{"TransportSolver", "transport"},
     Name{"LogMapSolver::query", "log_map"},
     Name{"LogMapSolver", "log_map"},
+    Name{"SignedDistanceSolver::query", "signed_distance"},
+    Name{"SignedDistanceSolver", "signed_distance"},
     Name{"PoissonSolver", "poisson"},
     Name{"SmoothingSolver", "smooth"},
     Name{"smoothValues", "smooth_values"},

@@ -4,6 +4,7 @@
 #include "python/arrays.h"
 #include "python/module.h"
 #include "python/running.h"
+#include "tufted/signed_distance.h"
 
 namespace py = pybind11;
 
@@ -60,6 +61,12 @@ void addVectorHeat(py::module_& module) {
              LogMap map = run(progress, [&](const Progress& called) { return solver.query(source, axis, called); });
              return py::make_tuple(std::move(map.coordinates), map.first, map.second);
            });
+  py::class_<SignedDistanceSolver>(module, "SignedDistanceSolver")
+      .def(withFrames<SignedDistanceSolver>())
+      .def("query", [](const SignedDistanceSolver& solver, const Integers& curve, const py::object& progress) {
+        const std::vector<int> indices = indicesOf(curve);
+        return run(progress, [&](const Progress& called) { return solver.query(indices, nullptr, called); });
+      });
 }
 
 }  // namespace tufted::python

@@ -1,4 +1,4 @@
-// The subcommands parameterize, smooth, minimal and deform.
+// The subcommands parameterize, smooth, minimal, deform and signed-distance.
 #include <cmath>
 
 #include "subcommands.h"
@@ -107,6 +107,25 @@ TEST_F(MovedPoints, MinimalFlattensWithinAFlatRim) {
   expectRefusal({"minimal", closed_}, "has no rim, so points that stay in place must be given", 1);
   dir_.write("fixed.txt", "# none\n");
   expectRefusal({"minimal", open_, "--fixed", in("fixed.txt")}, "names no point, must name one", 1);
+}
+
+TEST_F(MovedPoints, SignedDistanceIsPositiveToTheLeft) {
+  // Along y through the middle, so that -x is to the left from above, where the normals of the triangles point to.
+  std::string along;
+  for (int j = 0; j <= 8; ++j) along += std::to_string(4 * 9 + j) + "\n";
+  dir_.write("curve.txt", along);
+  dir_.write("flat.off", bump(8, 0));
+  run({"signed-distance", in("flat.off"), "--curve", in("curve.txt"), "--out", in("out")});
+  const std::vector<double> distance = values("out/distance.npy");
+  EXPECT_NEAR(distance[0], 0.5, 1e-6);
+  EXPECT_NEAR(distance[80], -0.5, 1e-6);
+  EXPECT_NEAR(report("out")["curve"]["length"], 1, 1e-12);
+  dir_.write("bad.txt", "0\n1 2\n");
+  expectRefusal({"signed-distance", open_, "--curve", in("bad.txt")}, "line 2: is not INDEX", 1);
+  dir_.write("bad.txt", "0\n");
+  expectRefusal({"signed-distance", open_, "--curve", in("bad.txt")}, "has 1 points, must have at least 2", 1);
+  dir_.write("bad.txt", "0\n0\n");
+  expectRefusal({"signed-distance", open_, "--curve", in("bad.txt")}, "must have at least two on one component", 1);
 }
 
 TEST_F(MovedPoints, DeformPutsHandlesWhereTheyShallLie) {

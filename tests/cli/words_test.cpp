@@ -32,7 +32,8 @@ TEST_F(Words, AnUnknownCommandIsNamedWithTheNearest) {
   expectSaid({"validate-fil"}, said("validate-fil", "validate"));
   expectSaid(
       {"xyz"},
-      "unknown command `xyz`, must be one of info, view, validate, laplacian, operators, distance, path, logmap, "
+      "unknown command `xyz`, must be one of info, view, validate, laplacian, operators, distance, path, "
+      "signed-distance, logmap, "
       "transport, interpolate, extend, poisson, green, spectrum, hks, embed, filter, normals, curvature, segment, "
       "parameterize, smooth, minimal, deform (see tufted --help)");
   expectSaid({"--hlep"}, "unknown option `--hlep`; did you mean `--help`? (see tufted --help)");

@@ -112,6 +112,8 @@ MESH = torus_mesh(10, 8)
     (lambda: tufted.PointCloud(CLOUD).deform([0, 1], [[0, 0, 0]]), "deform: targets has the shape 1 x 3, must be 2 x 3"),
     (lambda: tufted.PointCloud(CLOUD).deform([0], [[0, 0, np.inf]]), "deform: the target of point 0 is not finite"),
     (lambda: tufted.PointCloud(CLOUD).deform(0, [[0, 0, 1]], tolerance=0), "deform: tolerance = 0, must be finite"),
+    (lambda: tufted.PointCloud(CLOUD).signed_distance([3]), "signed_distance: curve has 1 places that take part"),
+    (lambda: tufted.PointCloud(CLOUD).signed_distance([3, 400]), "signed_distance: curve has 400, must lie in [0, 400)"),
     (lambda: tufted.PointCloud(CLOUD).segments(method="cut"), "segments: method = 'cut', must be one of"),
     (lambda: tufted.PointCloud(CLOUD).restricted_to([5]), "restricted_to: component 5, must lie in [0, 1)"),
     (lambda: tufted.PointCloud(CLOUD).restricted_to("small"), "components = 'small', must be 'largest' or labels"),

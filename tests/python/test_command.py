@@ -69,6 +69,16 @@ def test_algorithms(name, tmp_path):
         np.testing.assert_array_equal(np.load(out / f"{file}.npy"), compute(), err_msg=" ".join(arguments))
 
 
+def test_signed_distance(tmp_path):
+    file = DATASETS / "torus_uniform.ply"
+    surface = tufted.read(file)
+    curve = surface.path(0, 500).points
+    curve = [int(i) for i in dict.fromkeys(surface.nearest(curve).tolist())]
+    (tmp_path / "curve.txt").write_text("\n".join(map(str, curve)))
+    run("signed-distance", file, "--curve", tmp_path / "curve.txt", "--out", tmp_path)
+    np.testing.assert_array_equal(np.load(tmp_path / "distance.npy"), surface.signed_distance(curve))
+
+
 def test_maps_and_moved_points(tmp_path):
     file = DATASETS / "saddle_uniform.ply"
     surface = tufted.read(file)

@@ -231,6 +231,13 @@ def test_a_bump_becomes_flat_and_handles_lift_a_plane():
         assert (np.diff(heights) > -1e-9).all()
 
 
+def test_signed_distance_from_a_line():
+    points, faces = grid(12)
+    line = np.arange(6 * 12, 7 * 12)
+    found = tufted.Mesh(points, faces).signed_distance(line)
+    np.testing.assert_allclose(found, points[line[0], 0] - points[:, 0], atol=1e-6)
+
+
 def test_transport_of_a_tangent_vector(cloud):
     tangent = cloud.frames[0, 0]
     carried = cloud.transport(0, tangent)

@@ -23,6 +23,7 @@ void addHks(CLI::App& app, Run& run);
 void addEmbed(CLI::App& app, Run& run);
 void addFilter(CLI::App& app, Run& run);
 void addDistance(CLI::App& app, Run& run);
+void addSignedDistance(CLI::App& app, Run& run);
 void addPath(CLI::App& app, Run& run);
 void addInterpolate(CLI::App& app, Run& run);
 void addPoisson(CLI::App& app, Run& run);

@@ -38,14 +38,27 @@ bool isShown(const std::string& name) {
 }
 
 FieldKind kindOfResult(const std::string& name, Eigen::Index columns) {
-  static const std::map<std::string, FieldKind> meanings = {
-      {"evecs", FieldKind::diverging},      {"embedding", FieldKind::diverging}, {"curvature", FieldKind::diverging},
-      {"green", FieldKind::diverging},      {"u", FieldKind::diverging},         {"distance", FieldKind::distance},
-      {"labels", FieldKind::label},         {"label", FieldKind::label},         {"component", FieldKind::label},
-      {"components", FieldKind::label},     {"boundary", FieldKind::label},      {"status", FieldKind::label},
-      {"classification", FieldKind::label}, {"vectors", FieldKind::vector},      {"normals", FieldKind::vector},
-      {"logmap", FieldKind::coordinates},   {"uv", FieldKind::coordinates},      {"color", FieldKind::color},
-      {"mass", FieldKind::positive},        {"hks", FieldKind::positive}};
+  static const std::map<std::string, FieldKind> meanings = {{"evecs", FieldKind::diverging},
+                                                            {"embedding", FieldKind::diverging},
+                                                            {"curvature", FieldKind::diverging},
+                                                            {"green", FieldKind::diverging},
+                                                            {"u", FieldKind::diverging},
+                                                            {"distance", FieldKind::distance},
+                                                            {"signed_distance", FieldKind::diverging},
+                                                            {"labels", FieldKind::label},
+                                                            {"label", FieldKind::label},
+                                                            {"component", FieldKind::label},
+                                                            {"components", FieldKind::label},
+                                                            {"boundary", FieldKind::label},
+                                                            {"status", FieldKind::label},
+                                                            {"classification", FieldKind::label},
+                                                            {"vectors", FieldKind::vector},
+                                                            {"normals", FieldKind::vector},
+                                                            {"logmap", FieldKind::coordinates},
+                                                            {"uv", FieldKind::coordinates},
+                                                            {"color", FieldKind::color},
+                                                            {"mass", FieldKind::positive},
+                                                            {"hks", FieldKind::positive}};
   const auto kind = meanings.find(name);
   if (kind == meanings.end()) return FieldKind::scalar;
   const bool fits = (kind->second != FieldKind::vector && kind->second != FieldKind::color) || columns == 3;

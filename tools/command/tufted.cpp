@@ -55,7 +55,7 @@ struct Purpose {
 const Purpose purposes[] = {
     {"Look at files", {addInfo, addView, addValidate}},
     {"Matrices", {addLaplacian, addOperators}},
-    {"Distances and directions along the surface", {addDistance, addPath, addLogmap, addTransport}},
+    {"Distances and directions along the surface", {addDistance, addPath, addSignedDistance, addLogmap, addTransport}},
     {"Values on the surface", {addInterpolate, addExtend, addPoisson, addGreen}},
     {"Frequencies", {addSpectrum, addHks, addEmbed, addFilter}},
     {"Shape", {addNormals, addCurvature, addSegment, addParameterize}},

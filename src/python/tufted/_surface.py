@@ -312,6 +312,21 @@ class Surface:
         coordinates, first, second = solver.query(int(where[0]), axis, progress)
         return LogMap(coordinates, np.vstack([first, second]))
 
+    def signed_distance(self, curve, *, time_step=4.0, progress=None):
+        """Distance from a curve on the surface, positive to its left seen from the side of the normals.
+
+        curve: indices of the points along it, in order; the last is the first again where it is closed. It may have
+        gaps, across which the distance goes on smoothly.
+        time_step: of the heat that carries directions, in mean squared distances of neighbours.
+        Returns N values in the points' unit; NaN on components without a part of the curve.
+        """
+        where = check.indices("signed_distance", "curve", curve, len(self))
+        time_step = check.number("signed_distance", "time_step", time_step)
+        progress = check.callback("signed_distance", progress)
+        solver = self._keep(("signed_distance", time_step), lambda: _tufted.SignedDistanceSolver(
+            self._laplacian, *self._signed_frames(), time_step, self._solver(), progress))
+        return solver.query(where, progress)
+
     # Equations
 
     def harmonic(self, pins, values=None, *, progress=None):

@@ -1,0 +1,86 @@
+#include <CLI/CLI.hpp>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "command.h"
+#include "moved_points.h"
+#include "operator.h"
+#include "options.h"
+#include "oriented.h"
+#include "point_options.h"
+#include "reports.h"
+#include "tufted/errors.h"
+#include "tufted/signed_distance.h"
+
+namespace {
+
+constexpr const char* description = "Distance from a curve on the surface, positive to its left.";
+
+constexpr const char* footer =
+    R"(Example:
+  tufted signed-distance mesh.off --curve curve.txt --out signed
+
+--curve is a text file of the points along the curve in order, an INDEX per line; a closed curve ends with its first
+point. The distance is positive to the left, seen from the side of the normals, which are those of `tufted normals`. A
+curve may be open or have gaps, across which the distance goes on smoothly. `tufted path` finds ways between points.
+
+Writes into DIR, renamed one after the other when all are complete:
+  distance.npy  N values, float64, in the file's unit; NaN on components without the curve, and at points that take no
+                part
+  points.ply    the points with the field distance, float32; points.pcd with --format pcd
+  report.json   points and length of the curve, rounds, residual, seconds
+FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written.)";
+
+struct Settings {
+  OperatorSettings source;
+  Orienting orienting;
+  std::filesystem::path file;
+  tufted::VectorHeatOptions options;
+  std::vector<int> curve;
+
+  std::vector<std::string> files() const { return {"distance.npy"}; }
+};
+
+void check(Settings& settings, const Operator& source) {
+  checkFrames(source);
+  for (const Row& row : readRows(settings.file)) settings.curve.push_back(indexOf(row, source.points()));
+  if (settings.curve.size() < 2)
+    throw tufted::IoError(settings.file.string() + ": has " + std::to_string(settings.curve.size()) +
+                          " points, must have at least 2");
+}
+
+Results compute(Settings& settings, Operator& source) {
+  Results results;
+  settings.options.solver = source.solverOptions();
+  const tufted::SignedDistanceSolver solver(source.laplacian, orientedFrames(settings.orienting, source, results),
+                                            settings.options);
+  tufted::SignedDistanceReport made;
+  const Eigen::VectorXd distance =
+      blameSurface(source, [&] { return solver.query(settings.curve, &made, source.progress); });
+  results.report["curve"] = {{"points", made.curve_points}, {"length", made.curve_length}};
+  results.summary.add("curve", "%lld points, length %.6g", static_cast<long long>(made.curve_points),
+                      made.curve_length);
+  addReport(made.heat, solver.report(), results);
+  results.summary.add("not reached", "%lld points, which are NaN",
+                      static_cast<long long>(distance.array().isNaN().count()));
+  results.arrays = {{.name = "distance", .values = distance}};
+  results.shown = {{.name = "signed_distance", .values = distance}};
+  return results;
+}
+
+}  // namespace
+
+void addSignedDistance(CLI::App& app, Run& run) {
+  const auto [command, settings] =
+      addOperatorCommand<Settings>(app, run, "signed-distance", description, footer, compute, check);
+  addOrienting(*command, settings->orienting);
+  command->add_option("--curve", settings->file, "A text file of the points along the curve, an INDEX per line")
+      ->check(notEmpty)
+      ->required()
+      ->type_name("TEXT");
+  addNumber(*command, "--time-step", settings->options.time_step, std::numeric_limits<double>::min(),
+            std::numeric_limits<double>::max(),
+            "Time in which heat spreads, in mean squared distances of neighbours (4)")
+      ->type_name("T");
+}
