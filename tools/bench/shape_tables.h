@@ -8,5 +8,6 @@ void printMaps();       ///< conformal maps of half spheres and planes
 void printDisks();      ///< harmonic maps of CGAL's meshes that are disks
 void printMinimal();    ///< the catenoid
 void printSmoothing();  ///< a noisy sphere
+void printHandles();    ///< edits of well and of badly triangulated solids
 
 }  // namespace tufted::bench
