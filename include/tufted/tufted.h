@@ -32,3 +32,4 @@
 #include "tufted/surface_triangles.h"
 #include "tufted/types.h"
 #include "tufted/vector_heat.h"
+#include "tufted/weights.h"

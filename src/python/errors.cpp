@@ -38,6 +38,7 @@ constexpr std::array functions = {
     Name{"LogMapSolver", "log_map"},
     Name{"SignedDistanceSolver::query", "signed_distance"},
     Name{"SignedDistanceSolver", "signed_distance"},
+    Name{"boundedBiharmonicWeights", "weights"},
     Name{"PoissonSolver", "poisson"},
     Name{"SmoothingSolver", "smooth"},
     Name{"smoothValues", "smooth_values"},

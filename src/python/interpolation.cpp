@@ -8,6 +8,7 @@
 #include "python/arrays.h"
 #include "python/module.h"
 #include "python/running.h"
+#include "tufted/weights.h"
 
 namespace py = pybind11;
 
@@ -27,6 +28,12 @@ InterpolationSolver interpolationSolver(const Shared& laplacian, const Integers&
 }  // namespace
 
 void addInterpolation(py::module_& module) {
+  module.def("weights", [](const Laplacian& laplacian, const std::vector<std::vector<int>>& handles,
+                           const Solving& solving, const py::object& progress) {
+    return run(progress, [&](const Progress& called) {
+      return boundedBiharmonicWeights(laplacian, handles, {.solver = solving.options(called)});
+    });
+  });
   py::class_<InterpolationSolver>(module, "InterpolationSolver")
       .def(py::init(&interpolationSolver))
       .def("interpolate",

@@ -71,7 +71,7 @@ void expectWeights(const MatrixXd& weights, const std::vector<std::vector<int>>&
 
 TEST(BoundedWeights, HoldTheirConditionsOnCloudsAndBadMeshes) {
   const shapes::Mesh bad = shapes::cubeMesh(10, shapes::Quality::bad);
-  const Points torus = shapes::torus(3000).points;
+  const Points torus = shapes::torus(1500).points;
   for (const Laplacian& laplacian : {meshLaplacian(bad.points, bad.triangles), pointCloudLaplacian(torus)}) {
     const std::vector<std::vector<int>> handles = {{0, 1}, {100}, {300}, {500}};
     WeightReport report;

@@ -128,6 +128,26 @@ TEST_F(MovedPoints, SignedDistanceIsPositiveToTheLeft) {
   expectRefusal({"signed-distance", open_, "--curve", in("bad.txt")}, "must have at least two on one component", 1);
 }
 
+TEST_F(MovedPoints, WeightsOfHandlesHaveTheSumOne) {
+  dir_.write("points.txt", "0\n40\n80\n");
+  run({"weights", open_, "--handles", in("points.txt"), "--out", in("out")});
+  const std::vector<double> weights = values("out/weights.npy");
+  ASSERT_EQ(weights.size(), 3u * 81);
+  EXPECT_EQ(weights[3 * 40 + 1], 1);
+  for (std::size_t i = 0; i < 81; ++i)
+    EXPECT_NEAR(weights[3 * i] + weights[3 * i + 1] + weights[3 * i + 2], 1, 1e-14) << i;
+  EXPECT_LE(report("out")["report"]["residual"], 1e-8);
+  dir_.write("points.txt", "0 0\n8 0\n80 1\n");
+  run({"weights", open_, "--handles", in("points.txt"), "--out", in("two")});
+  EXPECT_EQ(values("two/weights.npy").size(), 2u * 81);
+  dir_.write("bad.txt", "0 0\n8 2\n");
+  expectRefusal({"weights", open_, "--handles", in("bad.txt")}, "has no handle 1, but handle 2", 1);
+  dir_.write("bad.txt", "0\n8 1\n");
+  expectRefusal({"weights", open_, "--handles", in("bad.txt")}, "line 2: is not INDEX, as the first line", 1);
+  dir_.write("bad.txt", "0\n0\n");
+  expectRefusal({"weights", open_, "--handles", in("bad.txt")}, "must be of one", 1);
+}
+
 TEST_F(MovedPoints, DeformPutsHandlesWhereTheyShallLie) {
   dir_.write("handles.txt", "0\n8\n72\n80\n40 0.5 0.5 1  # up\n");
   for (const char* method : {"rigid", "linear"}) {

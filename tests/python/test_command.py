@@ -79,6 +79,13 @@ def test_signed_distance(tmp_path):
     np.testing.assert_array_equal(np.load(tmp_path / "distance.npy"), surface.signed_distance(curve))
 
 
+def test_weights(tmp_path):
+    (tmp_path / "handles.txt").write_text("3 0\n90 1\n4 0\n")
+    run("weights", DATASETS / "fins.obj", "--handles", tmp_path / "handles.txt", "--out", tmp_path)
+    np.testing.assert_array_equal(np.load(tmp_path / "weights.npy"),
+                                  tufted.read(DATASETS / "fins.obj").weights([[3, 4], 90]))
+
+
 def test_maps_and_moved_points(tmp_path):
     file = DATASETS / "saddle_uniform.ply"
     surface = tufted.read(file)

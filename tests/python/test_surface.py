@@ -231,6 +231,14 @@ def test_a_bump_becomes_flat_and_handles_lift_a_plane():
         assert (np.diff(heights) > -1e-9).all()
 
 
+def test_weights_are_shares():
+    points, faces = grid(9)
+    weights = tufted.Mesh(points, faces).weights([0, [8, 72], 80])
+    assert weights.shape == (81, 3) and weights.min() >= 0
+    np.testing.assert_allclose(weights.sum(axis=1), 1, rtol=1e-14)
+    np.testing.assert_array_equal(weights[[0, 8, 72, 80]], [[1, 0, 0], [0, 1, 0], [0, 1, 0], [0, 0, 1]])
+
+
 def test_signed_distance_from_a_line():
     points, faces = grid(12)
     line = np.arange(6 * 12, 7 * 12)

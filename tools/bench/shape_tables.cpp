@@ -21,6 +21,7 @@
 #include "tufted/parameterization.h"
 #include "tufted/smoothing.h"
 #include "tufted/surface_triangles.h"
+#include "tufted/weights.h"
 
 namespace tufted::bench {
 namespace {
@@ -290,6 +291,34 @@ void printHandles() {
                     method == DeformationMethod::linear ? "linear" : "rigid", ours, cotan);
       }
     }
+  }
+}
+
+void printWeights() {
+  std::printf(
+      "| four handles | systems | least and greatest weight before division | residual | cotan: systems, residual |\n"
+      "|---|---|---|---|---|\n");
+  const shapes::Mesh cube = shapes::cubeMesh(10, shapes::Quality::bad, first_seed),
+                     prism = shapes::prismMesh(10, shapes::Quality::bad, first_seed), slivers = shapes::slivers(20);
+  for (const shapes::Mesh* mesh : {&cube, &prism, &slivers}) {
+    const auto n = static_cast<int>(mesh->points.rows());
+    const std::vector<std::vector<int>> handles = {{0}, {n / 3}, {n / 2}, {n - 1}};
+    Laplacian laplacian = meshLaplacian(mesh->points, mesh->triangles);
+    WeightReport report;
+    const Eigen::MatrixXd weights = boundedBiharmonicWeights(laplacian, handles, {}, &report);
+    const oracles::Operators cotan = oracles::cotanLaplacian(mesh->points, mesh->triangles);
+    laplacian.L = cotan.L;
+    std::string other = "fails";
+    try {
+      WeightReport made;
+      boundedBiharmonicWeights(laplacian, handles, {}, &made);
+      char text[60];
+      std::snprintf(text, sizeof text, "%d, %.1e", made.iterations, made.residual);
+      other = text;
+    } catch (const std::exception&) {
+    }
+    std::printf("| %s | %d | %.3g, %.3g | %.1e | %s |\n", mesh->name.c_str(), report.iterations, weights.minCoeff(),
+                weights.maxCoeff(), report.residual, other.c_str());
   }
 }
 

@@ -36,6 +36,7 @@ void addParameterize(CLI::App& app, Run& run);
 void addSmooth(CLI::App& app, Run& run);
 void addMinimal(CLI::App& app, Run& run);
 void addDeform(CLI::App& app, Run& run);
+void addWeights(CLI::App& app, Run& run);
 void addSegment(CLI::App& app, Run& run);
 void addNormals(CLI::App& app, Run& run);
 void addOperators(CLI::App& app, Run& run);

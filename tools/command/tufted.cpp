@@ -56,7 +56,7 @@ const Purpose purposes[] = {
     {"Look at files", {addInfo, addView, addValidate}},
     {"Matrices", {addLaplacian, addOperators}},
     {"Distances and directions along the surface", {addDistance, addPath, addSignedDistance, addLogmap, addTransport}},
-    {"Values on the surface", {addInterpolate, addExtend, addPoisson, addGreen}},
+    {"Values on the surface", {addInterpolate, addExtend, addWeights, addPoisson, addGreen}},
     {"Frequencies", {addSpectrum, addHks, addEmbed, addFilter}},
     {"Shape", {addNormals, addCurvature, addSegment, addParameterize}},
     {"Moving the points", {addSmooth, addMinimal, addDeform}}};

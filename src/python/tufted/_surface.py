@@ -344,6 +344,18 @@ class Surface:
         """
         return self._interpolate("biharmonic", pins, values, progress)
 
+    def weights(self, handles, *, progress=None):
+        """Bounded biharmonic weights, for skinning and blending.
+
+        handles: H points, or H lists of points. Each handle's weight is 1 at its points, 0 at those of the others,
+        between 0 and 1 elsewhere, and bends the least; those of a point are divided by their sum.
+        Returns N x H; NaN on components without a handle.
+        """
+        if np.ndim(handles) == 0 or isinstance(handles, (str, bytes)):
+            raise InvalidInput("weights: handles must be a list of points, or of lists of points")
+        sets = [check.indices("weights", "handles", handle, len(self)).tolist() for handle in handles]
+        return _tufted.weights(self._laplacian, sets, self._solver(), check.callback("weights", progress))
+
     def poisson(self, f, pins=None, values=None, *, progress=None):
         """Solves L u = M f: minus the Laplacian of u is f.
 

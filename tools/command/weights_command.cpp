@@ -1,0 +1,94 @@
+#include <CLI/CLI.hpp>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "command.h"
+#include "moved_points.h"
+#include "operator.h"
+#include "options.h"
+#include "point_options.h"
+#include "tufted/errors.h"
+#include "tufted/weights.h"
+
+namespace {
+
+constexpr const char* description = "Bounded biharmonic weights of handles, for skinning and blending.";
+
+constexpr const char* footer =
+    R"(Example:
+  tufted weights mesh.off --handles points.txt --out weights
+
+--handles is a text file of lines INDEX, a handle each, or INDEX HANDLE, where points of one HANDLE (0, 1, ...) belong
+together. Each handle's weight is 1 at its points, 0 at those of others, between 0 and 1 elsewhere, and bends the least;
+the weights of a point have the sum 1.
+
+Writes into DIR, renamed one after the other when all are complete:
+  weights.npy  N x H for H handles, float64; NaN on components without a handle, and at points that take no part
+  points.ply   the points with the fields weights, float32; points.pcd with --format pcd
+  report.json  handles, systems solved, residual of the conditions of Karush, Kuhn and Tucker, local maxima, seconds
+FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written.)";
+
+struct Settings {
+  OperatorSettings source;
+  std::filesystem::path file;
+  tufted::WeightOptions options;
+  std::vector<std::vector<int>> handles;
+
+  std::vector<std::string> files() const { return {"weights.npy"}; }
+};
+
+void check(Settings& settings, const Operator& source) {
+  std::map<int, std::vector<int>> points;  // by handle
+  int count = 0;
+  std::size_t width = 0;
+  for (const Row& row : readRows(settings.file)) {
+    if (width == 0) width = row.numbers.size();
+    if (row.numbers.size() != width || width > 2)
+      throw tufted::IoError(row.name + ": is not " + (width == 1 ? "INDEX, as the first line" : "INDEX HANDLE"));
+    const int handle = width == 2 ? indexOf({row.name + ": the handle", {row.numbers[1]}}, source.points()) : count;
+    points[handle].push_back(indexOf({row.name, {row.numbers[0]}}, source.points()));
+    ++count;
+  }
+  if (count == 0) throw tufted::IoError(settings.file.string() + ": names no point, must name one");
+  for (const auto& [handle, members] : points) {
+    if (handle != std::ssize(settings.handles))
+      throw tufted::IoError(settings.file.string() + ": has no handle " + std::to_string(settings.handles.size()) +
+                            ", but handle " + std::to_string(handle));
+    settings.handles.push_back(members);
+  }
+}
+
+Results compute(Settings& settings, Operator& source) {
+  Results results;
+  settings.options.solver = source.solverOptions();
+  tufted::WeightReport made;
+  const Eigen::MatrixXd weights = blameSurface(source, [&] {
+    return tufted::boundedBiharmonicWeights(source.laplacian, settings.handles, settings.options, &made);
+  });
+  results.report["report"] = {{"handles", made.handles},
+                              {"free", made.free},
+                              {"not_reached", made.not_reached},
+                              {"iterations", made.iterations},
+                              {"residual", made.residual},
+                              {"local_maxima", made.local_maxima},
+                              {"greatest_sum_error", made.greatest_sum_error},
+                              {"seconds", made.seconds}};
+  results.summary.add("handles", "%lld, at most %d systems each, residual %.2g", static_cast<long long>(made.handles),
+                      made.iterations, made.residual);
+  results.summary.add("local maxima", "%lld away from handles", static_cast<long long>(made.local_maxima));
+  results.summary.add("not reached", "%lld points, which are NaN", static_cast<long long>(made.not_reached));
+  results.arrays = {{.name = "weights", .values = weights}};
+  return results;
+}
+
+}  // namespace
+
+void addWeights(CLI::App& app, Run& run) {
+  const auto [command, settings] =
+      addOperatorCommand<Settings>(app, run, "weights", description, footer, compute, check);
+  command->add_option("--handles", settings->file, "A text file of the handles' points, INDEX or INDEX HANDLE")
+      ->check(notEmpty)
+      ->required()
+      ->type_name("TEXT");
+}
