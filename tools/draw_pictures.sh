@@ -33,6 +33,7 @@ draw distance distance "$building" --source 3446 --camera -128,24 --size 760x480
 draw eigenvector spectrum "${on_bunny[@]}" --count 8 --column 5
 draw parts segment "${on_bunny[@]}" --count 12
 draw logmap logmap "$clouds/cturtle.pcd" --near 0,0,2 --size 760x500
+draw map parameterize "$samples/meshes/nefertiti.off" --size 760x480
 draw boundary_kinds laplacian "$table" --color boundary --size 640x420
 # The mesh with normal noise, a third of its spacing, before and after.
 awk 'function normal() { return sqrt(-2 * log(1 - rand())) * cos(6.283185307 * rand()) }

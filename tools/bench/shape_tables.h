@@ -10,6 +10,6 @@ void printMinimal();    ///< the catenoid
 void printSmoothing();  ///< a noisy sphere
 void printHandles();    ///< edits of well and of badly triangulated solids
 
-void printWeights();    ///< bounded weights on slivers
+void printWeights();  ///< bounded weights on slivers
 
 }  // namespace tufted::bench
