@@ -351,7 +351,7 @@ class Surface:
         between 0 and 1 elsewhere, and bends the least; those of a point are divided by their sum.
         Returns N x H; NaN on components without a handle.
         """
-        if np.ndim(handles) == 0 or isinstance(handles, (str, bytes)):
+        if not hasattr(handles, "__len__") or isinstance(handles, (str, bytes)):
             raise InvalidInput("weights: handles must be a list of points, or of lists of points")
         sets = [check.indices("weights", "handles", handle, len(self)).tolist() for handle in handles]
         return _tufted.weights(self._laplacian, sets, self._solver(), check.callback("weights", progress))
