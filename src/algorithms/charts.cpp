@@ -14,39 +14,6 @@ using Corners = std::array<int, 3>;
 
 constexpr int open_side = -1, crowded_side = -2;  ///< in place of a mate: one triangle, more than two
 
-/// The triangles that take part, each once.
-std::vector<Corners> usableTriangles(const char* function, const Laplacian& laplacian, const TrianglesRef& triangles) {
-  const int n = static_cast<int>(laplacian.status.size());
-  std::vector<std::pair<Corners, int>> sorted;
-  std::vector<Corners> usable;
-  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
-    Corners corners{};
-    bool is_usable = true;
-    for (int k = 0; k < 3; ++k) {
-      const int i = triangles(t, k);
-      if (i < 0 || i >= n)
-        throw InvalidInput(std::string(function) + ": triangle " + std::to_string(t) + " names point " +
-                           std::to_string(i) + ", must lie in [0, " + std::to_string(n) + ")");
-      corners[k] = laplacian.representative[i];
-      is_usable = is_usable && laplacian.status[corners[k]] == PointStatus::active;
-    }
-    if (!is_usable || corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) continue;
-    Corners key = corners;
-    std::sort(key.begin(), key.end());
-    sorted.emplace_back(key, static_cast<int>(usable.size()));
-    usable.push_back(corners);
-  }
-  std::sort(sorted.begin(), sorted.end());
-  std::vector<std::uint8_t> is_copy(usable.size(), 0);
-  for (std::size_t k = 1; k < sorted.size(); ++k)
-    if (sorted[k].first == sorted[k - 1].first) is_copy[sorted[k].second] = 1;
-  std::size_t kept = 0;
-  for (std::size_t t = 0; t < usable.size(); ++t)
-    if (is_copy[t] == 0) usable[kept++] = usable[t];
-  usable.resize(kept);
-  return usable;
-}
-
 /// The sides of triangles: side s of triangle t is 3 t + s, from corner s to the next.
 class Sides {
  public:
@@ -180,6 +147,38 @@ std::vector<Chart> chartsOf(const std::vector<Corners>& given, std::vector<int>&
 }
 
 }  // namespace
+
+std::vector<Corners> usableTriangles(const char* function, const Laplacian& laplacian, const TrianglesRef& triangles) {
+  const int n = static_cast<int>(laplacian.status.size());
+  std::vector<std::pair<Corners, int>> sorted;
+  std::vector<Corners> usable;
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
+    Corners corners{};
+    bool is_usable = true;
+    for (int k = 0; k < 3; ++k) {
+      const int i = triangles(t, k);
+      if (i < 0 || i >= n)
+        throw InvalidInput(std::string(function) + ": triangle " + std::to_string(t) + " names point " +
+                           std::to_string(i) + ", must lie in [0, " + std::to_string(n) + ")");
+      corners[k] = laplacian.representative[i];
+      is_usable = is_usable && laplacian.status[corners[k]] == PointStatus::active;
+    }
+    if (!is_usable || corners[0] == corners[1] || corners[1] == corners[2] || corners[2] == corners[0]) continue;
+    Corners key = corners;
+    std::sort(key.begin(), key.end());
+    sorted.emplace_back(key, static_cast<int>(usable.size()));
+    usable.push_back(corners);
+  }
+  std::sort(sorted.begin(), sorted.end());
+  std::vector<std::uint8_t> is_copy(usable.size(), 0);
+  for (std::size_t k = 1; k < sorted.size(); ++k)
+    if (sorted[k].first == sorted[k - 1].first) is_copy[sorted[k].second] = 1;
+  std::size_t kept = 0;
+  for (std::size_t t = 0; t < usable.size(); ++t)
+    if (is_copy[t] == 0) usable[kept++] = usable[t];
+  usable.resize(kept);
+  return usable;
+}
 
 std::vector<Chart> findCharts(const char* function, const Laplacian& laplacian, const TrianglesRef& triangles,
                               std::int64_t* cut) {

@@ -24,8 +24,13 @@ struct Chart {
   int eulerCharacteristic() const { return vertices - edges + static_cast<int>(triangles.size()); }
 };
 
-/// The charts of some triangles, those of more triangles first. Those that name a point twice or one that is not active
-/// are left out, and of those with the same corners all but the first.
+/// The triangles that take part, of representatives: those that name a point twice or one that is not active are left
+/// out, and of those with the same corners all but the first.
+/// @throws InvalidInput for an index out of range, in the name of `function`
+std::vector<std::array<int, 3>> usableTriangles(const char* function, const Laplacian& laplacian,
+                                                const TrianglesRef& triangles);
+
+/// The charts of the usable triangles, those of more triangles first.
 /// @param cut if given, charts of a cloud are cut where orientations meet that do not agree, as single wrong triangles
 ///        make them do: gets the number of triangles that are left out for that
 /// @throws InvalidInput for an index out of range, in the name of `function`

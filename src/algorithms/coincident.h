@@ -8,7 +8,8 @@ namespace tufted {
 
 /// Gives coincident points the values of their representative.
 /// @param values N x c
-inline void copyToCoincident(const Laplacian& laplacian, Eigen::MatrixXd& values) {
+template <class Values>
+void copyToCoincident(const Laplacian& laplacian, Values& values) {
   for (Eigen::Index i = 0; i < values.rows(); ++i)
     if (laplacian.status[i] == PointStatus::coincident) values.row(i) = values.row(laplacian.representative[i]);
 }

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "algorithms/bending.h"
 #include "algorithms/coincident.h"
 #include "algorithms/local_rotations.h"
 #include "algorithms/pinned_solver.h"
@@ -20,8 +21,6 @@ namespace tufted {
 namespace {
 
 constexpr const char* function_name = "deform";
-/// Masses below this part of the mean count as that much where they are divided by, as in biharmonic().
-constexpr double least_mass = 1e-9;
 
 using Rotations = std::vector<Eigen::Matrix3d>;
 
@@ -148,13 +147,13 @@ struct DeformationSolver::State {
     take(linear->interpolate(targets - from, nullptr, progress), true);
     rotations = localRotations(laplacian->L, x, moved, workers);
     const std::vector<int>& points = pinned.components.points;
-    const double mean = laplacian->M.sum() / static_cast<double>(std::max<std::size_t>(points.size(), 1));
+    const double mean = meanMass(*laplacian, points);
     Eigen::MatrixXd turned = Eigen::MatrixXd::Zero(x.rows(), 3);
     for (const int i : points) {
       Eigen::Vector3d sum = Eigen::Vector3d::Zero();
       for (SparseMatrix::InnerIterator entry(laplacian->L, i); entry; ++entry)
         if (entry.row() != i) sum += entry.value() * (x.row(entry.row()) - x.row(i)).transpose();
-      const double mass = std::max(laplacian->M[i], least_mass * mean);
+      const double mass = std::max(laplacian->M[i], least_mass_of_bending * mean);
       if (mass > 0) turned.row(i) = (rotations[i] * sum / mass).transpose();
     }
     take(linear->poisson(turned, targets, nullptr, progress), false);

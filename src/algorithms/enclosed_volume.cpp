@@ -17,6 +17,11 @@ constexpr double most_hole_area = 0.05;
   throw InvalidInput(function + ": the component of point " + std::to_string(point) + " " + why);
 }
 
+std::vector<Chart> cutCharts(const std::string& function, const Laplacian& laplacian, const TrianglesRef& triangles) {
+  std::int64_t cut = 0;
+  return findCharts(function.c_str(), laplacian, triangles, &cut);
+}
+
 }  // namespace
 
 EnclosedVolume::EnclosedVolume(const std::string& function, const Laplacian& laplacian, const TrianglesRef& triangles,
@@ -26,7 +31,7 @@ EnclosedVolume::EnclosedVolume(const std::string& function, const Laplacian& lap
       weights_(components_.weights(laplacian.M)),
       points_(static_cast<std::size_t>(components_.count)),
       of_(static_cast<std::size_t>(components_.count)),
-      charts_(findCharts(function.c_str(), laplacian, triangles, &cut_)) {
+      charts_(cutCharts(function, laplacian, triangles)) {
   for (const int i : components_.points) points_[components_.of[i]].push_back(i);
   for (const Chart& chart : charts_) of_[components_.of[chart.triangles.front()[0]]].push_back(&chart);
   for (int c = 0; c < components_.count; ++c) {
@@ -37,7 +42,7 @@ EnclosedVolume::EnclosedVolume(const std::string& function, const Laplacian& lap
       if (!chart->is_orientable) refuse(function, first, "is nonorientable, must have two sides");
       if (!chart->rims.empty() && laplacian.kind == Kind::mesh) refuse(function, first, "has a rim, must be closed");
     }
-    const Body body = measure(points, c);
+    const Body& body = before_.emplace_back(measure(points, c));
     if (!(body.hole_area <= most_hole_area * body.area)) refuse(function, first, "has a rim, must be closed");
   }
 }
@@ -78,9 +83,9 @@ EnclosedVolume::Body EnclosedVolume::measure(const Eigen::MatrixXd& x, int compo
   return body;
 }
 
-void EnclosedVolume::restore(const Eigen::MatrixXd& before, Eigen::MatrixXd& x) const {
+void EnclosedVolume::restore(Eigen::MatrixXd& x) const {
   for (int c = 0; c < components_.count; ++c) {
-    const Body old = measure(before, c), now = measure(x, c);
+    const Body old = before_[c], now = measure(x, c);
     for (const auto& [body, when] : {std::pair(old, "before"), std::pair(now, "after")})
       if (!(body.volume > 0))
         refuse(function_, points_[c].front(), std::string("encloses no volume ") + when + " smoothing");

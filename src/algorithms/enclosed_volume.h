@@ -19,10 +19,10 @@ class EnclosedVolume {
   EnclosedVolume(const std::string& function, const Laplacian& laplacian, const TrianglesRef& triangles,
                  const Eigen::MatrixXd& points);
 
-  /// Scales each component about its centre of mass so that it encloses what it enclosed before.
-  /// @param before,x N x 3, finite at active points; rows of points that are not active are left alone
-  /// @throws InvalidInput where a component encloses no volume before, or after
-  void restore(const Eigen::MatrixXd& before, Eigen::MatrixXd& x) const;
+  /// Scales each component about its centre of mass so that it encloses what it enclosed at first.
+  /// @param x N x 3, finite at active points; rows of points that are not active are left alone
+  /// @throws InvalidInput where a component enclosed no volume at first, or now
+  void restore(Eigen::MatrixXd& x) const;
 
  private:
   /// Centre of mass and volume of one component.
@@ -40,8 +40,8 @@ class EnclosedVolume {
   VectorXd weights_;                           ///< N; M over its sum per component
   std::vector<std::vector<int>> points_;       ///< by component
   std::vector<std::vector<const Chart*>> of_;  ///< by component
-  std::int64_t cut_ = 0;                       ///< triangles that are left out as their orientations do not agree
   std::vector<Chart> charts_;
+  std::vector<Body> before_;  ///< by component
 };
 
 }  // namespace tufted

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "algorithms/bending.h"
 #include "algorithms/coincident.h"
 #include "algorithms/connected.h"
 #include "algorithms/linear_system.h"
@@ -26,8 +27,6 @@ namespace {
 /// Parts of the values' range that the last correction may be, for harmonic() and biharmonic(). Bending squares the
 /// condition of the system.
 constexpr double promised = 1e-12, promised_of_bending = 1e-3;
-/// Masses below this part of the mean count as that much where they are divided by: zero areas would bend nothing.
-constexpr double least_mass = 1e-9;
 
 Eigen::MatrixXd finish(const Laplacian& laplacian, Eigen::MatrixXd u, const Stopwatch& watch, SolveReport made,
                        SolveReport* report) {
@@ -68,8 +67,7 @@ class Interpolator {
                                .if_large = "take fewer points",
                                .if_too_large = IfTooLarge::refuse};
     inverse_ = inverseMasses(laplacian, pinned.components.points);
-    const SparseMatrix scaled = inverse_.asDiagonal() * laplacian.L;
-    bending_ = SparseMatrix(laplacian.L * scaled);
+    bending_ = bendingMatrix(laplacian.L, inverse_);
     solver_.emplace(names, std::move(pinned), bending_, nullptr, options);
   }
 
@@ -116,13 +114,6 @@ class Interpolator {
   const PinnedSolver& solver() const { return *solver_; }
 
  private:
-  static VectorXd inverseMasses(const Laplacian& laplacian, const std::vector<int>& active) {
-    const double mean = laplacian.M.sum() / static_cast<double>(std::max<std::size_t>(active.size(), 1));
-    VectorXd inverse = VectorXd::Zero(laplacian.M.size());
-    for (const int i : active) inverse[i] = mean > 0 ? 1 / std::max(laplacian.M[i] / mean, least_mass) : 1;
-    return inverse;
-  }
-
   Interpolation kind_;
   std::vector<int> points_;
   VectorXd inverse_;      ///< of biharmonic functions: 1 over M over its mean

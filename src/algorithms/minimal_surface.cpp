@@ -3,6 +3,7 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <string>
 #include <utility>
@@ -32,17 +33,13 @@ void checkOptions(const MinimalSurfaceOptions& options) {
     refuse("max_iterations = " + std::to_string(options.max_iterations) + ", must be at least 1");
 }
 
-/// The triangles that take part.
-Triangles usableTriangles(const Laplacian& laplacian, const TrianglesRef& triangles) {
-  const std::vector<Chart> charts = findCharts(function_name, laplacian, triangles);
-  Eigen::Index count = 0;
-  for (const Chart& chart : charts) count += std::ssize(chart.triangles);
-  if (count == 0) refuse("no triangle has three different active points, must be at least one");
-  Triangles usable(count, 3);
-  Eigen::Index t = 0;
-  for (const Chart& chart : charts)
-    for (const auto& [a, b, c] : chart.triangles) usable.row(t++) << a, b, c;
-  return usable;
+Triangles trianglesOf(const Laplacian& laplacian, const TrianglesRef& given) {
+  const std::vector<std::array<int, 3>> usable = usableTriangles(function_name, laplacian, given);
+  if (usable.empty()) refuse("no triangle has three different active points, must be at least one");
+  Triangles triangles(std::ssize(usable), 3);
+  for (Eigen::Index t = 0; t < triangles.rows(); ++t)
+    for (int k = 0; k < 3; ++k) triangles(t, k) = usable[static_cast<std::size_t>(t)][k];
+  return triangles;
 }
 
 std::vector<std::uint8_t> namedPoints(const Triangles& triangles, std::size_t n) {
@@ -135,7 +132,7 @@ Points minimalSurface(const Laplacian& laplacian, const TrianglesRef& given, con
   const Stopwatch watch;
   checkOptions(options);
   const ShapeFrame frame(function_name, laplacian);
-  const Triangles triangles = usableTriangles(laplacian, given);
+  const Triangles triangles = trianglesOf(laplacian, given);
   const std::vector<std::uint8_t> named = namedPoints(triangles, laplacian.status.size());
   const std::vector<int> fixed = fixedPoints(laplacian, named, triangles, options.fixed);
   const Workers workers(options.solver.threads, options.solver.progress);

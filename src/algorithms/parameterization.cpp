@@ -11,12 +11,13 @@
 #include "algorithms/chart_layout.h"
 #include "algorithms/chart_metric.h"
 #include "algorithms/charts.h"
+#include "algorithms/check_positions.h"
+#include "algorithms/coincident.h"
 #include "algorithms/conformal_map.h"
 #include "algorithms/connected.h"
 #include "algorithms/mean_value_map.h"
 #include "base/parallel.h"
 #include "base/stage_clock.h"
-#include "tufted/check.h"
 #include "tufted/errors.h"
 #include "tufted/interpolation.h"
 
@@ -31,14 +32,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 }
 
 void checkArguments(const Laplacian& laplacian, const ParameterizationOptions& options) {
-  checkSizes(function_name, laplacian);
-  const auto n = std::ssize(laplacian.status);
-  if (laplacian.positions.rows() != n)
-    refuse("Laplacian::positions has " + std::to_string(laplacian.positions.rows()) + " rows, must have " +
-           std::to_string(n) + ", one per point");
-  for (int i = 0; i < n; ++i)
-    if (laplacian.status[i] == PointStatus::active && !laplacian.positions.row(i).allFinite())
-      refuse("the position of point " + std::to_string(i) + " is not finite, must be: the Laplacian has it active");
+  checkPositions(function_name, laplacian);
   const bool is_harmonic = options.method == ParameterizationMethod::harmonic;
   if (!is_harmonic && (!options.rim.empty() || options.weights != HarmonicWeights::laplacian))
     refuse("rim or weights are given, must be with ParameterizationMethod::harmonic alone");
@@ -226,10 +220,9 @@ Eigen::MatrixX2d parameterize(const Laplacian& laplacian, const TrianglesRef& tr
   std::vector<const Chart*> measured = mapped;
   if (options.method == ParameterizationMethod::harmonic) measured.resize(1);  // others have no place of their own
   measureMaps(laplacian.positions, measured, owner, uv, made);
-  for (Eigen::Index i = 0; i < uv.rows(); ++i) {
-    if (laplacian.status[i] == PointStatus::coincident) uv.row(i) = uv.row(laplacian.representative[i]);
+  copyToCoincident(laplacian, uv);
+  for (Eigen::Index i = 0; i < uv.rows(); ++i)
     if (laplacian.status[i] == PointStatus::active && !uv.row(i).allFinite()) ++made.not_mapped;
-  }
   made.seconds = watch.seconds();
   if (report != nullptr) *report = std::move(made);
   return uv;

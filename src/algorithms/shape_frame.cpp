@@ -3,25 +3,17 @@
 #include <cmath>
 #include <limits>
 
-#include "tufted/check.h"
-#include "tufted/errors.h"
+#include "algorithms/check_positions.h"
 
 namespace tufted {
 
 ShapeFrame::ShapeFrame(const std::string& function, const Laplacian& laplacian) {
-  checkSizes(function, laplacian);
-  const auto n = std::ssize(laplacian.status);
-  if (laplacian.positions.rows() != n)
-    throw InvalidInput(function + ": Laplacian::positions has " + std::to_string(laplacian.positions.rows()) +
-                       " rows, must have " + std::to_string(n) + ", one per point");
+  checkPositions(function, laplacian);
   Eigen::RowVector3d least = Eigen::RowVector3d::Constant(std::numeric_limits<double>::infinity()), most = -least;
   bool is_empty = true;
-  for (Eigen::Index i = 0; i < n; ++i) {
+  for (Eigen::Index i = 0; i < std::ssize(laplacian.status); ++i) {
     if (laplacian.status[i] != PointStatus::active) continue;
     const Eigen::RowVector3d p = laplacian.positions.row(i);
-    if (!p.allFinite())
-      throw InvalidInput(function + ": the position of point " + std::to_string(i) +
-                         " is not finite, must be: the Laplacian has it active");
     least = least.cwiseMin(p);
     most = most.cwiseMax(p);
     is_empty = false;

@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "algorithms/check_frames.h"
-#include "algorithms/coincident.h"
 #include "algorithms/connected.h"
 #include "algorithms/linear_system.h"
 #include "algorithms/memory_limit.h"
@@ -40,8 +39,6 @@ VectorHeatOptions withMemory(VectorHeatOptions options, std::size_t bytes) {
 
 struct SignedDistanceSolver::State {
   SparseMatrix L;
-  std::vector<PointStatus> status;
-  std::vector<int> representative;
   Points positions;
   Frames frames;
   Components components;
@@ -51,8 +48,6 @@ struct SignedDistanceSolver::State {
 
   State(const Laplacian& laplacian, Frames given, const VectorHeatOptions& options, std::size_t bytes)
       : L(laplacian.L),
-        status(laplacian.status),
-        representative(laplacian.representative),
         positions(laplacian.positions),
         frames(std::move(given)),
         components(findComponents(laplacian)),
@@ -134,7 +129,7 @@ VectorXd SignedDistanceSolver::query(const std::vector<int>& curve, SignedDistan
   VectorXd length;
   const HeatFields flow = state.flowOf(state.placesOf(curve), length, made);
   const HeatFields found = state.heat.spread(query_name, flow, made.heat, progress);
-  std::vector<Eigen::RowVector3d> slope(state.status.size(), Eigen::RowVector3d::Constant(nan));
+  std::vector<Eigen::RowVector3d> slope(static_cast<std::size_t>(state.heat.size()), Eigen::RowVector3d::Constant(nan));
   for (const int i : state.components.points) {
     const Eigen::Vector2d direction = found.vectors.col(0).segment<2>(2 * Eigen::Index{i});
     const Eigen::RowVector3d normal = state.frames.normals.row(i), x = state.frames.tangents.row(i);

@@ -153,10 +153,11 @@ void stepToMeans(const Laplacian& laplacian, const std::vector<bool>& is_free, d
   constexpr std::int64_t block_size = 4096;
   const Eigen::MatrixXd old = x;
   workers.forBlocks("smooth", x.rows(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    Eigen::RowVectorXd pulled(x.cols());
     for (auto i = static_cast<int>(begin); i < end; ++i) {
       if (!is_free[i]) continue;
       double sum = 0;
-      Eigen::RowVectorXd pulled = Eigen::RowVectorXd::Zero(x.cols());
+      pulled.setZero();
       for (SparseMatrix::InnerIterator entry(laplacian.L, i); entry; ++entry) {
         const auto j = entry.row();
         if (j == i) continue;
@@ -214,7 +215,7 @@ Points smooth(const Laplacian& laplacian, const PointsRef& points, const Smoothi
   }
   Eigen::MatrixXd x = smoothed(smooth_name, laplacian, "points", points, options);
   if (volume) {
-    volume->restore(points, x);
+    volume->restore(x);
     copyToCoincident(laplacian, x);
   }
   return x;

@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "algorithms/bending.h"
 #include "algorithms/coincident.h"
 #include "algorithms/connected.h"
 #include "algorithms/linear_system.h"
@@ -19,8 +20,6 @@ namespace tufted {
 namespace {
 
 constexpr const char* function_name = "boundedBiharmonicWeights";
-/// Masses below this part of the mean count as that much where they are divided by, as in biharmonic().
-constexpr double least_mass = 1e-9;
 /// By how much a weight may leave its bounds.
 constexpr double allowed = 1e-9;
 /// By how much bending may pull a weight away from its bound, in weights: some thousand times the rounding. It is far
@@ -72,14 +71,12 @@ enum class State : std::uint8_t { fixed, free, lower, upper };
 class BoundedProblem {
  public:
   BoundedProblem(const Laplacian& laplacian, const Components& components, const WeightOptions& options)
-      : L_(laplacian.L), options_(options), points_(components.points) {
-    const double mean = laplacian.M.sum() / static_cast<double>(std::max<std::size_t>(points_.size(), 1));
-    inverse_.setZero(laplacian.M.size());
-    for (const int i : points_) inverse_[i] = mean > 0 ? 1 / std::max(laplacian.M[i] / mean, least_mass) : 1;
-    const SparseMatrix scaled = inverse_.asDiagonal() * L_;
-    Q_ = SparseMatrix(L_ * scaled);
-    diagonal_ = Q_.diagonal();
-  }
+      : L_(laplacian.L),
+        options_(options),
+        points_(components.points),
+        inverse_(inverseMasses(laplacian, points_)),
+        Q_(bendingMatrix(L_, inverse_)),
+        diagonal_(Q_.diagonal()) {}
 
   /// @param is_free 1 at the points that may change
   /// @param[in,out] u N; the values of the others, and the solution

@@ -10,6 +10,7 @@
 
 #include "shapes/shapes.h"
 #include "support/defined_values.h"
+#include "support/odd_cloud.h"
 #include "support/refusal.h"
 #include "tufted/tufted.h"
 
@@ -171,13 +172,7 @@ TEST(DeformationSolver, HasTheBitsOfDeform) {
 }
 
 TEST(Deformation, GivesOddCloudsADefinedResult) {
-  Points points(1503, 3);
-  points.topRows(1000) = shapes::disk(1000).points;
-  points.middleRows(1000, 500) = 0.3 * shapes::sphere(500).points;
-  points.middleRows(1000, 500).col(0).array() += 5;
-  points.row(1500) = points.row(7);
-  points.row(1501).setConstant(NAN);
-  points.row(1502) << 1e6, 0, 0;
+  const Points points = support::oddDisk();
   const Laplacian laplacian = pointCloudLaplacian(points);
   const std::vector<int> handles = {0, 10, 1500, 20};
   Points targets = points(handles, Eigen::all);

@@ -10,6 +10,7 @@
 
 #include "shapes/shapes.h"
 #include "support/defined_values.h"
+#include "support/odd_cloud.h"
 #include "support/refusal.h"
 #include "tufted/tufted.h"
 
@@ -239,14 +240,7 @@ TEST(Tutte, IsLinearWithALinearRim) {
 }
 
 TEST(Parameterize, GivesOddCloudsADefinedResult) {
-  Points points(1503, 3);
-  points.topRows(1000) = shapes::disk(1000).points;
-  points.middleRows(1000, 500) = 0.3 * shapes::sphere(500).points;
-  points.middleRows(1000, 500).col(0).array() += 5;
-  points.row(1500) = points.row(7);
-  points.row(1501).setConstant(NAN);
-  points.row(1502) << 1e6, 0, 0;
-  const Laplacian laplacian = pointCloudLaplacian(points);
+  const Laplacian laplacian = pointCloudLaplacian(support::oddDisk());
   ParameterizationReport report;
   const MatrixX2d uv = parameterize(laplacian, surfaceTriangles(laplacian), {}, &report);
   support::expectCopies(laplacian, uv);

@@ -9,6 +9,7 @@
 
 #include "shapes/shapes.h"
 #include "support/defined_values.h"
+#include "support/odd_cloud.h"
 #include "support/refusal.h"
 #include "tufted/tufted.h"
 
@@ -112,14 +113,7 @@ TEST(BoundedWeights, DoNotDependOnUnitOrThreads) {
 }
 
 TEST(BoundedWeights, OfOddCloudsAreDefined) {
-  Points points(1503, 3);
-  points.topRows(1000) = shapes::disk(1000).points;
-  points.middleRows(1000, 500) = 0.3 * shapes::sphere(500).points;
-  points.middleRows(1000, 500).col(0).array() += 5;
-  points.row(1500) = points.row(7);
-  points.row(1501).setConstant(NAN);
-  points.row(1502) << 1e6, 0, 0;
-  const Laplacian laplacian = pointCloudLaplacian(points);
+  const Laplacian laplacian = pointCloudLaplacian(support::oddDisk());
   WeightReport report;
   const MatrixXd weights = boundedBiharmonicWeights(laplacian, {{1500, 1501}, {3}}, {}, &report);
   support::expectCopies(laplacian, weights);

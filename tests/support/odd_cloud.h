@@ -19,4 +19,17 @@ inline Points oddCloud() {
   return points;
 }
 
+/// A disk of 1000 points and apart a sphere of 500, then a copy of point 7, one that is not finite and one that is
+/// isolated.
+inline Points oddDisk() {
+  Points points(1503, 3);
+  points.topRows(1000) = shapes::disk(1000).points;
+  points.middleRows(1000, 500) = 0.3 * shapes::sphere(500).points;
+  points.middleRows(1000, 500).col(0).array() += 5;
+  points.row(1500) = points.row(7);
+  points.row(1501).setConstant(NAN);
+  points.row(1502) << 1e6, 0, 0;
+  return points;
+}
+
 }  // namespace tufted::support

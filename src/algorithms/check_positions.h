@@ -1,0 +1,14 @@
+#pragma once
+
+#include <string>
+
+#include "tufted/laplacian.h"
+
+namespace tufted {
+
+/// Checks the arrays of a Laplacian of which a function needs the positions.
+/// @param function to be named in errors
+/// @throws InvalidInput for arrays of the wrong size, or positions of active points that are not finite
+void checkPositions(const std::string& function, const Laplacian& laplacian);
+
+}  // namespace tufted
