@@ -5,6 +5,7 @@
 #include "tufted/components.h"
 #include "tufted/curvature.h"
 #include "tufted/deformation.h"
+#include "tufted/denoise.h"
 #include "tufted/describe.h"
 #include "tufted/distance.h"
 #include "tufted/dummy_values.h"

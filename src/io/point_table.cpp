@@ -73,11 +73,12 @@ void PointTable::write(OutputBuffer& buffer) const {
 PointTable pointTable(const Laplacian& laplacian, const Geometry& geometry, const VectorXd& M,
                       const std::array<const char*, 3>& normal_names,
                       const std::function<void(PointTable&, const Field&)>& add_field) {
-  const PointColumn results[] = {
+  std::vector<PointColumn> results = {
       {"mass", FieldType::float64, 1, bytesOf(M.data()), sizeof(double)},
       {"boundary", FieldType::uint8, 1, bytesOf(laplacian.boundary.data()), 1},
       {"status", FieldType::uint8, 1, bytesOf(laplacian.status.data()), 1},
       {"representative", FieldType::int32, 1, bytesOf(laplacian.representative.data()), sizeof(int)}};
+  if (laplacian.status.empty() && geometry.points.rows() > 0) results.clear();  // no Laplacian
 
   PointTable table(geometry.points.rows());
   table.addTriple({"x", "y", "z"}, geometry.points);
@@ -87,7 +88,7 @@ PointTable pointTable(const Laplacian& laplacian, const Geometry& geometry, cons
     table.addTriple(normal_names, laplacian.frames.normals, true);
   for (const Field& field : geometry.fields) {
     const auto replaced = [&](const PointColumn& result) { return result.name == field.name; };
-    if (std::none_of(std::begin(results), std::end(results), replaced)) add_field(table, field);
+    if (std::none_of(results.begin(), results.end(), replaced)) add_field(table, field);
   }
   for (const PointColumn& result : results) table.add(result);
   return table;

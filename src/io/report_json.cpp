@@ -94,6 +94,12 @@ const char* name(Sign sign) {
   return sign == Sign::psd ? "psd" : "igl";
 }
 
+Json denoiseObject(const DenoiseReport& report) {
+  return {{"points", report.points},       {"not_finite", report.not_finite},       {"coincident", report.coincident},
+          {"moved", report.moved},         {"outliers", report.outliers},           {"noise", report.noise},
+          {"mean_move", report.mean_move}, {"farthest_move", report.farthest_move}, {"seconds", report.seconds}};
+}
+
 /// What clouds and meshes have in common.
 template <class Options>
 Json commonOptions(const Options& options) {
@@ -127,6 +133,10 @@ Json optionsObject(const CloudOptions& options) {
 
 }  // namespace
 
+std::string toJson(const DenoiseReport& report) {
+  return denoiseObject(report).dump(indent) + "\n";
+}
+
 std::string toJson(const Report& report) {
   return reportObject(report).dump(indent) + "\n";
 }
@@ -140,6 +150,7 @@ std::string io::reportJson(const Laplacian& laplacian, const Geometry& geometry,
     json["orientation"] = orientation_names.at(static_cast<std::size_t>(laplacian.frames.orientation));
   json["input"] = {{"polygons", geometry.polygons}, {"merged_vertices", geometry.merged_vertices}};
   if (options.cloud) json["cloud_options"] = optionsObject(*options.cloud);
+  if (options.denoised) json["denoised"] = denoiseObject(*options.denoised);
   if (options.mesh) json["mesh_options"] = commonOptions(*options.mesh);
   json["write_options"] = {
       {"files", resultFiles(options.formats)}, {"sign", name(options.sign)}, {"dummy", options.dummy}};

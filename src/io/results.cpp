@@ -18,7 +18,7 @@ namespace {
 
 void check(const Laplacian& laplacian, const Geometry& geometry, const std::vector<ResultArray>& arrays,
            const ResultOptions& options) {
-  const auto n = static_cast<Eigen::Index>(laplacian.status.size());
+  const auto n = laplacian.status.empty() ? geometry.points.rows() : static_cast<Eigen::Index>(laplacian.status.size());
   const auto require = [&](const std::string& name, Eigen::Index rows) {
     if (rows != n)
       throw InvalidInput("writeResults: " + name + " has " + std::to_string(rows) + " rows, must have " +
@@ -98,7 +98,8 @@ void io::stageResults(StagedFiles& files, const Laplacian& laplacian, const Geom
   report();
   if (!options.copies.empty()) {
     const Geometry copy = copyWith(geometry, arrays);
-    const std::vector<Convention> about = conventions(laplacian, WriteOptions());
+    const std::vector<Convention> about =
+        laplacian.status.empty() ? std::vector<Convention>() : conventions(laplacian, WriteOptions());
     for (const Format format : options.copies) {
       if (format == Format::ply)
         writePly(files.stage("points.ply"), laplacian, copy, laplacian.M, about);

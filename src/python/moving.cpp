@@ -1,4 +1,4 @@
-// New places of the points: in the plane, on minimal surfaces, beside handles, smoothed.
+// New places of the points: in the plane, on minimal surfaces, beside handles, smoothed, out of the noise.
 #include <optional>
 #include <string>
 #include <utility>
@@ -8,6 +8,7 @@
 #include "python/module.h"
 #include "python/running.h"
 #include "tufted/deformation.h"
+#include "tufted/denoise.h"
 #include "tufted/minimal_surface.h"
 #include "tufted/parameterization.h"
 #include "tufted/smoothing.h"
@@ -76,6 +77,14 @@ Eigen::MatrixXd smoothedValues(const Laplacian& laplacian, const Eigen::MatrixXd
   return run(progress, [&](const Progress& called) { return smoothValues(laplacian, values, how.with(called)); });
 }
 
+py::tuple denoised(const Doubles& points, int threads, const py::object& progress) {
+  const auto view = pointsOf(points);
+  DenoisedPoints done =
+      run(progress, [&](const Progress& called) { return denoise(view, {.threads = threads, .progress = called}); });
+  const DenoiseReport& report = done.report;
+  return py::make_tuple(std::move(done.positions), std::move(done.noise), report.moved, report.outliers, report.noise);
+}
+
 py::tuple parameterized(const Laplacian& laplacian, const Integers& faces, const std::string& method,
                         const std::string& weights, const Integers& rim, const Eigen::MatrixXd& rim_positions,
                         const Solving& solving, const py::object& progress) {
@@ -129,6 +138,7 @@ DeformationSolver deformationSolver(const Shared& laplacian, const Integers& han
 void addMoving(py::module_& module) {
   module.def("smooth", &smoothed);
   module.def("smooth_values", &smoothedValues);
+  module.def("denoise", &denoised);
   module.def("parameterize", &parameterized);
   module.def("minimal_surface", &minimal);
   py::class_<SmoothingSolver>(module, "SmoothingSolver")

@@ -46,8 +46,10 @@ struct HeightSystems {
 
 /// The solutions of HeightSystems.
 struct HeightSolutions {
-  alignas(64) double height[kernel_packet];     ///< of the quadratic over the origin
-  alignas(64) double explained[kernel_packet];  ///< of the sum of squared heights
+  alignas(
+      64) double coefficient[6][kernel_packet];  ///< of 1, u, v, u^2, u v, v^2: the first is the height over the origin
+  alignas(64) double leverage[kernel_packet];    ///< variance of that height by the variance of each point's
+  alignas(64) double explained[kernel_packet];   ///< of the sum of squared heights
   alignas(64) double least_pivot[kernel_packet], most_pivot[kernel_packet];
 };
 

@@ -156,6 +156,14 @@ void solveHeights(const HeightSystems& systems, HeightSolutions& solutions) {
     solution[i] = load(systems.sums[h + i]);
     for (int k = 0; k < i; ++k) solution[i] = solution[i] - gram[i][k] * solution[k];
   }
+  // The first entry of the inverse: |D^-1/2 L^-1 e|^2, e the first unit vector.
+  Packet unit[size] = {broadcast(1)};
+  Packet leverage = broadcast(1) / pivot[0];
+  for (int i = 1; i < size; ++i) {
+    unit[i] = broadcast(0);
+    for (int k = 0; k < i; ++k) unit[i] = unit[i] - gram[i][k] * unit[k];
+    leverage = leverage + unit[i] * unit[i] / pivot[i];
+  }
   Packet explained = broadcast(0), smallest = pivot[0], largest = pivot[0];
   for (int i = size - 1; i >= 0; --i) {
     solution[i] = solution[i] / pivot[i];
@@ -166,7 +174,8 @@ void solveHeights(const HeightSystems& systems, HeightSolutions& solutions) {
     smallest = min(smallest, pivot[i]);
     largest = max(largest, pivot[i]);
   }
-  store(solution[0], solutions.height);
+  for (int i = 0; i < size; ++i) store(solution[i], solutions.coefficient[i]);
+  store(leverage, solutions.leverage);
   store(explained, solutions.explained);
   store(smallest, solutions.least_pivot);
   store(largest, solutions.most_pivot);

@@ -35,7 +35,7 @@ TEST_F(Words, AnUnknownCommandIsNamedWithTheNearest) {
              "signed-distance, logmap, "
              "transport, interpolate, extend, weights, poisson, green, spectrum, hks, embed, filter, normals, "
              "curvature, segment, "
-             "parameterize, smooth, minimal, deform (see tufted --help)");
+             "parameterize, denoise, smooth, minimal, deform (see tufted --help)");
   expectSaid({"--hlep"}, "unknown option `--hlep`; did you mean `--help`? (see tufted --help)");
 }
 

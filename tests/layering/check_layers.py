@@ -19,6 +19,7 @@ ROOMS = {
     "cover": ["base"],
     "neighbors": ["base", "simd"],
     "stars": ["base", "simd", "neighbors"],
+    "denoise": ["base", "simd", "neighbors", "stars"],
     "direct": ["base", "simd", "cover", "neighbors", "stars"],
     "pipeline": ["base", "cover", "neighbors", "stars", "direct"],
     "operators": ["base", "cover", "stars"],

@@ -41,6 +41,8 @@ void addBuildOptions(CLI::App& command, Build& build) {
                  "Neighbours by the scan's own structure, clouds only (none)"),
        command.add_flag("--normals", build.normals,
                         "Use the file's normals for the tangent planes, not those of the PCA; clouds only"),
+       command.add_flag("--denoise", build.denoise,
+                        "Move noisy points onto the surface first, as `tufted denoise` does; clouds only"),
        command
            .add_option("--viewpoint", build.given_viewpoint,
                        "Where the sensor stood, clouds only (the file's, or the origin of a depth image)")
@@ -83,11 +85,18 @@ tufted::Laplacian buildLaplacian(const tufted::Geometry& geometry, const Input& 
   build.mesh.progress = progress;
   build.mesh.keep_cover = keep_cover;
   if (build.mollify) build.cloud.mollify = build.mesh.mollify = *build.mollify;
-  return geometry.is_mesh ? tufted::meshLaplacian(geometry.points, geometry.triangles, build.mesh)
-                          : tufted::pointCloudLaplacian(geometry.points, build.cloud);
+  if (geometry.is_mesh) return tufted::meshLaplacian(geometry.points, geometry.triangles, build.mesh);
+  if (!build.denoise) return tufted::pointCloudLaplacian(geometry.points, build.cloud);
+  tufted::DenoisedPoints denoised =
+      tufted::denoise(geometry.points, {.threads = build.cloud.threads, .progress = progress});
+  build.denoised = denoised.report;
+  return tufted::pointCloudLaplacian(denoised.positions, build.cloud);
 }
 
-void addNeighbors(const tufted::Report& report, const Build& build, Summary& summary) {
+void addBuild(const tufted::Report& report, const Build& build, Summary& summary) {
+  if (build.denoised)
+    summary.add("denoised", "%lld points, noise %.4g", static_cast<long long>(build.denoised->moved),
+                build.denoised->noise);
   if (report.neighbors_clamped)
     summary.add("neighbors", "%d and not %d: all other points", report.neighbors, build.cloud.neighbors);
 }

@@ -9,6 +9,7 @@
 #include "input.h"
 #include "structure.h"
 #include "summary.h"
+#include "tufted/denoise.h"
 #include "tufted/io/read.h"
 #include "tufted/laplacian.h"
 
@@ -17,6 +18,7 @@ struct Build {
   bool normals = false;  ///< whether to use the normals of the file
   tufted::Preset preset = tufted::Preset::scan;
   Structure structure = Structure::none;
+  bool denoise = false;           ///< whether the points are moved onto the surface first
   std::optional<double> mollify;  ///< if empty, the default of clouds or of meshes
 
   /// The options that were used in the end; they borrow from the members below and from the geometry.
@@ -25,6 +27,7 @@ struct Build {
   std::string given_viewpoint;  ///< X,Y,Z; empty: that of the file, if it has one
   std::optional<tufted::ScanStructure> scan;
   Eigen::Vector3d viewpoint = Eigen::Vector3d::Zero();
+  std::optional<tufted::DenoiseReport> denoised;  ///< what was done, if it was
 
   std::vector<const CLI::Option*> cloud_only;  ///< options that have no meaning for a mesh
 };
@@ -41,5 +44,6 @@ void addRareBuildOptions(CLI::App& command, Build& build);
 tufted::Laplacian buildLaplacian(const tufted::Geometry& geometry, const Input& input, Build& build, bool keep_cover,
                                  const tufted::Progress& progress);
 
-/// Tells how many neighbours were used, if the cloud has fewer than were asked for.
-void addNeighbors(const tufted::Report& report, const Build& build, Summary& summary);
+/// Tells how many points were moved onto the surface, if any; and how many neighbours were used, if the cloud has fewer
+/// than were asked for.
+void addBuild(const tufted::Report& report, const Build& build, Summary& summary);

@@ -33,6 +33,7 @@ void addExtend(CLI::App& app, Run& run);
 void addTransport(CLI::App& app, Run& run);
 void addLogmap(CLI::App& app, Run& run);
 void addParameterize(CLI::App& app, Run& run);
+void addDenoise(CLI::App& app, Run& run);
 void addSmooth(CLI::App& app, Run& run);
 void addMinimal(CLI::App& app, Run& run);
 void addDeform(CLI::App& app, Run& run);

@@ -149,7 +149,7 @@ Summary summarize(const Settings& settings, const tufted::Geometry& geometry, co
   if (report.rim_points + report.jump_points + report.lost_points > 0)
     summary.add("boundary", "%lld points on rims, %lld at depth jumps, %lld where triangles are missing",
                 count(report.rim_points), count(report.jump_points), count(report.lost_points));
-  addNeighbors(report, settings.build, summary);
+  addBuild(report, settings.build, summary);
   summary.add("area", "%.10g, the sum of M", laplacian.M.sum());
   summary.add("components", "%lld connected", count(report.components));
   summary.addDetail("triangles", "%lld", count(report.triangles));
@@ -187,6 +187,7 @@ int runLaplacian(Settings& settings) {
   bar.setPoints(0);
   write.source = settings.input.name();
   write.progress = progress;
+  if (settings.build.denoised) write.denoised = &*settings.build.denoised;
   if (geometry.is_mesh)
     write.mesh = &settings.build.mesh;
   else

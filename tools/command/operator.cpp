@@ -104,6 +104,7 @@ void write(const OperatorSettings& settings, const Operator& source, const Resul
   const tufted::Report& built = source.laplacian.report;
   if (settings.folder.empty() && built.neighbors > 0)  // a cloud
     json["build"] = {{"neighbors", built.neighbors}, {"neighbors_clamped", built.neighbors_clamped}};
+  if (settings.build.denoised) json["denoised"] = nlohmann::ordered_json::parse(toJson(*settings.build.denoised));
   tufted::ResultOptions options = {.copies = settings.copies, .progress = source.progress};
   // A path need not be UTF-8.
   options.report = json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
@@ -218,7 +219,7 @@ int runWithOperator(OperatorSettings& settings, std::vector<std::string> files, 
   for (const std::string& warning : warnings) warn(bar, warning);
   Summary summary = chosen.summary;
   summary.append(results.summary);
-  addNeighbors(source.laplacian.report, settings.build, summary);
+  addBuild(source.laplacian.report, settings.build, summary);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   summary.add("took", "%.3g s, peak memory %.0f MB", seconds.count(), peakMemory());
   summary.add("written to", "%s", settings.out.c_str());

@@ -59,7 +59,7 @@ const Purpose purposes[] = {
     {"Values on the surface", {addInterpolate, addExtend, addWeights, addPoisson, addGreen}},
     {"Frequencies", {addSpectrum, addHks, addEmbed, addFilter}},
     {"Shape", {addNormals, addCurvature, addSegment, addParameterize}},
-    {"Moving the points", {addSmooth, addMinimal, addDeform}}};
+    {"Moving the points", {addDenoise, addSmooth, addMinimal, addDeform}}};
 
 void addSubcommands(CLI::App& app, Run& run) {
   const auto is_new = [](const CLI::App* command) { return command->get_group() == "Subcommands"; };

@@ -35,6 +35,8 @@ std::vector<std::string> resultFiles(const std::vector<ResultArray>& arrays, con
 ///   points.ply, points.pcd as writeLaplacian writes them, with each array per point as a field NAME of float32;
 ///                          several columns: NAME_0, NAME_1, ... in PLY, COUNT values in PCD
 ///   report.json            options.report
+/// @param laplacian that the results were computed with. One without points, as `Laplacian()`, stands for none: the
+///        copies then have neither mass nor boundary, status and representative.
 /// @throws InvalidInput if arrays differ in length, a name is not one word, the pose of the sensor is not valid or a
 ///         format is neither ply nor pcd
 /// @throws IoError naming the path

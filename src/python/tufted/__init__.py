@@ -5,19 +5,19 @@ PointCloudHeatSolver and the mesh solvers have the names and arguments of robust
 
 L is minus the Laplacian, integrated: positive semidefinite. M holds areas. L u = M f; L x = lambda M x.
 """
-from ._clouds import Mesh, PointCloud, load, read
+from ._clouds import Mesh, PointCloud, denoise, load, read
 from ._drop_in import (MeshHeatMethodDistanceSolver, MeshVectorHeatSolver, PointCloudHeatSolver, compute_distance,
                        compute_distance_multisource, mesh_laplacian, point_cloud_laplacian, read_mesh,
                        read_point_cloud)
-from ._results import (Curvature, Deformation, Gradients, LogMap, MinimalSurface, Parameterization, Path, Segments,
+from ._results import (Curvature, Deformation, Denoised, Gradients, LogMap, MinimalSurface, Parameterization, Path, Segments,
                        Spectrum)
 from ._surface import Surface
 from ._tufted import Cancelled, FileTooLarge, InvalidInput, IoError, SolverFailure
 from ._tufted import version as __version__
 
 __all__ = [
-    "Cancelled", "Curvature", "Deformation", "FileTooLarge", "Gradients", "InvalidInput", "IoError", "LogMap", "Mesh",
+    "Cancelled", "Curvature", "Deformation", "Denoised", "FileTooLarge", "Gradients", "InvalidInput", "IoError", "LogMap", "Mesh",
     "MeshHeatMethodDistanceSolver", "MeshVectorHeatSolver", "MinimalSurface", "Parameterization", "Path", "PointCloud",
-    "PointCloudHeatSolver", "Segments", "SolverFailure", "Spectrum", "Surface", "compute_distance", "compute_distance_multisource", "load",
+    "PointCloudHeatSolver", "Segments", "SolverFailure", "Spectrum", "Surface", "compute_distance", "compute_distance_multisource", "denoise", "load",
     "mesh_laplacian", "point_cloud_laplacian", "read", "read_mesh", "read_point_cloud",
 ]

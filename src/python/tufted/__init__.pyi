@@ -41,6 +41,13 @@ class Segments(NamedTuple):
     areas: _Floats
     seeds: _Integers
 
+class Denoised(NamedTuple):
+    points: _Floats
+    noise: _Floats
+    moved: int
+    outliers: int
+    median_noise: float
+
 class Parameterization(NamedTuple):
     uv: _Floats
     quasi_conformal_error: float
@@ -185,6 +192,7 @@ class Mesh(Surface):
 def read(path: _Path, *, kind: Literal["automatic", "cloud", "mesh"] = "automatic", weld: bool = False,
          image: bool = False, rings: npt.ArrayLike | bool | Literal["find"] | None = None, normals: bool = False,
          progress: _Progress = None, **options: Any) -> Any: ...
+def denoise(points: npt.ArrayLike, *, threads: int = 0, progress: _Progress = None) -> Denoised: ...
 def load(directory: _Path, *, threads: int = 0, solver: Literal["automatic", "cholesky", "multigrid"] = "automatic",
          memory_limit: int = 0, progress: _Progress = None) -> Any: ...
 def point_cloud_laplacian(points: npt.ArrayLike, mollify_factor: float = 1e-5, n_neighbors: int = 30,

@@ -5,6 +5,7 @@ import numpy as np
 
 from . import _arguments as check
 from . import _tufted
+from ._results import Denoised
 from ._surface import Surface
 from ._tufted import InvalidInput
 
@@ -125,6 +126,19 @@ class Mesh(Surface):
 
     def _fitted_frames(self):
         return self._frame_parts()
+
+
+def denoise(points, *, threads=0, progress=None):
+    """Moves the points of a noisy scan onto the surface, without a radius to choose.
+
+    points: N x 3, float32 or float64; rows with NaN stay as they are.
+    threads: at most this many; 0: all. progress: a function of stage and fraction.
+    Returns points (N x 3), noise (N: its standard deviation around each point that moved, 0 where it stayed), how many
+    moved, how many stayed as outliers, and median_noise over those that moved.
+    """
+    return Denoised(*_tufted.denoise(check.rows_of_three("denoise", "points", points),
+                                     check.whole("denoise", "threads", threads, 0),
+                                     check.callback("denoise", progress)))
 
 
 def _set_geometry(surface, geometry, source):

@@ -33,6 +33,16 @@ class Segments(NamedTuple):
     seeds: np.ndarray
 
 
+class Denoised(NamedTuple):
+    """Points on the surface that noisy ones lie around, and the standard deviation of the noise: at each point, 0 where
+    it stayed, and in the median over those that moved."""
+    points: np.ndarray
+    noise: np.ndarray
+    moved: int
+    outliers: int
+    median_noise: float
+
+
 class Parameterization(NamedTuple):
     """A surface laid out in the plane."""
     uv: np.ndarray

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <cstdint>
+
+#include "tufted/options.h"
+#include "tufted/types.h"
+
+namespace tufted {
+
+/// Options of denoise().
+struct DenoiseOptions {
+  int threads = 0;         ///< at most this many; 0: one per processor
+  Progress progress = {};  ///< called while it searches, fits and moves
+};
+
+/// What denoise() did.
+struct DenoiseReport {
+  std::int64_t points = 0;      ///< rows of the caller's array
+  std::int64_t not_finite = 0;  ///< NaN, infinite, or beyond 1e70 median spreads or 1e152; they stay
+  std::int64_t coincident = 0;  ///< equal to an earlier point; they move with it
+  std::int64_t moved = 0;       ///< points that moved, without coincident ones
+  std::int64_t outliers = 0;    ///< points that stayed because they hover over the surface of their neighbours
+  double noise = 0;  ///< median over the moved points of DenoisedPoints::noise, in the caller's unit; 0 if none moved
+  double mean_move = 0;      ///< mean way of the points that moved, in the caller's unit
+  double farthest_move = 0;  ///< the longest way of a point, in the caller's unit
+  double seconds = 0;        ///< wall-clock
+};
+
+/// Points on the surface that noisy ones lie around.
+struct DenoisedPoints {
+  Points positions;  ///< N x 3, in the caller's unit; those of points that stay are the caller's bit for bit
+  /// N; the standard deviation of the noise around a point that moved, along the normal, in the caller's unit; 0 at
+  /// points that stay.
+  VectorXd noise;
+  DenoiseReport report;
+};
+
+/// Moves the points of a noisy scan onto the surface, without a radius to choose.
+///
+/// Around each point quadratics are fitted to the heights of 16, 32, 64 and 128 neighbours over its tangent plane
+/// (twice to eight times as many where the noise exceeds the spacing). The residuals of the smaller two say whether
+/// there is noise, and how much; a point moves onto the quadratic of the widest window whose bend the noise still
+/// hides, which is found as in Lepski ("On a problem of adaptive estimation in Gaussian white noise", 1991). Next to
+/// creases windows of points beside it serve, on one side of the crease. Neighbours of other surfaces that pass by are
+/// left out.
+///
+/// Points of exact data, outliers, points in volumes, and whatever cannot be told from the shape of the surface stay
+/// exactly where they are. A permuted cloud gives the permuted result; moved or turned clouds that moved or turned, up
+/// to rounding; any number of threads the same bits.
+/// @param points N x 3; NaN and infinite rows stay as they are
+/// @throws InvalidInput for a negative number of threads, or more than 2^31 points
+/// @throws Cancelled when `options.progress` returns false
+DenoisedPoints denoise(const PointsRef& points, const DenoiseOptions& options = {});
+
+}  // namespace tufted

@@ -1,0 +1,187 @@
+#include "denoise/crease_moves.h"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "stars/denoise.h"
+#include "stars/tangent_frame.h"
+
+namespace tufted {
+namespace {
+
+constexpr std::int64_t block_size = 256;
+constexpr double explained = 1.3;    // of the noise's variance, that of the residuals: a window without a bend
+constexpr double fade = 0.05;        // of the noise's variance, by which windows with larger residuals count less
+constexpr double height_fade = 1.5;  // sigmas, by which windows whose surface is farther away count less
+constexpr double most_height = 3;    // sigmas from the best window's surface
+constexpr double same_side = 0.95;   // cosine between the normals of windows on one side of a crease
+constexpr int rounds = 2;            // of fits through one side
+constexpr int one_side = 4;          // times the base window; half of it may be on the other side
+constexpr double agreement = 0.9;    // cosine between the normals of points on one side
+constexpr int least_on_side = 12;    // twice as many points as coefficients
+constexpr double most_step = 2;      // sigmas in one round
+
+/// The surface of a window at one position.
+struct LentSurface {
+  double height;           ///< of the position over it
+  Eigen::Vector3d normal;  ///< of the surface there
+};
+
+/// @param d the position relative to point q, whose window it is
+LentSurface surfaceAt(const Windows& windows, int q, int window, const Eigen::Vector3d& d) {
+  const auto& c = windows.fits[q][window].coefficient;
+  const Eigen::Vector3d normal = windows.normal.row(q).transpose(), first = tangentOf(normal);
+  const Eigen::Vector3d second = normal.cross(first);
+  const double unit = windows.radius[q], u = d.dot(first) / unit, v = d.dot(second) / unit;
+  const double height = unit * (c[0] + c[1] * u + c[2] * v + c[3] * u * u + c[4] * u * v + c[5] * v * v);
+  const double along_u = c[1] + 2 * c[3] * u + c[4] * v, along_v = c[2] + c[4] * u + 2 * c[5] * v;
+  const Eigen::Vector3d across = normal - along_u * first - along_v * second;
+  const double length = across.norm();
+  return {(d.dot(normal) - height) / length, across / length};
+}
+
+/// A window that holds p, and how much it counts.
+struct Lender {
+  double weight;
+  LentSurface surface;
+};
+
+/// Memory of one worker.
+struct CreaseScratch {
+  WindowNeighbors around;
+  Buffer<Lender> lenders;
+  Buffer<int> side;
+  OffsetBuffer offsets;
+};
+
+class CreaseMover {
+ public:
+  /// All arguments are borrowed.
+  CreaseMover(const PointsView& points, const NeighborSource& source, const Windows& windows, const NoiseLevel& noise)
+      : points_(points), source_(source), windows_(windows), noise_(noise) {}
+
+  /// A move of p onto the surfaces of windows of one size around its neighbours: of those that explain their points by
+  /// noise alone, best first, and lie on the same side of the crease as the best. False where none does.
+  bool borrow(int p, int window, CreaseScratch& scratch, Eigen::RowVector3d& move, Eigen::RowVector3d& normal) const {
+    const double variance = noise_.variance[p];
+    const auto count = std::min<std::ptrdiff_t>(windows_.base[p] / 2 << window, std::ssize(scratch.around.all));
+    scratch.lenders.clear();
+    double least = 0, best_height = 0;  // of the best: variance of its residuals
+    const Lender* best = nullptr;
+    scratch.lenders.reserve(static_cast<std::size_t>(count) + 1);
+    for (std::ptrdiff_t i = -1; i < count; ++i) {
+      const int q = i < 0 ? p : scratch.around.all[i].index;
+      const WindowFit& fit = windows_.fits[q][window];
+      const Eigen::Vector3d d = (points_.row(p) - points_.row(q)).transpose();
+      if (!std::isfinite(fit.variance) || !(d.squaredNorm() < fit.radius * fit.radius)) continue;
+      const LentSurface surface = surfaceAt(windows_, q, window, d);
+      const double misfit = std::max(fit.variance / variance - 1, 0.0) / fade;
+      const double distance = surface.height * surface.height / (2 * height_fade * height_fade * variance);
+      scratch.lenders.push_back({std::exp(-misfit - distance), surface});
+      if (best != nullptr && !(scratch.lenders.back().weight > best->weight)) continue;
+      best = &scratch.lenders.back();
+      least = fit.variance;
+      best_height = surface.height;
+    }
+    if (best == nullptr || !(least < explained * variance) ||
+        !(best_height * best_height < most_height * most_height * variance))
+      return false;
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    double weights = 0;
+    for (const Lender& lender : scratch.lenders) {
+      if (!(std::abs(lender.surface.normal.dot(best->surface.normal)) > same_side)) continue;
+      weights += lender.weight;
+      sum -= lender.weight * lender.surface.height * lender.surface.normal;
+    }
+    move = (sum / weights).transpose();
+    normal = best->surface.normal.transpose();
+    return true;
+  }
+
+  /// The step from where p has moved to onto a fit through the neighbours on its side, where they have moved to. Zero
+  /// where these are few, or do not lie on one smooth surface.
+  Eigen::RowVector3d stepOnSide(int p, const PointBuffer& move, const PointBuffer& normals,
+                                CreaseScratch& scratch) const {
+    const int count = std::min(one_side * windows_.base[p], windows_.size() - 1);
+    scratch.around.find(points_, *source_.search, windows_, p, count, noise_.outlier);
+    scratch.side.clear();
+    for (std::size_t i = 0; i < scratch.around.all.size(); ++i) {
+      const int q = scratch.around.all[i].index;
+      if (scratch.around.skipped[i] == 0 && noise_.noisy[q] != 0 &&
+          std::abs(normals.row(q).dot(normals.row(p))) > agreement)
+        scratch.side.push_back(q);
+    }
+    if (std::ssize(scratch.side) < least_on_side) return Eigen::RowVector3d::Zero();
+    const Eigen::Vector3d normal = normals.row(p).transpose();
+    std::array<HeightMoments, 2> moments;
+    for (const bool moved : {false, true}) {
+      scratch.offsets.fill(static_cast<int>(scratch.side.size()), [&](int i) -> Eigen::RowVector3d {
+        const int q = scratch.side[i];
+        const Eigen::RowVector3d d = points_.row(q) - points_.row(p);
+        return moved ? (d + (move.row(q) - move.row(p))).eval() : d;
+      });
+      moments[moved ? 1 : 0] = heightMoments(scratch.offsets.view(), normal, windows_.radius[p]);
+    }
+    std::array<HeightFit, 2> fits;
+    fitHeights(moments, fits);
+    const double variance = noise_.variance[p];
+    if (!fits[0].is_valid || !fits[1].is_valid || !(fits[0].variance < explained * variance) ||
+        !(fits[1].height * fits[1].height < most_step * most_step * variance))
+      return Eigen::RowVector3d::Zero();
+    return fits[1].height * normal.transpose();
+  }
+
+  Eigen::RowVector3d normalOf(int p, int window) const {
+    return surfaceAt(windows_, p, window, Eigen::Vector3d::Zero()).normal.transpose();
+  }
+
+ private:
+  PointsView points_;
+  const NeighborSource& source_;
+  const Windows& windows_;
+  const NoiseLevel& noise_;
+};
+
+}  // namespace
+
+Buffer<std::uint8_t> moveNextToCreases(const PointsView& points, const NeighborSource& source, const Windows& windows,
+                                       const NoiseLevel& noise, const WindowChoice& choice, const Workers& workers,
+                                       PointBuffer& move) {
+  const int n = windows.size();
+  const CreaseMover mover(points, source, windows, noise);
+  Buffer<std::uint8_t> is_moved(windows.base.size(), 0);
+  PointBuffer normals(n);
+  workers.forBlocks("noise", n, block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    CreaseScratch scratch;
+    for (int p = static_cast<int>(begin); p < end; ++p) {
+      const int window = choice.window[p];
+      normals.row(p) = mover.normalOf(p, std::max(window, 1));
+      if (choice.biased[p] == 0 || window > 1) continue;
+      const int count = std::min(2 * windows.base[p], n - 1);
+      scratch.around.find(points, *source.search, windows, p, count, noise.outlier);
+      for (const int wider : {2, 1}) {
+        Eigen::RowVector3d to, normal;
+        if (wider <= window || !mover.borrow(p, wider, scratch, to, normal)) continue;
+        move.row(p) = to;
+        normals.row(p) = normal;
+        is_moved[p] = 1;
+        break;
+      }
+    }
+  });
+
+  const Buffer<int> moved = numbersWhere("noise", n, workers, [&](int p) { return is_moved[p] != 0; });
+  for (int round = 0; round < rounds; ++round) {
+    const PointBuffer before = move;
+    workers.forBlocks("noise", std::ssize(moved), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+      CreaseScratch scratch;
+      for (std::int64_t i = begin; i < end; ++i)
+        move.row(moved[i]) += mover.stepOnSide(moved[i], before, normals, scratch);
+    });
+  }
+  return is_moved;
+}
+
+}  // namespace tufted

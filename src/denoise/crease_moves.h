@@ -1,0 +1,17 @@
+#pragma once
+
+#include "denoise/noise_level.h"
+#include "denoise/window_choice.h"
+#include "denoise/windows.h"
+
+namespace tufted {
+
+/// Where no window around a point is free of a bend, as next to a crease: moves it onto the surface of windows around
+/// other points that hold it, and then onto a fit through those neighbours alone whose surface has its normal.
+/// @param move n x 3, of all points by their own windows; overwritten where a point moves so
+/// @returns n, 1 where a point moves so
+Buffer<std::uint8_t> moveNextToCreases(const PointsView& points, const NeighborSource& source, const Windows& windows,
+                                       const NoiseLevel& noise, const WindowChoice& choice, const Workers& workers,
+                                       PointBuffer& move);
+
+}  // namespace tufted

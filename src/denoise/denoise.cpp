@@ -1,0 +1,89 @@
+#include "tufted/denoise.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "base/power_of_two.h"
+#include "base/stage_clock.h"
+#include "denoise/moves.h"
+#include "neighbors/morton.h"
+#include "neighbors/neighbor_source.h"
+#include "tufted/errors.h"
+
+namespace tufted {
+namespace {
+
+constexpr const char* function_name = "denoise";
+
+void check(const PointsRef& points, const DenoiseOptions& options) {
+  if (options.threads < 0)
+    throw InvalidInput(std::string(function_name) + ": threads is " + std::to_string(options.threads) +
+                       ", must be at least 0");
+  if (points.rows() > INT32_MAX)
+    throw InvalidInput(std::string(function_name) + ": " + std::to_string(points.rows()) +
+                       " points, must be less than 2^31");
+}
+
+double medianOf(Buffer<double> values) {
+  if (values.empty()) return 0;
+  const auto middle = values.begin() + std::ssize(values) / 2;
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+/// Moves the points of `denoised`, which are the caller's.
+void apply(const SurfaceMoves& moves, const RankedCloud& cloud, DenoisedPoints& denoised) {
+  const PowerOfTwo unit(cloud.exponent);
+  DenoiseReport& report = denoised.report;
+  Buffer<double> noise;
+  double way = 0;
+  for (int p = 0; p < cloud.size(); ++p) {
+    if (!moves.noise.outlier.empty()) report.outliers += moves.noise.outlier[p];
+    const Eigen::RowVector3d move = moves.move.row(p);
+    if (move.isZero(0)) continue;
+    const int i = cloud.input_index[p];
+    for (int axis = 0; axis < 3; ++axis) denoised.positions(i, axis) += unit.times(move[axis]);
+    denoised.noise[i] = unit.times(std::sqrt(moves.noise.variance[p]));
+    noise.push_back(denoised.noise[i]);
+    const double length = unit.times(move.norm());
+    way += length;
+    report.farthest_move = std::max(report.farthest_move, length);
+  }
+  report.moved = std::ssize(noise);
+  if (report.moved > 0) report.mean_move = way / static_cast<double>(report.moved);
+  report.noise = medianOf(std::move(noise));
+}
+
+}  // namespace
+
+DenoisedPoints denoise(const PointsRef& points, const DenoiseOptions& options) {
+  const Stopwatch watch;
+  check(points, options);
+  const Workers workers(options.threads, options.progress);
+  DenoisedPoints denoised{.positions = points, .noise = VectorXd::Zero(points.rows()), .report = {}};
+  std::vector<PointStatus> status;
+  std::vector<int> representative;
+  const RankedCloud cloud = rankPoints(points, status, representative, workers);
+
+  NeighborSource source;
+  source.k = std::min(Windows::first_base, std::max(0, cloud.size() - 1));
+  source.search = std::make_unique<NeighborSearch>(cloud.points, workers);
+  apply(surfaceMoves(cloud.points, source, workers), cloud, denoised);
+
+  denoised.report.points = points.rows();
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    if (status[i] == PointStatus::not_finite) ++denoised.report.not_finite;
+    if (status[i] != PointStatus::coincident) continue;
+    ++denoised.report.coincident;
+    denoised.positions.row(i) = denoised.positions.row(representative[i]);
+    denoised.noise[i] = denoised.noise[representative[i]];
+  }
+  workers.report("done", 1);
+  denoised.report.seconds = watch.seconds();
+  return denoised;
+}
+
+}  // namespace tufted

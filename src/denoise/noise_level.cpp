@@ -1,0 +1,156 @@
+#include "denoise/noise_level.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "denoise/pooling.h"
+
+namespace tufted {
+namespace {
+
+constexpr std::int64_t block_size = 1024;
+constexpr int most_widenings = 3;
+constexpr double thick = 0.25;            // smallest by middle variance: windows of less than four sigmas are widened
+constexpr double still_thick = 0.6;       // a crease does not get thinner in a wider window, noise does
+constexpr double share_to_widen = 0.002;  // of the points; fewer are left
+constexpr double chi_median = 0.94;       // median of chi squared by its degrees of freedom, of which there are 11
+constexpr int low_rank = 3;               // of 33: a tenth
+constexpr double low_correction = 1.12;   // of that low quantile of medians, to the variance
+constexpr double outlier_sigmas = 5, outlier_spacings = 1;
+constexpr double alone = 1. / 3;      // of the neighbours, which are left where those of other surfaces are left out
+constexpr double outlier_growth = 2;  // of the residuals' variance by the noise's, around an outlier
+constexpr double exact = 0.2;         // of the least noise's variance: residuals below are those of exact points
+constexpr double exact_share = 0.1;   // of the points around
+constexpr double noise_growth = 1.4;  // of the residuals' variance from window to window: noise 1, a crease 2 to 3
+constexpr double sure_share = 0.15;   // of the points around
+
+double leastVariance(const Windows& windows, int p) {
+  const double least = least_noise * windows.spacing(p);
+  return least * least;
+}
+
+double finiteOrZero(double value) {
+  return std::isfinite(value) ? value : 0;
+}
+
+/// The median thickness around each point.
+RawBuffer<double> thicknessAround(const Windows& windows, const Workers& workers) {
+  RawBuffer<double> around(windows.base.size());
+  workers.forBlocks("noise", windows.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    for (int p = static_cast<int>(begin); p < end; ++p)
+      around[p] = pooledMedian(p, windows.near[p], [&](int q) { return windows.thickness[q]; });
+  });
+  return around;
+}
+
+/// Doubles base windows while the points in them are as thick as wide, or a line.
+/// @returns which are as thick as wide in the end
+Buffer<std::uint8_t> widen(const WindowFitter& fitter, const Workers& workers, Windows& windows) {
+  const int n = windows.size();
+  RawBuffer<double> around = thicknessAround(windows, workers);
+  const RawBuffer<double> first = around;
+  Buffer<std::uint8_t> waits(windows.base.size(), 1), was_line(windows.base.size(), 0);
+  for (int p = 0; p < n; ++p) {
+    was_line[p] = windows.line[p];
+    if (windows.split[p] != 0) waits[p] = 0;  // sheets would be taken for one that is thick
+  }
+  for (int step = 0; step < most_widenings; ++step) {
+    Buffer<int> which;
+    for (int p = 0; p < n; ++p) {
+      if (waits[p] == 0) continue;
+      waits[p] = (windows.line[p] != 0 || around[p] > thick) && 8 * windows.base[p] <= n - 1 ? 1 : 0;
+      if (waits[p] != 0) which.push_back(p);
+    }
+    if (static_cast<double>(which.size()) < share_to_widen * n) break;
+    fitter.widen(which, windows);
+    around = thicknessAround(windows, workers);
+  }
+  Buffer<int> back;
+  for (int p = 0; p < n; ++p)
+    if (windows.base[p] > Windows::first_base && around[p] > thick && around[p] > still_thick * first[p] &&
+        was_line[p] == 0)
+      back.push_back(p);
+  fitter.reset(back, windows);
+  around = thicknessAround(windows, workers);
+  Buffer<std::uint8_t> is_thick(windows.base.size());
+  for (int p = 0; p < n; ++p) is_thick[p] = around[p] > 2 * thick ? 1 : 0;
+  return is_thick;
+}
+
+RawBuffer<double> noiseVariance(const Windows& windows, const Workers& workers) {
+  RawBuffer<double> median(windows.base.size()), variance(windows.base.size());
+  workers.forBlocks("noise", windows.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    for (int p = static_cast<int>(begin); p < end; ++p) {
+      const double radius = windows.radius[p];
+      median[p] =
+          std::min(pooledMedian(p, windows.near[p], [&](int q) { return windows.fits[q][0].variance; }) / chi_median,
+                   radius * radius);
+    }
+  });
+  workers.forBlocks("noise", windows.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    for (int p = static_cast<int>(begin); p < end; ++p)
+      variance[p] = low_correction * pooledQuantile(p, windows.near[p], low_rank, [&](int q) { return median[q]; });
+  });
+  return variance;
+}
+
+bool isOutlier(const Windows& windows, int p, double variance) {
+  const WindowFit& fit = windows.fits[p][1];
+  // Most of its neighbours belong to a surface that does not reach it.
+  if (fit.count < alone * windows.base[p]) return true;
+  if (!std::isfinite(fit.variance) || !(fit.variance > outlier_growth * variance)) return false;
+  const double sigma = std::sqrt(variance * (1 - fit.leverage));
+  return std::abs(fit.height) > std::max(outlier_sigmas * sigma, outlier_spacings * windows.spacing(p));
+}
+
+}  // namespace
+
+NoiseLevel findNoise(const WindowFitter& fitter, const Workers& workers, Windows& windows) {
+  NoiseLevel noise;
+  fitter.start(windows);
+  const int n = windows.size();
+  const Buffer<std::uint8_t> is_thick = widen(fitter, workers, windows);
+  Buffer<int> all(windows.base.size());
+  for (int p = 0; p < n; ++p) all[p] = p;
+  fitter.fitNear(all, {}, windows);
+  noise.variance = noiseVariance(windows, workers);
+
+  noise.outlier.assign(windows.base.size(), 0);
+  bool has_outliers = false;
+  for (int p = 0; p < n; ++p) {
+    noise.outlier[p] = isOutlier(windows, p, noise.variance[p]) ? 1 : 0;
+    has_outliers |= noise.outlier[p] != 0;
+  }
+  if (has_outliers) {
+    const auto near_outlier = numbersWhere("noise", n, workers, [&](int p) {
+      return std::ranges::any_of(windows.near[p], [&](int q) { return noise.outlier[q] != 0; });
+    });
+    fitter.fitNear(near_outlier, noise.outlier, windows);
+    noise.variance = noiseVariance(windows, workers);
+  }
+
+  Buffer<std::uint8_t> sure(windows.base.size());
+  noise.noisy.assign(windows.base.size(), 0);
+  workers.forBlocks("noise", n, block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    for (int p = static_cast<int>(begin); p < end; ++p) {
+      const double least = leastVariance(windows, p);
+      const auto mean = [&](const auto& value) { return pooledMean(p, windows.near[p], value); };
+      const double small = mean([&](int q) { return finiteOrZero(windows.fits[q][0].variance); });
+      const double base = mean([&](int q) { return finiteOrZero(windows.fits[q][1].variance); });
+      const double exactly = mean([&](int q) { return windows.fits[q][0].variance < exact * least ? 1 : 0; });
+      sure[p] = noise.variance[p] > least && exactly < exact_share && base < noise_growth * small ? 1 : 0;
+    }
+  });
+  workers.forBlocks("noise", n, block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    for (int p = static_cast<int>(begin); p < end; ++p) {
+      const double share = pooledMean(p, windows.near[p], [&](int q) { return sure[q]; });
+      noise.noisy[p] = noise.variance[p] > leastVariance(windows, p) && share > sure_share && noise.outlier[p] == 0 &&
+                               is_thick[p] == 0
+                           ? 1
+                           : 0;
+    }
+  });
+  return noise;
+}
+
+}  // namespace tufted

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <algorithm>
+#include <array>
+
+#include "denoise/windows.h"
+
+namespace tufted {
+
+/// The mean of value(q) over p and its pool.
+template <class Value>
+double pooledMean(int p, const Windows::Pool& pool, const Value& value) {
+  double sum = value(p);
+  for (const int q : pool) sum += value(q);
+  return sum / (Windows::pooled + 1);
+}
+
+/// The value(q) over p and its pool that has `rank` smaller ones.
+template <class Value>
+double pooledQuantile(int p, const Windows::Pool& pool, int rank, const Value& value) {
+  std::array<double, Windows::pooled + 1> values;
+  values[0] = value(p);
+  for (int i = 0; i < Windows::pooled; ++i) values[i + 1] = value(pool[i]);
+  std::nth_element(values.begin(), values.begin() + rank, values.end());
+  return values[rank];
+}
+
+template <class Value>
+double pooledMedian(int p, const Windows::Pool& pool, const Value& value) {
+  return pooledQuantile(p, pool, Windows::pooled / 2, value);
+}
+
+}  // namespace tufted

@@ -1,0 +1,230 @@
+#include "denoise/windows.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "simd/kernels.h"
+#include "stars/denoise.h"
+#include "stars/neighborhood.h"
+#include "stars/offsets.h"
+#include "stars/tangent_frame.h"
+
+namespace tufted {
+namespace {
+
+constexpr std::int64_t block_size = 256;
+constexpr int least_points = 9;  // three more than coefficients
+constexpr int coefficients = 6;
+constexpr double sheet_gap = 0.25;       // of the base window's radius, between heights; beyond lies another sheet
+constexpr double smallest_pivot = 1e-9;  // of the largest; points on a conic leave nothing but rounding
+
+void spread(std::span<const Neighbor> neighbors, Windows::Pool& pool) {
+  const std::size_t count = neighbors.size();
+  for (std::size_t i = 0; i < pool.size(); ++i) pool[i] = neighbors[i * count / pool.size()].index;
+}
+
+void takePlane(int p, const PrincipalAxes& axes, Windows& windows) {
+  windows.normal.row(p) = axes.normal.transpose();
+  windows.thickness[p] = axes.variance[1] > 0 ? std::min(1.0, std::max(0.0, axes.variance[0]) / axes.variance[1]) : 1;
+  windows.line[p] = liesOnOneLine(axes) ? 1 : 0;
+}
+
+/// What a system is made for.
+struct Slot {
+  int p = 0, size = 0;
+};
+
+/// Collects systems until there is one for each lane.
+class FitQueue {
+ public:
+  explicit FitQueue(Windows& windows) : windows_(windows) {}
+
+  void add(Slot slot, const HeightSums& sums, int count) {
+    const double* const values = &sums.u;
+    for (int i = 0; i < HeightSystems::numbers; ++i) systems_.sums[i][waiting_] = values[i];
+    systems_.count[waiting_] = count;
+    slots_[waiting_++] = slot;
+    if (waiting_ == kernel_packet) solve();
+  }
+
+  void solve() {
+    for (int i = waiting_; i < kernel_packet; ++i) {
+      for (auto& sums : systems_.sums) sums[i] = sums[0];
+      systems_.count[i] = systems_.count[0];
+    }
+    if (waiting_ > 0) kernels().solveHeights(systems_, solutions_);
+    for (int i = 0; i < waiting_; ++i) take(i);
+    waiting_ = 0;
+  }
+
+ private:
+  void take(int lane) {
+    const auto [p, size] = slots_[lane];
+    WindowFit& fit = windows_.fits[p][size];
+    const double radius = windows_.radius[p];
+    const int count = static_cast<int>(systems_.count[lane]);
+    if (count < least_points || !(radius > 0) ||
+        !(solutions_.least_pivot[lane] > smallest_pivot * solutions_.most_pivot[lane]))
+      return;
+    for (std::size_t i = 0; i < fit.coefficient.size(); ++i) fit.coefficient[i] = solutions_.coefficient[i][lane];
+    fit.height = fit.coefficient[0] * radius;
+    fit.leverage = std::min(1.0, solutions_.leverage[lane]);
+    const double residual = std::max(0.0, systems_.sums[HeightSystems::numbers - 1][lane] - solutions_.explained[lane]);
+    fit.variance = residual / (count - coefficients) * radius * radius;
+  }
+
+  Windows& windows_;
+  HeightSystems systems_;
+  HeightSolutions solutions_;
+  std::array<Slot, kernel_packet> slots_;
+  int waiting_ = 0;
+};
+
+}  // namespace
+
+double Windows::spacing(int p) const {
+  return radius[p] * std::sqrt(std::numbers::pi / base[p]);
+}
+
+void WindowNeighbors::find(const PointsView& points, const NeighborSearch& search, const Windows& windows, int p,
+                           int count, const Buffer<std::uint8_t>& left_out) {
+  search.nearest(p, count, all, NeighborOrder::ascending, &before);
+  offsets.take(points, p, all);
+  heights.resize(static_cast<std::size_t>(toPackets(count)));
+  const Eigen::Vector3d normal = windows.normal.row(p).transpose();
+  const HeightRange range =
+      kernels().connectedHeights(offsets.view(), normal.data(), sheet_gap * windows.radius[p], heights.data());
+  any_skipped = false;
+  skipped.resize(all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const bool is_out = !left_out.empty() && left_out[all[i].index] != 0;
+    skipped[i] = is_out || heights[i] < range.lowest || heights[i] > range.highest ? 1 : 0;
+    any_skipped |= skipped[i] != 0;
+  }
+}
+
+void WindowFitter::start(Windows& windows) const {
+  const Eigen::Index n = points_.rows();
+  const auto size = static_cast<std::size_t>(n);
+  windows.base.assign(size, Windows::first_base);
+  windows.normal.resize(n);
+  windows.radius.resize(size);
+  windows.thickness.resize(size);
+  windows.line.resize(size);
+  windows.split.resize(size);
+  windows.fits.resize(size);
+  windows.near.resize(size);
+  windows.middle.resize(size);
+  windows.far.resize(size);
+  CloudOptions options;
+  const NeighborhoodFinder finder(points_, source_, options);
+  workers_.forBlocks("noise", n, block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    const int first = static_cast<int>(begin), count = static_cast<int>(end - begin);
+    Buffer<Neighborhood> neighborhoods(static_cast<std::size_t>(count));
+    NeighborhoodScratch scratch;
+    std::array<OffsetBuffer, NeighborhoodFinder::most_planes> offsets;
+    finder.find(first, count, scratch, neighborhoods.data());
+    for (int group = 0; group < count; group += NeighborhoodFinder::most_planes) {
+      const int group_size = std::min(count - group, NeighborhoodFinder::most_planes);
+      const std::span some(neighborhoods.data() + group, static_cast<std::size_t>(group_size));
+      finder.fitPlanes(first + group, some, offsets);
+      for (int i = 0; i < group_size; ++i) {
+        const int p = first + group + i;
+        Neighborhood& around = some[i];
+        finder.refine(p, around, offsets[i], scratch);
+        windows.base[p] = around.k;
+        windows.radius[p] = around.radius;
+        windows.split[p] = around.split ? 1 : 0;
+        takePlane(p, around.axes, windows);
+        spread(around.neighbors, windows.near[p]);
+      }
+    }
+  });
+}
+
+void WindowFitter::widen(std::span<const int> which, Windows& windows) const {
+  for (const int p : which) windows.base[p] *= 2;
+  takePlanes(which, windows);
+}
+
+void WindowFitter::reset(std::span<const int> which, Windows& windows) const {
+  for (const int p : which) windows.base[p] = Windows::first_base;
+  takePlanes(which, windows);
+}
+
+void WindowFitter::takePlanes(std::span<const int> which, Windows& windows) const {
+  workers_.forBlocks("noise", std::ssize(which), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    Buffer<Neighbor> neighbors;
+    OffsetBuffer offsets;
+    SearchBefore before;
+    std::array<Covariance, kernel_packet> covariances;
+    std::array<PrincipalAxes, kernel_packet> axes;
+    for (std::int64_t first = begin; first < end; first += kernel_packet) {
+      const auto group = which.subspan(first, std::min<std::int64_t>(kernel_packet, end - first));
+      for (std::size_t i = 0; i < group.size(); ++i) {
+        const int p = group[i];
+        source_.search->nearest(p, windows.base[p], neighbors, NeighborOrder::ascending, &before);
+        offsets.take(points_, p, neighbors);
+        windows.radius[p] = std::sqrt(neighbors.back().squared_distance);
+        spread(neighbors, windows.near[p]);
+        covariances[i] = covarianceOf(offsets.view(), windows.radius[p]);
+      }
+      principalAxes(std::span(covariances).first(group.size()), axes);
+      for (std::size_t i = 0; i < group.size(); ++i) takePlane(group[i], axes[i], windows);
+    }
+  });
+}
+
+void WindowFitter::fitNear(std::span<const int> which, const Buffer<std::uint8_t>& left_out, Windows& windows) const {
+  fit(which, 2, left_out, windows);
+}
+
+void WindowFitter::fitAll(std::span<const int> which, const Buffer<std::uint8_t>& left_out, Windows& windows) const {
+  fit(which, Windows::sizes, left_out, windows);
+}
+
+void WindowFitter::fit(std::span<const int> which, int sizes, const Buffer<std::uint8_t>& left_out,
+                       Windows& windows) const {
+  workers_.forBlocks("noise", std::ssize(which), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    WindowNeighbors around;
+    FitQueue queue(windows);
+    Buffer<Neighbor> kept;
+    for (std::int64_t w = begin; w < end; ++w) {
+      const int p = which[w], half = windows.base[p] / 2;
+      const int most = std::min<int>(half << (sizes - 1), static_cast<int>(points_.rows()) - 1);
+      around.find(points_, *source_.search, windows, p, most, left_out);
+      if (around.any_skipped)
+        around.offsets.fill(most, [&](int i) -> Eigen::RowVector3d {
+          if (around.skipped[i] != 0) return Eigen::RowVector3d::Zero();  // adds nothing to any sum
+          return points_.row(around.all[i].index) - points_.row(p);
+        });
+      const Offsets all = around.offsets.view();
+      HeightSums total{};
+      int count = 1, from = 0;
+      for (int size = 0; size < Windows::sizes; ++size) {
+        windows.fits[p][size] = {};
+        const int to = half << size;
+        if (size >= sizes || to > most) continue;
+        const HeightMoments part = heightMoments({to - from, all.x + from, all.y + from, all.z + from},
+                                                 windows.normal.row(p).transpose(), windows.radius[p]);
+        for (int i = 0; i < HeightSystems::numbers; ++i) (&total.u)[i] += (&part.sums.u)[i];
+        for (; from < to; ++from) count += around.skipped[from] == 0 ? 1 : 0;
+        windows.fits[p][size].radius = std::sqrt(around.all[to - 1].squared_distance);
+        windows.fits[p][size].count = count;
+        queue.add({p, size}, total, count);
+        if (size < 2) continue;
+        kept.clear();
+        for (int i = 0; i < to; ++i)
+          if (around.skipped[i] == 0) kept.push_back(around.all[i]);
+        if (kept.empty()) kept.push_back({0, p});
+        spread(kept, size == 2 ? windows.middle[p] : windows.far[p]);
+      }
+      if (sizes == Windows::sizes && most < 2 * (half << 1)) windows.middle[p] = windows.near[p];
+      if (sizes == Windows::sizes && most < 4 * (half << 1)) windows.far[p] = windows.middle[p];
+    }
+    queue.solve();
+  });
+}
+
+}  // namespace tufted

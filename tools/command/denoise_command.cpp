@@ -1,0 +1,122 @@
+#include <CLI/CLI.hpp>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "command.h"
+#include "console.h"
+#include "input.h"
+#include "interrupt.h"
+#include "look.h"
+#include "options.h"
+#include "output.h"
+#include "peak_memory.h"
+#include "progress_bar.h"
+#include "scene_fields.h"
+#include "tufted/denoise.h"
+#include "tufted/errors.h"
+#include "tufted/io/results.h"
+#include "tufted/io/write.h"
+
+namespace {
+
+constexpr const char* description = "Move the points of a noisy scan onto the surface.";
+
+constexpr const char* footer =
+    R"(Examples:
+  tufted denoise scan.ply --out clean
+  tufted denoise scan.ply --out clean --png noise.png
+
+There is no radius to choose: how wide a surface is fitted follows from the noise around each point and the bend of the
+surface. Exact points, outliers, and whatever cannot be told from the shape of the surface stay as they are, bit for bit.
+To build L and M from the points where they are now, give --denoise to any subcommand, or points.ply as its FILE.
+
+Writes into DIR, renamed one after the other when all are complete:
+  positions.npy  N x 3, float64, in the order of the file
+  noise.npy      N, float64: standard deviation of the noise around a point that moved, in the file's unit; 0 at others
+  points.ply     the points where they are now, with the file's fields but for normals, and noise, float32; points.pcd
+                 with --format pcd
+  report.json    points moved, outliers, noise, mean and farthest way, seconds)";
+
+struct Settings {
+  Input input;
+  std::filesystem::path out;
+  std::vector<tufted::Format> copies = {tufted::Format::ply};
+  int threads = 0;
+  Console console;
+  Look look;
+};
+
+int runDenoise(Settings& settings) {
+  const std::vector<std::string> arrays = {"positions", "noise"};
+  std::vector<std::string> files = tufted::resultFiles({}, {.copies = settings.copies});
+  for (const std::string& name : arrays) files.push_back(name + ".npy");
+  checkLook(settings.look, settings.out);
+  checkOutput(settings.input, settings.out, files);
+  ProgressBar bar(settings.console.quiet);
+  const tufted::Progress progress = showOn(bar);
+  progress("read", 0);
+  tufted::Geometry geometry = readInput(settings.input, progress);
+  if (geometry.is_mesh) throw tufted::IoError(settings.input.name() + ": is a mesh; --as cloud takes its points alone");
+  checkColor(settings.look, geometry, {"noise"});
+  if (interrupted()) throw tufted::Cancelled("cancelled");
+  bar.setPoints(geometry.points.rows());
+  const tufted::DenoisedPoints denoised =
+      tufted::denoise(geometry.points, {.threads = settings.threads, .progress = progress});
+  bar.setPoints(0);
+  geometry.points = denoised.positions;
+  geometry.normals.resize(0, 3);  // they belong to where the points were
+
+  const tufted::DenoiseReport& done = denoised.report;
+  nlohmann::ordered_json json = {{"tufted", TUFTED_VERSION}, {"command", "denoise"}, {"source", settings.input.name()}};
+  json["report"] = nlohmann::ordered_json::parse(toJson(done));
+  const std::vector<tufted::ResultArray> results = {
+      {.name = "positions", .values = denoised.positions, .per_point = false},
+      {.name = "noise", .values = denoised.noise}};
+  tufted::ResultOptions options = {.copies = settings.copies, .progress = progress};
+  // A path need not be UTF-8.
+  options.report = json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+  const tufted::Laplacian none;
+  const bool is_shown = settings.look.isWanted() || !settings.look.color.empty();
+  const tufted::Scene scene =
+      is_shown ? sceneOf("denoise: " + std::filesystem::path(settings.input.name()).filename().string(), geometry, none,
+                         {results.back()})
+               : tufted::Scene();
+  if (is_shown) colorCopies(scene, settings.look, geometry);
+  tufted::writeResults(settings.out, none, geometry, results, options);
+  if (is_shown) {
+    lookFromSensor(geometry, settings.look);
+    show(scene, settings.look);
+  }
+  bar.clear();
+
+  Summary summary;
+  summary.add("points", "%lld, %lld moved, %lld outliers", static_cast<long long>(done.points),
+              static_cast<long long>(done.moved), static_cast<long long>(done.outliers));
+  if (done.moved > 0) {
+    summary.add("noise", "%.4g, standard deviation along the normal", done.noise);
+    summary.add("way", "of the moved points %.4g in the mean, by %.4g at most", done.mean_move, done.farthest_move);
+  } else {
+    summary.add("noise", "none that can be told from the shape of the surface");
+  }
+  summary.add("took", "%.3g s, peak memory %.0f MB", done.seconds, peakMemory());
+  summary.add("written to", "%s", settings.out.c_str());
+  addLook(settings.look, summary);
+  sayResults(settings.console, summary, settings.out, {});
+  return exit_done;
+}
+
+}  // namespace
+
+void addDenoise(CLI::App& app, Run& run) {
+  CLI::App& command = *app.add_subcommand("denoise", description);
+  command.footer(footer);
+  const auto settings = std::make_shared<Settings>();
+  addInput(command, settings->input);
+  addOut(command, settings->out);
+  addFormats(command, settings->copies, {{"ply", tufted::Format::ply}, {"pcd", tufted::Format::pcd}},
+             "Copies of the points, separated by commas: ply, pcd, or none (ply)");
+  addNumber(command, "--threads", settings->threads, 1, 1 << 16, "At most this many threads (all)")->type_name("N");
+  addLookOptions(command, settings->look);
+  addConsole(command, settings->console);
+  command.callback([&run, settings] { run = [settings] { return runDenoise(*settings); }; });
+}
