@@ -1,5 +1,6 @@
-// The subcommands parameterize, smooth, minimal, deform and signed-distance.
+// The subcommands parameterize, denoise, smooth, minimal, deform and signed-distance.
 #include <cmath>
+#include <random>
 
 #include "subcommands.h"
 
@@ -65,6 +66,51 @@ TEST_F(MovedPoints, ParameterizeRefusesWhatItCannotLayOut) {
   expectRefusal({"parameterize", open_, "--rim", in("rim.txt")}, "--rim needs --method harmonic");
   expectRefusal({"parameterize", open_, "--method", "harmonic", "--rim", in("rim.txt")},
                 "line 2: is not INDEX or INDEX U V", 1);
+}
+
+TEST_F(MovedPoints, DenoiseBringsPointsToTheSurface) {
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> noise(0, 0.02);
+  std::string text;
+  for (int i = 0; i < 3000; ++i) {
+    double x[3];
+    for (double& c : x) c = noise(random);
+    const double radius = (1 + noise(random)) / std::hypot(x[0], x[1], x[2]);
+    for (const double c : x) text += std::to_string(c * radius) + " ";
+    text += std::to_string(i) + "\n";
+  }
+  const std::string scan = dir_.write("scan.txt", text);
+  const Result said = run({"denoise", scan, "--out", in("clean")});
+  EXPECT_NE(said.out.find("moved"), std::string::npos) << said.out;
+  const nlohmann::json made = report("clean")["report"];
+  EXPECT_GT(made["moved"], 2900);
+  EXPECT_NEAR(made["noise"], 0.02, 0.004);
+  EXPECT_EQ(values("clean/noise.npy").size(), 3000u);
+  const auto off = [](const std::vector<double>& x) {
+    double sum = 0;
+    for (std::size_t i = 0; i < x.size(); i += 3) sum += std::pow(std::hypot(x[i], x[i + 1], x[i + 2]) - 1, 2);
+    return std::sqrt(3 * sum / static_cast<double>(x.size()));
+  };
+  EXPECT_LT(off(values("clean/positions.npy")), 0.008);
+  const std::string ply = readAll(dir_ / "clean/points.ply");
+  EXPECT_NE(ply.find("property float noise"), std::string::npos);
+  EXPECT_EQ(ply.find("property double mass"), std::string::npos);
+
+  // Before a build: where lengths are measured is where the points are.
+  run({"laplacian", scan, "--denoise", "--out", in("built")});
+  EXPECT_LT(off(values("built/measured_positions.npy")), 0.008);
+  EXPECT_GT(report("built")["denoised"]["moved"], 2900);
+  run({"distance", scan, "--denoise", "--source", "0", "--out", in("distance")});
+  EXPECT_GT(report("distance")["denoised"]["moved"], 2900);
+}
+
+TEST_F(MovedPoints, DenoiseSaysThatThereIsNothingToDo) {
+  const std::string exact = dir_.write("exact.xyz", sphere(2000));
+  const Result said = run({"denoise", exact, "--out", in("same"), "--format", "none"});
+  EXPECT_NE(said.out.find("none that can be told"), std::string::npos) << said.out;
+  EXPECT_EQ(report("same")["report"]["moved"], 0);
+  expectRefusal({"denoise", open_}, "is a mesh; --as cloud takes its points alone", 1);
+  expectRefusal({"laplacian", open_, "--denoise"}, "--denoise applies to point clouds");
 }
 
 TEST_F(MovedPoints, SmoothMovesPointsOrFields) {

@@ -30,6 +30,7 @@ inline const std::vector<std::vector<std::string>> commands = {
     {"transport", "--source", "0", "--vector", "1,2,3"},
     {"logmap", "--source", "0"},
     {"segment", "--count", "3"},
+    {"denoise"},
     {"smooth"},
     {"normals"},
     {"curvature"},

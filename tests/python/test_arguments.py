@@ -99,6 +99,8 @@ MESH = torus_mesh(10, 8)
     (lambda: tufted.PointCloud(CLOUD).harmonic({0: np.nan}), "harmonic: values of point 0 are not finite"),
     (lambda: tufted.PointCloud(CLOUD).poisson(np.zeros(3)), "poisson: f has the shape 3, must be 400 or 400 x c"),
     (lambda: tufted.PointCloud(CLOUD).divergence(np.zeros((400, 3))), "divergence: vectors has 3 columns, must have 2"),
+    (lambda: tufted.denoise(np.zeros((4, 2))), "denoise: points has the shape 4 x 2, must be N x 3"),
+    (lambda: tufted.denoise(CLOUD, threads=-1), "denoise: threads = -1, must be at least 0"),
     (lambda: tufted.PointCloud(CLOUD).smooth(iterations=0), "smooth: iterations = 0, must be at least 1"),
     (lambda: tufted.PointCloud(CLOUD).smooth(method="box"), "smooth: method = 'box', must be one of"),
     (lambda: tufted.PointCloud(CLOUD).smooth(method="taubin", mu=1), "smooth: mu = 1, must lie in [-1, 0]"),

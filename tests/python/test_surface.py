@@ -175,6 +175,21 @@ def test_segments_cover_the_sphere(cloud):
     assert set(cloud.segments(3, method="spectral").labels) == {0, 1, 2}
 
 
+def test_denoise_brings_points_to_the_surface():
+    random = np.random.default_rng(1)
+    exact = random.normal(size=(3000, 3))
+    exact /= np.linalg.norm(exact, axis=1)[:, None]
+    noisy = exact + 0.02 * random.normal(size=exact.shape)
+    found = tufted.denoise(noisy)
+    off = lambda x: np.sqrt(np.mean((np.linalg.norm(x, axis=1) - 1) ** 2))
+    assert off(found.points) < 0.4 * off(noisy)
+    assert found.median_noise == pytest.approx(0.02, rel=0.2)
+    assert found.moved == np.count_nonzero(found.noise) > 2900
+    unmoved = tufted.denoise(exact)
+    assert unmoved.moved == 0
+    np.testing.assert_array_equal(unmoved.points, exact)
+
+
 def test_smoothing_shrinks_and_keeps_fixed_points(cloud):
     fixed = np.zeros(3000, bool)
     fixed[:10] = True

@@ -8,6 +8,7 @@ void printMaps();       ///< conformal maps of half spheres and planes
 void printDisks();      ///< harmonic maps of CGAL's meshes that are disks
 void printMinimal();    ///< the catenoid
 void printSmoothing();  ///< a noisy sphere
+void printNoise();      ///< points moved out of noise
 void printHandles();    ///< edits of well and of badly triangulated solids
 
 void printWeights();  ///< bounded weights on slivers

@@ -1,0 +1,195 @@
+#include "tufted/denoise.h"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <numeric>
+#include <random>
+
+#include "shapes/shapes.h"
+#include "tufted/errors.h"
+
+namespace tufted {
+namespace {
+
+using shapes::Cloud;
+using shapes::Sampling;
+
+constexpr int n = 8000;
+using Distance = std::function<double(const Eigen::RowVector3d&)>;
+
+double toSphere(const Eigen::RowVector3d& x) {
+  return x.norm() - 1;
+}
+
+double toTorus(const Eigen::RowVector3d& x) {
+  return std::hypot(std::hypot(x[0], x[1]) - 1, x[2]) - 0.4;
+}
+
+double toCube(const Eigen::RowVector3d& x) {
+  const Eigen::Array3d out = (x.transpose().array() - 0.5).abs() - 0.5;
+  return std::min(0.0, out.maxCoeff()) + out.max(0.0).matrix().norm();
+}
+
+double rms(const Points& points, const Distance& distance) {
+  double sum = 0;
+  for (int i = 0; i < points.rows(); ++i) sum += std::pow(distance(points.row(i)), 2);
+  return std::sqrt(sum / static_cast<double>(points.rows()));
+}
+
+Points noisySphere(double sigma, std::uint64_t seed = 1) {
+  return withNoise(shapes::sphere(n, Sampling::uniform, seed), sigma, seed + 100).points;
+}
+
+TEST(Denoise, LeavesExactPointsBitForBit) {
+  for (const Cloud& cloud :
+       {shapes::sphere(n), shapes::torus(n), shapes::cubeSurface(n), shapes::cylinderPatch(n), shapes::saddle(n),
+        shapes::crossingPlanes(n), shapes::squareLattice(), shapes::sphere(n, Sampling::scanLines(20)),
+        shapes::sphere(n, Sampling::densityStep(16))}) {
+    const DenoisedPoints done = denoise(cloud.points);
+    EXPECT_EQ(done.report.moved, 0) << cloud.name;
+    EXPECT_TRUE(done.positions == cloud.points) << cloud.name;
+    EXPECT_TRUE(done.noise.isZero(0)) << cloud.name;
+  }
+}
+
+TEST(Denoise, BringsPointsToTheSurface) {
+  for (const double sigma : {0.005, 0.01, 0.02, 0.04}) {
+    const Points sphere = noisySphere(sigma);
+    EXPECT_LT(rms(denoise(sphere).positions, toSphere), 0.25 * rms(sphere, toSphere)) << sigma;
+    const Points torus = withNoise(shapes::torus(n), sigma / 2, 7).points;
+    EXPECT_LT(rms(denoise(torus).positions, toTorus), 0.25 * rms(torus, toTorus)) << sigma;
+  }
+}
+
+TEST(Denoise, KeepsCreases) {
+  const Points cube = withNoise(shapes::cubeSurface(n), 0.01, 7).points;
+  const Points done = denoise(cube).positions;
+  EXPECT_LT(rms(done, toCube), 0.4 * rms(cube, toCube));
+  double sum = 0;  // how far inside points are that belong next to an edge: rounding would put them there
+  int count = 0;
+  const Points exact = shapes::cubeSurface(n).points;
+  for (int i = 0; i < n; ++i) {
+    const Eigen::Array3d to_faces = 0.5 - (exact.row(i).transpose().array() - 0.5).abs();
+    if ((to_faces < 0.02).count() < 2) continue;
+    sum += toCube(done.row(i));
+    ++count;
+  }
+  ASSERT_GT(count, 500);
+  EXPECT_GT(sum / count, -0.005);
+}
+
+TEST(Denoise, SaysHowStrongTheNoiseIs) {
+  for (const double sigma : {0.002, 0.005, 0.01, 0.02}) {
+    const DenoisedPoints done = denoise(noisySphere(sigma));
+    EXPECT_NEAR(done.report.noise, sigma, 0.15 * sigma);
+    EXPECT_EQ((done.noise.array() > 0).count(), done.report.moved);
+  }
+}
+
+TEST(Denoise, KeepsSheetsApart) {
+  const double spacing = std::sqrt(2.0 / n);
+  for (const int spacings : {4, 8}) {
+    const double distance = spacings * spacing;
+    const Cloud sheets = withNoise(shapes::twoSheets(n, distance), 0.25 * spacing, 7);
+    const Points done = denoise(sheets.points).positions;
+    double farthest = 0;
+    for (int i = 0; i < n; ++i) farthest = std::max(farthest, std::abs(done(i, 2) - distance * sheets.labels[i]));
+    EXPECT_LT(farthest, 0.3 * distance) << spacings;
+  }
+}
+
+TEST(Denoise, LeavesOutliersAlone) {
+  const Cloud cloud = withNoise(withOutliers(shapes::sphere(n), shapes::Outliers::far, 0.01, 3), 0.005, 7);
+  const DenoisedPoints done = denoise(cloud.points);
+  int moved = 0;
+  for (int i = n; i < cloud.points.rows(); ++i) moved += done.positions.row(i) == cloud.points.row(i) ? 0 : 1;
+  EXPECT_LE(moved, 4);  // of 80; some lie on the sphere
+  EXPECT_GT(done.report.outliers, 40);
+  EXPECT_LT(rms(done.positions.topRows(n), toSphere), 0.002);
+}
+
+TEST(Denoise, LeavesVolumesAlone) {
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> uniform;
+  Points points(n, 3);
+  for (double& x : points.reshaped()) x = uniform(random);
+  const DenoisedPoints done = denoise(points);
+  EXPECT_LT(done.report.moved, n / 50);
+}
+
+TEST(Denoise, MovesAsTheCloudDoes) {
+  const Points points = noisySphere(0.01);
+  const DenoisedPoints done = denoise(points);
+  ASSERT_GT(done.report.moved, n * 9 / 10);
+
+  std::vector<int> order(n);
+  std::iota(order.begin(), order.end(), 0);
+  std::shuffle(order.begin(), order.end(), std::mt19937_64(5));
+  EXPECT_TRUE(denoise(points(order, Eigen::all)).positions == done.positions(order, Eigen::all));
+
+  EXPECT_TRUE(denoise(1024 * points).positions == 1024 * done.positions);
+
+  const Eigen::Matrix3d turn = Eigen::AngleAxisd(0.7, Eigen::Vector3d(1, 2, 3).normalized()).toRotationMatrix();
+  const Points turned = denoise(points * turn).positions * turn.transpose();
+  EXPECT_LT((turned - done.positions).cwiseAbs().maxCoeff(), 1e-9);
+
+  const Eigen::RowVector3d far(4096, -8192, 2048);
+  const Points rounded = (points.rowwise() + far).rowwise() - far;
+  EXPECT_LT((denoise(points.rowwise() + far).positions - (denoise(rounded).positions.rowwise() + far)).norm(), 1e-9);
+}
+
+TEST(Denoise, HasTheSameBitsForAnyNumberOfThreads) {
+  const Points points = withNoise(shapes::cubeSurface(n), 0.01, 7).points;
+  const Points one = denoise(points, {.threads = 1}).positions;
+  for (const int threads : {2, 3, 7}) EXPECT_TRUE(denoise(points, {.threads = threads}).positions == one) << threads;
+}
+
+TEST(Denoise, OfOddDataIsDefined) {
+  Points points = noisySphere(0.01);
+  points.row(3).setConstant(NAN);
+  points(5, 1) = INFINITY;
+  points.row(9) = points.row(7);
+  const DenoisedPoints done = denoise(points);
+  EXPECT_EQ(done.report.not_finite, 2);
+  EXPECT_EQ(done.report.coincident, 1);
+  EXPECT_TRUE(std::isnan(done.positions(3, 0)));
+  EXPECT_EQ(done.positions(5, 1), INFINITY);
+  EXPECT_TRUE(done.positions.row(9) == done.positions.row(7));
+  EXPECT_EQ(done.noise[9], done.noise[7]);
+  EXPECT_GT(done.report.moved, n * 9 / 10);
+  EXPECT_LE(done.report.mean_move, done.report.farthest_move);
+
+  for (const int few : {0, 1, 2, 3, 16, 32, 33, 64, 65, 129, 257}) {
+    const Points some = points.bottomRows(few);
+    EXPECT_TRUE(denoise(some).positions.allFinite()) << few;
+    EXPECT_TRUE(few > 32 || denoise(some).positions == some) << few;
+  }
+  Points line = Points::Zero(500, 3), same = Points::Ones(500, 3);
+  for (int i = 0; i < 500; ++i) line(i, 0) = i;
+  EXPECT_TRUE(denoise(line).positions == line);
+  EXPECT_TRUE(denoise(same).positions == same);
+  for (const double scale : {1e-100, 1e100}) {
+    const Points scaled = scale * noisySphere(0.01);
+    const DenoisedPoints there = denoise(scaled);
+    EXPECT_LT(rms(there.positions / scale, toSphere), 0.003) << scale;
+    EXPECT_NEAR(there.report.noise / scale, 0.01, 0.0015) << scale;
+  }
+}
+
+TEST(Denoise, RefusesMistakesAndCanBeCancelled) {
+  const Points points = noisySphere(0.01);
+  try {
+    denoise(points, {.threads = -1});
+    FAIL();
+  } catch (const InvalidInput& error) {
+    EXPECT_STREQ(error.what(), "denoise: threads is -1, must be at least 0");
+  }
+  EXPECT_THROW(denoise(points, {.progress = [](std::string_view, double) { return false; }}), Cancelled);
+}
+
+}  // namespace
+}  // namespace tufted
