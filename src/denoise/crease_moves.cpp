@@ -12,7 +12,8 @@ namespace tufted {
 namespace {
 
 constexpr std::int64_t block_size = 256;
-constexpr double explained = 1.3;    // of the noise's variance, that of the residuals: a window without a bend
+constexpr double explained = 1.3;            // of the noise's variance, that of the residuals: a window without a bend
+constexpr double widened_radius = 1 + 1e-9;  // squared; or rounding would decide about a window's last neighbour
 constexpr double fade = 0.05;        // of the noise's variance, by which windows with larger residuals count less
 constexpr double height_fade = 1.5;  // sigmas, by which windows whose surface is farther away count less
 constexpr double most_height = 3;    // sigmas from the best window's surface
@@ -75,7 +76,7 @@ class CreaseMover {
       const int q = i < 0 ? p : scratch.around.all[i].index;
       const WindowFit& fit = windows_.fits[q][window];
       const Eigen::Vector3d d = (points_.row(p) - points_.row(q)).transpose();
-      if (!std::isfinite(fit.variance) || !(d.squaredNorm() < fit.radius * fit.radius)) continue;
+      if (!std::isfinite(fit.variance) || !(d.squaredNorm() <= widened_radius * fit.radius * fit.radius)) continue;
       const LentSurface surface = surfaceAt(windows_, q, window, d);
       const double misfit = std::max(fit.variance / variance - 1, 0.0) / fade;
       const double distance = surface.height * surface.height / (2 * height_fade * height_fade * variance);

@@ -17,12 +17,14 @@ constexpr double chi_median = 0.94;       // median of chi squared by its degree
 constexpr int low_rank = 3;               // of 33: a tenth
 constexpr double low_correction = 1.12;   // of that low quantile of medians, to the variance
 constexpr double outlier_sigmas = 5, outlier_spacings = 1;
-constexpr double alone = 1. / 3;      // of the neighbours, which are left where those of other surfaces are left out
-constexpr double outlier_growth = 2;  // of the residuals' variance by the noise's, around an outlier
-constexpr double exact = 0.2;         // of the least noise's variance: residuals below are those of exact points
-constexpr double exact_share = 0.1;   // of the points around
-constexpr double noise_growth = 1.4;  // of the residuals' variance from window to window: noise 1, a crease 2 to 3
-constexpr double sure_share = 0.15;   // of the points around
+constexpr double alone = 1. / 3;  // of the neighbours, which are left where those of other surfaces are left out
+constexpr int outlier_rounds = 4;
+constexpr double most_leverage = 0.9;  // inside a surface it is about .2, at a corner .7
+constexpr double outlier_growth = 2;   // of the residuals' variance by the noise's, around an outlier
+constexpr double exact = 0.2;          // of the least noise's variance: residuals below are those of exact points
+constexpr double exact_share = 0.1;    // of the points around
+constexpr double noise_growth = 1.4;   // of the residuals' variance from window to window: noise 1, a crease 2 to 3
+constexpr double sure_share = 0.15;    // of the points around
 
 double leastVariance(const Windows& windows, int p) {
   const double least = least_noise * windows.spacing(p);
@@ -96,11 +98,29 @@ RawBuffer<double> noiseVariance(const Windows& windows, const Workers& workers) 
 
 bool isOutlier(const Windows& windows, int p, double variance) {
   const WindowFit& fit = windows.fits[p][1];
-  // Most of its neighbours belong to a surface that does not reach it.
-  if (fit.count < alone * windows.base[p]) return true;
+  if (!(variance > leastVariance(windows, p))) return false;  // exact points, of which none moves
+  // Its neighbours belong to a surface that does not reach it, or lie so far away that the fit goes through it.
+  if (fit.count < alone * windows.base[p] || (std::isfinite(fit.variance) && fit.leverage > most_leverage)) return true;
   if (!std::isfinite(fit.variance) || !(fit.variance > outlier_growth * variance)) return false;
   const double sigma = std::sqrt(variance * (1 - fit.leverage));
   return std::abs(fit.height) > std::max(outlier_sigmas * sigma, outlier_spacings * windows.spacing(p));
+}
+
+/// Finds outliers, leaves them out of the fits around them, and looks again for those that had hidden behind them.
+void findOutliers(const WindowFitter& fitter, const Workers& workers, Windows& windows, NoiseLevel& noise) {
+  const int n = windows.size();
+  noise.outlier.assign(windows.base.size(), 0);
+  for (int round = 0; round < outlier_rounds; ++round) {
+    const Buffer<int> found = numbersWhere(
+        "noise", n, workers, [&](int p) { return noise.outlier[p] == 0 && isOutlier(windows, p, noise.variance[p]); });
+    if (found.empty()) return;
+    for (const int p : found) noise.outlier[p] = 1;
+    const Buffer<int> near_outlier = numbersWhere("noise", n, workers, [&](int p) {
+      return std::ranges::any_of(windows.near[p], [&](int q) { return noise.outlier[q] != 0; });
+    });
+    fitter.fitNear(near_outlier, noise.outlier, windows);
+    noise.variance = noiseVariance(windows, workers);
+  }
 }
 
 }  // namespace
@@ -115,20 +135,14 @@ NoiseLevel findNoise(const WindowFitter& fitter, const Workers& workers, Windows
   fitter.fitNear(all, {}, windows);
   noise.variance = noiseVariance(windows, workers);
 
-  noise.outlier.assign(windows.base.size(), 0);
-  bool has_outliers = false;
-  for (int p = 0; p < n; ++p) {
-    noise.outlier[p] = isOutlier(windows, p, noise.variance[p]) ? 1 : 0;
-    has_outliers |= noise.outlier[p] != 0;
-  }
-  if (has_outliers) {
-    const auto near_outlier = numbersWhere("noise", n, workers, [&](int p) {
-      return std::ranges::any_of(windows.near[p], [&](int q) { return noise.outlier[q] != 0; });
-    });
-    fitter.fitNear(near_outlier, noise.outlier, windows);
-    noise.variance = noiseVariance(windows, workers);
-  }
-
+  findOutliers(fitter, workers, windows, noise);
+  RawBuffer<double> exactly(windows.base.size());  // share of exact points around each
+  workers.forBlocks("noise", n, block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    for (int p = static_cast<int>(begin); p < end; ++p) {
+      const double bound = exact * leastVariance(windows, p);
+      exactly[p] = pooledMean(p, windows.near[p], [&](int q) { return windows.fits[q][0].variance < bound ? 1 : 0; });
+    }
+  });
   Buffer<std::uint8_t> sure(windows.base.size());
   noise.noisy.assign(windows.base.size(), 0);
   workers.forBlocks("noise", n, block_size, [&](std::int64_t begin, std::int64_t end, int) {
@@ -137,8 +151,10 @@ NoiseLevel findNoise(const WindowFitter& fitter, const Workers& workers, Windows
       const auto mean = [&](const auto& value) { return pooledMean(p, windows.near[p], value); };
       const double small = mean([&](int q) { return finiteOrZero(windows.fits[q][0].variance); });
       const double base = mean([&](int q) { return finiteOrZero(windows.fits[q][1].variance); });
-      const double exactly = mean([&](int q) { return windows.fits[q][0].variance < exact * least ? 1 : 0; });
-      sure[p] = noise.variance[p] > least && exactly < exact_share && base < noise_growth * small ? 1 : 0;
+      sure[p] = noise.variance[p] > least && mean([&](int q) { return exactly[q]; }) < exact_share &&
+                        base < noise_growth * small
+                    ? 1
+                    : 0;
     }
   });
   workers.forBlocks("noise", n, block_size, [&](std::int64_t begin, std::int64_t end, int) {
