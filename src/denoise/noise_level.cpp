@@ -19,12 +19,11 @@ constexpr double low_correction = 1.12;   // of that low quantile of medians, to
 constexpr double outlier_sigmas = 5, outlier_spacings = 1;
 constexpr double alone = 1. / 3;  // of the neighbours, which are left where those of other surfaces are left out
 constexpr int outlier_rounds = 4;
-constexpr double most_leverage = 0.9;  // inside a surface it is about .2, at a corner .7
-constexpr double outlier_growth = 2;   // of the residuals' variance by the noise's, around an outlier
-constexpr double exact = 0.2;          // of the least noise's variance: residuals below are those of exact points
-constexpr double exact_share = 0.1;    // of the points around
-constexpr double noise_growth = 1.4;   // of the residuals' variance from window to window: noise 1, a crease 2 to 3
-constexpr double sure_share = 0.15;    // of the points around
+constexpr double outlier_growth = 2;  // of the residuals' variance by the noise's, around an outlier
+constexpr double exact = 0.2;         // of the least noise's variance: residuals below are those of exact points
+constexpr double exact_share = 0.1;   // of the points around
+constexpr double noise_growth = 1.4;  // of the residuals' variance from window to window: noise 1, a crease 2 to 3
+constexpr double sure_share = 0.15;   // of the points around
 
 double leastVariance(const Windows& windows, int p) {
   const double least = least_noise * windows.spacing(p);

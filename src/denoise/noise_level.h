@@ -15,6 +15,10 @@ struct NoiseLevel {
 /// Below this part of the spacing noise does nothing to a Laplacian.
 constexpr double least_noise = 0.01;
 
+/// Of a base window's fit; inside a surface it is about .2, at a corner .7. Above, the fit passes through the point and
+/// says nothing about it.
+constexpr double most_leverage = 0.9;
+
 /// Makes base windows, wider where the points are as thick as wide, fits the two smaller windows, and decides where
 /// there is noise.
 NoiseLevel findNoise(const WindowFitter& fitter, const Workers& workers, Windows& windows);

@@ -33,7 +33,7 @@ WindowChoice chooseWindows(const Windows& windows, const NoiseLevel& noise, cons
   choice.biased.assign(windows.base.size(), 0);
   workers.forBlocks("noise", windows.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
     for (int p = static_cast<int>(begin); p < end; ++p) {
-      if (noise.noisy[p] == 0) continue;
+      if (noise.noisy[p] == 0 || windows.fits[p][1].leverage > most_leverage) continue;
       const double variance = noise.variance[p];
       for (int k = 0; k < Windows::sizes; ++k) {
         const auto mean = [&](const auto& value) { return pooledMean(p, poolOf(windows, p, k), value); };
