@@ -1,4 +1,4 @@
-// The library holds both classes for every point type of PCL's that has a position.
+// The library holds the classes for every point type of PCL's that has a position.
 #include <gtest/gtest.h>
 
 #include <boost/preprocessor/seq/enum.hpp>
@@ -9,6 +9,7 @@
 #include "support/compare.h"
 #include "tufted/pcl/laplacian_estimation.h"
 #include "tufted/pcl/laplacian_smoothing.h"
+#include "tufted/pcl/surface_denoising.h"
 
 namespace tufted {
 namespace {
@@ -37,6 +38,11 @@ TYPED_TEST(PointTypes, GiveTheCoresResult) {
   pcl::PointCloud<TypeParam> output;
   smoothing.filter(output);
   EXPECT_TRUE(samePositions(pointsOf(output), rounded(smooth(core, points))));
+
+  SurfaceDenoising<TypeParam> denoising;
+  denoising.setInputCloud(cloud);
+  denoising.filter(output);
+  EXPECT_TRUE(samePositions(pointsOf(output), points));  // exact points stay
 }
 
 }  // namespace
