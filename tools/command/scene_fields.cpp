@@ -58,6 +58,7 @@ FieldKind kindOfResult(const std::string& name, Eigen::Index columns) {
                                                             {"uv", FieldKind::coordinates},
                                                             {"color", FieldKind::color},
                                                             {"mass", FieldKind::positive},
+                                                            {"noise", FieldKind::positive},
                                                             {"hks", FieldKind::positive}};
   const auto kind = meanings.find(name);
   if (kind == meanings.end()) return FieldKind::scalar;
