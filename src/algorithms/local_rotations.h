@@ -8,9 +8,16 @@
 
 namespace tufted {
 
-/// The rotation of each neighbourhood that comes nearest to how it was deformed (Sorkine and Alexa 2007, Section 2.1):
-/// R_i for which the sum over neighbours j of -L_ij |(x'_i - x'_j) - R_i (x_i - x_j)|^2 is the least.
+/// The rotation R for which the sum over edges of w |e' - R e|^2 is the least (Sorkine and Alexa 2007, Section 2.1).
+/// @param products the sum of w e' e^T
+/// @return the identity where that is 0
+Eigen::Matrix3d nearestRotation(const Eigen::Matrix3d& products);
+
+/// The products for nearestRotation() of the edges x_i - x_j from a point to its neighbours, weighted by -L_ij.
 /// @param x,moved N x 3; rows of points without a row in L do not matter
+Eigen::Matrix3d edgeProducts(const SparseMatrix& L, const Eigen::MatrixXd& x, const Eigen::MatrixXd& moved, int i);
+
+/// The rotation of each neighbourhood that comes nearest to how it was deformed.
 /// @return N rotations, the identity for points without neighbours
 std::vector<Eigen::Matrix3d> localRotations(const SparseMatrix& L, const Eigen::MatrixXd& x,
                                             const Eigen::MatrixXd& moved, const Workers& workers);

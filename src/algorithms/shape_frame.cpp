@@ -46,4 +46,8 @@ double ShapeFrame::areaToCaller(double area) const {
   return std::ldexp(area, 2 * exponent_);
 }
 
+double ShapeFrame::areaToFrame(double area) const {
+  return std::ldexp(area, -2 * exponent_);
+}
+
 }  // namespace tufted

@@ -23,6 +23,7 @@ class ShapeFrame {
   double toCaller(double length) const;
   /// An area in the caller's unit squared.
   double areaToCaller(double area) const;
+  double areaToFrame(double area) const;
   /// The largest side of the box around the active points, in [1/2, 1] of the frame's unit; 0: one place, or none.
   double extent() const { return extent_; }
 

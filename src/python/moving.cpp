@@ -119,11 +119,12 @@ py::tuple minimal(const Laplacian& laplacian, const Integers& faces, const Integ
 }
 
 DeformationSolver deformationSolver(const Shared& laplacian, const Integers& handles, const std::string& method,
-                                    double tolerance, int max_iterations, const Solving& solving,
+                                    double smoothness, double tolerance, int max_iterations, const Solving& solving,
                                     const py::object& progress) {
   DeformationOptions options = {.method = chosen<DeformationMethod>("deform: method", method,
                                                                     {{"rigid", DeformationMethod::as_rigid_as_possible},
                                                                      {"linear", DeformationMethod::linear}}),
+                                .smoothness = smoothness,
                                 .tolerance = tolerance,
                                 .max_iterations = max_iterations};
   std::vector<int> points = indicesOf(handles);

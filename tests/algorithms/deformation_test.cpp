@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <string>
@@ -77,6 +78,17 @@ TEST(Deformation, ByARigidMotionIsThatMotion) {
   EXPECT_EQ(report.moved, 1900);
 }
 
+TEST(Deformation, ByHalfATurnIsThatTurn) {
+  // From a start without rotations there is no telling which way round.
+  const shapes::Mesh cube = shapes::cubeMesh(8, shapes::Quality::good);
+  std::vector<int> handles;
+  for (int i = 0; i < cube.points.rows(); ++i)
+    if (cube.points(i, 2) == 0 || cube.points(i, 2) == 1) handles.push_back(i);
+  const Points moved = cube.points * Eigen::Vector3d(-1, -1, 1).asDiagonal();
+  const Points x = deform(*laplacianOf(cube), handles, moved(handles, Eigen::all), {.tolerance = 1e-6});
+  EXPECT_LE((x - moved).rowwise().norm().maxCoeff(), 1e-5);
+}
+
 TEST(Deformation, WithoutAMoveIsExactlyNone) {
   const Tube made = tube();
   const auto laplacian = laplacianOf(made.mesh);
@@ -125,14 +137,37 @@ TEST(Deformation, HasLessStretchThanTheDisplacementItStartsFrom) {
   const auto laplacian = laplacianOf(made.mesh);
   const Points targets = turnedEnd(made, 1.2, {1, 0, 0});
   double last = INFINITY;
-  for (const int iterations : {1, 2, 10, 100}) {
+  for (const int iterations : {1, 2, 10, 40}) {
     DeformationReport report;
-    deform(*laplacian, made.handles, targets, {.tolerance = 1e-12, .max_iterations = iterations}, &report);
+    deform(*laplacian, made.handles, targets, {.smoothness = 0, .tolerance = 1e-12, .max_iterations = iterations},
+           &report);
     EXPECT_FALSE(report.converged);
     EXPECT_EQ(report.iterations, iterations);
     EXPECT_LT(report.stretch, last);
     last = report.stretch;
   }
+}
+
+TEST(Deformation, BendsAlikeOnOtherTriangles) {
+  // One shape, with triangles a third as long as wide, and with long ones; the handles are the same parts of it.
+  const auto moved = [](int along, double smoothness) {
+    Tube made = tube(40, along);
+    made.handles.clear();
+    for (int i = 0; i < made.mesh.points.rows(); ++i)
+      if (std::abs(made.mesh.points(i, 0) - 2) > 1.79) made.handles.push_back(i);
+    return deform(*laplacianOf(made.mesh), made.handles, turnedEnd(made, 0.8, {0, 1, 0}), {.smoothness = smoothness});
+  };
+  const auto difference = [&](double smoothness) {
+    const Points fine = moved(120, smoothness), coarse = moved(40, smoothness);
+    double farthest = 0;
+    for (int j = 0; j <= 40; ++j) {
+      const Points apart = fine.middleRows(40 * 3 * j, 40) - coarse.middleRows(40 * j, 40);
+      farthest = std::max(farthest, apart.rowwise().norm().maxCoeff());
+    }
+    return farthest;
+  };
+  EXPECT_LE(difference(1e-3), 0.01);
+  EXPECT_GE(difference(0), 0.05);
 }
 
 TEST(Deformation, DoesNotDependOnUnitPlaceOrThreads) {
@@ -211,6 +246,7 @@ TEST(Deformation, NamesWhatACallerGotWrong) {
   EXPECT_EQ(why({0}, targets), "deform: targets has 2 rows, must have 1, one per handle");
   EXPECT_EQ(why({0, 25}, targets), "deform: handles has 25, must lie in [0, 25)");
   EXPECT_EQ(why({}, Points(0, 3)), "deform: handles has no point on a component, must have at least one active point");
+  EXPECT_EQ(why({0, 1}, targets, {.smoothness = -1}), "deform: smoothness = -1, must be finite and at least 0");
   EXPECT_EQ(why({0, 1}, targets, {.tolerance = -1}), "deform: tolerance = -1, must be finite and above 0");
   EXPECT_EQ(why({0, 1}, targets, {.max_iterations = 0}), "deform: max_iterations = 0, must be at least 1");
   Points odd = targets;

@@ -204,6 +204,7 @@ TEST_F(MovedPoints, DeformPutsHandlesWhereTheyShallLie) {
     EXPECT_EQ(report("out")["report"]["method"], method);
     EXPECT_GT(report("out")["report"]["stretch"], 0);
   }
+  expectRefusal({"deform", open_, "--handles", in("handles.txt"), "--smoothness", "-1"}, "--smoothness");
   dir_.write("bad.txt", "0\n8 1 2\n");
   expectRefusal({"deform", open_, "--handles", in("bad.txt")}, "line 2: is not INDEX or INDEX X Y Z", 1);
   dir_.write("bad.txt", "0\n8 1 2 nan\n");

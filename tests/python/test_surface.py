@@ -244,6 +244,8 @@ def test_a_bump_becomes_flat_and_handles_lift_a_plane():
         np.testing.assert_array_equal(moved.points[held], targets)
         heights = moved.points[:, 2].reshape(12, 12).mean(axis=1)
         assert (np.diff(heights) > -1e-9).all()
+    with pytest.raises(tufted.InvalidInput, match="smoothness"):
+        mesh.deform(held, targets, smoothness=-1)
 
 
 def test_weights_are_shares():

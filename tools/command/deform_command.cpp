@@ -23,7 +23,7 @@ constexpr const char* footer =
   tufted deform scan.ply --handles handles.txt --method linear --out bent
 
 --handles is a text file of lines INDEX X Y Z, where a point shall lie, and INDEX, a point that stays.
-  rigid   each neighbourhood turns but hardly stretches; iterates (as rigid as possible)
+  rigid   neighbourhoods turn smoothly and hardly stretch; iterates (as rigid as possible)
   linear  two linear solves that keep how the surface bends; for small turns
 
 Writes into DIR, renamed one after the other when all are complete:
@@ -106,6 +106,9 @@ void addDeform(CLI::App& app, Run& run) {
       ->required()
       ->type_name("TEXT");
   addChoice(*command, "--method", settings->options.method, methods, "How the rest follows (rigid)");
+  addNumber(*command, "--smoothness", settings->options.smoothness, 0.0, std::numeric_limits<double>::max(),
+            "Of rigid: how much bending costs, as part of the area; 0: nothing (1e-3)")
+      ->type_name("S");
   addNumber(*command, "--iterations", settings->options.max_iterations, 1, 1000000, "Of rigid: at most so many (500)")
       ->type_name("N");
   addNumber(*command, "--tolerance", settings->options.tolerance, std::numeric_limits<double>::min(), 1.0,

@@ -532,23 +532,28 @@ class Surface:
             check.whole("minimal_surface", "max_iterations", max_iterations, 1), self._solver(),
             check.callback("minimal_surface", progress)))
 
-    def deform(self, handles, targets, *, method="rigid", tolerance=1e-3, max_iterations=500, progress=None):
+    def deform(self, handles, targets, *, method="rigid", smoothness=1e-3, tolerance=1e-3, max_iterations=500,
+               progress=None):
         """Moves some points to given places, and lets all others follow.
 
         handles: P indices. targets: P x 3, where they shall lie.
-        method: "rigid", as rigid as possible: neighbourhoods turn but hardly stretch; or "linear", for small turns.
+        method: "rigid", as rigid as possible: neighbourhoods turn smoothly and hardly stretch; or "linear", for small
+        turns.
+        smoothness: of "rigid": how much bending costs, as part of the area; 0: nothing.
         tolerance: of "rigid": iterations end where no point moves by more than this part of the longest way of a
         handle, or after max_iterations. The factor for the last handles is kept.
         Returns points (N x 3), by how much edges stretch in their length, and whether iterations converged.
         """
         where = check.indices("deform", "handles", handles, len(self))
         places = check.rows_of_three("deform", "targets", targets, where.size)
+        smoothness = check.number("deform", "smoothness", smoothness)
         tolerance = check.number("deform", "tolerance", tolerance)
         max_iterations = check.whole("deform", "max_iterations", max_iterations, 1)
         progress = check.callback("deform", progress)
-        solver = self._keep_last("deform", (where.tobytes(), method, tolerance, max_iterations),
-                                 lambda: _tufted.DeformationSolver(self._laplacian, where, method, tolerance,
-                                                                   max_iterations, self._solver(), progress))
+        solver = self._keep_last("deform", (where.tobytes(), method, smoothness, tolerance, max_iterations),
+                                 lambda: _tufted.DeformationSolver(self._laplacian, where, method, smoothness,
+                                                                   tolerance, max_iterations, self._solver(),
+                                                                   progress))
         return Deformation(*solver.deform(places, progress))
 
     def nearest(self, positions, *, progress=None):
