@@ -1,6 +1,5 @@
 #include "bench/shape_tables.h"
 
-#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -13,7 +12,6 @@
 #include "oracles/oracles.h"
 #include "shapes/random.h"
 #include "shapes/shapes.h"
-#include "tufted/deformation.h"
 #include "tufted/errors.h"
 #include "tufted/interpolation.h"
 #include "tufted/io/read.h"
@@ -241,57 +239,6 @@ void printSmoothing() {
     std::printf("| pcl::MovingLeastSquares, radius %g, order 2 | %.1f | %+.2f |\n", radius, least, 100 * worst);
   }
 #endif
-}
-
-void printHandles() {
-  std::printf(
-      "| solid | edit of its top | `deform` | slivers, farthest, in the handles' way | cotan, the same |\n"
-      "|---|---|---|---|---|\n");
-  struct Edit {
-    const char* name;
-    double angle;
-    Eigen::Vector3d axis;
-    Eigen::RowVector3d shift;
-  };
-  const std::vector<Edit> edits = {{"twisted by 30 degrees", M_PI / 6, Eigen::Vector3d::UnitZ(), {0, 0, 0}},
-                                   {"bent by 45 degrees", M_PI / 4, Eigen::Vector3d::UnitY(), {0, 0, 0}},
-                                   {"shifted", 0, Eigen::Vector3d::UnitY(), {0.4, 0, 0.2}}};
-  for (const bool is_prism : {false, true}) {
-    const auto solid = [&](shapes::Quality quality) {
-      return is_prism ? shapes::prismMesh(20, quality, first_seed) : shapes::cubeMesh(20, quality, first_seed);
-    };
-    const shapes::Mesh good = solid(shapes::Quality::good), bad = solid(shapes::Quality::bad);
-    const double top = good.points.col(2).maxCoeff();
-    std::vector<int> handles;
-    for (int i = 0; i < good.points.rows(); ++i)
-      if (good.points(i, 2) == 0 || good.points(i, 2) == top) handles.push_back(i);
-    for (const Edit& edit : edits) {
-      Points targets = good.points(handles, Eigen::all);
-      Eigen::RowVector3d centre = good.points.colwise().mean();
-      centre.z() = top;
-      const Eigen::Matrix3d turn = Eigen::AngleAxisd(edit.angle, edit.axis).toRotationMatrix();
-      for (auto&& p : targets.rowwise())
-        if (p.z() == top) p = (p - centre) * turn.transpose() + centre + edit.shift;
-      for (const DeformationMethod method : {DeformationMethod::as_rigid_as_possible, DeformationMethod::linear}) {
-        const DeformationOptions options{.method = method};
-        DeformationReport report;
-        const Points reference = deform(meshLaplacian(good.points, good.triangles), handles, targets, options, &report);
-        const auto farthest = [&](const Points& moved) {
-          return (moved - reference).rowwise().norm().maxCoeff() / report.longest_way;
-        };
-        Laplacian laplacian = meshLaplacian(bad.points, bad.triangles);
-        const double ours = farthest(deform(laplacian, handles, targets, options));
-        laplacian.L = oracles::cotanLaplacian(bad.points, bad.triangles).L;
-        double cotan = HUGE_VAL;
-        try {
-          cotan = farthest(deform(laplacian, handles, targets, options));
-        } catch (const std::exception&) {
-        }
-        std::printf("| %s | %s | `%s` | %.1e | %.2g |\n", is_prism ? "prism" : "cube", edit.name,
-                    method == DeformationMethod::linear ? "linear" : "rigid", ours, cotan);
-      }
-    }
-  }
 }
 
 void printWeights() {

@@ -9,7 +9,7 @@ void printDisks();      ///< harmonic maps of CGAL's meshes that are disks
 void printMinimal();    ///< the catenoid
 void printSmoothing();  ///< a noisy sphere
 void printNoise();      ///< points moved out of noise
-void printHandles();    ///< edits of well and of badly triangulated solids
+void printHandles();    ///< edits of well and of badly triangulated solids, and of boolean results
 
 void printWeights();  ///< bounded weights on slivers
 
