@@ -19,8 +19,10 @@ constexpr int coefficients = 6;
 constexpr double sheet_gap = 0.25;       // of the base window's radius, between heights; beyond lies another sheet
 constexpr double smallest_pivot = 1e-9;  // of the largest; points on a conic leave nothing but rounding
 
-void spread(std::span<const Neighbor> neighbors, Windows::Pool& pool) {
+/// @param p stands in where there are no neighbours
+void spread(int p, std::span<const Neighbor> neighbors, Windows::Pool& pool) {
   const std::size_t count = neighbors.size();
+  if (count == 0) return pool.fill(p);
   for (std::size_t i = 0; i < pool.size(); ++i) pool[i] = neighbors[i * count / pool.size()].index;
 }
 
@@ -95,13 +97,18 @@ void WindowNeighbors::find(const PointsView& points, const NeighborSearch& searc
   const Eigen::Vector3d normal = windows.normal.row(p).transpose();
   const HeightRange range =
       kernels().connectedHeights(offsets.view(), normal.data(), sheet_gap * windows.radius[p], heights.data());
-  any_skipped = false;
+  bool any = false;
   skipped.resize(all.size());
   for (std::size_t i = 0; i < all.size(); ++i) {
     const bool is_out = !left_out.empty() && left_out[all[i].index] != 0;
     skipped[i] = is_out || heights[i] < range.lowest || heights[i] > range.highest ? 1 : 0;
-    any_skipped |= skipped[i] != 0;
+    any |= skipped[i] != 0;
   }
+  if (!any) return;
+  offsets.fill(count, [&](int i) -> Eigen::RowVector3d {
+    if (skipped[i] != 0) return Eigen::RowVector3d::Zero();
+    return points.row(all[i].index) - points.row(p);
+  });
 }
 
 void WindowFitter::start(Windows& windows) const {
@@ -133,11 +140,11 @@ void WindowFitter::start(Windows& windows) const {
         const int p = first + group + i;
         Neighborhood& around = some[i];
         finder.refine(p, around, offsets[i], scratch);
-        windows.base[p] = around.k;
+        while (2 * windows.base[p] <= around.k) windows.base[p] *= 2;  // it has grown on a line
         windows.radius[p] = around.radius;
         windows.split[p] = around.split ? 1 : 0;
         takePlane(p, around.axes, windows);
-        spread(around.neighbors, windows.near[p]);
+        spread(p, around.neighbors, windows.near[p]);
       }
     }
   });
@@ -167,7 +174,7 @@ void WindowFitter::takePlanes(std::span<const int> which, Windows& windows) cons
         source_.search->nearest(p, windows.base[p], neighbors, NeighborOrder::ascending, &before);
         offsets.take(points_, p, neighbors);
         windows.radius[p] = std::sqrt(neighbors.back().squared_distance);
-        spread(neighbors, windows.near[p]);
+        spread(p, neighbors, windows.near[p]);
         covariances[i] = covarianceOf(offsets.view(), windows.radius[p]);
       }
       principalAxes(std::span(covariances).first(group.size()), axes);
@@ -194,11 +201,6 @@ void WindowFitter::fit(std::span<const int> which, int sizes, const Buffer<std::
       const int p = which[w], half = windows.base[p] / 2;
       const int most = std::min<int>(half << (sizes - 1), static_cast<int>(points_.rows()) - 1);
       around.find(points_, *source_.search, windows, p, most, left_out);
-      if (around.any_skipped)
-        around.offsets.fill(most, [&](int i) -> Eigen::RowVector3d {
-          if (around.skipped[i] != 0) return Eigen::RowVector3d::Zero();  // adds nothing to any sum
-          return points_.row(around.all[i].index) - points_.row(p);
-        });
       const Offsets all = around.offsets.view();
       HeightSums total{};
       int count = 1, from = 0;
@@ -217,8 +219,7 @@ void WindowFitter::fit(std::span<const int> which, int sizes, const Buffer<std::
         kept.clear();
         for (int i = 0; i < to; ++i)
           if (around.skipped[i] == 0) kept.push_back(around.all[i]);
-        if (kept.empty()) kept.push_back({0, p});
-        spread(kept, size == 2 ? windows.middle[p] : windows.far[p]);
+        spread(p, kept, size == 2 ? windows.middle[p] : windows.far[p]);
       }
       if (sizes == Windows::sizes && most < 2 * (half << 1)) windows.middle[p] = windows.near[p];
       if (sizes == Windows::sizes && most < 4 * (half << 1)) windows.far[p] = windows.middle[p];

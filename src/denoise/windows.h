@@ -33,7 +33,7 @@ struct Windows {
   /// Points spread over a window, by whose values a point's own are averaged.
   using Pool = std::array<int, pooled>;
 
-  Buffer<int> base;               ///< n, neighbours in the base window
+  Buffer<int> base;               ///< n, neighbours in the base window: 32, 64, 128 or 256
   PointBuffer normal;             ///< n x 3
   RawBuffer<double> radius;       ///< n, of the base window
   RawBuffer<double> thickness;    ///< n, the smallest variance of the base window by the middle one
@@ -52,8 +52,7 @@ struct Windows {
 struct WindowNeighbors {
   Buffer<Neighbor> all;          ///< ascending
   Buffer<std::uint8_t> skipped;  ///< of each, whether it is left out: an outlier, or of another sheet
-  bool any_skipped = false;
-  OffsetBuffer offsets;  ///< of all, from p
+  OffsetBuffer offsets;          ///< of all, from p; 0 where left out, which adds nothing to sums
   Buffer<double> heights;
   SearchBefore before;
 

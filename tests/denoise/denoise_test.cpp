@@ -172,6 +172,10 @@ TEST(Denoise, OfOddDataIsDefined) {
     EXPECT_TRUE(denoise(some).positions.allFinite()) << few;
     EXPECT_TRUE(few > 32 || denoise(some).positions == some) << few;
   }
+  for (const int few : {40, 70, 300}) {  // lines, whose neighbourhoods grow as far as there are points
+    const Points rings = shapes::sphere(few, Sampling::scanLines(40)).points;
+    EXPECT_TRUE(denoise(rings).positions.allFinite()) << few;
+  }
   Points line = Points::Zero(500, 3), same = Points::Ones(500, 3);
   for (int i = 0; i < 500; ++i) line(i, 0) = i;
   EXPECT_TRUE(denoise(line).positions == line);
