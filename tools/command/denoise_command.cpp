@@ -113,8 +113,7 @@ void addDenoise(CLI::App& app, Run& run) {
   const auto settings = std::make_shared<Settings>();
   addInput(command, settings->input);
   addOut(command, settings->out);
-  addFormats(command, settings->copies, {{"ply", tufted::Format::ply}, {"pcd", tufted::Format::pcd}},
-             "Copies of the points, separated by commas: ply, pcd, or none (ply)");
+  addCopies(command, settings->copies);
   addNumber(command, "--threads", settings->threads, 1, 1 << 16, "At most this many threads (all)")->type_name("N");
   addLookOptions(command, settings->look);
   addConsole(command, settings->console);

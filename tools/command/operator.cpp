@@ -21,8 +21,6 @@
 
 namespace {
 
-const std::map<std::string, tufted::Format> copies = {{"ply", tufted::Format::ply}, {"pcd", tufted::Format::pcd}};
-
 const std::map<std::string, tufted::SolverMethod> methods = {{"automatic", tufted::SolverMethod::automatic},
                                                              {"cholesky", tufted::SolverMethod::cholesky},
                                                              {"multigrid", tufted::SolverMethod::multigrid}};
@@ -146,8 +144,7 @@ void addOperatorOptions(CLI::App& command, OperatorSettings& settings) {
           ->check(notEmpty)
           ->type_name("DIR");
   addOut(command, settings.out);
-  addFormats(command, settings.copies, copies,
-             "Copies of the points with the results, separated by commas: ply, pcd, or none (ply)");
+  addCopies(command, settings.copies);
   command.option_defaults()->group("Building the Laplacian");
   addBuildOptions(command, settings.build);
   command.option_defaults()->group("Solving");

@@ -40,6 +40,13 @@ void addFormats(CLI::App& command, std::vector<tufted::Format>& target,
       ->type_name("LIST");
 }
 
+void addCopies(CLI::App& command, std::vector<tufted::Format>& target) {
+  static const std::map<std::string, tufted::Format> copies = {{"ply", tufted::Format::ply},
+                                                               {"pcd", tufted::Format::pcd}};
+  addFormats(command, target, copies,
+             "Copies of the points with the results, separated by commas: ply, pcd, or none (ply)");
+}
+
 void checkOutput(const Input& input, const std::filesystem::path& out, const std::vector<std::string>& files) {
   std::error_code error;
   for (const std::string& name : files)

@@ -13,8 +13,12 @@
 void addOut(CLI::App& command, std::filesystem::path& out);
 
 /// Adds --format, which takes a list everywhere: names of `formats`, separated by commas; `none` stands alone.
+/// @param formats must outlive the command
 void addFormats(CLI::App& command, std::vector<tufted::Format>& target,
                 const std::map<std::string, tufted::Format>& formats, const std::string& help);
+
+/// Adds --format for copies of the points with the results: ply and pcd.
+void addCopies(CLI::App& command, std::vector<tufted::Format>& target);
 
 /// Refuses what no results can be written to, before anything is computed.
 /// @param files that will be written into `out`
