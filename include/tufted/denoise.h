@@ -32,7 +32,7 @@ struct DenoisedPoints {
   /// N; the standard deviation of the noise around a point that moved, along the normal, in the caller's unit; 0 at
   /// points that stay.
   VectorXd noise;
-  DenoiseReport report;
+  DenoiseReport report;  ///< what happened
 };
 
 /// Moves the points of a noisy scan onto the surface, without a radius to choose.
