@@ -2,13 +2,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "denoise/pooling.h"
 
 namespace tufted {
 namespace {
 
-constexpr std::int64_t block_size = 1024;
 constexpr int most_widenings = 3;
 constexpr double thick = 0.25;            // smallest by middle variance: windows of less than four sigmas are widened
 constexpr double still_thick = 0.6;       // a crease does not get thinner in a wider window, noise does
@@ -30,16 +30,11 @@ double leastVariance(const Windows& windows, int p) {
   return least * least;
 }
 
-double finiteOrZero(double value) {
-  return std::isfinite(value) ? value : 0;
-}
-
 /// The median thickness around each point.
 RawBuffer<double> thicknessAround(const Windows& windows, const Workers& workers) {
   RawBuffer<double> around(windows.base.size());
-  workers.forBlocks("noise", windows.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
-    for (int p = static_cast<int>(begin); p < end; ++p)
-      around[p] = pooledMedian(p, windows.near[p], [&](int q) { return windows.thickness[q]; });
+  forEachPoint(windows, workers, [&](int p) {
+    around[p] = pooledMedian(p, windows.near[p], [&](int q) { return windows.thickness[q]; });
   });
   return around;
 }
@@ -78,19 +73,15 @@ Buffer<std::uint8_t> widen(const WindowFitter& fitter, const Workers& workers, W
   return is_thick;
 }
 
+/// The variance of the noise around each point: creases and bends only add to residuals, so a low quantile of them.
 RawBuffer<double> noiseVariance(const Windows& windows, const Workers& workers) {
   RawBuffer<double> median(windows.base.size()), variance(windows.base.size());
-  workers.forBlocks("noise", windows.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
-    for (int p = static_cast<int>(begin); p < end; ++p) {
-      const double radius = windows.radius[p];
-      median[p] =
-          std::min(pooledMedian(p, windows.near[p], [&](int q) { return windows.fits[q][0].variance; }) / chi_median,
-                   radius * radius);
-    }
+  forEachPoint(windows, workers, [&](int p) {
+    const double found = pooledMedian(p, windows.near[p], [&](int q) { return windows.fits[q][0].variance; });
+    median[p] = std::min(found / chi_median, windows.radius[p] * windows.radius[p]);
   });
-  workers.forBlocks("noise", windows.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
-    for (int p = static_cast<int>(begin); p < end; ++p)
-      variance[p] = low_correction * pooledQuantile(p, windows.near[p], low_rank, [&](int q) { return median[q]; });
+  forEachPoint(windows, workers, [&](int p) {
+    variance[p] = low_correction * pooledQuantile(p, windows.near[p], low_rank, [&](int q) { return median[q]; });
   });
   return variance;
 }
@@ -122,49 +113,47 @@ void findOutliers(const WindowFitter& fitter, const Workers& workers, Windows& w
   }
 }
 
+/// Where there is noise that can be told from the shape of the surface: the residuals of the two windows are alike, and
+/// no exact points are around.
+/// @param is_thick n, 1 at points in volumes
+void findNoisy(const Windows& windows, const Buffer<std::uint8_t>& is_thick, const Workers& workers,
+               NoiseLevel& noise) {
+  const auto is_strong = [&](int p) { return noise.variance[p] > leastVariance(windows, p); };
+  RawBuffer<double> exact_around(windows.base.size());  // share of exact points around each
+  forEachPoint(windows, workers, [&](int p) {
+    const double bound = exact * leastVariance(windows, p);
+    exact_around[p] =
+        pooledMean(p, windows.near[p], [&](int q) { return windows.fits[q][0].variance < bound ? 1 : 0; });
+  });
+  Buffer<std::uint8_t> sure(windows.base.size());
+  forEachPoint(windows, workers, [&](int p) {
+    const auto mean = [&](const auto& value) { return pooledMean(p, windows.near[p], value); };
+    const double small = mean([&](int q) { return residualOf(windows.fits[q][0]); });
+    const double base = mean([&](int q) { return residualOf(windows.fits[q][1]); });
+    const double exact_points = mean([&](int q) { return exact_around[q]; });
+    const bool is_sure = is_strong(p) && exact_points < exact_share && base < noise_growth * small;
+    sure[p] = is_sure ? 1 : 0;
+  });
+  noise.noisy.resize(windows.base.size());
+  forEachPoint(windows, workers, [&](int p) {
+    const double share = pooledMean(p, windows.near[p], [&](int q) { return sure[q]; });
+    const bool is_noisy = is_strong(p) && share > sure_share && noise.outlier[p] == 0 && is_thick[p] == 0;
+    noise.noisy[p] = is_noisy ? 1 : 0;
+  });
+}
+
 }  // namespace
 
 NoiseLevel findNoise(const WindowFitter& fitter, const Workers& workers, Windows& windows) {
   NoiseLevel noise;
   fitter.start(windows);
-  const int n = windows.size();
   const Buffer<std::uint8_t> is_thick = widen(fitter, workers, windows);
   Buffer<int> all(windows.base.size());
-  for (int p = 0; p < n; ++p) all[p] = p;
+  std::iota(all.begin(), all.end(), 0);
   fitter.fitNear(all, {}, windows);
   noise.variance = noiseVariance(windows, workers);
-
   findOutliers(fitter, workers, windows, noise);
-  RawBuffer<double> exactly(windows.base.size());  // share of exact points around each
-  workers.forBlocks("noise", n, block_size, [&](std::int64_t begin, std::int64_t end, int) {
-    for (int p = static_cast<int>(begin); p < end; ++p) {
-      const double bound = exact * leastVariance(windows, p);
-      exactly[p] = pooledMean(p, windows.near[p], [&](int q) { return windows.fits[q][0].variance < bound ? 1 : 0; });
-    }
-  });
-  Buffer<std::uint8_t> sure(windows.base.size());
-  noise.noisy.assign(windows.base.size(), 0);
-  workers.forBlocks("noise", n, block_size, [&](std::int64_t begin, std::int64_t end, int) {
-    for (int p = static_cast<int>(begin); p < end; ++p) {
-      const double least = leastVariance(windows, p);
-      const auto mean = [&](const auto& value) { return pooledMean(p, windows.near[p], value); };
-      const double small = mean([&](int q) { return finiteOrZero(windows.fits[q][0].variance); });
-      const double base = mean([&](int q) { return finiteOrZero(windows.fits[q][1].variance); });
-      sure[p] = noise.variance[p] > least && mean([&](int q) { return exactly[q]; }) < exact_share &&
-                        base < noise_growth * small
-                    ? 1
-                    : 0;
-    }
-  });
-  workers.forBlocks("noise", n, block_size, [&](std::int64_t begin, std::int64_t end, int) {
-    for (int p = static_cast<int>(begin); p < end; ++p) {
-      const double share = pooledMean(p, windows.near[p], [&](int q) { return sure[q]; });
-      noise.noisy[p] = noise.variance[p] > leastVariance(windows, p) && share > sure_share && noise.outlier[p] == 0 &&
-                               is_thick[p] == 0
-                           ? 1
-                           : 0;
-    }
-  });
+  findNoisy(windows, is_thick, workers, noise);
   return noise;
 }
 

@@ -2,10 +2,27 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdint>
 
+#include "base/parallel.h"
 #include "denoise/windows.h"
 
 namespace tufted {
+
+/// Calls visit(p) for every point, which may write what belongs to p alone.
+template <class Visit>
+void forEachPoint(const Windows& windows, const Workers& workers, const Visit& visit) {
+  constexpr std::int64_t block_size = 1024;
+  workers.forBlocks("noise", windows.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    for (int p = static_cast<int>(begin); p < end; ++p) visit(p);
+  });
+}
+
+/// The variance of a fit's residuals, 0 where there is no fit.
+inline double residualOf(const WindowFit& fit) {
+  return std::isfinite(fit.variance) ? fit.variance : 0;
+}
 
 /// The mean of value(q) over p and its pool.
 template <class Value>

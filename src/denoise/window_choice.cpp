@@ -8,7 +8,6 @@
 namespace tufted {
 namespace {
 
-constexpr std::int64_t block_size = 1024;
 constexpr double shift = 2.5;     // the estimate may shift by so many of its own variances; 1 is noise alone
 constexpr double growth = 2;      // of the residuals' variance by the noise's
 constexpr double own_growth = 4;  // of the residuals' variance around the point alone, by the noise's
@@ -21,9 +20,46 @@ const Windows::Pool& poolOf(const Windows& windows, int p, int window) {
   return window < 2 ? windows.near[p] : window == 2 ? windows.middle[p] : windows.far[p];
 }
 
-double finiteOrZero(double value) {
-  return std::isfinite(value) ? value : 0;
-}
+/// What speaks for a window around one point, and against it.
+class Choice {
+ public:
+  Choice(const Windows& windows, const NoiseLevel& noise, int p)
+      : windows_(windows), noise_(noise), p_(p), variance_(noise.variance[p]) {}
+
+  /// Whether what is left of the noise with the window before is so little that a wider one gains nothing.
+  bool isEnough(int window) const {
+    if (!(enough[window] > 0)) return false;
+    const double left = variance_ * pooledMean(p_, windows_.near[p_], [&](int q) { return leverage(q, window - 1); });
+    const double bound = enough[window] * windows_.spacing(p_);
+    return left < bound * bound;
+  }
+
+  /// Whether the surface is a quadratic there, as far as the noise lets one see.
+  bool isFlat(int window) const {
+    const auto mean = [&](const auto& value) { return pooledMean(p_, poolOf(windows_, p_, window), value); };
+    const double shifted = mean([&](int q) {
+      const double d = noise_.outlier[q] != 0 ? 0 : height(q, window) - height(q, window - 1);
+      return d * d;
+    });
+    const double by_noise =
+        variance_ * std::max(0.0, mean([&](int q) { return leverage(q, window - 1) - leverage(q, window); }));
+    const double residual = mean([&](int q) { return residualOf(windows_.fits[q][window]); });
+    const double smallest = mean([&](int q) { return residualOf(windows_.fits[q][0]); });
+    const WindowFit& own = windows_.fits[p_][window];
+    return shifted < shift * by_noise && residual < growth * variance_ && residual < relative * smallest &&
+           own.variance < own_growth * variance_ && own.height * own.height < own_height * own_height * variance_;
+  }
+
+ private:
+  /// Of no window: the point itself, as it is.
+  double height(int q, int window) const { return window < 0 ? 0 : windows_.fits[q][window].height; }
+  double leverage(int q, int window) const { return window < 0 ? 1 : windows_.fits[q][window].leverage; }
+
+  const Windows& windows_;
+  const NoiseLevel& noise_;
+  int p_;
+  double variance_;
+};
 
 }  // namespace
 
@@ -31,36 +67,15 @@ WindowChoice chooseWindows(const Windows& windows, const NoiseLevel& noise, cons
   WindowChoice choice;
   choice.window.assign(windows.base.size(), -1);
   choice.biased.assign(windows.base.size(), 0);
-  workers.forBlocks("noise", windows.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
-    for (int p = static_cast<int>(begin); p < end; ++p) {
-      if (noise.noisy[p] == 0 || windows.fits[p][1].leverage > most_leverage) continue;
-      const double variance = noise.variance[p];
-      for (int k = 0; k < Windows::sizes; ++k) {
-        const auto mean = [&](const auto& value) { return pooledMean(p, poolOf(windows, p, k), value); };
-        const auto height = [&](int q, int window) { return window < 0 ? 0 : windows.fits[q][window].height; };
-        const auto leverage = [&](int q, int window) { return window < 0 ? 1 : windows.fits[q][window].leverage; };
-        if (enough[k] > 0) {
-          const double left = variance * pooledMean(p, windows.near[p], [&](int q) { return leverage(q, k - 1); });
-          const double bound = enough[k] * windows.spacing(p);
-          if (left < bound * bound) break;
-        }
-        const double shifted = mean([&](int q) {
-          if (noise.outlier[q] != 0) return 0.0;
-          const double d = height(q, k) - height(q, k - 1);
-          return d * d;
-        });
-        const double expected =
-            variance * std::max(1e-12, mean([&](int q) { return leverage(q, k - 1) - leverage(q, k); }));
-        const double residual = mean([&](int q) { return finiteOrZero(windows.fits[q][k].variance); });
-        const double smallest = mean([&](int q) { return finiteOrZero(windows.fits[q][0].variance); });
-        const WindowFit& own = windows.fits[p][k];
-        if (!(shifted < shift * expected && residual < growth * variance && residual < relative * smallest &&
-              own.variance < own_growth * variance && own.height * own.height < own_height * own_height * variance)) {
-          choice.biased[p] = 1;
-          break;
-        }
-        choice.window[p] = static_cast<std::int8_t>(k);
+  forEachPoint(windows, workers, [&](int p) {
+    if (noise.noisy[p] == 0 || windows.fits[p][1].leverage > most_leverage) return;
+    const Choice of_p(windows, noise, p);
+    for (int k = 0; k < Windows::sizes && !of_p.isEnough(k); ++k) {
+      if (!of_p.isFlat(k)) {
+        choice.biased[p] = 1;
+        break;
       }
+      choice.window[p] = static_cast<std::int8_t>(k);
     }
   });
   return choice;
