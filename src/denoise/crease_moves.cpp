@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "stars/denoise.h"
+#include "stars/displacements.h"
 #include "stars/tangent_frame.h"
 
 namespace tufted {
@@ -69,8 +69,8 @@ class CreaseMover {
     const double variance = noise_.variance[p];
     const auto count = std::min<std::ptrdiff_t>(windows_.base[p] / 2 << window, std::ssize(scratch.around.all));
     scratch.lenders.clear();
-    double least = 0, best_height = 0;  // of the best: variance of its residuals
     const Lender* best = nullptr;
+    double best_variance = 0;
     scratch.lenders.reserve(static_cast<std::size_t>(count) + 1);
     for (std::ptrdiff_t i = -1; i < count; ++i) {
       const int q = i < 0 ? p : scratch.around.all[i].index;
@@ -83,12 +83,11 @@ class CreaseMover {
       scratch.lenders.push_back({std::exp(-misfit - distance), surface});
       if (best != nullptr && !(scratch.lenders.back().weight > best->weight)) continue;
       best = &scratch.lenders.back();
-      least = fit.variance;
-      best_height = surface.height;
+      best_variance = fit.variance;
     }
-    if (best == nullptr || !(least < explained * variance) ||
-        !(best_height * best_height < most_height * most_height * variance))
-      return false;
+    if (best == nullptr || !(best_variance < explained * variance)) return false;
+    const double height = best->surface.height;
+    if (!(height * height < most_height * most_height * variance)) return false;
     Eigen::Vector3d sum = Eigen::Vector3d::Zero();
     double weights = 0;
     for (const Lender& lender : scratch.lenders) {
@@ -117,15 +116,12 @@ class CreaseMover {
     if (std::ssize(scratch.side) < least_on_side) return Eigen::RowVector3d::Zero();
     const Eigen::Vector3d normal = normals.row(p).transpose();
     std::array<HeightMoments, 2> moments;
-    for (const bool moved : {false, true}) {
-      scratch.offsets.fill(static_cast<int>(scratch.side.size()), [&](int i) -> Eigen::RowVector3d {
-        const int q = scratch.side[i];
-        const Eigen::RowVector3d d = points_.row(q) - points_.row(p);
-        return moved ? (d + (move.row(q) - move.row(p))).eval() : d;
-      });
-      moments[moved ? 1 : 0] = heightMoments(scratch.offsets.view(), normal, windows_.radius[p]);
-    }
-    std::array<HeightFit, 2> fits;
+    scratch.offsets.fill(static_cast<int>(scratch.side.size()),
+                         [&](int i) -> Eigen::RowVector3d { return points_.row(scratch.side[i]) - points_.row(p); });
+    moments[0] = heightMoments(scratch.offsets.view(), normal, windows_.radius[p]);
+    takeMoved(points_, move, p, scratch.side, scratch.offsets);
+    moments[1] = heightMoments(scratch.offsets.view(), normal, windows_.radius[p]);
+    std::array<HeightFit, 2> fits;  // through the points as they are, and where they have moved to
     fitHeights(moments, fits);
     const double variance = noise_.variance[p];
     if (!fits[0].is_valid || !fits[1].is_valid || !(fits[0].variance < explained * variance) ||

@@ -4,7 +4,7 @@
 
 #include "denoise/crease_moves.h"
 #include "denoise/window_choice.h"
-#include "stars/denoise.h"
+#include "stars/displacements.h"
 #include "stars/tangent_frame.h"
 
 namespace tufted {
@@ -38,18 +38,15 @@ void moveAgain(const PointsView& points, const NeighborSource& source, const Win
       const int p = which[i], base = windows.base[p], window = base / 2 << choice.window[p];
       around.find(points, *source.search, windows, p, std::max(base, window), noise.outlier);
       kept.clear();
-      std::ptrdiff_t in_base = 0, in_window = 0;
+      std::size_t in_base = 0, in_window = 0;
       for (int j = 0; j < std::ssize(around.all); ++j) {
         if (around.skipped[j] == 0) kept.push_back(around.all[j].index);
-        if (j + 1 == base) in_base = std::ssize(kept);
-        if (j + 1 == window) in_window = std::ssize(kept);
+        if (j + 1 == base) in_base = kept.size();
+        if (j + 1 == window) in_window = kept.size();
       }
-      const auto offset = [&](int j) -> Eigen::RowVector3d {
-        return points.row(kept[j]) - points.row(p) + (before.row(kept[j]) - before.row(p));
-      };
-      offsets.fill(static_cast<int>(in_base), offset);
+      takeMoved(points, before, p, std::span(kept).first(in_base), offsets);
       const Eigen::Vector3d normal = principalAxes(offsets.view()).normal;
-      offsets.fill(static_cast<int>(in_window), offset);
+      takeMoved(points, before, p, std::span(kept).first(in_window), offsets);
       const HeightMoments moments = heightMoments(offsets.view(), normal, windows.radius[p]);
       HeightFit fit;
       fitHeights({&moments, 1}, {&fit, 1});

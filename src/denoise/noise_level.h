@@ -15,8 +15,8 @@ struct NoiseLevel {
 /// Below this part of the spacing noise does nothing to a Laplacian.
 constexpr double least_noise = 0.01;
 
-/// Of a base window's fit; inside a surface it is about .2, at a corner .7. Above, the fit passes through the point and
-/// says nothing about it.
+/// A fit in a base window with more leverage passes through its point and says nothing about it. Inside a surface the
+/// leverage is about .2, at a corner .7.
 constexpr double most_leverage = 0.9;
 
 /// Makes base windows, wider where the points are as thick as wide, fits the two smaller windows, and decides where

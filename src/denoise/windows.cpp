@@ -5,19 +5,14 @@
 #include <numbers>
 
 #include "simd/kernels.h"
-#include "stars/denoise.h"
 #include "stars/neighborhood.h"
-#include "stars/offsets.h"
+#include "stars/sheets.h"
 #include "stars/tangent_frame.h"
 
 namespace tufted {
 namespace {
 
 constexpr std::int64_t block_size = 256;
-constexpr int least_points = 9;  // three more than coefficients
-constexpr int coefficients = 6;
-constexpr double sheet_gap = 0.25;       // of the base window's radius, between heights; beyond lies another sheet
-constexpr double smallest_pivot = 1e-9;  // of the largest; points on a conic leave nothing but rounding
 
 /// @param p stands in where there are no neighbours
 void spread(int p, std::span<const Neighbor> neighbors, Windows::Pool& pool) {
@@ -32,55 +27,37 @@ void takePlane(int p, const PrincipalAxes& axes, Windows& windows) {
   windows.line[p] = liesOnOneLine(axes) ? 1 : 0;
 }
 
-/// What a system is made for.
-struct Slot {
-  int p = 0, size = 0;
-};
-
-/// Collects systems until there is one for each lane.
+/// Fits that wait until there are enough to be solved together.
 class FitQueue {
  public:
   explicit FitQueue(Windows& windows) : windows_(windows) {}
 
-  void add(Slot slot, const HeightSums& sums, int count) {
-    const double* const values = &sums.u;
-    for (int i = 0; i < HeightSystems::numbers; ++i) systems_.sums[i][waiting_] = values[i];
-    systems_.count[waiting_] = count;
-    slots_[waiting_++] = slot;
-    if (waiting_ == kernel_packet) solve();
+  void add(int p, int size, const HeightMoments& moments) {
+    slots_.push_back({p, size});
+    moments_.push_back(moments);
+    if (std::ssize(moments_) == at_once) solve();
   }
 
   void solve() {
-    for (int i = waiting_; i < kernel_packet; ++i) {
-      for (auto& sums : systems_.sums) sums[i] = sums[0];
-      systems_.count[i] = systems_.count[0];
-    }
-    if (waiting_ > 0) kernels().solveHeights(systems_, solutions_);
-    for (int i = 0; i < waiting_; ++i) take(i);
-    waiting_ = 0;
+    fits_.resize(moments_.size());
+    fitHeights(moments_, fits_);
+    for (std::size_t i = 0; i < fits_.size(); ++i)
+      static_cast<HeightFit&>(windows_.fits[slots_[i].p][slots_[i].size]) = fits_[i];
+    slots_.clear();
+    moments_.clear();
   }
 
  private:
-  void take(int lane) {
-    const auto [p, size] = slots_[lane];
-    WindowFit& fit = windows_.fits[p][size];
-    const double radius = windows_.radius[p];
-    const int count = static_cast<int>(systems_.count[lane]);
-    if (count < least_points || !(radius > 0) ||
-        !(solutions_.least_pivot[lane] > smallest_pivot * solutions_.most_pivot[lane]))
-      return;
-    for (std::size_t i = 0; i < fit.coefficient.size(); ++i) fit.coefficient[i] = solutions_.coefficient[i][lane];
-    fit.height = fit.coefficient[0] * radius;
-    fit.leverage = std::min(1.0, solutions_.leverage[lane]);
-    const double residual = std::max(0.0, systems_.sums[HeightSystems::numbers - 1][lane] - solutions_.explained[lane]);
-    fit.variance = residual / (count - coefficients) * radius * radius;
-  }
+  static constexpr int at_once = 8 * kernel_packet;
+  /// Whose fit it is, in the window of which size.
+  struct Slot {
+    int p, size;
+  };
 
   Windows& windows_;
-  HeightSystems systems_;
-  HeightSolutions solutions_;
-  std::array<Slot, kernel_packet> slots_;
-  int waiting_ = 0;
+  Buffer<Slot> slots_;
+  Buffer<HeightMoments> moments_;
+  Buffer<HeightFit> fits_;
 };
 
 }  // namespace
@@ -202,19 +179,19 @@ void WindowFitter::fit(std::span<const int> which, int sizes, const Buffer<std::
       const int most = std::min<int>(half << (sizes - 1), static_cast<int>(points_.rows()) - 1);
       around.find(points_, *source_.search, windows, p, most, left_out);
       const Offsets all = around.offsets.view();
-      HeightSums total{};
-      int count = 1, from = 0;
+      HeightMoments total = {{}, 1, windows.radius[p]};
+      int from = 0;
       for (int size = 0; size < Windows::sizes; ++size) {
         windows.fits[p][size] = {};
         const int to = half << size;
         if (size >= sizes || to > most) continue;
         const HeightMoments part = heightMoments({to - from, all.x + from, all.y + from, all.z + from},
                                                  windows.normal.row(p).transpose(), windows.radius[p]);
-        for (int i = 0; i < HeightSystems::numbers; ++i) (&total.u)[i] += (&part.sums.u)[i];
-        for (; from < to; ++from) count += around.skipped[from] == 0 ? 1 : 0;
+        for (int i = 0; i < HeightSystems::numbers; ++i) (&total.sums.u)[i] += (&part.sums.u)[i];
+        for (; from < to; ++from) total.count += around.skipped[from] == 0 ? 1 : 0;
         windows.fits[p][size].radius = std::sqrt(around.all[to - 1].squared_distance);
-        windows.fits[p][size].count = count;
-        queue.add({p, size}, total, count);
+        windows.fits[p][size].count = total.count;
+        queue.add(p, size, total);
         if (size < 2) continue;
         kept.clear();
         for (int i = 0; i < to; ++i)

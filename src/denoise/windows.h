@@ -3,25 +3,21 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
-#include <limits>
 #include <span>
 
 #include "base/buffer.h"
 #include "base/parallel.h"
 #include "base/point_buffer.h"
 #include "neighbors/neighbor_source.h"
+#include "stars/denoise.h"
 #include "stars/offsets.h"
 
 namespace tufted {
 
-/// A quadratic through the heights of a point's neighbours over its tangent plane, by least squares.
-struct WindowFit {
-  std::array<double, 6> coefficient{};  ///< of 1, u, v, u^2, u v, v^2, in units of the base window's radius
-  double height = 0;                    ///< of the surface over the point, along the normal
-  double leverage = 1;                  ///< variance of `height` by that of the noise
-  double variance = std::numeric_limits<double>::infinity();  ///< of the residuals; infinite: there is no fit
-  double radius = 0;                                          ///< distance to the last neighbour of the window
-  int count = 0;                                              ///< points that the fit is through, p included
+/// The quadratic through the heights in one window; its fit radius is the radius of the base window.
+struct WindowFit : HeightFit {
+  double radius = 0;  ///< distance to the last neighbour of the window
+  int count = 0;      ///< points that the fit is through, p included
 };
 
 /// Around each point four nested windows of neighbours: half the base window, the base window, twice and four times as

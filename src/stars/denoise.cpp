@@ -50,7 +50,9 @@ void fitHeights(std::span<const HeightMoments> moments, std::span<HeightFit> fit
       // Points on a conic, or next to one, leave a pivot of nothing but rounding.
       if (count < least_points || !(fit_radius > 0)) continue;
       if (!(solutions.least_pivot[i] > smallest_pivot * solutions.most_pivot[i])) continue;
-      fit.height = solutions.coefficient[0][i] * fit_radius;
+      for (int j = 0; j < coefficients; ++j) fit.coefficient[j] = solutions.coefficient[j][i];
+      fit.height = fit.coefficient[0] * fit_radius;
+      fit.leverage = std::min(1.0, solutions.leverage[i]);
       const double residual = std::max(0.0, sums.hh - solutions.explained[i]);
       fit.variance = residual / static_cast<double>(count - coefficients) * fit_radius * fit_radius;
       fit.is_valid = std::isfinite(fit.height);

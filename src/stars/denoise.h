@@ -1,6 +1,8 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
+#include <limits>
 #include <span>
 
 #include "simd/kernels.h"
@@ -9,8 +11,11 @@ namespace tufted {
 
 /// A quadratic through the heights of p and its neighbours over the tangent plane of p.
 struct HeightFit {
-  double height = 0;      ///< of the surface over p, along the normal
-  double variance = 0;    ///< of the points around the surface: sum of squared residuals / (m - 6)
+  std::array<double, 6> coefficient{};  ///< of 1, u, v, u^2, u v, v^2, in units of the fit radius
+  double height = 0;                    ///< of the surface over p, along the normal
+  double leverage = 1;                  ///< variance of `height` by that of the noise of each point
+  /// Of the points around the surface: sum of squared residuals / (m - 6); infinite where the fit is not valid.
+  double variance = std::numeric_limits<double>::infinity();
   bool is_valid = false;  ///< false with fewer than 9 points, p included, or where they lie on a conic
 };
 

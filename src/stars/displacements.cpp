@@ -5,10 +5,6 @@
 #include "stars/tangent_frame.h"
 
 namespace tufted {
-namespace {
-
-/// The offsets from p to its neighbours, all where they have been moved to. Moves may be far smaller than positions are
-/// far from the origin: they are added to differences.
 void takeMoved(const PointsView& points, const PointBuffer& moved, int p, std::span<const int> neighbors,
                OffsetBuffer& offsets) {
   offsets.fill(static_cast<int>(neighbors.size()), [&](int i) -> Eigen::RowVector3d {
@@ -16,8 +12,6 @@ void takeMoved(const PointsView& points, const PointBuffer& moved, int p, std::s
     return points.row(q) - points.row(p) + moved.row(q) - moved.row(p);
   });
 }
-
-}  // namespace
 
 void displaceNoisyPoints(int first, std::span<const Neighborhood> neighborhoods, std::span<const OffsetBuffer> offsets,
                          FitScratch& scratch, PointBuffer& displacement, NoisyPoints& noisy) {

@@ -26,6 +26,12 @@ struct FitScratch {
   std::array<HeightFit, most> fits;
 };
 
+/// Takes the offsets from p to its neighbours, all where they have been moved to. Moves may be far smaller than
+/// positions are far from the origin: they are added to differences.
+/// @param moved n x 3, how far each point has moved
+void takeMoved(const PointsView& points, const PointBuffer& moved, int p, std::span<const int> neighbors,
+               OffsetBuffer& offsets);
+
 /// Moves points onto the surface through their neighbours if these are noise around one, and keeps them for a second
 /// look.
 /// @param first at most FitScratch::most points from here on

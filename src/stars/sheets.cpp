@@ -9,7 +9,6 @@
 namespace tufted {
 namespace {
 
-constexpr double sheet_gap = 0.25;  // of the fit radius, between the heights of two sheets
 constexpr std::array<double, few_neighbors.size()> flatter = {0.1, 0.5};  // than all, planes of few
 constexpr double plane_of_few = 0.05;                                     // of the second variance
 constexpr int most_splits = 3;

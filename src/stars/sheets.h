@@ -11,6 +11,9 @@ namespace tufted {
 
 struct Neighborhood;
 
+/// Between the heights of two sheets, as part of the fit radius.
+constexpr double sheet_gap = 0.25;
+
 /// Some of the neighbours of a point, reached from it along planes.
 struct TriedSheet {
   OffsetBuffer offsets;
