@@ -76,17 +76,10 @@ int runDenoise(Settings& settings) {
   // A path need not be UTF-8.
   options.report = json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
   const tufted::Laplacian none;
-  const bool is_shown = settings.look.isWanted() || !settings.look.color.empty();
-  const tufted::Scene scene =
-      is_shown ? sceneOf("denoise: " + std::filesystem::path(settings.input.name()).filename().string(), geometry, none,
-                         {results.back()})
-               : tufted::Scene();
-  if (is_shown) colorCopies(scene, settings.look, geometry);
-  tufted::writeResults(settings.out, none, geometry, results, options);
-  if (is_shown) {
-    lookFromSensor(geometry, settings.look);
-    show(scene, settings.look);
-  }
+  const std::string title = "denoise: " + std::filesystem::path(settings.input.name()).filename().string();
+  writeAndShow(
+      settings.look, geometry, [&] { return sceneOf(title, geometry, none, {results.back()}); },
+      [&] { tufted::writeResults(settings.out, none, geometry, results, options); });
   bar.clear();
 
   Summary summary;

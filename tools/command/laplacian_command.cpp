@@ -192,16 +192,10 @@ int runLaplacian(Settings& settings) {
     write.mesh = &settings.build.mesh;
   else
     write.cloud = &settings.build.cloud;
-  if (settings.look.isWanted() || !settings.look.color.empty()) {
-    const std::string title = "laplacian: " + std::filesystem::path(settings.input.name()).filename().string();
-    const tufted::Scene scene = sceneOf(title, geometry, laplacian, {});
-    colorCopies(scene, settings.look, geometry);
-    tufted::writeLaplacian(settings.out, laplacian, geometry, write);
-    lookFromSensor(geometry, settings.look);
-    show(scene, settings.look);
-  } else {
-    tufted::writeLaplacian(settings.out, laplacian, geometry, write);
-  }
+  const std::string title = "laplacian: " + std::filesystem::path(settings.input.name()).filename().string();
+  writeAndShow(
+      settings.look, geometry, [&] { return sceneOf(title, geometry, laplacian, {}); },
+      [&] { tufted::writeLaplacian(settings.out, laplacian, geometry, write); });
   bar.clear();
   std::vector<std::string> warnings;
   if (const std::string nothing = nothingActive(laplacian); !nothing.empty())

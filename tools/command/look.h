@@ -51,5 +51,19 @@ void show(const tufted::Scene& scene, const Look& look);
 /// MeshLab's quality, in place of those that they have.
 void colorCopies(const tufted::Scene& scene, const Look& look, tufted::Geometry& geometry);
 
+/// Writes results, with the colours that --color asks for on the copies of the points, and then shows them where that
+/// is wanted.
+/// @param scene_of makes the scene, which is made only if it is looked at
+/// @param write writes the results
+template <class SceneOf, class Write>
+void writeAndShow(Look& look, tufted::Geometry& geometry, const SceneOf& scene_of, const Write& write) {
+  if (!look.isWanted() && look.color.empty()) return write();
+  const tufted::Scene scene = scene_of();
+  colorCopies(scene, look, geometry);
+  write();
+  lookFromSensor(geometry, look);
+  show(scene, look);
+}
+
 /// Says where a look was written to.
 void addLook(const Look& look, Summary& summary);

@@ -200,15 +200,9 @@ int runWithOperator(OperatorSettings& settings, std::vector<std::string> files, 
   chooseComponents(settings.components, source, chosen);
   Results results = blameData(source, [&] { return compute(source); });
   if (!chosen.report.is_null()) results.report.update(chosen.report);
-  if (settings.look.isWanted() || !settings.look.color.empty()) {
-    const tufted::Scene scene = shownScene(settings, source, results);
-    colorCopies(scene, settings.look, source.geometry);
-    write(settings, source, results);
-    lookFromSensor(source.geometry, settings.look);
-    show(scene, settings.look);
-  } else {
-    write(settings, source, results);
-  }
+  writeAndShow(
+      settings.look, source.geometry, [&] { return shownScene(settings, source, results); },
+      [&] { write(settings, source, results); });
   bar.clear();
   std::vector<std::string> warnings = results.warnings;
   if (const std::string why = whyNothing(source); !why.empty())

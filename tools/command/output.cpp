@@ -25,7 +25,7 @@ void addFormats(CLI::App& command, std::vector<tufted::Format>& target,
     for (const std::string& name : known) all += (all.empty() ? "" : "|") + name;
     return key + " is none of " + all + didYouMean(key, known);
   };
-  const auto set = [&target, &formats](const std::vector<std::string>& keys) {
+  const auto set = [&target, formats](const std::vector<std::string>& keys) {
     target.clear();
     if (keys.size() == 1 && keys[0] == "none") return;
     for (const std::string& key : keys) {
@@ -41,9 +41,7 @@ void addFormats(CLI::App& command, std::vector<tufted::Format>& target,
 }
 
 void addCopies(CLI::App& command, std::vector<tufted::Format>& target) {
-  static const std::map<std::string, tufted::Format> copies = {{"ply", tufted::Format::ply},
-                                                               {"pcd", tufted::Format::pcd}};
-  addFormats(command, target, copies,
+  addFormats(command, target, {{"ply", tufted::Format::ply}, {"pcd", tufted::Format::pcd}},
              "Copies of the points with the results, separated by commas: ply, pcd, or none (ply)");
 }
 

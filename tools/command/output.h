@@ -13,7 +13,6 @@
 void addOut(CLI::App& command, std::filesystem::path& out);
 
 /// Adds --format, which takes a list everywhere: names of `formats`, separated by commas; `none` stands alone.
-/// @param formats must outlive the command
 void addFormats(CLI::App& command, std::vector<tufted::Format>& target,
                 const std::map<std::string, tufted::Format>& formats, const std::string& help);
 
