@@ -4,11 +4,11 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
-#include <functional>
 #include <numbers>
 #include <numeric>
 #include <random>
 
+#include "shapes/distances.h"
 #include "shapes/shapes.h"
 #include "tufted/errors.h"
 
@@ -16,29 +16,13 @@ namespace tufted {
 namespace {
 
 using shapes::Cloud;
+using shapes::rmsDistance;
 using shapes::Sampling;
+using shapes::toCube;
+using shapes::toSphere;
+using shapes::toTorus;
 
 constexpr int n = 8000;
-using Distance = std::function<double(const Eigen::RowVector3d&)>;
-
-double toSphere(const Eigen::RowVector3d& x) {
-  return x.norm() - 1;
-}
-
-double toTorus(const Eigen::RowVector3d& x) {
-  return std::hypot(std::hypot(x[0], x[1]) - 1, x[2]) - 0.4;
-}
-
-double toCube(const Eigen::RowVector3d& x) {
-  const Eigen::Array3d out = (x.transpose().array() - 0.5).abs() - 0.5;
-  return std::min(0.0, out.maxCoeff()) + out.max(0.0).matrix().norm();
-}
-
-double rms(const Points& points, const Distance& distance) {
-  double sum = 0;
-  for (int i = 0; i < points.rows(); ++i) sum += std::pow(distance(points.row(i)), 2);
-  return std::sqrt(sum / static_cast<double>(points.rows()));
-}
 
 Points noisySphere(double sigma, std::uint64_t seed = 1) {
   return withNoise(shapes::sphere(n, Sampling::uniform, seed), sigma, seed + 100).points;
@@ -59,16 +43,16 @@ TEST(Denoise, LeavesExactPointsBitForBit) {
 TEST(Denoise, BringsPointsToTheSurface) {
   for (const double sigma : {0.005, 0.01, 0.02, 0.04}) {
     const Points sphere = noisySphere(sigma);
-    EXPECT_LT(rms(denoise(sphere).positions, toSphere), 0.25 * rms(sphere, toSphere)) << sigma;
+    EXPECT_LT(rmsDistance(denoise(sphere).positions, toSphere), 0.25 * rmsDistance(sphere, toSphere)) << sigma;
     const Points torus = withNoise(shapes::torus(n), sigma / 2, 7).points;
-    EXPECT_LT(rms(denoise(torus).positions, toTorus), 0.3 * rms(torus, toTorus)) << sigma;
+    EXPECT_LT(rmsDistance(denoise(torus).positions, toTorus), 0.3 * rmsDistance(torus, toTorus)) << sigma;
   }
 }
 
 TEST(Denoise, KeepsCreases) {
   const Points cube = withNoise(shapes::cubeSurface(n), 0.01, 7).points;
   const Points done = denoise(cube).positions;
-  EXPECT_LT(rms(done, toCube), 0.4 * rms(cube, toCube));
+  EXPECT_LT(rmsDistance(done, toCube), 0.4 * rmsDistance(cube, toCube));
   double sum = 0;  // how far inside points are that belong next to an edge: rounding would put them there
   int count = 0;
   const Points exact = shapes::cubeSurface(n).points;
@@ -113,7 +97,7 @@ TEST(Denoise, LeavesOutliersAlone) {
   }
   EXPECT_GT(far, 50);  // of 80
   EXPECT_GT(done.report.outliers, 0);
-  EXPECT_LT(rms(done.positions.topRows(n), toSphere), 0.002);
+  EXPECT_LT(rmsDistance(done.positions.topRows(n), toSphere), 0.002);
 }
 
 TEST(Denoise, LeavesVolumesAlone) {
@@ -183,7 +167,7 @@ TEST(Denoise, OfOddDataIsDefined) {
   for (const double scale : {1e-100, 1e100}) {
     const Points scaled = scale * noisySphere(0.01);
     const DenoisedPoints there = denoise(scaled);
-    EXPECT_LT(rms(there.positions / scale, toSphere), 0.003) << scale;
+    EXPECT_LT(rmsDistance(there.positions / scale, toSphere), 0.003) << scale;
     EXPECT_NEAR(there.report.noise / scale, 0.01, 0.0015) << scale;
   }
 }

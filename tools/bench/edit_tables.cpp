@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "bench/boolean_shapes.h"
+#include "bench/cotan_weights.h"
 #include "bench/shape_tables.h"
-#include "oracles/oracles.h"
 #include "shapes/shapes.h"
 #include "tufted/deformation.h"
 
@@ -65,13 +65,6 @@ Points displacement(const Laplacian& laplacian, const Handles& handles, const Ed
   const Points moved = deform(laplacian, held, targets, options, &report);
   if (longest_way != nullptr) *longest_way = report.longest_way;
   return moved - points;
-}
-
-Laplacian withCotan(Laplacian laplacian, const Points& points, const Triangles& triangles) {
-  oracles::Operators cotan = oracles::cotanLaplacian(points, triangles);
-  laplacian.L = std::move(cotan.L);
-  laplacian.M = std::move(cotan.M);
-  return laplacian;
 }
 
 /// How far results are from a reference, in the longest way of a handle.

@@ -10,6 +10,7 @@
 #include "bench/moving_least_squares.h"
 #include "bench/shape_tables.h"
 #include "oracles/oracles.h"
+#include "shapes/distances.h"
 #include "shapes/shapes.h"
 #include "tufted/denoise.h"
 #include "tufted/laplacian.h"
@@ -18,6 +19,7 @@ namespace tufted::bench {
 namespace {
 
 using shapes::Cloud;
+using shapes::rmsDistance;
 using shapes::Sampling;
 
 constexpr std::uint64_t first_seed = 101, last_seed = 105;
@@ -28,14 +30,9 @@ struct NoisyShape {
   std::string name;
   std::function<Cloud(std::uint64_t seed)> make;
   double sigma;
-  std::function<double(const Eigen::RowVector3d&)> distance;  ///< to the surface
+  shapes::SurfaceDistance distance;  ///< to the surface
   int eigenvalues = 29;
 };
-
-double toCube(const Eigen::RowVector3d& x) {
-  const Eigen::Array3d out = (x.transpose().array() - 0.5).abs() - 0.5;
-  return std::min(0.0, out.maxCoeff()) + out.max(0.0).matrix().norm();
-}
 
 std::vector<NoisyShape> noisyShapes() {
   const auto sphere = [](std::uint64_t seed) { return shapes::sphere(points, Sampling::uniform, seed); };
@@ -46,32 +43,24 @@ std::vector<NoisyShape> noisyShapes() {
   };
   const auto cube = [](std::uint64_t seed) { return shapes::cubeSurface(points, seed); };
   const auto planes = [](std::uint64_t seed) { return shapes::crossingPlanes(points, seed); };
-  const auto to_sphere = [](const Eigen::RowVector3d& x) { return x.norm() - 1; };
-  const auto to_torus = [](const Eigen::RowVector3d& x) { return std::hypot(std::hypot(x[0], x[1]) - 1, x[2]) - 0.4; };
   const auto to_cylinder = [](const Eigen::RowVector3d& x) { return std::hypot(x[0], x[1]) - 1; };
   const auto to_planes = [](const Eigen::RowVector3d& x) { return std::min(std::abs(x[1]), std::abs(x[2])); };
   const double half_spacing = std::sqrt(std::numbers::pi / points);  // of the sphere
-  std::vector<NoisyShape> shapes;
+  std::vector<NoisyShape> rows;
   for (const auto& [name, sigma] : {std::pair("sphere .25 %", 0.0025),
                                     {"sphere .5 %", 0.005},
                                     {"sphere 1 %", 0.01},
                                     {"sphere 2 %", 0.02},
                                     {"sphere 4 %", 0.04}})
-    shapes.push_back({name, sphere, sigma, to_sphere});
+    rows.push_back({name, sphere, sigma, shapes::toSphere});
   for (const auto& [name, sigma] : {std::pair("torus .25 %", 0.0025), {"torus 1 %", 0.01}, {"torus 2 %", 0.02}})
-    shapes.push_back({name, torus, sigma, to_torus});
-  shapes.push_back({"sphere, lines 1:20, half a spacing", lines, half_spacing, to_sphere, 32});
-  shapes.push_back({"half cylinder 1 %", patch, 0.01, to_cylinder});
-  shapes.push_back({"cube .25 %", cube, 0.0025, toCube});
-  shapes.push_back({"cube 1 %", cube, 0.01, toCube});
-  shapes.push_back({"crossing planes 1 %", planes, 0.01, to_planes});
-  return shapes;
-}
-
-double rms(const Points& x, const NoisyShape& shape) {
-  double sum = 0;
-  for (int i = 0; i < x.rows(); ++i) sum += std::pow(shape.distance(x.row(i)), 2);
-  return std::sqrt(sum / static_cast<double>(x.rows()));
+    rows.push_back({name, torus, sigma, shapes::toTorus});
+  rows.push_back({"sphere, lines 1:20, half a spacing", lines, half_spacing, shapes::toSphere, 32});
+  rows.push_back({"half cylinder 1 %", patch, 0.01, to_cylinder});
+  rows.push_back({"cube .25 %", cube, 0.0025, shapes::toCube});
+  rows.push_back({"cube 1 %", cube, 0.01, shapes::toCube});
+  rows.push_back({"crossing planes 1 %", planes, 0.01, to_planes});
+  return rows;
 }
 
 double eigenvalueError(const Laplacian& laplacian, const Cloud& cloud, int count) {
@@ -97,14 +86,14 @@ void printNoise() {
       const Cloud cloud = withNoise(shape.make(seed), shape.sigma, seed + 100);
       spacing = std::sqrt(cloud.area / static_cast<double>(cloud.points.rows()));
       const DenoisedPoints done = denoise(cloud.points);
-      before += rms(cloud.points, shape) / spacing;
-      after += rms(done.positions, shape) / spacing;
+      before += rmsDistance(cloud.points, shape.distance) / spacing;
+      after += rmsDistance(done.positions, shape.distance) / spacing;
       noise += done.report.noise / shape.sigma;
       error_before += eigenvalueError(pointCloudLaplacian(cloud.points), cloud, shape.eigenvalues);
       error_after += eigenvalueError(pointCloudLaplacian(done.positions), cloud, shape.eigenvalues);
 #ifdef TUFTED_BENCH_PCL
       for (std::size_t r = 0; r < radii.size(); ++r)
-        others[r] += rms(movedByLeastSquares(cloud.points, radii[r] * spacing, 2), shape) / spacing;
+        others[r] += rmsDistance(movedByLeastSquares(cloud.points, radii[r] * spacing, 2), shape.distance) / spacing;
 #endif
     }
     constexpr double seeds = last_seed - first_seed + 1;

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "bench/cotan_weights.h"
 #include "bench/moving_least_squares.h"
 #include "oracles/oracles.h"
 #include "shapes/random.h"
@@ -253,15 +254,13 @@ void printWeights() {
     const auto n = static_cast<int>(good.points.rows());
     const std::vector<std::vector<int>> handles = {{0}, {n / 3}, {n / 2}, {n - 1}};
     const Eigen::MatrixXd reference = boundedBiharmonicWeights(meshLaplacian(good.points, good.triangles), handles);
-    Laplacian laplacian = meshLaplacian(bad.points, bad.triangles);
+    const Laplacian laplacian = meshLaplacian(bad.points, bad.triangles);
     WeightReport report;
     const Eigen::MatrixXd weights = boundedBiharmonicWeights(laplacian, handles, {}, &report);
-    const oracles::Operators cotan = oracles::cotanLaplacian(bad.points, bad.triangles);
-    laplacian.L = cotan.L;
-    laplacian.M = cotan.M;
+    const Laplacian cotan = withCotan(laplacian, bad.points, bad.triangles);
     double other = HUGE_VAL;
     try {
-      other = (boundedBiharmonicWeights(laplacian, handles) - reference).cwiseAbs().maxCoeff();
+      other = (boundedBiharmonicWeights(cotan, handles) - reference).cwiseAbs().maxCoeff();
     } catch (const std::exception&) {
     }
     std::printf("| %s | %d | %.1e | %.1e | %.2g |\n", bad.name.c_str(), report.iterations, report.residual,

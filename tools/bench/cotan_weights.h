@@ -1,0 +1,18 @@
+#pragma once
+
+#include <utility>
+
+#include "oracles/oracles.h"
+#include "tufted/laplacian.h"
+
+namespace tufted::bench {
+
+/// A mesh's Laplacian with the L and M of cotan weights in place of its own.
+inline Laplacian withCotan(Laplacian laplacian, const Points& points, const Triangles& triangles) {
+  oracles::Operators cotan = oracles::cotanLaplacian(points, triangles);
+  laplacian.L = std::move(cotan.L);
+  laplacian.M = std::move(cotan.M);
+  return laplacian;
+}
+
+}  // namespace tufted::bench
