@@ -19,14 +19,15 @@ enum class DeformationMethod : std::uint8_t {
 /// Options of deform().
 struct DeformationOptions {
   DeformationMethod method = DeformationMethod::as_rigid_as_possible;  ///< how the rest follows
-  /// Of DeformationMethod::as_rigid_as_possible: how much turns that differ between neighbours cost, as part of the
-  /// area of a component; >= 0. The surface bends like a plate whose thickness grows with the root. With 0 it does not
-  /// resist bending (Sorkine and Alexa 2007), and how it bends depends on the triangles.
+  /// How much it costs that neighbours turn in different ways, as part of the area of a component; >= 0, for
+  /// DeformationMethod::as_rigid_as_possible. The surface bends like a plate whose thickness grows with the root. With
+  /// 0 it does not resist bending (Sorkine and Alexa 2007), and how it bends depends on the triangles.
   double smoothness = 1e-3;
-  /// Of the same: iterations end where no point moves by more than this part of the longest way of a handle, or turns
-  /// by as much about an axis at the distance of the surface's extent; > 0.
+  /// Iterations of DeformationMethod::as_rigid_as_possible end where no point moves by more than this part of the
+  /// longest way of a handle, or turns by as much about an axis at the distance of the surface's extent; > 0.
   double tolerance = 1e-3;
-  int max_iterations = 500;   ///< of the same, >= 1; where they do not suffice, DeformationReport::converged is false
+  /// There are at most so many iterations, >= 1; where they do not suffice, DeformationReport::converged is false.
+  int max_iterations = 500;
   SolverOptions solver = {};  ///< how systems are solved
 };
 

@@ -17,7 +17,7 @@ namespace {
 /// most.
 constexpr double least_descent = 1e-4;
 constexpr int most_halvings = 12;
-/// Of the energy: by so much it may rise, or it could not be told whether the last steps descend.
+/// The energy may rise by this part of itself, or it could not be told whether the last steps descend.
 constexpr double rounding = 1e-14;
 /// Edges of no length leave a turn free. This part of the mean resistance holds it.
 constexpr double least_resistance = 1e-6;

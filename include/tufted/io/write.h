@@ -94,7 +94,7 @@ void checkWritable(const std::filesystem::path& dir, const std::vector<std::stri
 
 /// The report as a JSON object (two-space indent), with a member per member of Report.
 std::string toJson(const Report& report);
-/// The same for what denoise() did.
+/// The report of denoise() as a JSON object (two-space indent), with a member per member of DenoiseReport.
 std::string toJson(const DenoiseReport& report);
 
 }  // namespace tufted
