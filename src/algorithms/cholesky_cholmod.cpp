@@ -56,6 +56,14 @@ struct FreeFactor {
 };
 using Factor = std::unique_ptr<cholmod_factor, FreeFactor>;
 
+/// False if the matrix is not positive definite.
+bool computeFactor(cholmod_sparse& matrix, cholmod_factor& factor, Common& common) {
+  const SerialBlas serial;
+  cholmod_l_factorize(&matrix, &factor, common.get());
+  if (common->status == CHOLMOD_OUT_OF_MEMORY || common->status == CHOLMOD_TOO_LARGE) throw std::bad_alloc();
+  return common->status == CHOLMOD_OK && factor.minor == factor.n;
+}
+
 class CholmodBackend : public LinearBackend {
  public:
   explicit CholmodBackend(Factor factor) : factor_(std::move(factor)) {}
@@ -76,6 +84,12 @@ class CholmodBackend : public LinearBackend {
     x = Eigen::Map<const Eigen::MatrixXd>(static_cast<const double*>(solution->x), x.rows(), x.cols());
     cholmod_l_free_dense(&solution, common.get());
     return 0;
+  }
+
+  bool refactor(const LongMatrix& lower) override {
+    Common common;
+    cholmod_sparse matrix = viewOf(lower);
+    return computeFactor(matrix, *factor_, common);
   }
 
  private:
@@ -124,10 +138,7 @@ std::size_t Cholesky::bytes() const {
 
 std::unique_ptr<LinearBackend> Cholesky::factor() {
   Analysis& a = *analysis_;
-  const SerialBlas serial;
-  cholmod_l_factorize(&a.matrix, a.factor.get(), a.common.get());
-  if (a.common->status == CHOLMOD_OUT_OF_MEMORY || a.common->status == CHOLMOD_TOO_LARGE) throw std::bad_alloc();
-  if (a.common->status != CHOLMOD_OK || a.factor->minor < a.factor->n) return nullptr;
+  if (!computeFactor(a.matrix, *a.factor, a.common)) return nullptr;
   auto backend = std::make_unique<CholmodBackend>(std::move(a.factor));
   backend->name = a.metis ? "Cholesky (CHOLMOD, METIS)" : "Cholesky (CHOLMOD, AMD)";
   backend->nonzeros = static_cast<std::int64_t>(a.nonzeros);

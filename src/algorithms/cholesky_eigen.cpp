@@ -8,6 +8,11 @@ namespace {
 
 class Factor : public Eigen::SimplicialLDLT<LongMatrix> {
  public:
+  /// False if the matrix is not positive definite.
+  bool compute(const LongMatrix& lower) {
+    factorize(lower);
+    return info() == Eigen::Success && vectorD().minCoeff() > 0;
+  }
   /// Entries below the diagonal; known after the analysis.
   std::int64_t nonzeros() const { return m_matrix.outerIndexPtr()[m_matrix.outerSize()]; }
 };
@@ -19,6 +24,7 @@ class EigenBackend : public LinearBackend {
     for (Eigen::Index c = 0; c < x.cols(); ++c) x.col(c) = factor_->solve(x.col(c)).eval();
     return 0;
   }
+  bool refactor(const LongMatrix& lower) override { return factor_->compute(lower); }
 
  private:
   std::unique_ptr<Factor> factor_;
@@ -46,8 +52,7 @@ std::size_t Cholesky::bytes() const {
 
 std::unique_ptr<LinearBackend> Cholesky::factor() {
   Factor& factor = *analysis_->factor;
-  factor.factorize(analysis_->lower);
-  if (factor.info() != Eigen::Success || !(factor.vectorD().minCoeff() > 0)) return nullptr;
+  if (!factor.compute(analysis_->lower)) return nullptr;
   const std::int64_t nonzeros = factor.nonzeros() + analysis_->lower.rows();
   auto backend = std::make_unique<EigenBackend>(std::move(analysis_->factor));
   backend->name = "Cholesky (Eigen, AMD)";

@@ -28,6 +28,10 @@ class LinearBackend {
   /// @return iterations, the most of any column; 0 with a factor
   /// @throws NotConverged, std::bad_alloc, and what `tick` throws
   virtual int solve(Eigen::Ref<Eigen::MatrixXd> x, const Tick& tick) const = 0;
+  /// Takes the factor of another matrix with the same pattern, in the memory and the order of the one before. False if
+  /// the matrix is not positive definite; then, and without a factor, solve() must not be called any more.
+  /// @throws std::bad_alloc
+  virtual bool refactor(const LongMatrix& /*lower*/) { return false; }
 
   std::string name;
   std::int64_t nonzeros = 0;

@@ -25,14 +25,16 @@ void checkOptions(const std::string& function, const SolverOptions& options) {
     throw InvalidInput(function + ": threads = " + std::to_string(options.threads) + ", must be >= 0");
 }
 
+void checkFinite(const SystemNames& names, double value, int column) {
+  if (!std::isfinite(value))
+    throw SolverFailure(names.function + ": " + names.matrix +
+                        " has entries that are not finite, the first in column " + std::to_string(column) + "; " +
+                        names.if_indefinite);
+}
+
 void checkFinite(const SystemNames& names, const SparseMatrix& A) {
-  for (int j = 0; j < A.cols(); ++j) {
-    for (SparseMatrix::InnerIterator entry(A, j); entry; ++entry)
-      if (!std::isfinite(entry.value()))
-        throw SolverFailure(names.function + ": " + names.matrix +
-                            " has entries that are not finite, the first in column " + std::to_string(j) + "; " +
-                            names.if_indefinite);
-  }
+  for (int j = 0; j < A.cols(); ++j)
+    for (SparseMatrix::InnerIterator entry(A, j); entry; ++entry) checkFinite(names, entry.value(), j);
 }
 
 }  // namespace
@@ -78,14 +80,32 @@ void LinearSystem::prepare(const SolverOptions& options, const Workers& workers)
     }
   } catch (const std::bad_alloc&) {
     if (!fits) throw SolverFailure(function + ": memory does not suffice even for multigrid; take fewer points");
-    throw SolverFailure(function + ": memory does not suffice for a factor of " + names_.matrix + " (" +
-                        bytesText(report_.factor_bytes) + "); " + names_.if_large);
+    failForMemory();
   }
-  if (!backend_)
-    throw SolverFailure(function + ": " + names_.matrix + " is not positive " +
-                        (components_ ? "semidefinite; " : "definite; ") + names_.if_indefinite);
+  if (!backend_) failAsIndefinite();
   report_.method = backend_->name;
   report_.nonzeros = backend_->nonzeros;
+}
+
+void LinearSystem::failForMemory() const {
+  throw SolverFailure(names_.function + ": memory does not suffice for a factor of " + names_.matrix + " (" +
+                      bytesText(report_.factor_bytes) + "); " + names_.if_large);
+}
+
+void LinearSystem::failAsIndefinite() const {
+  throw SolverFailure(names_.function + ": " + names_.matrix + " is not positive " +
+                      (components_ ? "semidefinite; " : "definite; ") + names_.if_indefinite);
+}
+
+void LinearSystem::setDiagonal(const Eigen::Ref<const VectorXd>& diagonal) try {
+  for (Eigen::Index k = 0; k < lower_.cols(); ++k) {
+    const int i = unknowns_.point[k];
+    checkFinite(names_, diagonal[i], i);
+    lower_.coeffRef(k, k) = diagonal[i];
+  }
+  if (backend_ && !backend_->refactor(lower_)) failAsIndefinite();
+} catch (const std::bad_alloc&) {
+  failForMemory();
 }
 
 LinearSystem LinearSystem::positiveDefinite(const SystemNames& names, const SparseMatrix& A,

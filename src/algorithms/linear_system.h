@@ -50,6 +50,12 @@ class LinearSystem {
   /// Makes a system as Solver::laplacian does.
   static LinearSystem laplacian(const SystemNames& names, const Laplacian& laplacian, const SolverOptions& options);
 
+  /// Gives a positive definite system with a factor another diagonal; the order of the unknowns is kept, which saves
+  /// most of what a small system takes.
+  /// @param diagonal N
+  /// @throws SolverFailure as positiveDefinite()
+  void setDiagonal(const Eigen::Ref<const VectorXd>& diagonal);
+
   /// Solves as Solver::solve does.
   /// @param function to be named in errors
   Eigen::MatrixXd solve(const std::string& function, const Eigen::Ref<const Eigen::MatrixXd>& b, SolveReport* report,
@@ -60,6 +66,8 @@ class LinearSystem {
  private:
   LinearSystem(const SystemNames& names, const SolverOptions& options, std::size_t points);
   void prepare(const SolverOptions& options, const Workers& workers);
+  [[noreturn]] void failForMemory() const;
+  [[noreturn]] void failAsIndefinite() const;
   /// Makes `joints_`, which keep badly joined parts apart.
   void separate(const Components& parts, const std::vector<std::uint8_t>& floating);
   VectorXd exactSums(const Eigen::Ref<const VectorXd>& values) const;

@@ -10,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "algorithms/linear_system.h"
 #include "shapes/shapes.h"
 #include "support/compare.h"
 #include "support/joined_grids.h"
@@ -306,6 +307,28 @@ TEST(SmoothingSolver, TakesMemoryThatSomebodyElseHolds) {
   const SmoothingSolver solver(laplacian);
   const std::vector<double> memory(points.data(), points.data() + points.size());
   EXPECT_EQ(solver.smooth(Eigen::Map<const Points>(memory.data(), 500, 3)), solver.smooth(points));
+}
+
+TEST(LinearSystem, WithAnotherDiagonalIsAsOneMadeWithIt) {
+  const auto laplacian = torus();
+  const Eigen::Index n = laplacian->L.cols();
+  const auto matrixOf = [&](const VectorXd& added) {
+    SparseMatrix matrix = laplacian->L;
+    matrix.diagonal() += added;
+    return matrix;
+  };
+  const VectorXd first = VectorXd::Ones(n), second = VectorXd::LinSpaced(n, 0.1, 10);
+  const MatrixXd right = laplacian->positions.leftCols(2);
+  const SystemNames names = {.function = "test", .matrix = "L + D"};
+  LinearSystem system = LinearSystem::positiveDefinite(names, matrixOf(first), {});
+  const LinearSystem expected = LinearSystem::positiveDefinite(names, matrixOf(second), {});
+  system.setDiagonal(laplacian->L.diagonal() + second);
+  EXPECT_TRUE(sameBits(system.solve("test", right, nullptr, {}), expected.solve("test", right, nullptr, {})));
+
+  EXPECT_THROW(system.setDiagonal(-second), SolverFailure);
+  VectorXd odd = second;
+  odd[3] = NAN;
+  EXPECT_THROW(system.setDiagonal(odd), SolverFailure);
 }
 
 }  // namespace
