@@ -5,6 +5,8 @@
 #include <array>
 #include <cmath>
 
+#include "denoise/listed_search.h"
+#include "denoise/pooling.h"
 #include "stars/displacements.h"
 #include "stars/tangent_frame.h"
 
@@ -19,6 +21,7 @@ constexpr double height_fade = 1.5;  // sigmas, by which windows whose surface i
 constexpr double most_height = 3;    // sigmas from the best window's surface
 constexpr double same_side = 0.95;   // cosine between the normals of windows on one side of a crease
 constexpr int rounds = 2;            // of fits through one side
+constexpr int widest_lender = 2;     // times the base window
 constexpr int one_side = 4;          // times the base window; half of it may be on the other side
 constexpr double agreement = 0.9;    // cosine between the normals of points on one side
 constexpr int least_on_side = 12;    // twice as many points as coefficients
@@ -60,8 +63,8 @@ struct CreaseScratch {
 class CreaseMover {
  public:
   /// All arguments are borrowed.
-  CreaseMover(const PointsView& points, const NeighborSource& source, const Windows& windows, const NoiseLevel& noise)
-      : points_(points), source_(source), windows_(windows), noise_(noise) {}
+  CreaseMover(const PointsView& points, const Windows& windows, const NoiseLevel& noise)
+      : points_(points), windows_(windows), noise_(noise) {}
 
   /// A move of p onto the surfaces of windows of one size around its neighbours: of those that explain their points by
   /// noise alone, best first, and lie on the same side of the crease as the best. False where none does.
@@ -102,10 +105,9 @@ class CreaseMover {
 
   /// The step from where p has moved to onto a fit through the neighbours on its side, where they have moved to. Zero
   /// where these are few, or do not lie on one smooth surface.
+  /// @param scratch with the neighbours of p
   Eigen::RowVector3d stepOnSide(int p, const PointBuffer& move, const PointBuffer& normals,
                                 CreaseScratch& scratch) const {
-    const int count = std::min(one_side * windows_.base[p], windows_.size() - 1);
-    scratch.around.find(points_, *source_.search, windows_, p, count, noise_.outlier);
     scratch.side.clear();
     for (std::size_t i = 0; i < scratch.around.all.size(); ++i) {
       const int q = scratch.around.all[i].index;
@@ -136,7 +138,6 @@ class CreaseMover {
 
  private:
   PointsView points_;
-  const NeighborSource& source_;
   const Windows& windows_;
   const NoiseLevel& noise_;
 };
@@ -147,36 +148,40 @@ Buffer<std::uint8_t> moveNextToCreases(const PointsView& points, const NeighborS
                                        const NoiseLevel& noise, const WindowChoice& choice, const Workers& workers,
                                        PointBuffer& move) {
   const int n = windows.size();
-  const CreaseMover mover(points, source, windows, noise);
+  const CreaseMover mover(points, windows, noise);
   Buffer<std::uint8_t> is_moved(windows.base.size(), 0);
   PointBuffer normals(n);
-  workers.forBlocks("noise", n, block_size, [&](std::int64_t begin, std::int64_t end, int) {
-    CreaseScratch scratch;
-    for (int p = static_cast<int>(begin); p < end; ++p) {
-      const int window = choice.window[p];
-      normals.row(p) = mover.normalOf(p, std::max(window, 1));
-      if (choice.biased[p] == 0 || window > 1) continue;
-      const int count = std::min(2 * windows.base[p], n - 1);
-      scratch.around.find(points, *source.search, windows, p, count, noise.outlier);
-      for (const int wider : {2, 1}) {
-        Eigen::RowVector3d to, normal;
-        if (wider <= window || !mover.borrow(p, wider, scratch, to, normal)) continue;
-        move.row(p) = to;
-        normals.row(p) = normal;
-        is_moved[p] = 1;
-        break;
-      }
+  forEachPoint(windows, workers,
+               [&](int p) { normals.row(p) = mover.normalOf(p, std::max<int>(choice.window[p], 1)); });
+  const auto forEachListed = [&](std::span<const int> which, int times, const auto& visit) {
+    workers.forBlocks("noise", std::ssize(which), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+      CreaseScratch scratch;
+      ListedSearch search(points, *source.search, windows);
+      const auto count = [&](int p) { return times * windows.base[p]; };
+      search.forEach(which.subspan(begin, end - begin), count, [&](int p, std::span<const Neighbor> neighbors) {
+        scratch.around.take(points, windows, p, neighbors, noise.outlier);
+        visit(p, scratch);
+      });
+    });
+  };
+  const Buffer<int> biased =
+      numbersWhere("noise", n, workers, [&](int p) { return choice.biased[p] != 0 && choice.window[p] <= 1; });
+  forEachListed(biased, widest_lender, [&](int p, CreaseScratch& scratch) {
+    for (const int wider : {2, 1}) {
+      Eigen::RowVector3d to, normal;
+      if (wider <= choice.window[p] || !mover.borrow(p, wider, scratch, to, normal)) continue;
+      move.row(p) = to;
+      normals.row(p) = normal;
+      is_moved[p] = 1;
+      break;
     }
   });
 
   const Buffer<int> moved = numbersWhere("noise", n, workers, [&](int p) { return is_moved[p] != 0; });
   for (int round = 0; round < rounds; ++round) {
     const PointBuffer before = move;
-    workers.forBlocks("noise", std::ssize(moved), block_size, [&](std::int64_t begin, std::int64_t end, int) {
-      CreaseScratch scratch;
-      for (std::int64_t i = begin; i < end; ++i)
-        move.row(moved[i]) += mover.stepOnSide(moved[i], before, normals, scratch);
-    });
+    forEachListed(moved, one_side,
+                  [&](int p, CreaseScratch& scratch) { move.row(p) += mover.stepOnSide(p, before, normals, scratch); });
   }
   return is_moved;
 }

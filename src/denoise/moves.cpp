@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "denoise/crease_moves.h"
+#include "denoise/listed_search.h"
 #include "denoise/window_choice.h"
 #include "stars/displacements.h"
 #include "stars/tangent_frame.h"
@@ -34,9 +35,12 @@ void moveAgain(const PointsView& points, const NeighborSource& source, const Win
     WindowNeighbors around;
     Buffer<int> kept;
     OffsetBuffer offsets;
-    for (std::int64_t i = begin; i < end; ++i) {
-      const int p = which[i], base = windows.base[p], window = base / 2 << choice.window[p];
-      around.find(points, *source.search, windows, p, std::max(base, window), noise.outlier);
+    const auto windowOf = [&](int p) { return windows.base[p] / 2 << choice.window[p]; };
+    const auto count = [&](int p) { return std::max(windows.base[p], windowOf(p)); };
+    ListedSearch search(points, *source.search, windows);
+    search.forEach(which.subspan(begin, end - begin), count, [&](int p, std::span<const Neighbor> neighbors) {
+      const int base = windows.base[p], window = windowOf(p);
+      around.take(points, windows, p, neighbors, noise.outlier);
       kept.clear();
       std::size_t in_base = 0, in_window = 0;
       for (int j = 0; j < std::ssize(around.all); ++j) {
@@ -51,7 +55,7 @@ void moveAgain(const PointsView& points, const NeighborSource& source, const Win
       HeightFit fit;
       fitHeights({&moments, 1}, {&fit, 1});
       if (fit.is_valid) move.row(p) += fit.height * normal.transpose();
-    }
+    });
   });
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "denoise/listed_search.h"
 #include "simd/kernels.h"
 #include "stars/neighborhood.h"
 #include "stars/sheets.h"
@@ -66,10 +67,11 @@ double Windows::spacing(int p) const {
   return radius[p] * std::sqrt(std::numbers::pi / base[p]);
 }
 
-void WindowNeighbors::find(const PointsView& points, const NeighborSearch& search, const Windows& windows, int p,
-                           int count, const Buffer<std::uint8_t>& left_out) {
-  search.nearest(p, count, all, NeighborOrder::ascending, &before);
+void WindowNeighbors::take(const PointsView& points, const Windows& windows, int p, std::span<const Neighbor> neighbors,
+                           const Buffer<std::uint8_t>& left_out) {
+  all = neighbors;
   offsets.take(points, p, all);
+  const int count = static_cast<int>(all.size());
   heights.resize(static_cast<std::size_t>(toPackets(count)));
   const Eigen::Vector3d normal = windows.normal.row(p).transpose();
   const HeightRange range =
@@ -139,24 +141,22 @@ void WindowFitter::reset(std::span<const int> which, Windows& windows) const {
 
 void WindowFitter::takePlanes(std::span<const int> which, Windows& windows) const {
   workers_.forBlocks("noise", std::ssize(which), block_size, [&](std::int64_t begin, std::int64_t end, int) {
-    Buffer<Neighbor> neighbors;
+    ListedSearch search(points_, *source_.search, windows);
     OffsetBuffer offsets;
-    SearchBefore before;
-    std::array<Covariance, kernel_packet> covariances;
-    std::array<PrincipalAxes, kernel_packet> axes;
-    for (std::int64_t first = begin; first < end; first += kernel_packet) {
-      const auto group = which.subspan(first, std::min<std::int64_t>(kernel_packet, end - first));
-      for (std::size_t i = 0; i < group.size(); ++i) {
-        const int p = group[i];
-        source_.search->nearest(p, windows.base[p], neighbors, NeighborOrder::ascending, &before);
-        offsets.take(points_, p, neighbors);
-        windows.radius[p] = std::sqrt(neighbors.back().squared_distance);
-        spread(p, neighbors, windows.near[p]);
-        covariances[i] = covarianceOf(offsets.view(), windows.radius[p]);
-      }
-      principalAxes(std::span(covariances).first(group.size()), axes);
-      for (std::size_t i = 0; i < group.size(); ++i) takePlane(group[i], axes[i], windows);
-    }
+    std::array<Covariance, block_size> covariances;
+    std::array<PrincipalAxes, block_size> axes;
+    const auto block = which.subspan(begin, end - begin);
+    std::size_t i = 0;
+    search.forEach(
+        block, [&](int p) { return windows.base[p]; },
+        [&](int p, std::span<const Neighbor> neighbors) {
+          offsets.take(points_, p, neighbors);
+          windows.radius[p] = std::sqrt(neighbors.back().squared_distance);
+          spread(p, neighbors, windows.near[p]);
+          covariances[i++] = covarianceOf(offsets.view(), windows.radius[p]);
+        });
+    principalAxes(std::span(covariances).first(block.size()), axes);
+    for (i = 0; i < block.size(); ++i) takePlane(block[i], axes[i], windows);
   });
 }
 
@@ -174,10 +174,11 @@ void WindowFitter::fit(std::span<const int> which, int sizes, const Buffer<std::
     WindowNeighbors around;
     FitQueue queue(windows);
     Buffer<Neighbor> kept;
-    for (std::int64_t w = begin; w < end; ++w) {
-      const int p = which[w], half = windows.base[p] / 2;
-      const int most = std::min<int>(half << (sizes - 1), static_cast<int>(points_.rows()) - 1);
-      around.find(points_, *source_.search, windows, p, most, left_out);
+    ListedSearch search(points_, *source_.search, windows);
+    const auto widest = [&](int p) { return windows.base[p] / 2 << (sizes - 1); };
+    search.forEach(which.subspan(begin, end - begin), widest, [&](int p, std::span<const Neighbor> neighbors) {
+      const int half = windows.base[p] / 2, most = static_cast<int>(neighbors.size());
+      around.take(points_, windows, p, neighbors, left_out);
       const Offsets all = around.offsets.view();
       HeightMoments total = {{}, 1, windows.radius[p]};
       int from = 0;
@@ -200,7 +201,7 @@ void WindowFitter::fit(std::span<const int> which, int sizes, const Buffer<std::
       }
       if (sizes == Windows::sizes && most < 2 * (half << 1)) windows.middle[p] = windows.near[p];
       if (sizes == Windows::sizes && most < 4 * (half << 1)) windows.far[p] = windows.middle[p];
-    }
+    });
     queue.solve();
   });
 }

@@ -46,14 +46,13 @@ struct Windows {
 
 /// The nearest neighbours of a point that belong to its surface; memory of one worker.
 struct WindowNeighbors {
-  Buffer<Neighbor> all;          ///< ascending
-  Buffer<std::uint8_t> skipped;  ///< of each, whether it is left out: an outlier, or of another sheet
-  OffsetBuffer offsets;          ///< of all, from p; 0 where left out, which adds nothing to sums
+  std::span<const Neighbor> all;  ///< ascending; borrowed
+  Buffer<std::uint8_t> skipped;   ///< of each, whether it is left out: an outlier, or of another sheet
+  OffsetBuffer offsets;           ///< of all, from p; 0 where left out, which adds nothing to sums
   Buffer<double> heights;
-  SearchBefore before;
 
   /// @param left_out n; points with an entry other than 0 are left out; may be empty
-  void find(const PointsView& points, const NeighborSearch& search, const Windows& windows, int p, int count,
+  void take(const PointsView& points, const Windows& windows, int p, std::span<const Neighbor> neighbors,
             const Buffer<std::uint8_t>& left_out);
 };
 

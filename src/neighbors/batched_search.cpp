@@ -220,12 +220,11 @@ class BatchSearch {
 }  // namespace
 
 void nearestOfEach(const NeighborSearch& search, const PointsView& points, int first, int count, int k,
-                   const Kernels& kernels, BatchScratch& scratch, Buffer<Neighbor>& found) {
+                   const Kernels& kernels, BatchScratch& scratch, Buffer<Neighbor>& found, double radius) {
   k = std::max(0, std::min(k, static_cast<int>(points.rows()) - 1));
   if (k == 0) return found.clear();
   found.resize(static_cast<std::size_t>(count) * static_cast<std::size_t>(k) + NeighborSearch::most_candidates);
   BatchSearch search_batch(search, points, k, kernels, scratch);
-  double radius = nowhere;
   for (int i = 0; i < count;) {
     Neighbor* rows = search_batch.rowOf(found.data(), i);
     const int size = search_batch.batchAt(first + i, count - i, radius);

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <limits>
+
 #include "base/buffer.h"
 #include "base/point_buffer.h"
 #include "neighbors/neighbors.h"
@@ -38,8 +40,10 @@ struct BatchScratch {
 /// search.
 /// @param points what `search` was built from
 /// @param found count rows of min(k, n - 1), one after the other; overwritten
+/// @param radius about that of the k nearest of the first point, where it is known: the search takes less then
 void nearestOfEach(const NeighborSearch& search, const PointsView& points, int first, int count, int k,
-                   const Kernels& kernels, BatchScratch& scratch, Buffer<Neighbor>& found);
+                   const Kernels& kernels, BatchScratch& scratch, Buffer<Neighbor>& found,
+                   double radius = std::numeric_limits<double>::infinity());
 
 /// The k nearest of p, one of the points that nearestOfEach() was called for last, among the candidates of its batch;
 /// these become more where that helps, for others of the batch as well. False, and nothing of use, where it does not.

@@ -11,6 +11,8 @@
 namespace tufted {
 namespace {
 
+constexpr int most_inserted = 64;  // neighbours that are kept in order while they are found; more are sorted at last
+
 /// The k smallest candidates by (distance, index), without the query point itself.
 ///
 /// FLANN's own sets keep whichever of two equally distant points comes first in the tree, and its pruning sums
@@ -190,14 +192,15 @@ void NeighborSearch::nearest(int p, int k, Buffer<Neighbor>& found, NeighborOrde
   if (k <= 0) return;
   const double* const point = points_.row(p).data();
   const auto search = [&](double radius) {
-    if (order == NeighborOrder::ascending) {
+    if (order == NeighborOrder::ascending && k <= most_inserted) {
       AscendingSet set(p, k, radius, found);
       forest_->search(point, p, set);
-    } else {
-      UnorderedSet set(p, k, radius, found);
-      forest_->search(point, p, set);
-      set.choose();
+      return;
     }
+    UnorderedSet set(p, k, radius, found);
+    forest_->search(point, p, set);
+    set.choose();
+    if (order == NeighborOrder::ascending) std::sort(found.begin(), found.end());
   };
   double radius = std::numeric_limits<double>::infinity();
   if (before != nullptr && before->k >= k) radius = before->radius + (points_.row(p) - points_.row(before->p)).norm();

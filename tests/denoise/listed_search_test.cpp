@@ -1,0 +1,74 @@
+#include "denoise/listed_search.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "neighbors/morton.h"
+#include "shapes/shapes.h"
+
+namespace tufted {
+namespace {
+
+/// Windows of 32 or 64 neighbours, with their radii.
+Windows windowsOf(const NeighborSearch& search, int n) {
+  Windows windows;
+  windows.base.resize(static_cast<std::size_t>(n));
+  windows.radius.resize(static_cast<std::size_t>(n));
+  Buffer<Neighbor> neighbors;
+  for (int p = 0; p < n; ++p) {
+    windows.base[p] = p / 100 % 2 == 0 ? 32 : 64;
+    search.nearest(p, windows.base[p], neighbors);
+    windows.radius[p] = std::sqrt(neighbors.back().squared_distance);
+  }
+  return windows;
+}
+
+TEST(ListedSearch, FindsWhatSearchesForEachPointFind) {
+  shapes::Cloud crowd = shapes::sphere(3000);
+  crowd.points.topRows(2000) *= 1e-9;
+  for (const auto& cloud : {shapes::sphere(3000), shapes::squareLattice(50), shapes::lidar({}), crowd}) {
+    std::vector<PointStatus> status;
+    std::vector<int> representative;
+    const RankedCloud ranked = rankPoints(cloud.points, status, representative);
+    const NeighborSearch search(ranked.points);
+    const Windows windows = windowsOf(search, ranked.size());
+    ListedSearch listed(ranked.points, search, windows);
+    for (const int step : {1, 3, 40}) {  // all points, a third of them, points that are far apart
+      Buffer<int> which;
+      for (int p = 0; p < ranked.size(); p += p % 7 == 0 ? step : 1) which.push_back(p);
+      std::size_t visited = 0;
+      Buffer<Neighbor> expected;
+      listed.forEach(
+          which, [&](int p) { return 2 * windows.base[p]; },
+          [&](int p, std::span<const Neighbor> found) {
+            ASSERT_EQ(p, which[visited++]);
+            search.nearest(p, 2 * windows.base[p], expected);
+            const auto same = [](const Neighbor& a, const Neighbor& b) {
+              return a.index == b.index && a.squared_distance == b.squared_distance;
+            };
+            ASSERT_TRUE(std::equal(found.begin(), found.end(), expected.begin(), expected.end(), same))
+                << cloud.name << ' ' << p;
+          });
+      EXPECT_EQ(visited, which.size());
+    }
+  }
+}
+
+TEST(ListedSearch, OfMoreNeighborsThanThereAreFindsAll) {
+  const shapes::Cloud cloud = shapes::sphere(70);
+  std::vector<PointStatus> status;
+  std::vector<int> representative;
+  const RankedCloud ranked = rankPoints(cloud.points, status, representative);
+  const NeighborSearch search(ranked.points);
+  const Windows windows = windowsOf(search, ranked.size());
+  ListedSearch listed(ranked.points, search, windows);
+  const Buffer<int> which = {0, 1, 2, 69};
+  listed.forEach(
+      which, [](int) { return 128; }, [](int, std::span<const Neighbor> found) { EXPECT_EQ(found.size(), 69U); });
+}
+
+}  // namespace
+}  // namespace tufted
