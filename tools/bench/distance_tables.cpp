@@ -16,6 +16,7 @@
 #include "oracles/planar.h"
 #include "shapes/random.h"
 #include "shapes/shapes.h"
+#include "tufted/denoise.h"
 #include "tufted/distance.h"
 #include "tufted/errors.h"
 #include "tufted/io/read.h"
@@ -253,18 +254,25 @@ void printNonmanifold() {
 }
 
 /// Mean over seeds and sources of the errors on clouds of the sphere. Exact distances are those of the places on the
-/// sphere that points with noise are nearest to.
+/// sphere that points with noise, or those moved out of it, are nearest to.
 void printSphere() {
   std::printf(
       "| sphere, distance | marching, mean | max | split twice, mean | max | heat, mean | max |\n"
       "|---|---|---|---|---|---|---|\n");
   constexpr std::uint64_t first_seed = 101, seeds = 3;
-  for (const double noise : {0.0, 0.01}) {
+  struct Rows {
+    double noise;
+    bool moves;
+    const char* name;
+  };
+  for (const auto& [noise, moves, name] :
+       {Rows{0, false, ""}, Rows{0.01, false, ", noise 1 %"}, Rows{0.01, true, ", noise 1 %, moved"}}) {
     for (const int n : {1000, 4000, 16000, 64000}) {
       Error sums[3];
       for (std::uint64_t seed = first_seed; seed < first_seed + seeds; ++seed) {
         const shapes::Cloud clean = shapes::sphere(n, shapes::Sampling::uniform, seed);
-        const Points points = noise > 0 ? shapes::withNoise(clean, noise, seed).points : clean.points;
+        const Points noisy = noise > 0 ? shapes::withNoise(clean, noise, seed).points : clean.points;
+        const Points points = moves ? denoise(noisy).positions : noisy;
         const Laplacian laplacian = pointCloudLaplacian(points);
         const int source = static_cast<int>(seed * 977 % static_cast<std::uint64_t>(n));
         const VectorXd exact = whereActive(shapes::sphereDistances(points.rowwise().normalized(), source), laplacian);
@@ -275,7 +283,7 @@ void printSphere() {
           sums[method].mean += error.mean / seeds, sums[method].greatest += error.greatest / seeds;
         }
       }
-      std::printf("| %d%s ", n, noise > 0 ? ", noise 1 %" : "");
+      std::printf("| %d%s ", n, name);
       for (const Error& error : sums) std::printf("| %.3f %% | %.2f %% ", 100 * error.mean, 100 * error.greatest);
       std::printf("|\n");
       std::fflush(stdout);
