@@ -48,9 +48,9 @@ class BoundedProblem {
   const SparseMatrix& L_;
   const WeightOptions& options_;
   const std::vector<int>& points_;
-  VectorXd inverse_;  ///< N; mean mass over mass
-  SparseMatrix Q_;    ///< L M^-1 L, in 1 / mean mass
-  VectorXd diagonal_;
+  VectorXd inverse_;   ///< N; mean mass over mass
+  SparseMatrix Q_;     ///< L M^-1 L, in 1 / mean mass
+  VectorXd diagonal_;  ///< N; that of Q_
 };
 
 }  // namespace tufted

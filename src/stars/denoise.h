@@ -14,7 +14,8 @@ struct HeightFit {
   std::array<double, 6> coefficient{};  ///< of 1, u, v, u^2, u v, v^2, in units of the fit radius
   double height = 0;                    ///< of the surface over p, along the normal
   double leverage = 1;                  ///< variance of `height` by that of the noise of each point
-  /// Of the points around the surface: sum of squared residuals / (m - 6); infinite where the fit is not valid.
+  /// The variance of the points' distances from the surface: sum of squared residuals / (m - 6). It is infinite where
+  /// there is no fit.
   double variance = std::numeric_limits<double>::infinity();
   bool is_valid = false;  ///< false with fewer than 9 points, p included, or where they lie on a conic
 };

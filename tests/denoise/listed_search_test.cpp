@@ -12,30 +12,36 @@
 namespace tufted {
 namespace {
 
-/// Windows of 32 or 64 neighbours, with their radii.
-Windows windowsOf(const NeighborSearch& search, int n) {
+/// A cloud that can be searched, with windows of 32 or 64 neighbours and their radii.
+struct SearchedCloud {
+  std::vector<PointStatus> status;
+  std::vector<int> representative;
+  RankedCloud ranked;
+  NeighborSearch search;
   Windows windows;
-  windows.base.resize(static_cast<std::size_t>(n));
-  windows.radius.resize(static_cast<std::size_t>(n));
-  Buffer<Neighbor> neighbors;
-  for (int p = 0; p < n; ++p) {
-    windows.base[p] = p / 100 % 2 == 0 ? 32 : 64;
-    search.nearest(p, windows.base[p], neighbors);
-    windows.radius[p] = std::sqrt(neighbors.back().squared_distance);
+
+  explicit SearchedCloud(const Points& points)
+      : ranked(rankPoints(points, status, representative)), search(ranked.points) {
+    const auto n = static_cast<std::size_t>(ranked.size());
+    windows.base.resize(n);
+    windows.radius.resize(n);
+    Buffer<Neighbor> neighbors;
+    for (int p = 0; p < ranked.size(); ++p) {
+      windows.base[p] = p / 100 % 2 == 0 ? 32 : 64;
+      search.nearest(p, windows.base[p], neighbors);
+      windows.radius[p] = std::sqrt(neighbors.back().squared_distance);
+    }
   }
-  return windows;
-}
+};
 
 TEST(ListedSearch, FindsWhatSearchesForEachPointFind) {
   shapes::Cloud crowd = shapes::sphere(3000);
   crowd.points.topRows(2000) *= 1e-9;
   for (const auto& cloud : {shapes::sphere(3000), shapes::squareLattice(50), shapes::lidar({}), crowd}) {
-    std::vector<PointStatus> status;
-    std::vector<int> representative;
-    const RankedCloud ranked = rankPoints(cloud.points, status, representative);
-    const NeighborSearch search(ranked.points);
-    const Windows windows = windowsOf(search, ranked.size());
-    ListedSearch listed(ranked.points, search, windows);
+    const SearchedCloud searched(cloud.points);
+    const RankedCloud& ranked = searched.ranked;
+    const Windows& windows = searched.windows;
+    ListedSearch listed(ranked.points, searched.search, windows);
     for (const int step : {1, 3, 40}) {  // all points, a third of them, points that are far apart
       Buffer<int> which;
       for (int p = 0; p < ranked.size(); p += p % 7 == 0 ? step : 1) which.push_back(p);
@@ -45,7 +51,7 @@ TEST(ListedSearch, FindsWhatSearchesForEachPointFind) {
           which, [&](int p) { return 2 * windows.base[p]; },
           [&](int p, std::span<const Neighbor> found) {
             ASSERT_EQ(p, which[visited++]);
-            search.nearest(p, 2 * windows.base[p], expected);
+            searched.search.nearest(p, 2 * windows.base[p], expected);
             const auto same = [](const Neighbor& a, const Neighbor& b) {
               return a.index == b.index && a.squared_distance == b.squared_distance;
             };
@@ -58,13 +64,8 @@ TEST(ListedSearch, FindsWhatSearchesForEachPointFind) {
 }
 
 TEST(ListedSearch, OfMoreNeighborsThanThereAreFindsAll) {
-  const shapes::Cloud cloud = shapes::sphere(70);
-  std::vector<PointStatus> status;
-  std::vector<int> representative;
-  const RankedCloud ranked = rankPoints(cloud.points, status, representative);
-  const NeighborSearch search(ranked.points);
-  const Windows windows = windowsOf(search, ranked.size());
-  ListedSearch listed(ranked.points, search, windows);
+  const SearchedCloud cloud(shapes::sphere(70).points);
+  ListedSearch listed(cloud.ranked.points, cloud.search, cloud.windows);
   const Buffer<int> which = {0, 1, 2, 69};
   listed.forEach(
       which, [](int) { return 128; }, [](int, std::span<const Neighbor> found) { EXPECT_EQ(found.size(), 69U); });
