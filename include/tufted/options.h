@@ -59,7 +59,7 @@ struct CloudOptions {
   bool keep_cover = true;  ///< false frees what the cover is built from (about 100 bytes per point, up to 700 on noise)
   const Points* normals = nullptr;               ///< N x 3, any length, instead of the PCA's; keep their sign; borrowed
   const Neighborhoods* neighborhoods = nullptr;  ///< N x k indices used as they are, never grown; borrowed
-  const ScanStructure* structure = nullptr;      ///< finds neighbours by rows and columns, not by a tree; borrowed
+  const ScanStructure* structure = nullptr;  ///< a depth image or the rings of a scanner, instead of a tree; borrowed
   /// Where the sensor stood, in the points' unit; normals face it, and it distinguishes Boundary::jump from rim however
   /// far the surfaces lie apart along the line of sight. Null: the origin of `structure`, if there is one. Borrowed.
   const Eigen::Vector3d* viewpoint = nullptr;

@@ -29,7 +29,7 @@ struct Report {
   std::int64_t lost_points = 0;  ///< active points of Boundary::lost
 
   // Clouds
-  int neighbors = 0;                       ///< k in use, after clamping to N - 1; with the caller's lists, the longest
+  int neighbors = 0;  ///< k in use, after clamping to N - 1; with the caller's lists, the longest; of a depth image 48
   bool neighbors_clamped = false;          ///< the caller's k exceeded N - 1
   std::int64_t rejected_normals = 0;       ///< caller's normals that are zero or not finite, replaced by PCA
   std::int64_t rejected_neighbors = 0;     ///< caller's neighbours that are repeated, unusable or the point itself

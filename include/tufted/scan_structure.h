@@ -9,9 +9,11 @@
 namespace tufted {
 
 /// How a scanner took the points of a cloud: in rows, each point at a place along its row. Rows are those of an image
-/// or the rings of a spinning scanner; consecutive rows were taken side by side. With this structure neighbours are
-/// found without a tree, and on rings however far apart the rings are. The part of an image that holds points must have
-/// at most 2^24 pixels or 64 per entry. See imageStructure(), ringStructure() and findRings().
+/// or the rings of a spinning scanner; consecutive rows were taken side by side. With the rings of a scanner neighbours
+/// are found without a tree, however far apart the rings are. In a depth image the pixels around each point take the
+/// place of its neighbours, CloudOptions::neighbors counts for nothing, and noise is told along the line of sight. The
+/// part of an image that holds points must have at most 2^24 pixels or 64 per entry; where several points share a pixel
+/// all but one have no place. See imageStructure(), ringStructure() and findRings().
 struct ScanStructure {
   std::vector<int> row;          ///< N; row of the image or number of the ring; negative: the point has no place
   std::vector<double> position;  ///< N; column of the image, or azimuth in radians; not finite: the point has no place
@@ -23,6 +25,12 @@ struct ScanStructure {
 /// @param width,height columns and rows, at least 0 each; the cloud has width x height points
 /// @throws InvalidInput for negative sizes or more than 2^31 - 1 pixels
 ScanStructure imageStructure(int width, int height, const Eigen::Vector3d& origin = Eigen::Vector3d::Zero());
+
+/// Whether the points of an organized cloud are where a pinhole camera at `origin` saw them, pixel by pixel, however it
+/// was turned: for imageStructure(). Clouds that were moved without `origin`, or are no depth image, are not.
+/// @param points width x height rows, row-major; those that are not finite are skipped
+/// @returns false as well where fewer than 100 points are finite, or rows and columns are fewer than 8
+bool isDepthImage(const Points& points, int width, int height, const Eigen::Vector3d& origin = Eigen::Vector3d::Zero());
 
 /// The rings of a spinning scanner, as its driver numbered them.
 /// @param points N x 3; azimuths are their directions around the z axis through `origin`

@@ -41,25 +41,11 @@ void takeNeighborhoods(const Neighborhoods& lists, const RankedCloud& cloud, con
   }
 }
 
-/// Normalises the caller's normals and brings them into rank order.
-void takeNormals(const Points& normals, const RankedCloud& cloud, NeighborSource& source, Report& report) {
-  source.normals.setZero(cloud.size());
-  for (int p = 0; p < cloud.size(); ++p) {
-    const Eigen::Vector3d normal = normals.row(cloud.input_index[p]);
-    const double length = normal.stableNorm();
-    if (length > 0 && std::isfinite(length)) {
-      source.normals.row(p) = (normal / length).normalized();
-    } else {
-      ++report.rejected_normals;
-    }
-  }
-}
-
 }  // namespace
 
-ScanSearch::Searched NeighborSource::nearest(const PointsView& points, int p, int count, Buffer<Neighbor>& found,
-                                             NeighborOrder order, SearchBefore* before) const {
-  if (scan != nullptr) return scan->nearest(p, count, found);
+double NeighborSource::nearest(const PointsView& points, int p, int count, Buffer<Neighbor>& found, NeighborOrder order,
+                               SearchBefore* before) const {
+  if (rings != nullptr) return rings->nearest(p, count, found);
   if (search != nullptr) {
     search->nearest(p, count, found, order, before);
   } else {
@@ -68,20 +54,36 @@ ScanSearch::Searched NeighborSource::nearest(const PointsView& points, int p, in
       found.push_back({(points.row(list[i]) - points.row(p)).squaredNorm(), list[i]});
     std::sort(found.begin(), found.end());
   }
-  return {found.empty() ? 0 : std::sqrt(found.back().squared_distance), 0};
+  return found.empty() ? 0 : std::sqrt(found.back().squared_distance);
 }
 
 std::size_t NeighborSource::bytes() const {
   if (search != nullptr) return search->bytes();
-  if (scan != nullptr) return scan->bytes();
+  if (rings != nullptr) return rings->bytes();
   return bytesOf(list) + bytesOf(list_offset);
+}
+
+PointBuffer rankedNormals(const Points* normals, const RankedCloud& cloud, Report& report) {
+  PointBuffer ranked;
+  if (normals == nullptr) return ranked;
+  ranked.setZero(cloud.size());
+  for (int p = 0; p < cloud.size(); ++p) {
+    const Eigen::Vector3d normal = normals->row(cloud.input_index[p]);
+    const double length = normal.stableNorm();
+    if (length > 0 && std::isfinite(length)) {
+      ranked.row(p) = (normal / length).normalized();
+    } else {
+      ++report.rejected_normals;
+    }
+  }
+  return ranked;
 }
 
 NeighborSource neighborSource(const CloudOptions& options, const RankedCloud& cloud,
                               const std::vector<PointStatus>& status, const std::vector<int>& representative,
                               const Workers& workers, Report& report) {
   NeighborSource source;
-  if (options.normals != nullptr) takeNormals(*options.normals, cloud, source, report);
+  source.normals = rankedNormals(options.normals, cloud, report);
   if (options.neighborhoods != nullptr) {
     takeNeighborhoods(*options.neighborhoods, cloud, status, representative, source, report);
   } else {
@@ -89,7 +91,9 @@ NeighborSource neighborSource(const CloudOptions& options, const RankedCloud& cl
     report.neighbors_clamped = source.k < options.neighbors;
     if (options.structure != nullptr) {
       workers.report("tree", 0);
-      source.scan = takeStructure(*options.structure, cloud, status, representative, report);
+      const RankedScan scan = rankScan(*options.structure, cloud, status, representative);
+      report.unplaced = std::count(scan.row.begin(), scan.row.end(), -1);
+      source.rings = std::make_unique<RingSearch>(scan, cloud);
     } else {
       source.search = std::make_unique<NeighborSearch>(cloud.points, workers);
     }

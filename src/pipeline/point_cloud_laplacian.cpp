@@ -7,15 +7,14 @@
 #include "base/stage_clock.h"
 #include "cover/cover.h"
 #include "neighbors/morton.h"
-#include "neighbors/neighbor_source.h"
 #include "pipeline/build.h"
 #include "pipeline/cloud_options.h"
+#include "pipeline/cloud_surface.h"
 #include "pipeline/from_cover.h"
 #include "pipeline/from_stars.h"
 #include "pipeline/point_results.h"
 #include "pipeline/result.h"
 #include "pipeline/union_cover.h"
-#include "stars/boundary.h"
 #include "stars/surface_stars.h"
 #include "tufted/errors.h"
 
@@ -74,25 +73,20 @@ void buildCloudLaplacian(const PointsRef& points, const CloudOptions& options, C
   if (cloud.size() > most_entries / 6) tooMany(cloud.size(), 6 * static_cast<std::int64_t>(cloud.size()));
   clock.finish("order", static_cast<std::size_t>(cloud.size()) * (3 * sizeof(double) + sizeof(int)));
 
-  // Who is asked for neighbours: FLANN's tree, the rows of the scan, or the caller.
-  NeighborSource source = neighborSource(options, cloud, result.status, result.representative, workers, result.report);
-  clock.finish("tree", source.bytes());
-
-  // Each point's neighbours, tangent plane and local Delaunay triangulation (Section 5.7), without outliers and
-  // triangles that the neighbours refuse. Books its own stages.
-  SurfaceStars built = surfaceStars(cloud, source, options, workers, result.report);
-  if (std::ssize(built.stars.link) > most_entries) tooMany(cloud.size(), std::ssize(built.stars.link));
-  clock.restart();
-
-  // Where the surface ends, which way it faces, and where lengths are measured.
+  // The local Delaunay triangulation of each point (Section 5.7), and where the surface ends.
   const Eigen::Vector3d* viewpoint = options.viewpoint;
   if (viewpoint == nullptr && options.structure != nullptr) viewpoint = &options.structure->origin;
-  setBoundaryAndNormals(findBoundary(built, cloud, source, viewpoint, workers), built.support.normals, cloud, workers,
-                        result);
+  CloudSurface surface =
+      findSurface(cloud, options, viewpoint, result.status, result.representative, workers, clock, result.report);
+  SurfaceStars built = std::move(surface.built);
+  if (std::ssize(built.stars.link) > most_entries) tooMany(cloud.size(), std::ssize(built.stars.link));
+
+  // Which way it faces, and where lengths are measured.
+  setBoundaryAndNormals(surface.boundary, built.support.normals, cloud, workers, result);
+  release(surface.boundary);
   setPositions(points, built.stars.displacement, cloud, workers, result);
   result.frames.orientation = options.normals != nullptr ? Orientation::given : Orientation::arbitrary;
   if (options.normals == nullptr && viewpoint != nullptr) faceViewpoint(*viewpoint, workers, result);
-  source = {};
   built.support.normals = {};
   release(built.support.fit_radius);
   release(built.support.isolated);

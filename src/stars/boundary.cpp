@@ -3,11 +3,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <optional>
 
 #include "base/buffer.h"
 #include "base/point_buffer.h"
+#include "stars/gaps.h"
 #include "stars/tangent_frame.h"
 
 namespace tufted {
@@ -18,19 +18,6 @@ constexpr int search_factor = 8;    // times k: what is looked through for point
 constexpr double off_plane = 0.25;  // of the fit radius, as between the heights of two sheets
 constexpr double farthest = 2;      // times the longest edge
 constexpr double infinity = 1e70;   // median spreads; squares of what lies farther away may overflow
-constexpr double margin = 0.25;     // of a gap, on either side: neighbours along its border may reach into that
-
-/// A gap between the triangles of a star, counterclockwise.
-struct Gap {
-  double begin = 0;  ///< direction, rad
-  double angle = 0;  ///< (0, 2 pi]
-};
-
-/// The positive angle from direction `a` to direction `b`, at most a full turn.
-double turn(double a, double b) {
-  const double angle = b - a;
-  return angle > 0 ? angle : angle + 2 * std::numbers::pi;
-}
 
 enum class View { along_normal, from_viewpoint };
 
@@ -80,7 +67,7 @@ class BoundaryFinder {
 
   Boundary find(int p, WorkerState& state) const {
     if (stars_.ends[p] == 0) return Boundary::none;
-    if (!hasTriangles(p)) return Boundary::lost;
+    if (!hasTriangles(stars_, p)) return Boundary::lost;
     source_.nearest(points_, p, search_factor * source_.k, state.near, NeighborOrder::any, &state.before);
     const Eigen::Vector3d normal = support_.normals.row(p);
     const Boundary along_normal = lookBeyond(p, View::along_normal, Chart(points_, p, normal), state);
@@ -94,33 +81,14 @@ class BoundaryFinder {
   }
 
  private:
-  bool hasTriangles(int p) const {
-    for (int i = stars_.offset[p]; i < stars_.offset[p + 1]; ++i)
-      if (stars_.hasTriangle(i)) return true;
-    return false;
-  }
-
-  /// Finds the gaps between the triangles of p, which has some. Returns the square of the longest edge in the chart.
-  double findGaps(int p, const Chart& chart, Buffer<Gap>& gaps) const {
-    gaps.clear();
-    int first = stars_.offset[p];
-    while (!stars_.hasTriangle(first)) ++first;
+  /// The square of the longest edge in the chart of a star that has triangles.
+  double longestEdge(int p, const Chart& chart) const {
     double longest = 0;
-    int i = first;
-    do {
-      const int next = stars_.after(p, i);
-      if (stars_.hasTriangle(i)) {
-        longest = std::max(
-            {longest, chart.offset(stars_.link[i]).squaredNorm(), chart.offset(stars_.link[next]).squaredNorm()});
-        i = next;
-        continue;
-      }
-      int last = next;
-      while (!stars_.hasTriangle(last)) last = stars_.after(p, last);
-      const double begin = chart.direction(stars_.link[i]);
-      gaps.push_back({begin, turn(begin, chart.direction(stars_.link[last]))});
-      i = last;
-    } while (i != first);
+    for (int i = stars_.offset[p]; i < stars_.offset[p + 1]; ++i) {
+      if (!stars_.hasTriangle(i)) continue;
+      for (const int q : {stars_.link[i], stars_.link[stars_.after(p, i)]})
+        longest = std::max(longest, chart.offset(q).squaredNorm());
+    }
     return longest;
   }
 
@@ -135,7 +103,9 @@ class BoundaryFinder {
   }
 
   Boundary lookBeyond(int p, View view, const Chart& chart, WorkerState& state) const {
-    const double limit = farthest * farthest * findGaps(p, chart, state.gaps);
+    findGaps(
+        stars_, p, [&](int q) { return chart.direction(q); }, state.gaps);
+    const double limit = farthest * farthest * longestEdge(p, chart);
     bool is_rim = false;
     for (const Gap& gap : state.gaps) {
       bool goes_on = false;
@@ -143,8 +113,7 @@ class BoundaryFinder {
         const Eigen::Vector2d offset = chart.offset(q.index);
         const double distance = offset.squaredNorm();
         if (!(distance > 0 && distance <= limit)) continue;
-        const double angle = turn(gap.begin, std::atan2(offset.y(), offset.x()));
-        if (angle < margin * gap.angle || angle > (1 - margin) * gap.angle || !hasTriangles(q.index)) continue;
+        if (!gap.holdsInTheMiddle(std::atan2(offset.y(), offset.x())) || !hasTriangles(stars_, q.index)) continue;
         if (isElsewhere(p, q.index, view)) return Boundary::jump;
         goes_on = true;
       }

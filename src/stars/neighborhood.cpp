@@ -52,7 +52,7 @@ bool NeighborhoodFinder::query(int p, int k, Neighborhood& neighborhood, OffsetB
       nearestOfKnown(*source_.search, points_, p, k, likely, kernels(), scratch.batch, neighborhood.neighbors)) {
     const double radius = std::sqrt(neighborhood.neighbors.back().squared_distance);
     scratch.before = {p, k, radius};
-    take(k, {radius, 0}, neighborhood);
+    take(k, radius, neighborhood);
   } else {
     take(k, source_.nearest(points_, p, k, neighborhood.neighbors, NeighborOrder::ascending, &scratch.before),
          neighborhood);
@@ -61,10 +61,9 @@ bool NeighborhoodFinder::query(int p, int k, Neighborhood& neighborhood, OffsetB
   return true;
 }
 
-void NeighborhoodFinder::take(int k, const ScanSearch::Searched& searched, Neighborhood& neighborhood) const {
+void NeighborhoodFinder::take(int k, double radius, Neighborhood& neighborhood) const {
   neighborhood.k = source_.isFixed() ? static_cast<int>(neighborhood.neighbors.size()) : k;
-  neighborhood.radius = searched.radius;
-  neighborhood.cut = searched.cut;
+  neighborhood.radius = radius;
 }
 
 void NeighborhoodFinder::find(int first, int count, NeighborhoodScratch& scratch, Neighborhood* neighborhoods) const {
@@ -78,7 +77,7 @@ void NeighborhoodFinder::find(int first, int count, NeighborhoodScratch& scratch
     }
     const auto row = scratch.found.begin() + static_cast<std::ptrdiff_t>(i) * source_.k;
     neighborhood.neighbors.assign(row, row + source_.k);
-    take(source_.k, {source_.k > 0 ? std::sqrt(neighborhood.neighbors.back().squared_distance) : 0, 0}, neighborhood);
+    take(source_.k, source_.k > 0 ? std::sqrt(neighborhood.neighbors.back().squared_distance) : 0, neighborhood);
   }
 }
 

@@ -22,7 +22,6 @@ struct Neighborhood {
   Buffer<Neighbor> neighbors;  ///< ascending; those of other sheets left out
   PrincipalAxes axes;
   std::array<PrincipalAxes, few_neighbors.size()> axes_of_few;  ///< of the first few, where there are more of them
-  std::int64_t cut = 0;                                         ///< left out because the surface jumps in between
   int k = 0;                                                    ///< neighbours asked for
   double radius = 0;                                            ///< distance to the last of them
   double fit_radius = 0;                                        ///< the radius that the plane was fitted in, S(p)
@@ -71,7 +70,7 @@ class NeighborhoodFinder {
   int mostNeighbors() const;
 
  private:
-  void take(int k, const ScanSearch::Searched& searched, Neighborhood& neighborhood) const;
+  void take(int k, double radius, Neighborhood& neighborhood) const;
   bool query(int p, int k, Neighborhood& neighborhood, OffsetBuffer& offsets, NeighborhoodScratch& scratch) const;
   /// Rings, and the far side of a small cloud, would be taken for sheets.
   bool splitsSheets() const;

@@ -5,19 +5,16 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numeric>
 
 #include "base/buffer.h"
 #include "base/point_buffer.h"
 #include "base/power_of_two.h"
-#include "base/require.h"
 #include "stars/blocks_in_order.h"
-#include "stars/delaunay_star.h"
 #include "stars/displacements.h"
-#include "stars/inverted_star.h"
 #include "stars/neighborhood.h"
 #include "stars/offsets.h"
 #include "stars/star_gap.h"
+#include "stars/star_wrapping.h"
 #include "stars/tangent_frame.h"
 
 namespace tufted {
@@ -37,12 +34,9 @@ struct WorkerState {
   NeighborhoodScratch neighborhood;
   Neighborhood saved_neighborhood;
   DelaunayStar saved_star;
-  Buffer<PlanarPoint> planar;
-  StarScratch scratch;
-  DelaunayStar star;
-  BlockOfStars block;
-  std::int64_t cut_neighbors = 0, grown_neighborhoods = 0, split_neighborhoods = 0, isolated = 0, grown_stars = 0,
-               closed_stars = 0, open_stars = 0, unusable_triangles = 0;
+  StarMemory memory;
+  std::int64_t grown_neighborhoods = 0, split_neighborhoods = 0, isolated = 0, grown_stars = 0, closed_stars = 0,
+               open_stars = 0, unusable_triangles = 0;
   std::array<double, 3> seconds = {};  // neighbours, frames, stars
 };
 
@@ -52,20 +46,19 @@ class StarBuilder {
       : source_(source),
         options_(options),
         finder_(cloud.points, source, options),
-        wrap_(options.delaunay == Delaunay::star ? delaunayStar : cgalBackend()),
-        has_short_cut_(options.delaunay == Delaunay::star),
+        wrapping_(options.delaunay),
         denoises_(built.stars.displacement.rows() > 0),
         stars_(built.stars),
         support_(built.support) {}
 
-  /// Leaves the stars in state.block.
+  /// Leaves the stars in state.memory.block.
   void build(std::int64_t begin, std::int64_t end, WorkerState& state, NoisyPoints& noisy) const {
     const int count = static_cast<int>(end - begin);
     const int first = static_cast<int>(begin);
     state.neighborhoods.resize(std::max<std::size_t>(state.neighborhoods.size(), count));
-    state.block.link.reserve(usual_degree * count);
-    state.block.triangle.reserve(usual_degree * count);
-    state.block.radius.reserve(usual_degree * count);
+    state.memory.block.link.reserve(usual_degree * count);
+    state.memory.block.triangle.reserve(usual_degree * count);
+    state.memory.block.radius.reserve(usual_degree * count);
     Stopwatch watch;
     finder_.find(first, count, state.neighborhood, state.neighborhoods.data());
     state.seconds[0] += watch.restart();
@@ -85,16 +78,6 @@ class StarBuilder {
   }
 
  private:
-  using Wrap = void (*)(const Buffer<PlanarPoint>&, int, StarScratch&, DelaunayStar&);
-
-  static Wrap cgalBackend() {
-#ifdef TUFTED_WITH_GPL
-    return delaunayStarCgal;
-#else
-    return delaunayStar;  // not reached: options are checked first
-#endif
-  }
-
   void takeFrame(int p, Neighborhood& neighborhood, OffsetBuffer& offsets, WorkerState& state) const {
     finder_.refine(p, neighborhood, offsets, state.neighborhood);
     state.grown_neighborhoods += neighborhood.grown ? 1 : 0;
@@ -108,52 +91,21 @@ class StarBuilder {
     stars_.flat[p] = neighborhood.axes.variance[0] < flat_share * neighborhood.axes.variance[1] ? 1 : 0;
   }
 
-  /// Calls visit(planar, neighbors) for the neighbours projected to the tangent plane of p, times `unit`, as many at a
-  /// time as `planar` holds, until it returns false.
-  template <class Visit>
-  void projectParts(const Neighborhood& neighborhood, double unit, const Offsets& offsets, const Visit& visit) const {
-    const Eigen::Vector3d x = tangentOf(neighborhood.axes.normal), y = neighborhood.axes.normal.cross(x);
-    PlanarOffsets planar;
-    for (int first = 0; first < offsets.count; first += PlanarOffsets::most) {
-      const int count = std::min(offsets.count - first, PlanarOffsets::most);
-      kernels_.project({count, offsets.x + first, offsets.y + first, offsets.z + first}, unit, x.data(), y.data(),
-                       planar);
-      if (!visit(planar, std::span<const Neighbor>(neighborhood.neighbors).subspan(first, count))) break;
-    }
-  }
-
-  static void append(const PlanarOffsets& planar, std::span<const Neighbor> neighbors, Buffer<PlanarPoint>& points) {
-    for (int i = 0; i < planar.count; ++i) points.push_back({planar.u[i], planar.v[i], neighbors[i].index});
-  }
-
   /// The star among the neighbours.
   void wrap(int p, const Neighborhood& neighborhood, double unit, const Offsets& offsets, WorkerState& state) const {
-    state.planar.clear();
-    StarKind kind = StarKind::unknown;
-    projectParts(neighborhood, unit, offsets, [&](const PlanarOffsets& planar, std::span<const Neighbor> neighbors) {
-      if (planar.count == offsets.count && has_short_cut_)
-        kind = wrapInverted(kernels_, planar, neighbors, state.star, state.planar);
-      if (kind == StarKind::closed || kind == StarKind::tied) return false;
-      append(planar, neighbors, state.planar);
-      return true;
-    });
-    if (kind == StarKind::unknown) {
-      wrap_(state.planar, p, state.scratch, state.star);
-    } else if (kind != StarKind::closed) {  // no few of them decide it, and the short cut takes none that lie on p
-      state.scratch.chosen.swap(state.planar);
-      wrapChosen(p, state.scratch, state.star);
-    }
+    wrapping_.wrap(p, neighborhood.axes.normal, unit, offsets, neighborhood.neighbors, state.memory);
   }
 
   /// Whether the star is open among more neighbours as well, without building it.
   bool staysOpen(const Eigen::Vector2d& gap, const Neighborhood& neighborhood, double unit, const Offsets& offsets,
                  WorkerState& state) const {
-    state.planar.clear();
-    projectParts(neighborhood, unit, offsets, [&](const PlanarOffsets& planar, std::span<const Neighbor> neighbors) {
-      append(planar, neighbors, state.planar);
-      return true;
-    });
-    return leaveGap(state.planar, gap);
+    state.memory.planar.clear();
+    projectParts(neighborhood.axes.normal, unit, offsets, neighborhood.neighbors,
+                 [&](const PlanarOffsets& planar, std::span<const Neighbor> neighbors) {
+                   append(planar, neighbors, state.memory.planar);
+                   return true;
+                 });
+    return leaveGap(state.memory.planar, gap);
   }
 
   /// Wraps the star, and looks further where what was found is no proof that the star is right: a circle of a closed
@@ -166,7 +118,7 @@ class StarBuilder {
     wrap(p, neighborhood, unit, offsets.view(), state);
     coverCircles(p, most, neighborhood, unit, offsets, state);
     // Graded neighbours reach past the star as it is.
-    if (state.star.closed || !is_thorough || source_.isGraded()) return;
+    if (state.memory.star.closed || !is_thorough || source_.isGraded()) return;
     if (closesAmongMore(p, neighborhood, unit, offsets, state))
       coverCircles(p, std::max(most, 2 * neighborhood.k), neighborhood, unit, offsets, state);
   }
@@ -175,7 +127,7 @@ class StarBuilder {
   /// point in the circle, but outside of the ball, would change the star.
   void coverCircles(int p, int most, Neighborhood& neighborhood, double unit, OffsetBuffer& offsets,
                     WorkerState& state) const {
-    const DelaunayStar& star = state.star;
+    const DelaunayStar& star = state.memory.star;
     while (star.closed && !(2 * star.largestCircumradius() <= neighborhood.radius * unit) &&
            finder_.grow(p, most, neighborhood, offsets, state.neighborhood)) {
       ++state.grown_stars;
@@ -186,19 +138,19 @@ class StarBuilder {
   /// Whether the open star closes among twice or four times as many neighbours. If not, it is left as it was.
   bool closesAmongMore(int p, Neighborhood& neighborhood, double unit, OffsetBuffer& offsets,
                        WorkerState& state) const {
-    state.saved_star = state.star;
+    state.saved_star = state.memory.star;
     state.saved_neighborhood = neighborhood;
-    const Eigen::Vector2d gap = middleOfGap(state.star);
+    const Eigen::Vector2d gap = middleOfGap(state.memory.star);
     for (int i = 0; i < most_doublings; ++i) {
       if (!finder_.grow(p, 2 * neighborhood.k, neighborhood, offsets, state.neighborhood)) break;
       if (staysOpen(gap, neighborhood, unit, offsets.view(), state)) continue;
       wrap(p, neighborhood, unit, offsets.view(), state);
-      if (state.star.closed) {
+      if (state.memory.star.closed) {
         ++state.closed_stars;
         return true;
       }
     }
-    state.star = state.saved_star;
+    state.memory.star = state.saved_star;
     neighborhood = state.saved_neighborhood;
     return false;
   }
@@ -206,7 +158,7 @@ class StarBuilder {
   void wrapStar(int p, Neighborhood& neighborhood, OffsetBuffer& offsets, WorkerState& state) const {
     // A power of two near the fit radius, so that the predicates meet numbers near 1 and scaling rounds nothing.
     const double unit = magnitudeOf(neighborhood.fit_radius);
-    DelaunayStar& star = state.star;
+    DelaunayStar& star = state.memory.star;
     if (neighborhood.isolated) {
       star.link.clear();
       star.closed = false;
@@ -214,31 +166,15 @@ class StarBuilder {
       wrapUntilCertain(p, neighborhood, 1 / unit, offsets, state);
     }
 
-    state.cut_neighbors += neighborhood.cut;
-    state.open_stars += star.closed ? 0 : 1;
-    stars_.ends[p] = star.closed ? 0 : 1;
-    stars_.offset[p + 1] = static_cast<int>(star.link.size());
-    for (int i = 0; i < static_cast<int>(star.link.size()); ++i) {
-      state.block.link.push_back(star.link[i].index);
-      const bool is_triangle = i < star.triangles();
-      const bool is_usable =
-          is_triangle && std::isfinite(star.radius[i]) &&
-          !(source_.scan != nullptr && source_.scan->spansJump(p, star.link[i].index, star.after(i).index));
-      state.block.radius.push_back(is_usable ? star.radius[i] * unit : 0);
-      state.block.triangle.push_back(is_usable ? 1 : 0);
-      if (is_triangle && !is_usable) {
-        ++state.unusable_triangles;
-        stars_.ends[p] = 1;
-      }
-    }
+    const auto anyTriangle = [](int, int) { return true; };
+    storeStar(p, unit, anyTriangle, state.memory, stars_);
   }
 
   const NeighborSource& source_;
   const CloudOptions& options_;
   NeighborhoodFinder finder_;
-  const Kernels& kernels_ = kernels();
-  Wrap wrap_;
-  bool has_short_cut_, denoises_;
+  StarWrapping wrapping_;
+  bool denoises_;
   Stars& stars_;
   StarSupport& support_;
 };
@@ -263,12 +199,7 @@ BuiltStars buildStars(const RankedCloud& cloud, const NeighborSource& source, co
   BuiltStars built;
   Stars& stars = built.stars;
   StarSupport& support = built.support;
-  stars.offset.assign(static_cast<std::size_t>(n) + 1, 0);
-  support.fit_radius.resize(n);
-  stars.ends.resize(n);
-  support.isolated.resize(n);
-  stars.flat.resize(n);
-  support.normals.resize(n);
+  makeRoom(n, built);
   if (options.steps.lengths == Lengths::denoised && !source.isWholeCloud(n)) stars.displacement.setZero(n);
 
   Stopwatch wall;
@@ -280,10 +211,9 @@ BuiltStars buildStars(const RankedCloud& cloud, const NeighborSource& source, co
   workers.forBlocks("stars", n, block_size, [&](std::int64_t begin, std::int64_t end, int worker) {
     const std::size_t number = begin / block_size;
     builder.build(begin, end, states[worker], noisy[number]);
-    in_order.take(number, states[worker].block);
+    in_order.take(number, states[worker].memory.block);
   });
-  requireAtMost(INT32_MAX, std::ssize(stars.link), "pointCloudLaplacian", "neighbours in the stars of all points");
-  std::partial_sum(stars.offset.begin(), stars.offset.end(), stars.offset.begin());
+  finishOffsets(stars);
 
   for (const NoisyPoints& points : noisy) report.denoised += std::ssize(points.rank);
   if (report.denoised > 0) {
@@ -298,14 +228,13 @@ BuiltStars buildStars(const RankedCloud& cloud, const NeighborSource& source, co
 
   std::array<double, 3> seconds = {};
   for (const WorkerState& state : states) {
-    report.cut_neighbors += state.cut_neighbors;
     report.grown_neighborhoods += state.grown_neighborhoods;
     report.split_neighborhoods += state.split_neighborhoods;
     report.isolated_by_sheets += state.isolated;
     report.grown_stars += state.grown_stars;
     report.closed_stars += state.closed_stars;
-    report.open_stars += state.open_stars;
-    report.dropped_triangles += state.unusable_triangles;
+    report.open_stars += state.memory.open_stars;
+    report.dropped_triangles += state.memory.unusable_triangles;
     for (int i = 0; i < 3; ++i) seconds[i] += state.seconds[i];
   }
   const double cpu = seconds[0] + seconds[1] + seconds[2];

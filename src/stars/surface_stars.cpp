@@ -1,5 +1,7 @@
 #include "stars/surface_stars.h"
 
+#include <utility>
+
 #include "base/stage_clock.h"
 #include "stars/agreement.h"
 #include "stars/outliers.h"
@@ -7,18 +9,25 @@
 
 namespace tufted {
 
-SurfaceStars surfaceStars(const RankedCloud& cloud, const NeighborSource& source, const CloudOptions& options,
-                          const Workers& workers, Report& report) {
-  SurfaceStars result{buildStars(cloud, source, options, workers, report), {}};  // books its own stages
+SurfaceStars filteredStars(BuiltStars built, bool is_whole_cloud, const PointsView& points, const CloudOptions& options,
+                           const Workers& workers, Report& report) {
+  SurfaceStars result{std::move(built), {}};
   StageClock clock(report);
-  const bool is_whole = source.isWholeCloud(cloud.size());
-  if (options.steps.isolate_outliers && !is_whole) isolateOutliers(result, cloud, source, workers, report);
-  clock.finish("outliers", 0);
-  if (!is_whole) filterStars(result, cloud.points, options.steps.filter, workers, report);
+  if (!is_whole_cloud) filterStars(result, points, options.steps.filter, workers, report);
   result.disagrees = findDisagreement(result.stars, workers);
   countVotes(result.stars, result.disagrees, workers, report);
   clock.finish("filter", 0);
   return result;
+}
+
+SurfaceStars surfaceStars(const RankedCloud& cloud, const NeighborSource& source, const CloudOptions& options,
+                          const Workers& workers, Report& report) {
+  BuiltStars built = buildStars(cloud, source, options, workers, report);  // books its own stages
+  StageClock clock(report);
+  const bool is_whole_cloud = source.isWholeCloud(cloud.size());
+  if (options.steps.isolate_outliers && !is_whole_cloud) isolateOutliers(built, cloud, source, workers, report);
+  clock.finish("outliers", 0);
+  return filteredStars(std::move(built), is_whole_cloud, cloud.points, options, workers, report);
 }
 
 }  // namespace tufted

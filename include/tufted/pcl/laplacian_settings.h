@@ -29,8 +29,9 @@ class LaplacianSettings {
   /// See setSearchMethod().
   SearchPtr getSearchMethod() const { return search_; }
 
-  /// Whether the core finds neighbours by the pixels of an organized input and cuts at depth jumps seen from its
-  /// sensor_origin_; false unless set. A search method wins over it.
+  /// Whether an organized input is a depth image seen from its sensor_origin_, whose pixels then take the place of k
+  /// neighbours; false unless set. To be set for depth cameras: noise is told along the line of sight, and no tree is
+  /// built. A search method wins over it.
   void setOrganizedSearch(bool organized) { organized_ = organized; }
   /// See setOrganizedSearch().
   bool getOrganizedSearch() const { return organized_; }

@@ -1,12 +1,11 @@
+#include "neighbors/scan/ring_search.h"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <utility>
 
-#include "base/point_buffer.h"
 #include "base/stage_clock.h"
-#include "neighbors/scan/scan_search.h"
 
 namespace tufted {
 namespace {
@@ -17,150 +16,122 @@ constexpr int most_rings = 2;     // on each side; those beyond have no part in 
 constexpr double neighbors_per_spacing = 15;  // in a ball of one spacing; half as many as ask for that
 constexpr int most_misses = 2;  // points of a ring, one after the other, that are too far: the surface has ended
 
-/// Neighbours on the own ring and on those beside it.
-///
-/// Distances along a ring are often a tenth to a hundredth of those between rings: a ball that reaches a few rings
-/// holds thousands of points, nearly all of them on p's own ring and of no use. Of each ring those nearest to p count,
-/// for an empty circle through p that misses its neighbours on the ring meets other rings nowhere else; of the others
-/// every second, every fourth and so on tell the plane. A ring that is too far hides those behind it.
-class RingSearch final : public ScanSearch {
- public:
-  RingSearch(const RankedScan& scan, const RankedCloud& cloud) : place_(scan.row.size(), -1) {
-    Buffer<int> order;
-    for (int p = 0; p < cloud.size(); ++p)
-      if (scan.row[p] >= 0) order.push_back(p);
-    std::sort(order.begin(), order.end(), [&scan](int a, int b) {
-      if (scan.row[a] != scan.row[b]) return scan.row[a] < scan.row[b];
-      return scan.position[a] != scan.position[b] ? scan.position[a] < scan.position[b] : a < b;
-    });
-    points_.resize(std::ssize(order));
-    azimuth_.resize(order.size());
-    ring_.resize(order.size());
-    for (int i = 0; i < static_cast<int>(order.size()); ++i) {
-      const int p = order[i];
-      if (i == 0 || scan.row[p] != scan.row[order[i - 1]]) begin_.push_back(i);
-      place_[p] = i;
-      points_.row(i) = cloud.points.row(p);
-      azimuth_[i] = scan.position[p];
-      ring_[i] = static_cast<int>(begin_.size()) - 1;
-    }
-    begin_.push_back(static_cast<int>(order.size()));
-    rank_ = std::move(order);
-  }
+/// As far as a star reaches where points are nowhere denser than across the rings, 1.4 spacings for 30 neighbours.
+/// What lies beyond, above all on a sparse ring, is on the other side of a crease or jump more often than not.
+double ballRadius(int k, double spacing) {
+  return std::sqrt(k / neighbors_per_spacing) * spacing;
+}
 
-  Searched nearest(int p, int k, Buffer<Neighbor>& found) const override {
-    found.clear();
-    if (place_[p] < 0) return {};
-    const int self = place_[p];
-    const int own = ring_[self];
-    const auto [above, below] = std::pair(footOn(own + 1, self, self), footOn(own - 1, self, self));
-    Searched searched;
-    searched.radius =
-        ballRadius(k, larger(std::min(distanceTo(self, above), distanceTo(self, below)),
-                             std::min(distanceTo(self, stepped(self, 1)), distanceTo(self, stepped(self, -1)))));
-    addRing(self, self, searched.radius, found);
-    for (const int side : {1, -1}) {
-      int foot = side > 0 ? above : below;
-      for (int rings = 1; rings <= most_rings && distanceTo(self, foot) <= searched.radius; ++rings) {
-        addRing(self, foot, searched.radius, found);
-        foot = footOn(own + side * (rings + 1), self, foot);
-      }
-    }
-    std::sort(found.begin(), found.end());
-    return searched;
-  }
+/// The larger of those that are finite; 0 without any.
+double larger(double a, double b) {
+  return std::max(std::isfinite(a) ? a : 0, std::isfinite(b) ? b : 0);
+}
 
-  bool isGraded() const override { return true; }
-
-  std::size_t bytes() const override {
-    return bytesOf(place_) + bytesOf(rank_) + bytesOf(ring_) + bytesOf(azimuth_) + bytesOf(begin_) + points_.bytes();
-  }
-
- private:
-  int ringSize(int ring) const { return begin_[ring + 1] - begin_[ring]; }
-
-  /// So many points further around the ring; -1 where that is the point itself.
-  int stepped(int place, int steps) const {
-    const int ring = ring_[place], size = ringSize(ring);
-    const int to = begin_[ring] + ((place - begin_[ring] + steps) % size + size) % size;
-    return to == place ? -1 : to;
-  }
-
-  double squaredDistance(int a, int b) const { return (points_.row(a) - points_.row(b)).squaredNorm(); }
-
-  double distanceTo(int a, int b) const {
-    return b < 0 ? std::numeric_limits<double>::infinity() : std::sqrt(squaredDistance(a, b));
-  }
-
-  /// As far as a star reaches where points are nowhere denser than across the rings, 1.4 spacings for 30 neighbours.
-  /// What lies beyond, above all on a sparse ring, is on the other side of a crease or jump more often than not.
-  static double ballRadius(int k, double spacing) { return std::sqrt(k / neighbors_per_spacing) * spacing; }
-
-  /// The larger of those that are finite; 0 without any.
-  static double larger(double a, double b) { return std::max(std::isfinite(a) ? a : 0, std::isfinite(b) ? b : 0); }
-
-  /// A point of the ring that is nearer to `self` than those around it, sought from the azimuth of `from`; -1 if there
-  /// is no such ring.
-  int footOn(int ring, int self, int from) const {
-    if (ring < 0 || ring + 1 >= static_cast<int>(begin_.size())) return -1;
-    const auto first = azimuth_.begin() + begin_[ring], last = azimuth_.begin() + begin_[ring + 1];
-    auto start = std::lower_bound(first, last, azimuth_[from]);
-    if (start == last) start = first;
-    int best = static_cast<int>(start - azimuth_.begin());
-    double nearest = squaredDistance(self, best);
-    for (int stride = std::min(first_stride, ringSize(ring) / 4 + 1); stride > 0; stride /= 2) {
-      for (const int step : {stride, -stride}) {
-        for (int tried = stepped(best, step); tried >= 0; tried = stepped(best, step)) {
-          const double distance = squaredDistance(self, tried);
-          if (!(distance < nearest)) break;
-          best = tried;
-          nearest = distance;
-        }
-      }
-    }
-    return best;
-  }
-
-  /// Adds the points of a ring around `foot` that lie in the ball around `self`.
-  void addRing(int self, int foot, double radius, Buffer<Neighbor>& found) const {
-    if (foot != self) found.push_back({squaredDistance(self, foot), rank_[foot]});
-    const double most = radius * radius;
-    const int size = ringSize(ring_[foot]);
-    for (const int side : {1, -1}) {
-      const int half = (side > 0 ? size : size - 1) / 2;  // the point opposite comes once
-      int misses = 0;
-      for (int steps = 1; steps <= half; steps = nextStep(steps)) {
-        const int place = stepped(foot, side * steps);
-        const double distance = squaredDistance(self, place);
-        if (distance <= most) {
-          misses = 0;
-          found.push_back({distance, rank_[place]});
-        } else if (++misses == most_misses) {
-          break;
-        }
-      }
-    }
-  }
-
-  /// Every point up to 16, then 24, 32, 48, 64, ...: two per octave.
-  static int nextStep(int steps) {
-    if (steps < dense_steps) return steps + 1;
-    const bool is_power = (steps & (steps - 1)) == 0;
-    return is_power ? steps + steps / 2 : steps + steps / 3;
-  }
-
-  Buffer<int> place_;       ///< of each rank in the order of rings and azimuths, -1: none
-  Buffer<int> rank_;        ///< the inverse
-  Buffer<int> ring_;        ///< by place
-  Buffer<double> azimuth_;  ///< by place
-  Buffer<int> begin_;       ///< first place of each ring; number of places at the end
-  PointBuffer points_;      ///< by place
-};
+/// Every point up to 16, then 24, 32, 48, 64, ...: two per octave.
+int nextStep(int steps) {
+  if (steps < dense_steps) return steps + 1;
+  const bool is_power = (steps & (steps - 1)) == 0;
+  return is_power ? steps + steps / 2 : steps + steps / 3;
+}
 
 }  // namespace
 
-std::unique_ptr<ScanSearch> ringSearch(const RankedScan& scan, const RankedCloud& cloud) {
-  return std::make_unique<RingSearch>(scan, cloud);
+RingSearch::RingSearch(const RankedScan& scan, const RankedCloud& cloud) : place_(scan.row.size(), -1) {
+  Buffer<int> order;
+  for (int p = 0; p < cloud.size(); ++p)
+    if (scan.row[p] >= 0) order.push_back(p);
+  std::sort(order.begin(), order.end(), [&scan](int a, int b) {
+    if (scan.row[a] != scan.row[b]) return scan.row[a] < scan.row[b];
+    return scan.position[a] != scan.position[b] ? scan.position[a] < scan.position[b] : a < b;
+  });
+  points_.resize(std::ssize(order));
+  azimuth_.resize(order.size());
+  ring_.resize(order.size());
+  for (int i = 0; i < static_cast<int>(order.size()); ++i) {
+    const int p = order[i];
+    if (i == 0 || scan.row[p] != scan.row[order[i - 1]]) begin_.push_back(i);
+    place_[p] = i;
+    points_.row(i) = cloud.points.row(p);
+    azimuth_[i] = scan.position[p];
+    ring_[i] = static_cast<int>(begin_.size()) - 1;
+  }
+  begin_.push_back(static_cast<int>(order.size()));
+  rank_ = std::move(order);
+}
+
+double RingSearch::nearest(int p, int k, Buffer<Neighbor>& found) const {
+  found.clear();
+  if (place_[p] < 0) return 0;
+  const int self = place_[p];
+  const int own = ring_[self];
+  const auto [above, below] = std::pair(footOn(own + 1, self, self), footOn(own - 1, self, self));
+  const double radius =
+      ballRadius(k, larger(std::min(distanceTo(self, above), distanceTo(self, below)),
+                           std::min(distanceTo(self, stepped(self, 1)), distanceTo(self, stepped(self, -1)))));
+  addRing(self, self, radius, found);
+  for (const int side : {1, -1}) {
+    int foot = side > 0 ? above : below;
+    for (int rings = 1; rings <= most_rings && distanceTo(self, foot) <= radius; ++rings) {
+      addRing(self, foot, radius, found);
+      foot = footOn(own + side * (rings + 1), self, foot);
+    }
+  }
+  std::sort(found.begin(), found.end());
+  return radius;
+}
+
+std::size_t RingSearch::bytes() const {
+  return bytesOf(place_) + bytesOf(rank_) + bytesOf(ring_) + bytesOf(azimuth_) + bytesOf(begin_) + points_.bytes();
+}
+
+int RingSearch::stepped(int place, int steps) const {
+  const int ring = ring_[place], size = ringSize(ring);
+  const int to = begin_[ring] + ((place - begin_[ring] + steps) % size + size) % size;
+  return to == place ? -1 : to;
+}
+
+double RingSearch::distanceTo(int a, int b) const {
+  return b < 0 ? std::numeric_limits<double>::infinity() : std::sqrt(squaredDistance(a, b));
+}
+
+int RingSearch::footOn(int ring, int self, int from) const {
+  if (ring < 0 || ring + 1 >= static_cast<int>(begin_.size())) return -1;
+  const auto first = azimuth_.begin() + begin_[ring], last = azimuth_.begin() + begin_[ring + 1];
+  auto start = std::lower_bound(first, last, azimuth_[from]);
+  if (start == last) start = first;
+  int best = static_cast<int>(start - azimuth_.begin());
+  double nearest = squaredDistance(self, best);
+  for (int stride = std::min(first_stride, ringSize(ring) / 4 + 1); stride > 0; stride /= 2) {
+    for (const int step : {stride, -stride}) {
+      for (int tried = stepped(best, step); tried >= 0; tried = stepped(best, step)) {
+        const double distance = squaredDistance(self, tried);
+        if (!(distance < nearest)) break;
+        best = tried;
+        nearest = distance;
+      }
+    }
+  }
+  return best;
+}
+
+void RingSearch::addRing(int self, int foot, double radius, Buffer<Neighbor>& found) const {
+  if (foot != self) found.push_back({squaredDistance(self, foot), rank_[foot]});
+  const double most = radius * radius;
+  const int size = ringSize(ring_[foot]);
+  for (const int side : {1, -1}) {
+    const int half = (side > 0 ? size : size - 1) / 2;  // the point opposite comes once
+    int misses = 0;
+    for (int steps = 1; steps <= half; steps = nextStep(steps)) {
+      const int place = stepped(foot, side * steps);
+      const double distance = squaredDistance(self, place);
+      if (distance <= most) {
+        misses = 0;
+        found.push_back({distance, rank_[place]});
+      } else if (++misses == most_misses) {
+        break;
+      }
+    }
+  }
 }
 
 }  // namespace tufted

@@ -1,4 +1,4 @@
-#include "neighbors/scan/scan_search.h"
+#include "neighbors/scan/ranked_scan.h"
 
 #include <algorithm>
 #include <cmath>
@@ -58,14 +58,6 @@ RankedScan rankScan(const ScanStructure& structure, const RankedCloud& cloud, co
     scan.position[p] = position;
   }
   return scan;
-}
-
-std::unique_ptr<ScanSearch> takeStructure(const ScanStructure& structure, const RankedCloud& cloud,
-                                          const std::vector<PointStatus>& status,
-                                          const std::vector<int>& representative, Report& report) {
-  const RankedScan scan = rankScan(structure, cloud, status, representative);
-  report.unplaced = std::count(scan.row.begin(), scan.row.end(), -1);
-  return structure.has_rings ? ringSearch(scan, cloud) : imageSearch(scan, cloud);
 }
 
 }  // namespace tufted

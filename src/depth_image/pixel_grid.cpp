@@ -1,0 +1,82 @@
+#include "depth_image/pixel_grid.h"
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <string>
+
+#include "tufted/errors.h"
+
+namespace tufted {
+namespace {
+
+constexpr std::int64_t most_pixels = 1 << 24;  // of an image that holds few points
+constexpr std::int64_t pixels_per_point = 64;
+
+/// The rows or the columns of an image that hold points, numbered without the empty ones.
+class Lines {
+ public:
+  void widen(std::int64_t line) {
+    first_ = std::min(first_, line);
+    end_ = std::max(end_, line + 1);
+  }
+  std::int64_t extent() const { return std::max<std::int64_t>(0, end_ - first_); }
+
+  void reserve() { number_.assign(static_cast<std::size_t>(extent()), 0); }
+  void hold(std::int64_t line) { number_[line - first_] = 1; }
+  /// Returns how many lines hold points.
+  int count() {
+    int held = 0;
+    for (int& line : number_) line = line == 0 ? -1 : held++;
+    return held;
+  }
+  int numberOf(std::int64_t line) const { return number_[line - first_]; }
+
+ private:
+  std::int64_t first_ = std::numeric_limits<std::int64_t>::max(), end_ = 0;
+  Buffer<int> number_;
+};
+
+}  // namespace
+
+PixelGrid pixelGrid(const RankedScan& scan) {
+  const int n = static_cast<int>(scan.row.size());
+  Lines rows, columns;
+  const auto forEachPlace = [&](const auto& visit) {
+    for (int p = 0; p < n; ++p)
+      if (scan.row[p] >= 0) visit(p, std::int64_t{scan.row[p]}, static_cast<std::int64_t>(scan.position[p]));
+  };
+  forEachPlace([&](int, std::int64_t row, std::int64_t column) {
+    rows.widen(row);
+    columns.widen(column);
+  });
+  // By what the caller gave: how many of the points are usable must not decide.
+  if (rows.extent() * columns.extent() > std::max(most_pixels, pixels_per_point * scan.entries)) {
+    throw InvalidInput("pointCloudLaplacian: structure has points in " + std::to_string(rows.extent()) + " rows of " +
+                       std::to_string(columns.extent()) + " columns, must be at most 64 pixels for each of its " +
+                       std::to_string(scan.entries) + " entries");
+  }
+  rows.reserve();
+  columns.reserve();
+  forEachPlace([&](int, std::int64_t row, std::int64_t column) {
+    rows.hold(row);
+    columns.hold(column);
+  });
+
+  PixelGrid grid;
+  grid.origin = scan.origin.transpose();
+  grid.rows = rows.count() + 2 * PixelGrid::margin;
+  grid.columns = columns.count() + 2 * PixelGrid::margin;
+  grid.rank.assign(static_cast<std::size_t>(grid.rows) * grid.columns, -1);
+  grid.pixel.assign(static_cast<std::size_t>(n), -1);
+  forEachPlace([&](int p, std::int64_t row, std::int64_t column) {
+    const std::int64_t pixel = std::int64_t{rows.numberOf(row) + PixelGrid::margin} * grid.columns +
+                               columns.numberOf(column) + PixelGrid::margin;
+    if (grid.rank[pixel] >= 0) return;  // ranks ascend: the first one stays
+    grid.rank[pixel] = p;
+    grid.pixel[p] = pixel;
+  });
+  return grid;
+}
+
+}  // namespace tufted

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+
+#include "base/buffer.h"
+#include "base/point_buffer.h"
+#include "depth_image/pixel_grid.h"
+#include "depth_image/surface_windows.h"
+#include "depth_image/window_pixels.h"
+#include "neighbors/neighbors.h"
+#include "stars/offsets.h"
+
+namespace tufted {
+
+/// A depth image and what was found in it. Borrowed.
+struct DepthImage {
+  const PixelGrid& grid;
+  PointsView points;
+  const SurfaceWindows& windows;
+  JumpTest test;
+
+  /// From p to q, both where they have been moved to.
+  Eigen::RowVector3d offset(int p, int q) const {
+    Eigen::RowVector3d d = points.row(q) - points.row(p);
+    if (windows.displacement.rows() > 0) d += windows.displacement.row(q) - windows.displacement.row(p);
+    return d;
+  }
+  bool isMoved(int p) const { return windows.displacement.rows() > 0 && !windows.displacement.row(p).isZero(0); }
+  bool isOneSurface(int a, int b, double most = JumpTest::steepest) const {
+    const double *const p = points.data() + 3 * std::ptrdiff_t{a}, *const q = points.data() + 3 * std::ptrdiff_t{b};
+    const double x = p[0] - q[0], y = p[1] - q[1], z = p[2] - q[2];
+    return test.joins(x * x + y * y + z * z, windows.range[a], windows.range[b], most);
+  }
+};
+
+/// The points of the surface around one point, ring by ring of its window.
+class PixelWindow {
+ public:
+  /// Takes the points of the first rings of SurfaceWindows.
+  void take(const DepthImage& image, int p, int rings);
+  /// Takes those of a larger window, found by the same rule.
+  void widen(const DepthImage& image, int p, int rings);
+
+  int rings() const { return rings_; }
+  int count() const { return static_cast<int>(neighbors_.size()); }
+  /// Ring by ring; distances between places that points have been moved to.
+  const Buffer<Neighbor>& neighbors() const { return neighbors_; }
+  const PixelStep& step(int i) const { return steps_[i]; }
+  /// From p to the points, where they have been moved to.
+  Offsets offsets() const { return offsets_.view(); }
+  /// Squared distance of the nearest point of the last ring; infinite where it holds none.
+  double nearestInLastRing() const;
+
+ private:
+  void measure(const DepthImage& image, int p);
+
+  Buffer<Neighbor> neighbors_;
+  Buffer<PixelStep> steps_;
+  int rings_ = 0, last_ring_ = 0;  ///< how many rings, and where the last one begins
+  OffsetBuffer offsets_;
+  Buffer<std::uint8_t> reached_;
+};
+
+}  // namespace tufted

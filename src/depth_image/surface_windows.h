@@ -1,0 +1,57 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "base/buffer.h"
+#include "base/parallel.h"
+#include "base/point_buffer.h"
+#include "depth_image/pixel_grid.h"
+#include "depth_image/window_pixels.h"
+
+namespace tufted {
+
+/// What a depth image shows around each point, by rank.
+struct SurfaceWindows {
+  /// n, the pixels of the window that hold points of the surface around p, see WindowPixels. They are those that steps
+  /// from pixel to pixel lead to, farther from p each, none of which goes along the line of sight. Pixels without a
+  /// point are stepped over, but where a pixel beside them knows better.
+  Buffer<std::uint64_t> around;
+  RawBuffer<double> range;   ///< n, from the sensor; not set where a point has no pixel
+  PointBuffer displacement;  ///< n x 3, along the ray, onto the surface; 0 x 3 without smoothing
+  std::int64_t cut = 0;      ///< points in windows that a jump of the surface leaves out
+  std::int64_t moved = 0;    ///< points whose displacement is not 0
+};
+
+/// @param noise see inverseRangeNoise()
+SurfaceWindows findSurfaceWindows(const PixelGrid& grid, const PointsView& points, double noise, bool smooths,
+                                  const Workers& workers);
+
+/// Whether a surface goes from one point to another near it in the image: the step between them does not go along the
+/// line of sight by more than noise. A step along the diagonal of pixels may go along the sight no more than one along
+/// a row, or it would find a way around each corner of a jump.
+struct JumpTest {
+  static constexpr double steepest = 143;  ///< squared tangent of 85 degrees: cameras see no steeper surface
+  static constexpr double deviations = 5;  ///< of the noise are no jump
+
+  explicit JumpTest(double noise) : tolerance(deviations * noise) {}
+
+  /// @param step in the image, not zero
+  static constexpr double steepestOf(const PixelStep& step) {
+    const double row = step.row, column = step.column;
+    const double longer = row * row > column * column ? row * row : column * column;
+    return steepest * longer / (row * row + column * column);
+  }
+
+  /// @param most the square of the tangent, see steepestOf()
+  bool joins(double squared_step, double range_a, double range_b, double most = steepest) const {
+    const double along = std::abs(range_a - range_b);
+    const double more = along - tolerance * range_a * range_b;
+    // Without branches, so that many are tested at once.
+    return (static_cast<int>(more <= 0) | static_cast<int>(more * more <= most * (squared_step - along * along))) != 0;
+  }
+
+  double tolerance;  ///< of inverse ranges
+};
+
+}  // namespace tufted

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+
+namespace tufted {
+
+/// A step from one pixel to another.
+struct PixelStep {
+  int row = 0, column = 0;
+};
+
+/// The pixels of a window around a pixel, itself left out, from the nearest in the image to the farthest: rings of 8,
+/// 16 and 24. A set of them is a word in which bit i stands for step i.
+struct WindowPixels {
+  static constexpr int reach = 3;   ///< rings
+  static constexpr int count = 48;  ///< pixels
+
+  static constexpr int side() { return 2 * reach + 1; }
+
+  std::array<PixelStep, count> step{};
+
+  static constexpr int inRings(int rings) { return (2 * rings + 1) * (2 * rings + 1) - 1; }
+  /// The set of all pixels of the first so many rings.
+  static constexpr std::uint64_t rings(int number) { return (std::uint64_t{1} << inRings(number)) - 1; }
+
+  constexpr WindowPixels() {
+    int size = 0;
+    for (int ring = 1; ring <= reach; ++ring) {
+      for (int square = 1; square <= 2 * reach * reach; ++square) {
+        for (int row = -ring; row <= ring; ++row) {
+          for (int column = -ring; column <= ring; ++column) {
+            const bool is_on_ring = row == ring || row == -ring || column == ring || column == -ring;
+            if (is_on_ring && row * row + column * column == square) step[size++] = {row, column};
+          }
+        }
+      }
+    }
+  }
+
+  /// The number of a step, which must be in the window.
+  constexpr int numberOf(const PixelStep& wanted) const {
+    int i = 0;
+    while (step[i].row != wanted.row || step[i].column != wanted.column) ++i;
+    return i;
+  }
+};
+
+inline constexpr WindowPixels window_pixels;
+
+/// Calls visit(i) for every bit of the set, ascending.
+template <class Visit>
+void forEachPixel(std::uint64_t set, const Visit& visit) {
+  for (; set != 0; set &= set - 1) visit(std::countr_zero(set));
+}
+
+}  // namespace tufted

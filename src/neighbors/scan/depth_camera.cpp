@@ -1,0 +1,82 @@
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "tufted/scan_structure.h"
+
+namespace tufted {
+namespace {
+
+constexpr std::int64_t samples = 2000;
+constexpr int least_side = 8;
+constexpr int least_samples = 100;
+constexpr double usual_error = 0.5;  // pixels, of half the samples
+constexpr double most_error = 2;     // of 95 % of them
+constexpr double most_share = 0.95;
+
+/// A pixel and the ray to the point that is in it.
+struct Sighting {
+  Eigen::Vector2d pixel;  ///< from -1 to 1
+  Eigen::Vector3d ray;    ///< unit length
+};
+
+std::vector<Sighting> takeSightings(const Points& points, int width, int height, const Eigen::Vector3d& origin) {
+  std::vector<Sighting> sightings;
+  const std::int64_t stride = std::max<std::int64_t>(1, points.rows() / samples) | 1;  // odd: not always one column
+  for (std::int64_t i = 0; i < points.rows(); i += stride) {
+    const Eigen::Vector3d ray = points.row(i).transpose() - origin;
+    if (!ray.allFinite() || ray.isZero(0)) continue;
+    const auto column = static_cast<double>(i % width), row = static_cast<double>(i / width);
+    sightings.push_back({{2 * column / (width - 1) - 1, 2 * row / (height - 1) - 1}, ray.stableNormalized()});
+  }
+  return sightings;
+}
+
+/// The camera that sees (x, y, 1) ~ camera ray, by least squares of the linear equations.
+Eigen::Matrix3d fitCamera(const std::vector<Sighting>& sightings) {
+  Eigen::Matrix<double, 9, 9> normal = Eigen::Matrix<double, 9, 9>::Zero();
+  for (const Sighting& sighting : sightings) {
+    for (int axis = 0; axis < 2; ++axis) {
+      Eigen::Matrix<double, 9, 1> equation = Eigen::Matrix<double, 9, 1>::Zero();
+      equation.segment<3>(3 * axis) = -sighting.ray;
+      equation.tail<3>() = sighting.pixel[axis] * sighting.ray;
+      normal.selfadjointView<Eigen::Lower>().rankUpdate(equation);
+    }
+  }
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix<double, 9, 9>> solver(normal);
+  const Eigen::Matrix<double, 9, 1> rows = solver.eigenvectors().col(0);
+  Eigen::Matrix3d camera;
+  camera << rows.head<3>().transpose(), rows.segment<3>(3).transpose(), rows.tail<3>().transpose();
+  return camera;
+}
+
+}  // namespace
+
+bool isDepthImage(const Points& points, int width, int height, const Eigen::Vector3d& origin) {
+  if (width < least_side || height < least_side || points.rows() != static_cast<Eigen::Index>(width) * height ||
+      !origin.allFinite())
+    return false;
+  const std::vector<Sighting> sightings = takeSightings(points, width, height, origin);
+  if (std::ssize(sightings) < least_samples) return false;
+  const Eigen::Matrix3d camera = fitCamera(sightings);
+  std::vector<double> errors;
+  std::int64_t before = 0;  // points in front of the camera, one way round
+  for (const Sighting& sighting : sightings) {
+    const Eigen::Vector3d seen = camera * sighting.ray;
+    before += seen.z() > 0 ? 1 : 0;
+    const Eigen::Vector2d error = seen.head<2>() / seen.z() - sighting.pixel;
+    const double pixels = std::max(std::abs(error.x()) * (width - 1), std::abs(error.y()) * (height - 1)) / 2;
+    errors.push_back(std::isfinite(pixels) ? pixels : HUGE_VAL);
+  }
+  const std::int64_t on_one_side = std::max(before, std::ssize(errors) - before);
+  std::sort(errors.begin(), errors.end());
+  const auto errorOf = [&](double share) {
+    return errors[static_cast<std::size_t>(share * static_cast<double>(errors.size() - 1))];
+  };
+  return static_cast<double>(on_one_side) >= most_share * static_cast<double>(errors.size()) &&
+         errorOf(0.5) <= usual_error && errorOf(most_share) <= most_error;
+}
+
+}  // namespace tufted

@@ -1,0 +1,54 @@
+#include "pipeline/cloud_surface.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "depth_image/image_boundary.h"
+#include "depth_image/image_stars.h"
+#include "neighbors/neighbor_source.h"
+#include "stars/boundary.h"
+
+namespace tufted {
+namespace {
+
+CloudSurface imageSurface(const RankedCloud& cloud, const CloudOptions& options, const std::vector<PointStatus>& status,
+                          const std::vector<int>& representative, const Workers& workers, StageClock& clock,
+                          Report& report) {
+  const PointBuffer normals = rankedNormals(options.normals, cloud, report);
+  report.neighbors = std::min(WindowPixels::count, std::max(0, cloud.size() - 1));
+  SurfaceImage surface = surfaceImage(*options.structure, cloud, options, status, representative, workers, report);
+  clock.finish("windows", surface.bytes());
+  const DepthImage image = surface.view(cloud.points);
+  BuiltStars built = buildImageStars(image, normals, options, workers, report);
+  clock.finish("stars", built.stars.bytes() + built.support.bytes());
+  built.stars.displacement = std::move(surface.windows.displacement);
+  const bool is_whole_cloud = cloud.size() <= WindowPixels::count + 1;
+  // Triangles are as large as they are between points on the surface.
+  PointBuffer moved;
+  if (built.stars.displacement.rows() > 0) {
+    moved.resize(cloud.size());
+    moved.all() = cloud.points.all() + built.stars.displacement.all();
+  }
+  const PointsView points = moved.rows() > 0 ? PointsView(moved) : PointsView(cloud.points);
+  CloudSurface result{filteredStars(std::move(built), is_whole_cloud, points, options, workers, report), {}};
+  clock.restart();
+  result.boundary = findImageBoundary(result.built.stars, image, workers);
+  return result;
+}
+
+}  // namespace
+
+CloudSurface findSurface(const RankedCloud& cloud, const CloudOptions& options, const Eigen::Vector3d* viewpoint,
+                         const std::vector<PointStatus>& status, const std::vector<int>& representative,
+                         const Workers& workers, StageClock& clock, Report& report) {
+  if (options.structure != nullptr && !options.structure->has_rings)
+    return imageSurface(cloud, options, status, representative, workers, clock, report);
+  const NeighborSource source = neighborSource(options, cloud, status, representative, workers, report);
+  clock.finish("tree", source.bytes());
+  CloudSurface result{surfaceStars(cloud, source, options, workers, report), {}};
+  clock.restart();
+  result.boundary = findBoundary(result.built, cloud, source, viewpoint, workers);
+  return result;
+}
+
+}  // namespace tufted

@@ -1,0 +1,148 @@
+// The noise of depth images, and how ranges get rid of it.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "depth_image/image.h"
+#include "depth_image/pixel_frame.h"
+#include "depth_image/range_fit.h"
+#include "shapes/random.h"
+#include "tufted/laplacian.h"
+
+namespace tufted {
+namespace {
+
+using namespace image_tests;
+
+/// Depths with noise of the inverse depth.
+Points noisy(const std::function<double(int, int)>& depth, double noise, int seed) {
+  shapes::Random random(seed);
+  return imageOf([&](int column, int row) { return 1 / (1 / depth(column, row) + noise * random.normal()); });
+}
+
+/// In units of the caller.
+double noiseOf(const Points& points) {
+  const Image image(points);
+  return std::ldexp(inverseRangeNoise(image.grid(), image.cloud().points), -image.cloud().exponent);
+}
+
+double slanted(int column, int row) {
+  return planeDepth(column, row, 0.3, -0.2);
+}
+
+double ball(int column, int row) {
+  const double u = (column - width / 2) / 100.0, v = (row - height / 2) / 100.0;
+  return 2 - std::sqrt(1 - u * u - v * v);
+}
+
+TEST(InverseRangeNoise, IsFoundOnSurfacesOfAnyShape) {
+  for (const auto& depth : {slanted, ball})
+    for (const double noise : {1e-4, 1e-3, 1e-2}) EXPECT_NEAR(noiseOf(noisy(depth, noise, 1)), noise, 0.1 * noise);
+}
+
+TEST(InverseRangeNoise, IsNotCurvature) {
+  for (const auto& depth : {slanted, ball}) EXPECT_LT(noiseOf(imageOf(depth)), 1e-7);
+}
+
+TEST(InverseRangeNoise, IsNotJumps) {
+  const auto stripes = [](int column, int row) { return column % 12 < 6 ? slanted(column, row) : 1.5; };
+  EXPECT_NEAR(noiseOf(noisy(stripes, 1e-3, 2)), 1e-3, 2e-4);
+  EXPECT_EQ(noiseOf(Points::Constant(width * height, 3, std::nan(""))), 0);
+}
+
+TEST(SmoothedInverseRange, KeepsQuadraticsAndTakesTheRest) {
+  std::array<double, 49> values{};
+  const auto fill = [&](double cubic) {
+    for (int i = -3; i <= 3; ++i)
+      for (int j = -3; j <= 3; ++j)
+        values[(i + 3) * 7 + j + 3] =
+            1 + 0.1 * i - 0.2 * j + 0.03 * i * j + 0.02 * i * i - 0.01 * j * j + cubic * (i * i * i + j);
+  };
+  fill(0);
+  values[24] += 0.01;  // the noise of the middle
+  const InverseRanges ranges{values.data() + 24, 7};
+  const auto smoothed = smoothedInverseRange(ranges, WindowPixels::rings(3), 0.01, 1e-6);
+  ASSERT_TRUE(smoothed);
+  EXPECT_NEAR(smoothed->inverse, 1, 0.01 * 0.16);  // its own weight
+  EXPECT_FALSE(smoothedInverseRange(ranges, WindowPixels::rings(3), 0.01, 1e6)) << "far less than the spacing";
+  EXPECT_FALSE(smoothedInverseRange(ranges, 0xF, 0.01, 1e-6)) << "few pixels";
+}
+
+double distanceFrom(const Points& points, const std::function<double(int, int)>& depth) {
+  double squares = 0;
+  for (int i = 0; i < points.rows(); ++i)
+    squares += std::pow(points(i, 2) / depth(i % width, i / width) - 1, 2) / static_cast<double>(points.rows());
+  return std::sqrt(squares);
+}
+
+TEST(ImageSmoothing, BringsPointsToTheSurfaceAlongTheirRays) {
+  for (const auto& depth : {slanted, ball}) {
+    for (const double noise : {1e-3, 1e-2}) {
+      const Points points = noisy(depth, noise, 3);
+      const ScanStructure structure = imageStructure(width, height);
+      CloudOptions options;
+      options.structure = &structure;
+      const Laplacian laplacian = pointCloudLaplacian(points, options);
+      EXPECT_GT(laplacian.report.denoised, 0.95 * width * height);
+      EXPECT_LT(distanceFrom(laplacian.positions, depth), (noise > 5e-3 ? 0.35 : 0.45) * distanceFrom(points, depth));
+      for (int i = 0; i < points.rows(); ++i) {
+        const Eigen::RowVector3d before = points.row(i).normalized(), after = laplacian.positions.row(i).normalized();
+        ASSERT_LT((before - after).norm(), 1e-14);
+      }
+    }
+  }
+}
+
+TEST(ImageSmoothing, LeavesExactPointsBitForBit) {
+  for (const auto& depth : {slanted, ball}) {
+    const Points points = imageOf(depth);
+    const ScanStructure structure = imageStructure(width, height);
+    CloudOptions options;
+    options.structure = &structure;
+    const Laplacian laplacian = pointCloudLaplacian(points, options);
+    EXPECT_EQ(laplacian.report.denoised, 0);
+    EXPECT_EQ(laplacian.positions, points);
+  }
+}
+
+TEST(PixelFrame, IsExactOnPlanesAndFacesTheSensor) {
+  const Points points = imageOf([](int column, int row) { return planeDepth(column, row, 0.7, -0.4); });
+  const Image image(points);
+  const Eigen::Vector3d normal = Eigen::Vector3d(-0.7, 0.4, 1).normalized();  // 1 / z = 1 - 0.7 u + 0.4 v
+  PixelWindow window;
+  for (int p = 0; p < image.cloud().size(); ++p) {
+    window.take(image.view(), p, 2);
+    const auto frame = fitFrame(image.view(), window, p);
+    ASSERT_TRUE(frame);
+    EXPECT_LT(frame->normal.dot(points.row(image.pointOf(p))), 0);
+    EXPECT_NEAR(std::abs(frame->normal.dot(normal)), 1, 1e-12);
+    EXPECT_TRUE(frame->is_flat);
+  }
+}
+
+TEST(PixelFrame, OfPixelsOnOneLineIsNone) {
+  const Image image(
+      imageOf([](int column, int row) { return row == 7 ? planeDepth(column, row, 0.1, 0) : std::nan(""); }));
+  PixelWindow window;
+  for (int p = 0; p < image.cloud().size(); ++p) {
+    window.take(image.view(), p, 3);
+    EXPECT_FALSE(fitFrame(image.view(), window, p));
+  }
+}
+
+TEST(PixelFrame, IsNotTurnedByNoiseLargerThanThePixels) {
+  // Noise of 2 pixels along the sight: principal axes of 25 points would point anywhere.
+  const Points points = noisy(slanted, 0.02, 4);
+  const Image image(points, 0.02 * std::ldexp(1.0, Image(points).cloud().exponent), true);
+  const Eigen::Vector3d normal = Eigen::Vector3d(-0.3, 0.2, 1).normalized();
+  Eigen::Vector3d mean = Eigen::Vector3d::Zero();
+  PixelWindow window;
+  for (int p = 0; p < image.cloud().size(); ++p) {
+    window.take(image.view(), p, 2);
+    if (const auto frame = fitFrame(image.view(), window, p)) mean += frame->normal;
+  }
+  EXPECT_GT(std::abs(mean.normalized().dot(normal)), std::cos(0.05));
+}
+
+}  // namespace
+}  // namespace tufted
