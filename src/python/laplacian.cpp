@@ -117,6 +117,9 @@ void addLaplacian(py::module_& module) {
   module.def("build_cloud", &buildCloud);
   module.def("build_mesh", &buildMesh);
   module.def("image_structure", &imageStructure);
+  module.def("is_depth_image", [](const Doubles& points, int width, int height, const Eigen::Vector3d& origin) {
+    return isDepthImage(pointsOf(points), width, height, origin);
+  });
   module.def("ring_structure", [](const Doubles& points, const Integers& rings, const Eigen::Vector3d& origin) {
     return ringStructure(pointsOf(points), indicesOf(rings), origin);
   });

@@ -78,7 +78,7 @@ TEST_F(Words, AMisspeltValueIsNamedWithTheNearest) {
   };
   expectValue("--preset", "scna", "is none of clean|lidar|scan; did you mean `scan`?");
   expectValue("--sign", "igll", "is none of igl|psd; did you mean `igl`?");
-  expectValue("--structure", "Rings", "is none of image|none|rings; did you mean `rings`?");
+  expectValue("--structure", "Rings", "is none of automatic|image|none|rings; did you mean `rings`?");
   expectValue("--gluing", "tape", "is none of star|vertex-pair");
   expectValue("--as", "clod", "is none of cloud|mesh; did you mean `cloud`?");
   expectValue("--format", "spmta", "is none of cover|mat|mtx|npz|pcd|ply|spmat|triangles|none; did you mean `spmat`?");

@@ -31,14 +31,14 @@ void refuseCloudOptions(const Input& input, const std::vector<const CLI::Option*
 }  // namespace
 
 void addBuildOptions(CLI::App& command, Build& build) {
+  build.neighbors = addNumber(command, "--neighbors", build.cloud.neighbors, 3, std::numeric_limits<int>::max(),
+                              "Neighbours per point, clouds only (30)")
+                        ->type_name("K");
   build.cloud_only.insert(
       build.cloud_only.end(),
-      {addNumber(command, "--neighbors", build.cloud.neighbors, 3, std::numeric_limits<int>::max(),
-                 "Neighbours per point, clouds only (30)")
-           ->type_name("K"),
-       addChoice(command, "--preset", build.preset, presets, "Kind of cloud, clouds only (scan)"),
+      {build.neighbors, addChoice(command, "--preset", build.preset, presets, "Kind of cloud, clouds only (scan)"),
        addChoice(command, "--structure", build.structure, structures,
-                 "Neighbours by the scan's own structure, clouds only (none)"),
+                 "Neighbours by the scan's own structure, clouds only (automatic)"),
        command.add_flag("--normals", build.normals,
                         "Use the file's normals for the tangent planes, not those of the PCA; clouds only"),
        command.add_flag("--denoise", build.denoise,
@@ -69,6 +69,11 @@ tufted::Laplacian buildLaplacian(const tufted::Geometry& geometry, const Input& 
       throw tufted::IoError(input.name() + ": has no normals, which --normals asks for");
     build.cloud.normals = &geometry.normals;
   }
+  if (build.structure == Structure::automatic) {
+    // Who names neighbours, moves points first or has rings wants a search.
+    const bool may_be_image = build.neighbors->count() == 0 && !build.denoise && build.preset != tufted::Preset::lidar;
+    build.structure = may_be_image ? structureFor(geometry) : Structure::none;
+  }
   build.scan = structureOf(geometry, build.structure, input.name());
   if (build.scan) build.cloud.structure = &*build.scan;
   build.cloud.steps = tufted::cloudSteps(build.preset);
@@ -94,6 +99,9 @@ tufted::Laplacian buildLaplacian(const tufted::Geometry& geometry, const Input& 
 }
 
 void addBuild(const tufted::Report& report, const Build& build, Summary& summary) {
+  if (build.structure == Structure::image)
+    summary.add("structure", "depth image, %lld points moved along their rays",
+                static_cast<long long>(report.denoised));
   if (build.denoised)
     summary.add("denoised", "%lld points, noise %.4g", static_cast<long long>(build.denoised->moved),
                 build.denoised->noise);

@@ -17,9 +17,9 @@
 struct Build {
   bool normals = false;  ///< whether to use the normals of the file
   tufted::Preset preset = tufted::Preset::scan;
-  Structure structure = Structure::none;
-  bool denoise = false;           ///< whether the points are moved onto the surface first
-  std::optional<double> mollify;  ///< if empty, the default of clouds or of meshes
+  Structure structure = Structure::automatic;  ///< that which was used, in the end
+  bool denoise = false;                        ///< whether the points are moved onto the surface first
+  std::optional<double> mollify;               ///< if empty, the default of clouds or of meshes
 
   /// The options that were used in the end; they borrow from the members below and from the geometry.
   tufted::CloudOptions cloud;
@@ -29,6 +29,7 @@ struct Build {
   Eigen::Vector3d viewpoint = Eigen::Vector3d::Zero();
   std::optional<tufted::DenoiseReport> denoised;  ///< what was done, if it was
 
+  const CLI::Option* neighbors = nullptr;      ///< --neighbors
   std::vector<const CLI::Option*> cloud_only;  ///< options that have no meaning for a mesh
 };
 
@@ -44,6 +45,6 @@ void addRareBuildOptions(CLI::App& command, Build& build);
 tufted::Laplacian buildLaplacian(const tufted::Geometry& geometry, const Input& input, Build& build, bool keep_cover,
                                  const tufted::Progress& progress);
 
-/// Tells how many points were moved onto the surface, if any; and how many neighbours were used, if the cloud has fewer
-/// than were asked for.
+/// Tells that the points are a depth image, if the build made use of it; how many points were moved onto the surface,
+/// if any; and how many neighbours were used, if the cloud has fewer than were asked for.
 void addBuild(const tufted::Report& report, const Build& build, Summary& summary);

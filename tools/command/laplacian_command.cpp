@@ -55,7 +55,11 @@ Presets of clouds:
   lidar  the same from a spinning scanner, whose rings would be taken for sheets
 
 Structures of scans:
-  image  the neighbours are pixels around the point, none behind a depth jump; the cloud must be organized (PCD)
+  automatic  image for an organized cloud that a pinhole camera saw from the file's viewpoint, unless --neighbors,
+             --denoise or --preset lidar is given; else none
+  none   the nearest points in space
+  image  the pixels around the point, none behind a depth jump; noise is smoothed along the rays of the camera, however
+         strong it is. The cloud must be organized (PCD, or PLY with obj_info num_cols)
   rings  they lie on the rings beside the point, however far apart those are: by the field `ring`, or else by the
          elevations seen from the file's viewpoint, which must show rings; and by the field `azimuth` in radians,
          degrees or hundredths of degrees (the first whose turn, 6.28, 360 or 36000, holds all values), or else by the

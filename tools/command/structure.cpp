@@ -3,6 +3,13 @@
 #include "tufted/errors.h"
 #include "tufted/io/rings.h"
 
+Structure structureFor(const tufted::Geometry& geometry) {
+  const Eigen::Vector3d origin(geometry.viewpoint[0], geometry.viewpoint[1], geometry.viewpoint[2]);
+  const bool is_seen = !geometry.is_mesh && geometry.height > 1 &&
+                       tufted::isDepthImage(geometry.points, geometry.width, geometry.height, origin);
+  return is_seen ? Structure::image : Structure::none;
+}
+
 std::optional<tufted::ScanStructure> structureOf(const tufted::Geometry& geometry, Structure structure,
                                                  const std::string& name) {
   if (structure == Structure::none) return std::nullopt;

@@ -147,13 +147,14 @@ def _set_geometry(surface, geometry, source):
     return surface
 
 
-def read(path, *, kind="automatic", weld=False, image=False, rings=None, normals=False, progress=None, **options):
+def read(path, *, kind="automatic", weld=False, image=None, rings=None, normals=False, progress=None, **options):
     """Reads a cloud or a mesh from a file and builds its Laplacian, as `tufted laplacian` does.
 
     path: PCD, PLY, LAS, text in columns, NPY, OBJ, OFF or STL.
     kind: "automatic", "cloud" (faces are ignored) or "mesh" (a file without faces is an error).
     weld: whether vertices of a mesh that coincide get one number.
-    image: whether the rows of an organized cloud give the neighbours.
+    image: whether the pixels of an organized cloud give the neighbours; None: where a pinhole camera saw it from the
+    file's viewpoint, unless neighbors, neighborhoods, rings or preset="lidar" is given.
     rings: True: the rings of a spinning scanner give the neighbours, by the file's fields `ring` and `azimuth`, or for
     either that it lacks by the directions seen from its viewpoint. Otherwise as in PointCloud.
     normals: whether the file's normals are used for the tangent planes.
@@ -170,6 +171,11 @@ def read(path, *, kind="automatic", weld=False, image=False, rings=None, normals
     position = np.array(geometry.viewpoint[:3])
     if geometry.height > 1 or position.any():
         options.setdefault("viewpoint", position)
+    if image is None:
+        wants_search = has_rings or options.get("preset") == "lidar" or not options.keys().isdisjoint(
+            ("neighbors", "neighborhoods", "image"))
+        image = not wants_search and geometry.height > 1 and _tufted.is_depth_image(
+            geometry.points, geometry.width, geometry.height, position)
     if image:
         if geometry.height <= 1:
             raise _tufted.IoError(f"{path}: is one row of points, no organized cloud, which image=True asks for")
