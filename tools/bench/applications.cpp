@@ -70,13 +70,24 @@ void printGreen() {
 }  // namespace
 
 int main(int argc, char** argv) {
-  const std::map<std::string, void (*)()> tables = {
-      {"meshes", bench::printMeshes},       {"paths", bench::printPaths}, {"nonmanifold", bench::printNonmanifold},
-      {"sphere", bench::printSphere},       {"torus", bench::printTorus}, {"symmetry", bench::printSymmetry},
-      {"query", bench::printQuery},         {"obtuse", printObtuse},      {"green", printGreen},
-      {"maps", bench::printMaps},           {"disks", bench::printDisks}, {"minimal", bench::printMinimal},
-      {"smoothing", bench::printSmoothing}, {"noise", bench::printNoise}, {"handles", bench::printHandles},
-      {"weights", bench::printWeights}};
+  const std::map<std::string, void (*)()> tables = {{"meshes", bench::printMeshes},
+                                                    {"paths", bench::printPaths},
+                                                    {"nonmanifold", bench::printNonmanifold},
+                                                    {"sphere", bench::printSphere},
+                                                    {"torus", bench::printTorus},
+                                                    {"symmetry", bench::printSymmetry},
+                                                    {"query", bench::printQuery},
+                                                    {"obtuse", printObtuse},
+                                                    {"green", printGreen},
+                                                    {"maps", bench::printMaps},
+                                                    {"disks", bench::printDisks},
+                                                    {"minimal", bench::printMinimal},
+                                                    {"smoothing", bench::printSmoothing},
+                                                    {"noise", bench::printNoise},
+                                                    {"handles", bench::printHandles},
+                                                    {"weights", bench::printWeights},
+                                                    {"depth", bench::printDepthImages},
+                                                    {"frames", bench::printDepthImageSpeed}};
   CLI::App app("Tables of distances, interpolation, Green's functions, maps and moved points against what is exact.");
   std::vector<std::string> names;
   std::vector<std::string> known;

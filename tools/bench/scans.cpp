@@ -21,7 +21,7 @@ const std::vector<Variant>& variants() {
   static const std::vector<Variant> all{{"core", cloudOptions(Preset::clean)},
                                         {"scan", cloudOptions(Preset::scan)},
                                         {"lidar", cloudOptions(Preset::lidar)},
-                                        {"image", cloudOptions(Preset::clean), Neighbors::image},
+                                        {"image", cloudOptions(Preset::scan), Neighbors::image},
                                         {"rings", cloudOptions(Preset::lidar), Neighbors::rings}};
   return all;
 }

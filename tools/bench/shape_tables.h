@@ -4,12 +4,14 @@
 
 namespace tufted::bench {
 
-void printMaps();       ///< conformal maps of half spheres and planes
-void printDisks();      ///< harmonic maps of CGAL's meshes that are disks
-void printMinimal();    ///< the catenoid
-void printSmoothing();  ///< a noisy sphere
-void printNoise();      ///< points moved out of noise
-void printHandles();    ///< edits of well and of badly triangulated solids, and of boolean results
+void printMaps();             ///< conformal maps of half spheres and planes
+void printDisks();            ///< harmonic maps of CGAL's meshes that are disks
+void printMinimal();          ///< the catenoid
+void printSmoothing();        ///< a noisy sphere
+void printNoise();            ///< points moved out of noise
+void printDepthImages();      ///< depth images by their pixels and by the tree
+void printDepthImageSpeed();  ///< what they cost
+void printHandles();          ///< edits of well and of badly triangulated solids, and of boolean results
 
 void printWeights();  ///< bounded weights on slivers
 

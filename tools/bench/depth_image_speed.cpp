@@ -1,0 +1,96 @@
+// What the build of a depth image costs, stage by stage, beside the tree's and PCL's normals.
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "base/stage_clock.h"
+#include "bench/pcl_normals.h"
+#include "bench/shape_tables.h"
+#include "shapes/shapes.h"
+#include "tufted/io/read.h"
+#include "tufted/laplacian_builder.h"
+
+namespace tufted::bench {
+namespace {
+
+constexpr int frames = 5;
+
+struct Image {
+  std::string name;
+  Points points;
+  int width, height;
+
+  double finite() const { return static_cast<double>((points.rowwise().sum().array().isFinite()).count()); }
+};
+
+std::vector<Image> images() {
+  std::vector<Image> images;
+  const std::filesystem::path folder = std::filesystem::path(TUFTED_DATA_DIR) / "clouds";
+  for (const char* name : {"mosd_learn0", "mosd_learn1", "milk_cartoon_all_small_clorox", "five_people", "office1"}) {
+    const auto path = folder / (std::string(name) + ".pcd");
+    if (!std::filesystem::exists(path)) continue;
+    const Geometry geometry = read(path);
+    images.push_back({name, geometry.points, geometry.width, geometry.height});
+  }
+  const shapes::Cloud camera = shapes::depthCamera({}, 101);
+  images.push_back({"simulated room", camera.points, camera.width, camera.height});
+  return images;
+}
+
+/// The report of the fastest of some frames that one builder makes, and its seconds.
+struct Frame {
+  Report report;
+  double seconds = HUGE_VAL;
+};
+
+Frame fastestFrame(const Image& image, bool by_pixels, int threads) {
+  const ScanStructure structure = imageStructure(image.width, image.height);
+  CloudOptions options;
+  options.threads = threads;
+  options.keep_cover = false;
+  if (by_pixels) options.structure = &structure;
+  LaplacianBuilder builder;
+  Frame fastest;
+  for (int i = 0; i < frames; ++i) {
+    const Stopwatch watch;
+    const Laplacian& laplacian = builder.pointCloud(image.points, options);
+    const double seconds = watch.seconds();
+    if (seconds < fastest.seconds) fastest = {laplacian.report, seconds};
+  }
+  return fastest;
+}
+
+}  // namespace
+
+void printDepthImageSpeed() {
+  std::printf(
+      "| image, points | by | us per point, one thread: stages | in all | frames a second, one and two threads | "
+      "us: pcl::NormalEstimation, IntegralImageNormalEstimation |\n|---|---|---|---|---|---|\n");
+  for (const Image& image : images()) {
+    const double us = 1e6 / image.finite();
+#ifdef TUFTED_BENCH_PCL
+    const NormalSeconds pcl = pclNormalSeconds(image.points, image.width, image.height);
+#else
+    const NormalSeconds pcl{NAN, NAN};
+#endif
+    for (const bool by_pixels : {false, true}) {
+      const Frame one = fastestFrame(image, by_pixels, 1), two = fastestFrame(image, by_pixels, 2);
+      std::string stages;
+      for (const StageCost& stage : one.report.stages) {
+        char text[80];
+        std::snprintf(text, sizeof text, "%s%s %.2f", stages.empty() ? "" : ", ", stage.name.c_str(),
+                      us * stage.seconds);
+        if (us * stage.seconds >= 0.005) stages += text;
+      }
+      std::printf("| %s, %.0f | %s | %s | %.2f | %.1f, %.1f | %.2f, %.2f |\n", image.name.c_str(), image.finite(),
+                  by_pixels ? "pixels" : "tree", stages.c_str(), us * one.seconds, 1 / one.seconds, 1 / two.seconds,
+                  us * pcl.by_neighbors, us * pcl.by_integrals);
+      std::fflush(stdout);
+    }
+  }
+}
+
+}  // namespace tufted::bench
