@@ -42,7 +42,7 @@ constexpr double noisy_confidence = 10;
 
 /// A fit, with lengths in the caller's unit.
 struct Window {
-  HeightFit fit;
+  SurfaceFit fit;
   double radius;
   int rings;
 };
@@ -129,7 +129,7 @@ class Fitter {
       const Eigen::RowVector3d offset = (positions_.row(q) - center) / radius;
       samples_.push_back({offset.dot(x), offset.dot(y), offset.dot(normal)});
     }
-    const std::optional<HeightFit> fit = fitHeights(samples_);
+    const std::optional<SurfaceFit> fit = fitHeights(samples_);
     return fit ? std::optional(Window{*fit, radius, rings_.count()}) : std::nullopt;
   }
 

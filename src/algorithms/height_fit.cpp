@@ -28,7 +28,7 @@ double weightOf(const HeightSample& s) {
 
 }  // namespace
 
-std::optional<HeightFit> fitHeights(std::span<const HeightSample> samples) {
+std::optional<SurfaceFit> fitHeights(std::span<const HeightSample> samples) {
   Matrix6 normal = Matrix6::Zero(), squared = Matrix6::Zero();
   Vector6 right = Vector6::Zero();
   double weights = 0;
@@ -43,7 +43,7 @@ std::optional<HeightFit> fitHeights(std::span<const HeightSample> samples) {
   const Eigen::LDLT<Matrix6> factor(normal);
   const Vector6 pivots = factor.vectorD();
   if (!(pivots.minCoeff() > least_pivot * pivots.maxCoeff())) return std::nullopt;
-  HeightFit fit;
+  SurfaceFit fit;
   fit.coefficients = factor.solve(right);
   double left = 0;
   for (const HeightSample& s : samples) {

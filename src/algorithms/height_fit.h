@@ -17,7 +17,7 @@ struct HeightSample {
 ///
 /// Where a is 0, the curvatures at the origin are the eigenvalues of -(d, e; e, f) / sqrt(1 + b^2 + c^2), positive
 /// where the surface falls on all sides.
-struct HeightFit {
+struct SurfaceFit {
   Eigen::Matrix<double, 6, 1> coefficients;
   Eigen::Vector3d deviation;  ///< standard deviations of d, e, f for independent errors of the heights of 1
   double error;               ///< standard deviation of the heights, from what the fit leaves over
@@ -25,6 +25,6 @@ struct HeightFit {
 
 /// Fits heights by weighted least squares. The weight (1 - u^2 - v^2 - h^2)^2 falls to 0 at the radius 1.
 /// @return nothing where the samples lie on a line or a conic, so that the fit is not determined
-std::optional<HeightFit> fitHeights(std::span<const HeightSample> samples);
+std::optional<SurfaceFit> fitHeights(std::span<const HeightSample> samples);
 
 }  // namespace tufted

@@ -23,13 +23,14 @@ struct Side {
 };
 
 /// Triangles that an inner edge joins to one.
-struct Neighbor {
+struct AdjacentTriangle {
   int triangle = -1;
   bool agrees = true;  ///< whether both run the edge in opposite directions
 };
 
 /// The neighbours across each side.
-std::vector<std::array<Neighbor, 3>> neighborsOf(const std::vector<Corners>& triangles, TriangleReport& report) {
+std::vector<std::array<AdjacentTriangle, 3>> neighborsOf(const std::vector<Corners>& triangles,
+                                                         TriangleReport& report) {
   std::vector<Side> sides;
   sides.reserve(3 * triangles.size());
   for (std::size_t t = 0; t < triangles.size(); ++t) {
@@ -41,9 +42,9 @@ std::vector<std::array<Neighbor, 3>> neighborsOf(const std::vector<Corners>& tri
   std::sort(sides.begin(), sides.end(), [](const Side& a, const Side& b) {
     return std::tie(a.low, a.high, a.triangle) < std::tie(b.low, b.high, b.triangle);
   });
-  std::vector<std::array<Neighbor, 3>> neighbors(triangles.size());
+  std::vector<std::array<AdjacentTriangle, 3>> neighbors(triangles.size());
   const auto join = [&](const Side& from, const Side& to) {
-    for (Neighbor& place : neighbors[from.triangle]) {
+    for (AdjacentTriangle& place : neighbors[from.triangle]) {
       if (place.triangle >= 0) continue;
       place = {to.triangle, from.ascends != to.ascends};
       return;
@@ -100,7 +101,7 @@ bool isInsideOut(const Laplacian& laplacian, const std::vector<Corners>& triangl
 }  // namespace
 
 void orientTriangles(const Laplacian& laplacian, std::vector<Corners>& triangles, TriangleReport& report) {
-  const std::vector<std::array<Neighbor, 3>> neighbors = neighborsOf(triangles, report);
+  const std::vector<std::array<AdjacentTriangle, 3>> neighbors = neighborsOf(triangles, report);
   const auto turn = [](Corners& corners) { std::swap(corners[1], corners[2]); };
   std::vector<std::uint8_t> seen(triangles.size(), 0), turned(triangles.size(), 0);
   std::vector<int> component;
@@ -111,7 +112,7 @@ void orientTriangles(const Laplacian& laplacian, std::vector<Corners>& triangles
     component.assign(1, static_cast<int>(first));
     for (std::size_t k = 0; k < component.size(); ++k) {
       const int t = component[k];
-      for (const Neighbor& neighbor : neighbors[t]) {
+      for (const AdjacentTriangle& neighbor : neighbors[t]) {
         if (neighbor.triangle < 0) continue;
         const std::uint8_t wanted = turned[t] ^ (neighbor.agrees ? 0 : 1);
         if (seen[neighbor.triangle] != 0) {

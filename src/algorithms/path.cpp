@@ -30,7 +30,7 @@ constexpr double least_gain = 1e-13;
 /// Shortenings between two calls of `progress`.
 constexpr int between_reports = 64;
 
-using Segments = std::list<Segment>;
+using SegmentList = std::list<Segment>;
 
 template <class Pieces>
 double lengthOf(const Pieces& pieces) {
@@ -41,7 +41,7 @@ double lengthOf(const Pieces& pieces) {
 
 /// Leads a path around points while that makes it shorter.
 /// @returns how often
-int shorten(const MarchFaces& faces, Segments& path, const Workers& workers) {
+int shorten(const MarchFaces& faces, SegmentList& path, const Workers& workers) {
   int count = 0;
   auto after = path.begin();
   if (after != path.end()) ++after;
@@ -73,7 +73,7 @@ struct PathSolver::State {
 
   int checked(const char* name, int point) const;
   std::vector<Strip> firstPath(int from, int to, const Workers& workers) const;
-  Points pointsOf(const Segments& path, int from) const;
+  Points pointsOf(const SegmentList& path, int from) const;
   SurfacePath straightened(int from, int to, const Workers& workers) const;
 };
 
@@ -117,7 +117,7 @@ std::vector<Strip> PathSolver::State::firstPath(int from, int to, const Workers&
   return strips.empty() ? stripsAlongEdges(faces, from, to) : strips;
 }
 
-Points PathSolver::State::pointsOf(const Segments& path, int from) const {
+Points PathSolver::State::pointsOf(const SegmentList& path, int from) const {
   std::vector<Eigen::RowVector3d> found = {positions.row(from)};
   for (const Segment& segment : path) {
     for (std::size_t d = 0; d < segment.crossings.size(); ++d) {
@@ -137,7 +137,7 @@ Points PathSolver::State::pointsOf(const Segments& path, int from) const {
 
 /// The shortest path of those that are near the one from `from` down the distance to `to`.
 SurfacePath PathSolver::State::straightened(int from, int to, const Workers& workers) const {
-  Segments path;
+  SegmentList path;
   for (const Strip& strip : firstPath(from, to, workers)) {
     std::vector<Segment> segments = straighten(faces, strip);
     path.insert(path.end(), std::make_move_iterator(segments.begin()), std::make_move_iterator(segments.end()));

@@ -11,9 +11,9 @@
 #include <vector>
 
 #include "algorithms/check_frames.h"
+#include "algorithms/growing_surface.h"
 #include "algorithms/orient_triangles.h"
 #include "algorithms/triangle_candidates.h"
-#include "algorithms/triangle_fans.h"
 #include "base/parallel.h"
 #include "base/stage_clock.h"
 #include "tufted/errors.h"
@@ -41,7 +41,7 @@ std::vector<int> roomFor(const std::vector<TriangleCandidate>& candidates, Eigen
 
 /// Takes triangles in the order of how sure they are: first those of two or three stars, then those of one star, which
 /// are taken where they close a gap between two or three open edges.
-void takeCandidates(std::vector<TriangleCandidate> candidates, const Workers& workers, TriangleFans& fans) {
+void takeCandidates(std::vector<TriangleCandidate> candidates, const Workers& workers, GrowingSurface& fans) {
   std::sort(candidates.begin(), candidates.end(), [](const TriangleCandidate& a, const TriangleCandidate& b) {
     return std::tie(b.faces, a.radius, a.corners) < std::tie(a.faces, b.radius, b.corners);
   });
@@ -72,7 +72,7 @@ void takeCandidates(std::vector<TriangleCandidate> candidates, const Workers& wo
 /// Closes holes of three and four edges.
 class HoleFiller {
  public:
-  HoleFiller(const std::vector<TriangleCandidate>& candidates, const Points& positions, TriangleFans& fans)
+  HoleFiller(const std::vector<TriangleCandidate>& candidates, const Points& positions, GrowingSurface& fans)
       : candidates_(candidates), positions_(positions), fans_(fans) {}
 
   /// @returns how many triangles it has added
@@ -140,7 +140,7 @@ class HoleFiller {
 
   const std::vector<TriangleCandidate>& candidates_;
   const Points& positions_;
-  TriangleFans& fans_;
+  GrowingSurface& fans_;
   std::vector<int> open_;
 };
 
@@ -168,7 +168,7 @@ Triangles surfaceTriangles(const Laplacian& laplacian, const TriangleOptions& op
   const Workers workers(1, options.progress);
   TriangleReport made;
   const std::vector<TriangleCandidate> candidates = triangleCandidates(laplacian.cover(), laplacian.positions);
-  TriangleFans fans(laplacian.frames, laplacian.positions, roomFor(candidates, laplacian.positions.rows()));
+  GrowingSurface fans(laplacian.frames, laplacian.positions, roomFor(candidates, laplacian.positions.rows()));
   takeCandidates(candidates, workers, fans);
   made.filled = HoleFiller(candidates, laplacian.positions, fans).fill();
   for (int p = 0; p < static_cast<int>(laplacian.positions.rows()); ++p)

@@ -90,16 +90,12 @@ TEST(Applications, HarmonicFunctionsStayWithinTheirPinsOnRealData) {
       }
       ASSERT_FALSE(active.empty()) << entry.path();
       shapes::Random random(static_cast<std::uint64_t>(++files));
-      for (const int count : {3, 100}) {
-        Pins pins{{}, Eigen::MatrixXd(count, 2)};
-        for (int k = 0; k < count; ++k) {
-          pins.points.push_back(
-              active[static_cast<std::size_t>(random.uniform(0, static_cast<double>(active.size())))]);
-        }
-        for (double& value : pins.values.reshaped()) value = random.uniform(-1, 3);
-        EXPECT_LE(support::overshoot(laplacian, harmonic(laplacian, pins), pins), 1e-12)
-            << entry.path() << " " << count;
-      }
+      const int count = files % 2 == 0 ? 3 : 100;
+      Pins pins{{}, Eigen::MatrixXd(count, 2)};
+      for (int k = 0; k < count; ++k)
+        pins.points.push_back(active[static_cast<std::size_t>(random.uniform(0, static_cast<double>(active.size())))]);
+      for (double& value : pins.values.reshaped()) value = random.uniform(-1, 3);
+      EXPECT_LE(support::overshoot(laplacian, harmonic(laplacian, pins), pins), 1e-12) << entry.path() << " " << count;
     }
   }
   if (files == 0) GTEST_SKIP() << "no folder " << TUFTED_DATA_DIR;

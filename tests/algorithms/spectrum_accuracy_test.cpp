@@ -48,21 +48,23 @@ double orderOf(const std::vector<int>& sizes, const std::vector<double>& errors)
 }
 
 TEST(Convergence, OfEigenvaluesAndPoissonIsOfFirstOrderInThePoints) {
-  // Random points, three samples a size. Poisson: relative error in L2.
+  // Random points, three samples a size, one of the largest. Poisson: relative error in L2.
   const std::vector<int> sizes = {1000, 4000, 16000, 64000};
   std::vector<double> eigenvalues, poisson;
   for (const int n : sizes) {
+    const int samples = n == sizes.back() ? 1 : 3;
     double eigenvalue_error = 0, poisson_error = 0;
-    for (const std::uint64_t seed : {1, 2, 3}) {
+    for (int seed = 1; seed <= samples; ++seed) {
       const Points points = shapes::sphere(n, shapes::Sampling::uniform, seed).points;
       const Laplacian laplacian = pointCloudLaplacian(points, cloudOptions(Preset::clean));
-      eigenvalue_error += oracles::meanRelativeError(spectrum(laplacian, 49).values, shapes::sphereSpectrum(49)) / 3;
+      eigenvalue_error +=
+          oracles::meanRelativeError(spectrum(laplacian, 49).values, shapes::sphereSpectrum(49)) / samples;
       const auto [u, f] = shapes::spherePoisson(points);
       const VectorXd solution = Solver::laplacian(laplacian).solve(laplacian.M.cwiseProduct(f));
       const double mean = laplacian.M.dot(u) / laplacian.M.sum();
       const VectorXd exact = u.array() - mean;
       poisson_error +=
-          std::sqrt(laplacian.M.dot((solution - exact).cwiseAbs2()) / laplacian.M.dot(exact.cwiseAbs2())) / 3;
+          std::sqrt(laplacian.M.dot((solution - exact).cwiseAbs2()) / laplacian.M.dot(exact.cwiseAbs2())) / samples;
     }
     eigenvalues.push_back(eigenvalue_error);
     poisson.push_back(poisson_error);

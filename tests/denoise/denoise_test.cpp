@@ -131,7 +131,7 @@ TEST(Denoise, MovesAsTheCloudDoes) {
 }
 
 TEST(Denoise, HasTheSameBitsForAnyNumberOfThreads) {
-  const Points points = withNoise(shapes::cubeSurface(n), 0.01, 7).points;
+  const Points points = withNoise(shapes::cubeSurface(4000), 0.01, 7).points;  // many blocks
   const Points one = denoise(points, {.threads = 1}).positions;
   for (const int threads : {2, 3, 7}) EXPECT_TRUE(denoise(points, {.threads = threads}).positions == one) << threads;
 }

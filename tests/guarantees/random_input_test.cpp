@@ -114,7 +114,7 @@ TEST_P(RandomInput, Mesh) {
 }
 
 #ifdef TUFTED_SANITIZED
-constexpr int past_seeds = 110;
+constexpr int past_seeds = 105;
 #else
 constexpr int past_seeds = 130;
 #endif

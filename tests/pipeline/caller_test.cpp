@@ -96,7 +96,7 @@ TEST(CallersProgress, IsToldEveryStageFromItsOwnThread) {
 }
 
 TEST(CallersProgress, CancelsAtEveryStage) {
-  const Points points = shapes::sphere(5000).points;
+  const Points points = shapes::sphere(1500).points;
   int calls = 0;
   const auto buildUntil = [&](int stop) {  // on one thread, so that every build makes the same calls
     calls = 0;

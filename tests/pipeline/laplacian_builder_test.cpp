@@ -149,7 +149,7 @@ TEST(LaplacianBuilder, FramesThatFailHoldNothing) {
 
 TEST(LaplacianBuilder, FramesThatGrowLeaveLittleBehind) {
   LaplacianBuilder builder;
-  for (int points = 300; points <= 3000; points += 30) builder.pointCloud(shapes::sphere(points).points);
+  for (int points = 300; points <= 3000; points += 90) builder.pointCloud(shapes::sphere(points).points);
   const std::size_t held = builder.bytes();
   LaplacianBuilder other;
   other.pointCloud(shapes::sphere(3000).points);

@@ -7,6 +7,7 @@
 #include "oriented.h"
 #include "tufted/curvature.h"
 
+namespace curvature_command {
 namespace {
 
 constexpr const char* description = "Curvature: mean, Gaussian and principal, with their directions.";
@@ -83,8 +84,10 @@ Results compute(Settings& settings, Operator& source) {
 }
 
 }  // namespace
+}  // namespace curvature_command
 
 void addCurvature(CLI::App& app, Run& run) {
+  using namespace curvature_command;
   const auto [command, settings] =
       addOperatorCommand<Settings>(app, run, "curvature", description, footer, compute, check);
   addOrienting(*command, settings->orienting);

@@ -13,6 +13,7 @@
 #include "tufted/deformation.h"
 #include "tufted/errors.h"
 
+namespace deform_command {
 namespace {
 
 constexpr const char* description = "Move some points to given places and let the surface follow.";
@@ -97,8 +98,10 @@ Results compute(Settings& settings, Operator& source) {
 }
 
 }  // namespace
+}  // namespace deform_command
 
 void addDeform(CLI::App& app, Run& run) {
+  using namespace deform_command;
   const auto [command, settings] =
       addOperatorCommand<Settings>(app, run, "deform", description, footer, compute, check);
   command->add_option("--handles", settings->handles_file, "A text file of points and where they shall lie")

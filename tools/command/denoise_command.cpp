@@ -17,6 +17,7 @@
 #include "tufted/io/results.h"
 #include "tufted/io/write.h"
 
+namespace denoise_command {
 namespace {
 
 constexpr const char* description = "Move the points of a noisy scan onto the surface.";
@@ -99,8 +100,10 @@ int runDenoise(Settings& settings) {
 }
 
 }  // namespace
+}  // namespace denoise_command
 
 void addDenoise(CLI::App& app, Run& run) {
+  using namespace denoise_command;
   CLI::App& command = *app.add_subcommand("denoise", description);
   command.footer(footer);
   const auto settings = std::make_shared<Settings>();

@@ -16,6 +16,7 @@
 #include "tufted/distance.h"
 #include "tufted/errors.h"
 
+namespace distance_command {
 namespace {
 
 constexpr const char* description = "Geodesic distance from the nearest of some points.";
@@ -191,8 +192,10 @@ Results compute(Settings& settings, Operator& source) {
 }
 
 }  // namespace
+}  // namespace distance_command
 
 void addDistance(CLI::App& app, Run& run) {
+  using namespace distance_command;
   const auto [command, settings] =
       addOperatorCommand<Settings>(app, run, "distance", description, footer, compute, check);
   settings->source.needs_cover = true;

@@ -8,6 +8,7 @@
 #include "reports.h"
 #include "tufted/spectral.h"
 
+namespace embed_command {
 namespace {
 
 constexpr const char* description = "Spectral embedding: coordinates of every point by the smoothest eigenvectors.";
@@ -56,8 +57,10 @@ Results compute(Settings& settings, Operator& source) {
 }
 
 }  // namespace
+}  // namespace embed_command
 
 void addEmbed(CLI::App& app, Run& run) {
+  using namespace embed_command;
   const auto [command, settings] = addOperatorCommand<Settings>(app, run, "embed", description, footer, compute, check);
   addCount(*command, settings->pairs, "--dimension", 1, "Number of coordinates (3)")->type_name("D");
   addSpectrumFolder(*command, settings->pairs);

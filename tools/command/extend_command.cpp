@@ -10,6 +10,7 @@
 #include "time_step.h"
 #include "tufted/vector_heat.h"
 
+namespace extend_command {
 namespace {
 
 constexpr const char* description = "Carry values of some points to all: nearly those of the nearest.";
@@ -63,8 +64,10 @@ Results compute(Settings& settings, Operator& source) {
 }
 
 }  // namespace
+}  // namespace extend_command
 
 void addExtend(CLI::App& app, Run& run) {
+  using namespace extend_command;
   const auto [command, settings] =
       addOperatorCommand<Settings>(app, run, "extend", description, footer, compute, check);
   addPinOptions(*command, settings->pins);

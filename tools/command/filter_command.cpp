@@ -17,6 +17,7 @@
 #include "tufted/interpolation.h"
 #include "tufted/spectral.h"
 
+namespace filter_command {
 namespace {
 
 constexpr const char* description = "Low-pass filter of fields of the points, of other values, or of the positions.";
@@ -137,8 +138,10 @@ Results compute(Settings& settings, Operator& source) {
 }
 
 }  // namespace
+}  // namespace filter_command
 
 void addFilter(CLI::App& app, Run& run) {
+  using namespace filter_command;
   const auto [command, settings] =
       addOperatorCommand<Settings>(app, run, "filter", description, footer, compute, check);
   addSignalOptions(*command, settings->signals, "What to filter");

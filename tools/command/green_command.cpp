@@ -7,6 +7,7 @@
 #include "tufted/errors.h"
 #include "tufted/interpolation.h"
 
+namespace green_command {
 namespace {
 
 constexpr const char* description = "Green's function of points: L g = delta - M / area, with mean 0.";
@@ -47,8 +48,10 @@ Results compute(Settings& settings, Operator& source) {
 }
 
 }  // namespace
+}  // namespace green_command
 
 void addGreen(CLI::App& app, Run& run) {
+  using namespace green_command;
   const auto [command, settings] = addOperatorCommand<Settings>(app, run, "green", description, footer, compute, check);
   addPointOptions(*command, settings->points, "Points, a column for each");
 }

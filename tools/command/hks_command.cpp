@@ -16,6 +16,7 @@
 #include "tufted/errors.h"
 #include "tufted/spectral.h"
 
+namespace hks_command {
 namespace {
 
 constexpr const char* description = "Heat kernel signatures, or wave kernel signatures with --wave, of every point.";
@@ -109,8 +110,10 @@ Results compute(Settings& settings, Operator& source) {
 }
 
 }  // namespace
+}  // namespace hks_command
 
 void addHks(CLI::App& app, Run& run) {
+  using namespace hks_command;
   const auto [command, settings] = addOperatorCommand<Settings>(app, run, "hks", description, footer, compute, check);
   addCount(*command, settings->pairs, "--count", 2, "Number of positive eigenvalues (100)");
   addSpectrumFolder(*command, settings->pairs);

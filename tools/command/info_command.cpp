@@ -17,6 +17,7 @@
 #include "tufted/errors.h"
 #include "tufted/laplacian.h"
 
+namespace info_command {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -239,8 +240,10 @@ int runInfo(Settings settings) {
 }
 
 }  // namespace
+}  // namespace info_command
 
 void addInfo(CLI::App& app, Run& run) {
+  using namespace info_command;
   CLI::App& command = *app.add_subcommand("info", description);
   command.footer(footer);
   const auto settings = std::make_shared<Settings>();

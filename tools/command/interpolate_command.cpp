@@ -8,6 +8,7 @@
 #include "reports.h"
 #include "tufted/interpolation.h"
 
+namespace interpolate_command {
 namespace {
 
 constexpr const char* description = "Carry values of some points over to all others.";
@@ -62,8 +63,10 @@ Results compute(Settings& settings, Operator& source) {
 }
 
 }  // namespace
+}  // namespace interpolate_command
 
 void addInterpolate(CLI::App& app, Run& run) {
+  using namespace interpolate_command;
   const auto [command, settings] =
       addOperatorCommand<Settings>(app, run, "interpolate", description, footer, compute, check);
   addPinOptions(*command, settings->pins);

@@ -29,6 +29,7 @@
 #include "tufted/io/write.h"
 #include "tufted/laplacian.h"
 
+namespace laplacian_command {
 namespace {
 
 constexpr const char* description = "Build L and M for a point cloud or a mesh and write them into a directory.";
@@ -211,8 +212,10 @@ int runLaplacian(Settings& settings) {
 }
 
 }  // namespace
+}  // namespace laplacian_command
 
 void addLaplacian(CLI::App& app, Run& run) {
+  using namespace laplacian_command;
   CLI::App& command = *app.add_subcommand("laplacian", description);
   command.footer(footer);
   const auto settings = std::make_shared<Settings>();

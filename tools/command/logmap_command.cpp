@@ -10,6 +10,7 @@
 #include "tufted/errors.h"
 #include "tufted/vector_heat.h"
 
+namespace logmap_command {
 namespace {
 
 constexpr const char* description = "Logarithmic map: in which direction, and how far, each point lies from one.";
@@ -73,8 +74,10 @@ Results compute(Settings& settings, Operator& source) {
 }
 
 }  // namespace
+}  // namespace logmap_command
 
 void addLogmap(CLI::App& app, Run& run) {
+  using namespace logmap_command;
   const auto [command, settings] =
       addOperatorCommand<Settings>(app, run, "logmap", description, footer, compute, check);
   settings->source.needs_cover = true;

@@ -11,6 +11,7 @@
 #include "tufted/errors.h"
 #include "tufted/minimal_surface.h"
 
+namespace minimal_command {
 namespace {
 
 constexpr const char* description = "The surface of the least area that a rim, or given points, span.";
@@ -77,8 +78,10 @@ Results compute(Settings& settings, Operator& source) {
 }
 
 }  // namespace
+}  // namespace minimal_command
 
 void addMinimal(CLI::App& app, Run& run) {
+  using namespace minimal_command;
   const auto [command, settings] =
       addOperatorCommand<Settings>(app, run, "minimal", description, footer, compute, check);
   settings->source.needs_cover = true;

@@ -4,6 +4,7 @@
 #include "operator.h"
 #include "oriented.h"
 
+namespace normals_command {
 namespace {
 
 constexpr const char* description = "Normals, towards the sensor or consistently outwards.";
@@ -44,8 +45,10 @@ Results compute(Settings& settings, Operator& source) {
 }
 
 }  // namespace
+}  // namespace normals_command
 
 void addNormals(CLI::App& app, Run& run) {
+  using namespace normals_command;
   const auto [command, settings] =
       addOperatorCommand<Settings>(app, run, "normals", description, footer, compute, check);
   addOrienting(*command, settings->orienting);

@@ -13,6 +13,7 @@
 #include "tufted/io/operators.h"
 #include "tufted/spectrum.h"
 
+namespace operators_command {
 namespace {
 
 constexpr const char* description = "Operators for learning on surfaces, in one .npz as DiffusionNet caches them.";
@@ -83,8 +84,10 @@ Results compute(Settings& settings, Operator& source) {
 }
 
 }  // namespace
+}  // namespace operators_command
 
 void addOperators(CLI::App& app, Run& run) {
+  using namespace operators_command;
   const auto [command, settings] =
       addOperatorCommand<Settings>(app, run, "operators", description, footer, compute, check);
   addCount(*command, settings->pairs, "--count", 1, "Number of eigenvalues, those that are 0 among them (128)");

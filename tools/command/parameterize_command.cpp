@@ -12,6 +12,7 @@
 #include "tufted/errors.h"
 #include "tufted/parameterization.h"
 
+namespace parameterize_command {
 namespace {
 
 constexpr const char* description = "Lay the surface out in the plane: two coordinates for each point.";
@@ -116,8 +117,10 @@ Results compute(Settings& settings, Operator& source) {
 }
 
 }  // namespace
+}  // namespace parameterize_command
 
 void addParameterize(CLI::App& app, Run& run) {
+  using namespace parameterize_command;
   const auto [command, settings] =
       addOperatorCommand<Settings>(app, run, "parameterize", description, footer, compute, check);
   settings->source.needs_cover = true;

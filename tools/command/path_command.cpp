@@ -8,6 +8,7 @@
 #include "tufted/distance.h"
 #include "tufted/path.h"
 
+namespace path_command {
 namespace {
 
 constexpr const char* description = "Shortest path between two points, over the surface.";
@@ -58,8 +59,10 @@ Results compute(Settings& settings, Operator& source) {
 }
 
 }  // namespace
+}  // namespace path_command
 
 void addPath(CLI::App& app, Run& run) {
+  using namespace path_command;
   const auto [command, settings] = addOperatorCommand<Settings>(app, run, "path", description, footer, compute, check);
   settings->source.needs_cover = true;
   command->add_option("--from", settings->from, "Where it begins: a point by its index, or the nearest to a position")

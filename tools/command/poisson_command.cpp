@@ -8,6 +8,7 @@
 #include "tufted/errors.h"
 #include "tufted/interpolation.h"
 
+namespace poisson_command {
 namespace {
 
 constexpr const char* description = "Solve Poisson's equation L u = M f: minus the Laplacian of u is f.";
@@ -74,8 +75,10 @@ Results compute(Settings& settings, Operator& source) {
 }
 
 }  // namespace
+}  // namespace poisson_command
 
 void addPoisson(CLI::App& app, Run& run) {
+  using namespace poisson_command;
   const auto [command, settings] =
       addOperatorCommand<Settings>(app, run, "poisson", description, footer, compute, check);
   addSignalOptions(*command, settings->signals, "f");

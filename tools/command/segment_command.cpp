@@ -13,6 +13,7 @@
 #include "tufted/errors.h"
 #include "tufted/segments.h"
 
+namespace segment_command {
 namespace {
 
 constexpr const char* description = "Cut the surface into segments: cells around points, or parts between necks.";
@@ -83,8 +84,10 @@ Results compute(Settings& settings, Operator& source) {
 }
 
 }  // namespace
+}  // namespace segment_command
 
 void addSegment(CLI::App& app, Run& run) {
+  using namespace segment_command;
   const auto [command, settings] =
       addOperatorCommand<Settings>(app, run, "segment", description, footer, compute, check);
   settings->source.needs_cover = true;

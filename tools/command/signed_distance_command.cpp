@@ -13,6 +13,7 @@
 #include "tufted/errors.h"
 #include "tufted/signed_distance.h"
 
+namespace signed_distance_command {
 namespace {
 
 constexpr const char* description = "Distance from a curve on the surface, positive to its left.";
@@ -70,8 +71,10 @@ Results compute(Settings& settings, Operator& source) {
 }
 
 }  // namespace
+}  // namespace signed_distance_command
 
 void addSignedDistance(CLI::App& app, Run& run) {
+  using namespace signed_distance_command;
   const auto [command, settings] =
       addOperatorCommand<Settings>(app, run, "signed-distance", description, footer, compute, check);
   addOrienting(*command, settings->orienting);

@@ -13,6 +13,7 @@
 #include "tufted/errors.h"
 #include "tufted/smoothing.h"
 
+namespace smooth_command {
 namespace {
 
 constexpr const char* description = "Smooth the positions of the points, or fields.";
@@ -111,8 +112,10 @@ Results compute(Settings& settings, Operator& source) {
 }
 
 }  // namespace
+}  // namespace smooth_command
 
 void addSmooth(CLI::App& app, Run& run) {
+  using namespace smooth_command;
   const auto [command, settings] =
       addOperatorCommand<Settings>(app, run, "smooth", description, footer, compute, check);
   constexpr double least = std::numeric_limits<double>::min(), most = std::numeric_limits<double>::max();

@@ -7,6 +7,7 @@
 #include "reports.h"
 #include "tufted/spectrum.h"
 
+namespace spectrum_command {
 namespace {
 
 constexpr const char* description = "Eigenvalues and eigenvectors of L x = lambda M x, the smallest ones.";
@@ -59,8 +60,10 @@ Results compute(Settings& settings, Operator& source) {
 }
 
 }  // namespace
+}  // namespace spectrum_command
 
 void addSpectrum(CLI::App& app, Run& run) {
+  using namespace spectrum_command;
   const auto [command, settings] =
       addOperatorCommand<Settings>(app, run, "spectrum", description, footer, compute, check);
   addCount(*command, settings->pairs, "--count", 1, "Number of positive eigenvalues (32)");

@@ -12,6 +12,7 @@
 #include "tufted/errors.h"
 #include "tufted/vector_heat.h"
 
+namespace transport_command {
 namespace {
 
 constexpr const char* description = "Carry tangent vectors of some points to all, parallel along the surface.";
@@ -75,8 +76,10 @@ Results compute(Settings& settings, Operator& source) {
 }
 
 }  // namespace
+}  // namespace transport_command
 
 void addTransport(CLI::App& app, Run& run) {
+  using namespace transport_command;
   const auto [command, settings] =
       addOperatorCommand<Settings>(app, run, "transport", description, footer, compute, check);
   addPointOptions(*command, settings->points, "Points whose vectors are given");

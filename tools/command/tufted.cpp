@@ -37,7 +37,7 @@ int runCommand(const Run& run) {
   }
 }
 
-constexpr const char* footer =
+constexpr const char* examples =
     R"(Examples:
   tufted info scan.ply
   tufted laplacian scan.ply --out laplacian
@@ -87,7 +87,7 @@ int main(int argc, char** argv) {
   CLI::App app("A Laplacian for point clouds and triangle meshes of any connectivity.", "tufted");
   app.set_version_flag("-V,--version", versionText(), "Print version, licence and what is built in, and exit");
   app.require_subcommand(1);
-  app.footer(footer);
+  app.footer(examples);
   Run run;
   addSubcommands(app, run);
   const std::vector<std::string> words = withHelp({argv + std::min(argc, 1), argv + argc});

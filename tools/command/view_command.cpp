@@ -13,6 +13,7 @@
 #include "suggestion.h"
 #include "tufted/errors.h"
 
+namespace view_command {
 namespace {
 
 constexpr const char* description = "A page and a picture of results, or of a file.";
@@ -177,8 +178,10 @@ int runView(Settings& settings) {
 }
 
 }  // namespace
+}  // namespace view_command
 
 void addView(CLI::App& app, Run& run) {
+  using namespace view_command;
   CLI::App& command = *app.add_subcommand("view", description);
   command.footer(footer);
   const auto settings = std::make_shared<Settings>();

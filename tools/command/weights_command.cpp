@@ -11,6 +11,7 @@
 #include "tufted/errors.h"
 #include "tufted/weights.h"
 
+namespace weights_command {
 namespace {
 
 constexpr const char* description = "Bounded biharmonic weights of handles, for skinning and blending.";
@@ -83,8 +84,10 @@ Results compute(Settings& settings, Operator& source) {
 }
 
 }  // namespace
+}  // namespace weights_command
 
 void addWeights(CLI::App& app, Run& run) {
+  using namespace weights_command;
   const auto [command, settings] =
       addOperatorCommand<Settings>(app, run, "weights", description, footer, compute, check);
   command->add_option("--handles", settings->file, "A text file of the handles' points, INDEX or INDEX HANDLE")

@@ -29,6 +29,7 @@
 #include "tufted/errors.h"
 #include "worker.h"
 
+namespace validate_command {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -223,14 +224,17 @@ int runValidate(Settings settings) {
 }
 
 }  // namespace
+}  // namespace validate_command
 
 void protectBrackets(std::vector<std::string>& arguments) {
+  using namespace validate_command;
   if (arguments.empty() || arguments.front() != name) return;
   for (std::string& argument : arguments)
     if (isInBrackets(argument)) argument.insert(0, protection);
 }
 
 void addValidate(CLI::App& app, Run& run) {
+  using namespace validate_command;
   CLI::App& command = *app.add_subcommand(name, description);
   command.footer(footer);
   const auto settings = std::make_shared<Settings>();

@@ -13,12 +13,12 @@ namespace tufted {
 
 /// A surface that is put together from triangles: no edge gets three, and around no corner do two of them overlap in
 /// its tangent plane.
-class TriangleFans {
+class GrowingSurface {
  public:
   /// @param frames of the points, in whose planes triangles are compared; borrowed
   /// @param positions of the points; borrowed
   /// @param most how many triangles there may be at each point
-  TriangleFans(const Frames& frames, const Points& positions, const std::vector<int>& most);
+  GrowingSurface(const Frames& frames, const Points& positions, const std::vector<int>& most);
 
   /// Adds a triangle if it fits.
   bool add(const std::array<int, 3>& corners);

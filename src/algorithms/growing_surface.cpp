@@ -1,4 +1,4 @@
-#include "algorithms/triangle_fans.h"
+#include "algorithms/growing_surface.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -18,20 +18,20 @@ bool isWithin(const Eigen::Vector2f& x, const Eigen::Vector2f& a, const Eigen::V
 
 }  // namespace
 
-TriangleFans::TriangleFans(const Frames& frames, const Points& positions, const std::vector<int>& most)
+GrowingSurface::GrowingSurface(const Frames& frames, const Points& positions, const std::vector<int>& most)
     : frames_(frames), positions_(positions), offset_(most.size() + 1, 0), size_(most.size(), 0) {
   for (std::size_t p = 0; p < most.size(); ++p) offset_[p + 1] = offset_[p] + most[p];
   sectors_.resize(static_cast<std::size_t>(offset_.back()));
 }
 
-Eigen::Vector2f TriangleFans::direction(int from, int to) const {
+Eigen::Vector2f GrowingSurface::direction(int from, int to) const {
   const Eigen::RowVector3d offset = positions_.row(to) - positions_.row(from);
   const Eigen::RowVector3d unit = offset / offset.cwiseAbs().maxCoeff();
   const Eigen::RowVector3d normal = frames_.normals.row(from), x = frames_.tangents.row(from);
   return Eigen::Vector2d(x.dot(unit), normal.cross(x).dot(unit)).cast<float>();
 }
 
-bool TriangleFans::fits(int point, const Sector& sector) const {
+bool GrowingSurface::fits(int point, const Sector& sector) const {
   if (offset_[point] + size_[point] == offset_[point + 1]) return false;
   const int a = sector.first, b = sector.second;
   int at_a = 0, at_b = 0;  // triangles with these edges
@@ -49,7 +49,7 @@ bool TriangleFans::fits(int point, const Sector& sector) const {
   return true;
 }
 
-bool TriangleFans::add(const std::array<int, 3>& corners) {
+bool GrowingSurface::add(const std::array<int, 3>& corners) {
   std::array<Sector, 3> sectors;
   for (int k = 0; k < 3; ++k) {
     const int point = corners[k], first = corners[(k + 1) % 3], second = corners[(k + 2) % 3];
@@ -68,18 +68,18 @@ bool TriangleFans::add(const std::array<int, 3>& corners) {
   return true;
 }
 
-void TriangleFans::removeLast() {
+void GrowingSurface::removeLast() {
   for (const int corner : triangles_.back()) --size_[corner];
   triangles_.pop_back();
 }
 
-int TriangleFans::facesAt(int a, int b) const {
+int GrowingSurface::facesAt(int a, int b) const {
   int faces = 0;
   for (const Sector& sector : sectorsAt(a)) faces += sector.first == b || sector.second == b ? 1 : 0;
   return faces;
 }
 
-void TriangleFans::openNeighbors(int point, std::vector<int>& neighbors) const {
+void GrowingSurface::openNeighbors(int point, std::vector<int>& neighbors) const {
   neighbors.clear();
   for (const Sector& sector : sectorsAt(point))
     for (const int other : {sector.first, sector.second})
@@ -87,7 +87,7 @@ void TriangleFans::openNeighbors(int point, std::vector<int>& neighbors) const {
   std::sort(neighbors.begin(), neighbors.end());
 }
 
-int TriangleFans::fansAround(int point) const {
+int GrowingSurface::fansAround(int point) const {
   std::vector<std::pair<int, int>> sectors;
   for (const Sector& sector : sectorsAt(point)) sectors.emplace_back(sector.first, sector.second);
   int fans = 0;
