@@ -51,6 +51,13 @@ TEST(PixelGrid, GivesAPixelToOnePoint) {
   EXPECT_EQ(without, 2);
 }
 
+TEST(PixelGrid, RefusesRowsAndColumnsThatAreNoImage) {
+  const Points points = imageOf([](int, int) { return 1.0; });
+  ScanStructure structure = imageStructure(width, height);
+  structure.position[7] = 2e9;
+  EXPECT_THROW(Image(points, structure), InvalidInput);
+}
+
 TEST(SurfaceWindows, HoldEveryPixelOfAPlaneSeenAtAnyAngle) {
   for (const auto& [x, y] : {std::pair(0.03, 0.01), std::pair(0.6, 0.1), std::pair(-0.2, 1.2), std::pair(1.5, 0.4)}) {
     const Image image(imageOf([&](int column, int row) { return planeDepth(column, row, x, y); }));

@@ -14,6 +14,7 @@
 #include <memory>
 #include <new>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string_view>
 #include <utility>
 
@@ -21,6 +22,7 @@
 #include "../interrupt.h"
 #include "../options.h"
 #include "../peak_memory.h"
+#include "../structure.h"
 #include "tufted/check.h"
 #include "tufted/errors.h"
 #include "tufted/io/results.h"
@@ -68,10 +70,14 @@ class StopWatch {
   Clock::time_point start_ = Clock::now();
 };
 
+/// As `tufted laplacian` does by itself.
 tufted::Laplacian build(const tufted::Geometry& geometry, int threads, const tufted::Progress& progress) {
   if (geometry.is_mesh)
     return tufted::meshLaplacian(geometry.points, geometry.triangles, {.threads = threads, .progress = progress});
-  return tufted::pointCloudLaplacian(geometry.points, {.threads = threads, .progress = progress});
+  const std::optional<tufted::ScanStructure> structure = structureOf(geometry, structureFor(geometry), name);
+  const tufted::ScanStructure* const by_pixels = structure ? &*structure : nullptr;
+  return tufted::pointCloudLaplacian(geometry.points,
+                                     {.threads = threads, .structure = by_pixels, .progress = progress});
 }
 
 Json coverObject(const tufted::CoverCheck& cover) {
