@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Draws the pictures of README and docs by the command itself, from data of CGAL (tools/fetch_samples.sh) and PCL:
 #   tools/draw_pictures.sh CLOUDS [FOLDER]
-# CLOUDS holds clouds of PCL's test data: cturtle.pcd and mosd_learn0.pcd. FOLDER is docs/figures by default.
+# CLOUDS holds clouds of PCL's test data: cturtle.pcd, mosd_learn0.pcd and office1.pcd. FOLDER is docs/figures by default.
 # Needs build/release/tufted.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -35,6 +35,12 @@ draw parts segment "${on_bunny[@]}" --count 12
 draw logmap logmap "$clouds/cturtle.pcd" --near 0,0,2 --size 760x500
 draw map parameterize "$samples/meshes/nefertiti.off" --size 760x480
 draw boundary_kinds laplacian "$table" --color boundary --size 640x420
+# The triangles of a depth image, by its pixels and by the nearest points in space.
+for structure in image none; do
+  "$tufted" laplacian "$clouds/office1.pcd" --structure $structure --out "$work/$structure" --format triangles --quiet
+  "$tufted" view "$work/$structure/triangles.ply" --png "$figures/office_$structure.png" --color none --up -y \
+    --size 560x430 --quiet
+done
 # The mesh with normal noise, a third of its spacing, before and after.
 awk 'function normal() { return sqrt(-2 * log(1 - rand())) * cos(6.283185307 * rand()) }
      BEGIN { srand(101); sigma = 0.002 }
