@@ -59,12 +59,13 @@ TEST(PixelGrid, RefusesRowsAndColumnsThatAreNoImage) {
 }
 
 TEST(SurfaceWindows, HoldEveryPixelOfAPlaneSeenAtAnyAngle) {
-  for (const auto& [x, y] : {std::pair(0.03, 0.01), std::pair(0.6, 0.1), std::pair(-0.2, 1.2), std::pair(1.5, 0.4)}) {
-    const Image image(imageOf([&](int column, int row) { return planeDepth(column, row, x, y); }));
+  for (const auto& slope : {std::pair(0.03, 0.01), std::pair(0.6, 0.1), std::pair(-0.2, 1.2), std::pair(1.5, 0.4)}) {
+    const Image image(imageOf([&](int column, int row) { return planeDepth(column, row, slope.first, slope.second); }));
     for (int p = 0; p < image.cloud().size(); ++p) {
       const int column = image.pointOf(p) % width, row = image.pointOf(p) / width;
       if (std::min({column, row, width - 1 - column, height - 1 - row}) < 3) continue;
-      ASSERT_EQ(image.windows().around[p], WindowPixels::rings(3)) << x << ' ' << y << ' ' << column << ' ' << row;
+      ASSERT_EQ(image.windows().around[p], WindowPixels::rings(3))
+          << slope.first << ' ' << slope.second << ' ' << column << ' ' << row;
     }
   }
 }
