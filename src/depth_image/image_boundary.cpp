@@ -54,7 +54,7 @@ class ImageBoundaryFinder {
   /// Whether triangles that run counterclockwise around the normal run clockwise in the image.
   bool isMirrored(int p) const {
     double twice_area = 0;
-    forEachTriangle(p, [&](const PixelStep& a, const PixelStep& b) {
+    forEachPairOfSteps(p, [&](const PixelStep& a, const PixelStep& b) {
       twice_area += static_cast<double>(a.column) * b.row - static_cast<double>(a.row) * b.column;
     });
     return twice_area < 0;
@@ -65,20 +65,20 @@ class ImageBoundaryFinder {
     const auto square = [](const PixelStep& s) {
       return static_cast<double>(s.row) * s.row + static_cast<double>(s.column) * s.column;
     };
-    forEachTriangle(p, [&](const PixelStep& a, const PixelStep& b) {
+    forEachPairOfSteps(p, [&](const PixelStep& a, const PixelStep& b) {
       longest = std::max({longest, square(a), square(b)});
     });
     return longest;
   }
 
+  /// Calls visit(step to a, step to b) for the link vertices of every triangle of p.
   template <class Visit>
-  void forEachTriangle(int p, const Visit& visit) const {
-    for (int i = stars_.offset[p]; i < stars_.offset[p + 1]; ++i)
-      if (stars_.hasTriangle(i)) visit(stepTo(p, stars_.link[i]), stepTo(p, stars_.link[stars_.after(p, i)]));
+  void forEachPairOfSteps(int p, const Visit& visit) const {
+    forEachTriangle(stars_, p, [&](int a, int b) { visit(stepTo(p, a), stepTo(p, b)); });
   }
 
   bool isOneSurface(int p, int q, const PixelStep& step) const {
-    if (std::max(std::abs(step.row), std::abs(step.column)) > WindowPixels::reach) return image_.isOneSurface(p, q);
+    if (step.ring() > WindowPixels::reach) return image_.isOneSurface(p, q);
     return (image_.windows.around[p] >> window_pixels.numberOf(step) & 1) != 0;
   }
 

@@ -31,8 +31,8 @@ SurfaceImage surfaceImage(const ScanStructure& structure, const RankedCloud& clo
                           const std::vector<PointStatus>& status, const std::vector<int>& representative,
                           const Workers& workers, Report& report);
 
-/// The Delaunay stars of all points among the points in the windows of their pixels. Counts open stars and booked costs
-/// as buildStars() does.
+/// The Delaunay stars of all points among the points in the windows of their pixels. Counts grown,
+/// open and dropped ones; the caller books the cost.
 /// @param normals the caller's, by rank, zero where unusable; 0 x 3: none
 BuiltStars buildImageStars(const DepthImage& image, const PointBuffer& normals, const CloudOptions& options,
                            const Workers& workers, Report& report);

@@ -19,7 +19,7 @@ struct PixelFrame {
 /// @returns nothing where the pixels are on one line
 std::optional<PixelFrame> fitFrame(const DepthImage& image, const PixelWindow& window, int p);
 
-/// The same with a given normal.
+/// The frame that a given normal makes, with the size and the flatness of the window.
 PixelFrame frameOf(const Eigen::Vector3d& normal, const PixelWindow& window);
 
 }  // namespace tufted

@@ -20,6 +20,10 @@ struct PixelGrid {
   Buffer<std::int64_t> pixel;  ///< n, -1: no pixel, or one that a point of a smaller rank has
   Eigen::RowVector3d origin;   ///< of the rays, in units of the cloud
 
+  /// Whether a pixel lies within the margins.
+  bool isInImage(int row, int column) const {
+    return row >= margin && column >= margin && row < rows - margin && column < columns - margin;
+  }
   int rowOf(int p) const { return static_cast<int>(pixel[p] / columns); }
   int columnOf(int p) const { return static_cast<int>(pixel[p] % columns); }
   std::size_t bytes() const { return bytesOf(rank) + bytesOf(pixel); }

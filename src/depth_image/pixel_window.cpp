@@ -24,10 +24,6 @@ void PixelWindow::widen(const DepthImage& image, int p, int rings) {
   const PixelGrid& grid = image.grid;
   const int row = grid.rowOf(p), column = grid.columnOf(p);
   const int side = 2 * rings + 1;
-  const auto isInside = [&](int r, int c) {
-    const int margin = PixelGrid::margin;
-    return r >= margin && c >= margin && r < grid.rows - margin && c < grid.columns - margin;
-  };
   const auto rankAt = [&](int r, int c) { return grid.rank[std::int64_t{r} * grid.columns + c]; };
   reached_.assign(static_cast<std::size_t>(side) * side, 0);
   const auto reached = [&](int i, int j) -> std::uint8_t& { return reached_[(i + rings) * side + j + rings]; };
@@ -37,14 +33,14 @@ void PixelWindow::widen(const DepthImage& image, int p, int rings) {
   rings_ = rings;
   const auto visit = [&](int ring, int i, int j) {
     const int r = row + i, c = column + j;
-    if (!isInside(r, c)) return;
+    if (!grid.isInImage(r, c)) return;
     const int q = rankAt(r, c);
     if (q >= 0 && !image.isOneSurface(p, q, JumpTest::steepestOf({i, j}))) return;
     bool is_linked = false, is_over = false, is_refused = false;
     for (int di = -1; di <= 1; ++di) {
       for (int dj = -1; dj <= 1; ++dj) {
         const int a = i + di, b = j + dj;
-        if (std::max(std::abs(a), std::abs(b)) != ring - 1 || reached(a, b) == 0) continue;
+        if (PixelStep{a, b}.ring() != ring - 1 || reached(a, b) == 0) continue;
         const int m = rankAt(row + a, column + b);
         if (m < 0) {
           is_over = true;

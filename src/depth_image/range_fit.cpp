@@ -65,7 +65,7 @@ double leverage() {
   return 1 / pixels + 2 * mean_square * mean_square / bowl;
 }
 
-/// A plane over some pixels of the inner rings.
+/// A plane over some pixels of the window.
 /// @param most_variance of the residuals
 std::optional<SmoothedRange> fitPlane(const InverseRanges& ranges, std::uint64_t around, int least_pixels,
                                       double most_variance) {

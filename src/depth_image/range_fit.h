@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <optional>
 
@@ -30,7 +29,7 @@ struct SmoothedRange {
 std::optional<SmoothedRange> smoothedInverseRange(const InverseRanges& ranges, std::uint64_t around, double noise,
                                                   double spacing_squared);
 
-/// The same over values that were smoothed before, of pixels some distance apart.
+/// Smooths a range again, by a fit to values that were smoothed before, of pixels some distance apart.
 /// @param ranges of the pixels of the window, 7 x 7 one after the other
 /// @param around which of them are of one surface with the middle one
 /// @returns `before` where they do not fit as well as noise allows

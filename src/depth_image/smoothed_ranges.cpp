@@ -78,20 +78,20 @@ class PixelsApart {
 
 }  // namespace
 
-void smoothFurther(const PixelGrid& grid, const Buffer<std::uint64_t>& around, SmoothedRanges& smoothed, double noise,
-                   const Workers& workers) {
+void smoothFurther(const PixelGrid& grid, SmoothedRanges& smoothed, double noise, const Workers& workers) {
   for (const int stride : strides) {
     const Buffer<double> before = asImage(grid, smoothed.range);
     const PixelsApart apart(grid, before, tolerance * noise, stride);
-    workers.forBlocks("windows", std::ssize(around), block_size, [&](std::int64_t begin, std::int64_t end, int) {
-      PixelsApart::Values values;
-      for (std::int64_t p = begin; p < end; ++p) {
-        SmoothedRange& range = smoothed.range[p];
-        if (!(range.variance > harmless * smoothed.spacing_squared[p])) continue;
-        const std::uint64_t set = apart.take(grid.pixel[p], std::sqrt(smoothed.spacing_squared[p]), values);
-        range = smoothedFurther({values.data() + PixelsApart::middle(), WindowPixels::side()}, set, range, noise);
-      }
-    });
+    workers.forBlocks(
+        "windows", std::ssize(smoothed.range), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+          PixelsApart::Values values;
+          for (std::int64_t p = begin; p < end; ++p) {
+            SmoothedRange& range = smoothed.range[p];
+            if (!(range.variance > harmless * smoothed.spacing_squared[p])) continue;
+            const std::uint64_t set = apart.take(grid.pixel[p], std::sqrt(smoothed.spacing_squared[p]), values);
+            range = smoothedFurther({values.data() + PixelsApart::middle(), WindowPixels::side()}, set, range, noise);
+          }
+        });
   }
 }
 

@@ -22,10 +22,8 @@ struct SmoothedRanges {
 };
 
 /// Where what is left of the noise is not small against the spacing of the pixels, as on walls far away, smooths again
-/// over pixels that are 3 apart, then 9: windows of 25 and of 79 pixels. Only in the midst of surfaces.
-/// @param around see SurfaceWindows
-void smoothFurther(const PixelGrid& grid, const Buffer<std::uint64_t>& around, SmoothedRanges& smoothed, double noise,
-                   const Workers& workers);
+/// over pixels that are 3 apart, then 9: over 19 pixels, then 55, and more by what was smoothed before.
+void smoothFurther(const PixelGrid& grid, SmoothedRanges& smoothed, double noise, const Workers& workers);
 
 /// From each point along its ray to the smoothed range, n x 3.
 /// @param[out] moved points whose displacement is not 0

@@ -46,11 +46,11 @@ struct Ways {
       Way& to = way[i];
       to.shift = shiftOf(step);
       setDown(step, 0, to.down, to.from);
-      if (ringOf(step) == 1) continue;
+      if (step.ring() == 1) continue;
       for (int j = 0; j < i; ++j) {
         const PixelStep& before = window_pixels.step[j];
         const PixelStep last{step.row - before.row, step.column - before.column};
-        if (ringOf(before) != ringOf(step) - 1 || ringOf(last) != 1) continue;
+        if (before.ring() != step.ring() - 1 || last.ring() != 1) continue;
         to.parent[to.parents] = j;
         setDown(last, shiftOf(before), to.link_down[to.parents], to.link_from[to.parents]);
         ++to.parents;
@@ -61,10 +61,6 @@ struct Ways {
  private:
   static constexpr bool isDown(const PixelStep& step) { return step.row > 0 || (step.row == 0 && step.column > 0); }
   static constexpr int shiftOf(const PixelStep& step) { return step.row * all_columns + step.column; }
-  static constexpr int magnitude(int x) { return x < 0 ? -x : x; }
-  static constexpr int ringOf(const PixelStep& step) {
-    return magnitude(step.row) > magnitude(step.column) ? magnitude(step.row) : magnitude(step.column);
-  }
   constexpr void setDown(const PixelStep& step, int start, int& number, int& from) const {
     const PixelStep wanted = isDown(step) ? step : PixelStep{-step.row, -step.column};
     number = 0;
@@ -113,7 +109,7 @@ class WindowFinder {
         const int p = is_inside ? grid_.rank[std::int64_t{top + row} * grid_.columns + left + column] : -1;
         tile.rank[i] = p;
         tile.is_filled[i] = p < 0 ? 0 : 1;
-        tile.is_open[i] = p < 0 && isInImage(top + row, left + column) ? 1 : 0;
+        tile.is_open[i] = p < 0 && grid_.isInImage(top + row, left + column) ? 1 : 0;
         if (p < 0) {
           tile.x[i] = tile.y[i] = tile.z[i] = tile.range[i] = tile.inverse[i] = 0;
           continue;
@@ -128,11 +124,6 @@ class WindowFinder {
       }
     }
     return any;
-  }
-
-  bool isInImage(int row, int column) const {
-    return row >= PixelGrid::margin && column >= PixelGrid::margin && row < grid_.rows - PixelGrid::margin &&
-           column < grid_.columns - PixelGrid::margin;
   }
 
   /// Tests every step between two pixels of the tile.
@@ -243,7 +234,7 @@ SurfaceWindows findSurfaceWindows(const PixelGrid& grid, const PointsView& point
   });
   windows.cut = std::accumulate(cut.begin(), cut.end(), std::int64_t{0});
   if (!smooths) return windows;
-  smoothFurther(grid, windows.around, smoothed, noise, workers);
+  smoothFurther(grid, smoothed, noise, workers);
   windows.displacement = displacementsAlongRays(grid, points, smoothed, workers, windows.moved);
   return windows;
 }

@@ -38,9 +38,8 @@ struct JumpTest {
 
   /// @param step in the image, not zero
   static constexpr double steepestOf(const PixelStep& step) {
-    const double row = step.row, column = step.column;
-    const double longer = row * row > column * column ? row * row : column * column;
-    return steepest * longer / (row * row + column * column);
+    const double row = step.row, column = step.column, ring = step.ring();
+    return steepest * (ring * ring) / (row * row + column * column);
   }
 
   /// @param most the square of the tangent, see steepestOf()

@@ -9,6 +9,12 @@ namespace tufted {
 /// A step from one pixel to another.
 struct PixelStep {
   int row = 0, column = 0;
+
+  /// The ring of the window that the step ends on.
+  constexpr int ring() const {
+    const int rows = row < 0 ? -row : row, columns = column < 0 ? -column : column;
+    return rows > columns ? rows : columns;
+  }
 };
 
 /// The pixels of a window around a pixel, itself left out, from the nearest in the image to the farthest: rings of 8,
@@ -31,8 +37,8 @@ struct WindowPixels {
       for (int square = 1; square <= 2 * reach * reach; ++square) {
         for (int row = -ring; row <= ring; ++row) {
           for (int column = -ring; column <= ring; ++column) {
-            const bool is_on_ring = row == ring || row == -ring || column == ring || column == -ring;
-            if (is_on_ring && row * row + column * column == square) step[size++] = {row, column};
+            const PixelStep next{row, column};
+            if (next.ring() == ring && row * row + column * column == square) step[size++] = next;
           }
         }
       }

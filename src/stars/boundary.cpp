@@ -84,11 +84,9 @@ class BoundaryFinder {
   /// The square of the longest edge in the chart of a star that has triangles.
   double longestEdge(int p, const Chart& chart) const {
     double longest = 0;
-    for (int i = stars_.offset[p]; i < stars_.offset[p + 1]; ++i) {
-      if (!stars_.hasTriangle(i)) continue;
-      for (const int q : {stars_.link[i], stars_.link[stars_.after(p, i)]})
-        longest = std::max(longest, chart.offset(q).squaredNorm());
-    }
+    forEachTriangle(stars_, p, [&](int a, int b) {
+      longest = std::max({longest, chart.offset(a).squaredNorm(), chart.offset(b).squaredNorm()});
+    });
     return longest;
   }
 

@@ -32,6 +32,13 @@ inline bool hasTriangles(const Stars& stars, int p) {
   return false;
 }
 
+/// Calls visit(a, b) for the link vertices of every triangle of p.
+template <class Visit>
+void forEachTriangle(const Stars& stars, int p, const Visit& visit) {
+  for (int i = stars.offset[p]; i < stars.offset[p + 1]; ++i)
+    if (stars.hasTriangle(i)) visit(stars.link[i], stars.link[stars.after(p, i)]);
+}
+
 /// Finds the gaps between the triangles of p, which has some.
 /// @param direction of a link vertex as seen from p, rad
 template <class Direction>

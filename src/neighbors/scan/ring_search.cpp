@@ -16,8 +16,9 @@ constexpr int most_rings = 2;     // on each side; those beyond have no part in 
 constexpr double neighbors_per_spacing = 15;  // in a ball of one spacing; half as many as ask for that
 constexpr int most_misses = 2;  // points of a ring, one after the other, that are too far: the surface has ended
 
-/// As far as a star reaches where points are nowhere denser than across the rings, 1.4 spacings for 30 neighbours.
-/// What lies beyond, above all on a sparse ring, is on the other side of a crease or jump more often than not.
+/// The radius that is searched: as far as a star reaches where points are nowhere denser than across the rings, 1.4
+/// spacings for 30 neighbours. What lies beyond, above all on a sparse ring, is on the other side of a crease or jump
+/// more often than not.
 double ballRadius(int k, double spacing) {
   return std::sqrt(k / neighbors_per_spacing) * spacing;
 }

@@ -70,7 +70,7 @@ class StopWatch {
   Clock::time_point start_ = Clock::now();
 };
 
-/// As `tufted laplacian` does by itself.
+/// Builds the Laplacian as `tufted laplacian` does without options.
 tufted::Laplacian build(const tufted::Geometry& geometry, int threads, const tufted::Progress& progress) {
   if (geometry.is_mesh)
     return tufted::meshLaplacian(geometry.points, geometry.triangles, {.threads = threads, .progress = progress});
