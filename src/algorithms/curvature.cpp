@@ -20,7 +20,6 @@ namespace tufted {
 namespace {
 
 constexpr const char* function_name = "curvatures";
-constexpr std::int64_t block_size = 256;
 
 /// Rings of neighbours in the first window of exact points, in that of noisy ones, and in the last.
 constexpr int first_rings = 2;
@@ -169,13 +168,13 @@ Curvatures fitCurvatures(const Laplacian& laplacian, const Frames& frames, const
   std::vector<int> rings(n, 0);
   std::vector<std::optional<Fitter>> fitters(workers.count());
   std::vector<Residuals> residuals(n);
-  workers.forBlocks("noise", n, block_size, [&](std::int64_t begin, std::int64_t end, int worker) {
+  workers.forBlocks("noise", n, costly_block, [&](std::int64_t begin, std::int64_t end, int worker) {
     std::optional<Fitter>& fitter = fitters[worker];
     if (!fitter) fitter.emplace(laplacian, frames);
     for (int p = static_cast<int>(begin); p < end; ++p)
       if (laplacian.status[p] == PointStatus::active) residuals[p] = fitter->residuals(p);
   });
-  workers.forBlocks("curvature", n, block_size, [&](std::int64_t begin, std::int64_t end, int worker) {
+  workers.forBlocks("curvature", n, costly_block, [&](std::int64_t begin, std::int64_t end, int worker) {
     std::optional<Fitter>& fitter = fitters[worker];
     if (!fitter) fitter.emplace(laplacian, frames);
     for (int p = static_cast<int>(begin); p < end; ++p) {
@@ -202,7 +201,7 @@ Curvatures laplacianCurvatures(const Laplacian& laplacian, const Frames& frames,
   const auto n = static_cast<Eigen::Index>(laplacian.status.size());
   Curvatures result;
   result.mean = VectorXd::Zero(n);
-  workers.forBlocks("curvature", n, block_size, [&](std::int64_t begin, std::int64_t end, int) {
+  workers.forBlocks("curvature", n, costly_block, [&](std::int64_t begin, std::int64_t end, int) {
     for (int p = static_cast<int>(begin); p < end; ++p) {
       if (laplacian.status[p] != PointStatus::active || !(laplacian.M[p] > 0)) continue;
       Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();  // of differences, whatever the distance from the origin

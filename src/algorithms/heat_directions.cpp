@@ -9,8 +9,6 @@
 namespace tufted {
 namespace {
 
-constexpr std::int64_t block_size = 8192;
-
 /// Faces that wait for heat: those that are not `still`, in components with heat.
 std::vector<int> waitingFaces(const HeatProblem& problem, const VectorXd& heat,
                               const std::vector<std::uint8_t>& still) {
@@ -42,7 +40,7 @@ VectorXd divergenceOfHeat(const std::string& function, const HeatProblem& proble
       return std::min({log_u[face.corners[0]], log_u[face.corners[1]], log_u[face.corners[2]]}) >= valid;
     };
     const auto count = static_cast<std::int64_t>(waiting.size());
-    workers.forBlocks("directions", count, block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    workers.forBlocks("directions", count, cheap_block, [&](std::int64_t begin, std::int64_t end, int) {
       for (auto k = begin; k < end; ++k) {
         const SurfaceFace& face = problem.surface.faces[waiting[k]];
         const auto& [a, b, c] = face.corners;

@@ -27,9 +27,8 @@ Eigen::Matrix3d edgeProducts(const SparseMatrix& L, const Eigen::MatrixXd& x, co
 
 std::vector<Eigen::Matrix3d> localRotations(const SparseMatrix& L, const Eigen::MatrixXd& x,
                                             const Eigen::MatrixXd& moved, const Workers& workers) {
-  constexpr std::int64_t block_size = 1024;
   std::vector<Eigen::Matrix3d> rotations(static_cast<std::size_t>(x.rows()));
-  workers.forBlocks("rotations", x.rows(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+  workers.forBlocks("rotations", x.rows(), star_block, [&](std::int64_t begin, std::int64_t end, int) {
     for (auto i = static_cast<int>(begin); i < end; ++i) rotations[i] = nearestRotation(edgeProducts(L, x, moved, i));
   });
   return rotations;

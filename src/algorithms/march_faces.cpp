@@ -12,7 +12,6 @@
 namespace tufted {
 namespace {
 
-constexpr std::int64_t block_size = 8192;
 constexpr int most_splits = 2;
 /// Points of a surface that is cut twice unless the caller says otherwise: its triangles are coarse, and a query takes
 /// some 30 ms.
@@ -72,9 +71,9 @@ struct EdgeBlock {
 };
 
 void groupByEdge(MarchFaces& result, const Workers& workers) {
-  std::vector<EdgeBlock> blocks((result.vertices + block_size - 1) / block_size);
-  workers.forBlocks("edges", result.vertices, block_size, [&](std::int64_t begin, std::int64_t end, int) {
-    EdgeBlock& block = blocks[begin / block_size];
+  std::vector<EdgeBlock> blocks((result.vertices + cheap_block - 1) / cheap_block);
+  workers.forBlocks("edges", result.vertices, cheap_block, [&](std::int64_t begin, std::int64_t end, int) {
+    EdgeBlock& block = blocks[begin / cheap_block];
     std::vector<Side> sides;
     for (auto v = begin; v < end; ++v) {
       sidesAt(result, static_cast<int>(v), sides);
@@ -104,7 +103,7 @@ MarchFaces wholeFaces(const std::vector<DistinctFace>& faces, int vertices, int 
   result.vertices = vertices;
   result.exponent = exponent;
   result.faces.resize(faces.size());
-  workers.forBlocks("faces", std::ssize(faces), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+  workers.forBlocks("faces", std::ssize(faces), cheap_block, [&](std::int64_t begin, std::int64_t end, int) {
     for (auto f = begin; f < end; ++f) {
       MarchFace& face = result.faces[f];
       face.corners = faces[f].corners;
@@ -124,7 +123,7 @@ MarchFaces splitInFour(const MarchFaces& coarse, const Workers& workers) {
     const auto& [a, b, c] = whole.opposite;
     return distinctFace(corners, {a / 2, b / 2, c / 2});
   };
-  workers.forBlocks("faces", std::ssize(coarse.faces), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+  workers.forBlocks("faces", std::ssize(coarse.faces), cheap_block, [&](std::int64_t begin, std::int64_t end, int) {
     for (auto f = begin; f < end; ++f) {
       const MarchFace& face = coarse.faces[f];
       const int n = coarse.vertices;

@@ -67,11 +67,10 @@ RigidDeformation::RigidDeformation(const std::string& function, const Laplacian&
                                             turningMatrix(laplacian, pinned.components, x_, smoothing_), options)) {}
 
 RigidDeformation::Evaluation RigidDeformation::evaluate(const Pose& pose, const Workers& workers) const {
-  constexpr std::int64_t block_size = 1024;
   const Eigen::Index n = x_.rows();
   VectorXd energies = VectorXd::Zero(n);
   Eigen::MatrixXd force = Eigen::MatrixXd::Zero(n, 6);
-  workers.forBlocks("deform", n, block_size, [&](std::int64_t begin, std::int64_t end, int) {
+  workers.forBlocks("deform", n, star_block, [&](std::int64_t begin, std::int64_t end, int) {
     for (auto i = static_cast<int>(begin); i < end; ++i) {
       const Eigen::Matrix3d& own = pose.rotations[i];
       Eigen::RowVector3d pull = Eigen::RowVector3d::Zero();

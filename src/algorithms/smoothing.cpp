@@ -150,9 +150,8 @@ struct Step {
 /// A step towards the means of the neighbours, or away from them: x -= share D^-1 L x at the free points.
 void stepToMeans(const Laplacian& laplacian, const std::vector<bool>& is_free, double share, const Workers& workers,
                  Eigen::MatrixXd& x) {
-  constexpr std::int64_t block_size = 4096;
   const Eigen::MatrixXd old = x;
-  workers.forBlocks("smooth", x.rows(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+  workers.forBlocks("smooth", x.rows(), usual_block, [&](std::int64_t begin, std::int64_t end, int) {
     Eigen::RowVectorXd pulled(x.cols());
     for (auto i = static_cast<int>(begin); i < end; ++i) {
       if (!is_free[i]) continue;

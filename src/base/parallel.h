@@ -8,6 +8,14 @@
 
 namespace tufted {
 
+/// How many points or faces a thread takes at a time, by how much it does for each: enough to outweigh taking them, few
+/// enough that there are blocks for many threads.
+constexpr std::int64_t costly_block = 256;  ///< where each may take a tenth of a millisecond
+constexpr std::int64_t star_block = 1024;   ///< points whose lists of neighbours stay in the second-level cache
+constexpr std::int64_t usual_block = 4096;
+constexpr std::int64_t cheap_block = 8192;      ///< where each takes little work
+constexpr std::int64_t cheapest_block = 16384;  ///< where each takes a few operations
+
 /// The one place that decides about threads, progress and cancellation of a build.
 ///
 /// Work is cut into blocks whose size does not depend on the number of threads, and every block writes only its
@@ -50,11 +58,10 @@ class Workers {
 /// All numbers in [0, size) that pass the test, ascending.
 template <class Test>
 Buffer<int> numbersWhere(std::string_view stage, int size, const Workers& workers, const Test& test) {
-  constexpr std::int64_t block_size = 8192;
-  Buffer<Buffer<int>> parts(static_cast<std::size_t>((size + block_size - 1) / block_size));
-  workers.forBlocks(stage, size, block_size, [&](std::int64_t begin, std::int64_t end, int) {
+  Buffer<Buffer<int>> parts(static_cast<std::size_t>((size + cheap_block - 1) / cheap_block));
+  workers.forBlocks(stage, size, cheap_block, [&](std::int64_t begin, std::int64_t end, int) {
     for (int i = static_cast<int>(begin); i < end; ++i)
-      if (test(i)) parts[begin / block_size].push_back(i);
+      if (test(i)) parts[begin / cheap_block].push_back(i);
   });
   Buffer<int> numbers;
   for (const Buffer<int>& part : parts) numbers.insert(numbers.end(), part.begin(), part.end());

@@ -14,7 +14,6 @@ namespace {
 constexpr double farthest_spreads = 1e70;   // in median spreads; squares and fourth powers of it still fit a double
 constexpr double largest_distance = 1e152;  // in the caller's unit; an area still fits a double
 
-constexpr std::int64_t block_size = 16384;
 constexpr std::size_t few = 1 << 15;  // values, of which one is chosen as fast without counting
 
 /// Grows with x.
@@ -48,7 +47,7 @@ Scaling measureScaling(const PointsRef& points, std::vector<PointStatus>& status
   const Eigen::Index n = points.rows();
   status.resize(static_cast<std::size_t>(n));
   const auto forAll = [&](const auto& visit) {
-    workers.forBlocks("scale", n, block_size, [&](std::int64_t begin, std::int64_t end, int worker) {
+    workers.forBlocks("scale", n, cheapest_block, [&](std::int64_t begin, std::int64_t end, int worker) {
       for (std::int64_t i = begin; i < end; ++i) visit(i, worker);
     });
   };

@@ -7,12 +7,6 @@
 #include "cover/edge_lengths.h"
 
 namespace tufted {
-namespace {
-
-constexpr std::int64_t block_size = 8192;
-
-}  // namespace
-
 void resizeCover(IntrinsicTriangulation& cover, int vertices, std::int64_t triangles) {
   cover.vertices = vertices;
   cover.faces.resize(static_cast<std::size_t>(2 * triangles));
@@ -25,9 +19,9 @@ MeanLengths measureLengths(IntrinsicTriangulation& cover, const PointsView& poin
   const std::int64_t triangles = cover.size() / 2;
   const EdgeLengths lengthOf{points, displacement};
   // Per block, so that the means have the same bits always.
-  Buffer<MeanLengths> sums((triangles + block_size - 1) / block_size);
-  workers.forBlocks("lengths", triangles, block_size, [&](std::int64_t begin, std::int64_t end, int) {
-    MeanLengths& sum = sums[begin / block_size];
+  Buffer<MeanLengths> sums((triangles + cheap_block - 1) / cheap_block);
+  workers.forBlocks("lengths", triangles, cheap_block, [&](std::int64_t begin, std::int64_t end, int) {
+    MeanLengths& sum = sums[begin / cheap_block];
     for (int t = static_cast<int>(begin); t < end; ++t) {
       const auto& corner = cover.faces[2 * t];
       for (int s = 0; s < 3; ++s) {

@@ -13,8 +13,7 @@ namespace tufted {
 /// Visits all faces, in any order.
 template <class Visit>
 void forEachFace(std::int64_t faces, const Workers& workers, const Visit& visit) {
-  constexpr std::int64_t block_size = 8192;
-  workers.forBlocks("assemble", faces, block_size, [&](std::int64_t begin, std::int64_t end, int) {
+  workers.forBlocks("assemble", faces, cheap_block, [&](std::int64_t begin, std::int64_t end, int) {
     for (int f = static_cast<int>(begin); f < end; ++f) visit(f);
   });
 }

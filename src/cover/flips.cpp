@@ -5,21 +5,20 @@
 namespace tufted {
 namespace {
 
-constexpr std::int64_t block_size = 16384;  // triangles
-
 /// A cover that is all there.
 class WholeCover {
  public:
   WholeCover(IntrinsicTriangulation& cover, const Workers& workers)
       : cover_(cover), triangles_(cover.size() / 2), state_(cover.glue.size()), seeds_(blocks()) {
-    workers.forBlocks("flips", triangles_, block_size,
-                      [&](std::int64_t begin, std::int64_t, int) { findSeeds(begin / block_size); });
+    workers.forBlocks("flips", triangles_, cheapest_block,
+                      [&](std::int64_t begin, std::int64_t, int) { findSeeds(begin / cheapest_block); });
   }
 
   IntrinsicTriangulation& triangulation() { return cover_; }
-  std::int64_t blocks() const { return (triangles_ + block_size - 1) / block_size; }
+  std::int64_t blocks() const { return (triangles_ + cheapest_block - 1) / cheapest_block; }
   SideRange sidesOf(std::int64_t first, std::int64_t last) const {
-    return {static_cast<int>(6 * first * block_size), static_cast<int>(6 * std::min(last * block_size, triangles_))};
+    return {static_cast<int>(6 * first * cheapest_block),
+            static_cast<int>(6 * std::min(last * cheapest_block, triangles_))};
   }
   template <class Push>
   void start(std::int64_t block, const Push& push) const {

@@ -19,8 +19,6 @@
 namespace tufted {
 namespace {
 
-constexpr std::int64_t block_size = 4096;
-
 /// A side of a triangle, filed under the smaller of its two vertices.
 struct UngluedSide {
   int other;  ///< the larger vertex
@@ -113,7 +111,7 @@ EdgeCounts glueEdges(IntrinsicTriangulation& cover, const PointsView& points, co
   release(fill);
 
   std::array<std::atomic<std::int64_t>, 3> edges = {};
-  workers.forBlocks("glue", cover.vertices, block_size, [&](std::int64_t begin, std::int64_t end, int) {
+  workers.forBlocks("glue", cover.vertices, usual_block, [&](std::int64_t begin, std::int64_t end, int) {
     EdgeCycle cycle(cover, points, order);
     std::array<std::int64_t, 3> count = {};
     for (int low = static_cast<int>(begin); low < end; ++low) {

@@ -99,10 +99,10 @@ class MatrixColumns {
   void write(int size, const char* function) {
     setSizes(size, function);
     M_.setZero(size);
-    Buffer<Block> blocks((rows_.size() + block_size - 1) / block_size);
+    Buffer<Block> blocks((rows_.size() + cheap_block - 1) / cheap_block);
     DisjointSets sets(rows_.size());  // those of one block are united by one thread
-    workers_.forBlocks("assemble", rows_.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
-      writeBlock(static_cast<int>(begin), static_cast<int>(end), blocks[begin / block_size], sets);
+    workers_.forBlocks("assemble", rows_.size(), cheap_block, [&](std::int64_t begin, std::int64_t end, int) {
+      writeBlock(static_cast<int>(begin), static_cast<int>(end), blocks[begin / cheap_block], sets);
     });
     for (const Block& block : blocks) {
       report_.clamped_weights += block.clamped.small;
@@ -121,7 +121,6 @@ class MatrixColumns {
   }
 
  private:
-  static constexpr std::int64_t block_size = 8192;
   static constexpr int ahead = 16;  // columns
 
   /// What is found in one block of vertices.
@@ -134,7 +133,7 @@ class MatrixColumns {
   /// The number of entries of each column.
   void setSizes(int size, const char* function) {
     Buffer<int> count(static_cast<std::size_t>(size));
-    workers_.forBlocks("assemble", rows_.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    workers_.forBlocks("assemble", rows_.size(), cheap_block, [&](std::int64_t begin, std::int64_t end, int) {
       for (int p = static_cast<int>(begin); p < end; ++p) {
         int positive = 0;
         rows_.forEachInRow(p, [&](int, double weight) { positive += weight > 0 ? 1 : 0; });

@@ -9,15 +9,13 @@
 namespace tufted {
 namespace {
 
-constexpr std::int64_t block_size = 16384;
-
 /// The area of all faces, summed in blocks, so that it does not depend on the number of threads.
 double sumAreas(const IntrinsicTriangulation& cover, const Workers& workers) {
-  Buffer<double> sums((cover.size() + block_size - 1) / block_size);
-  workers.forBlocks("mollify", cover.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+  Buffer<double> sums((cover.size() + cheapest_block - 1) / cheapest_block);
+  workers.forBlocks("mollify", cover.size(), cheapest_block, [&](std::int64_t begin, std::int64_t end, int) {
     double sum = 0;
     for (std::int64_t f = begin; f < end; ++f) sum += faceArea(cover, static_cast<int>(f));
-    sums[begin / block_size] = sum;
+    sums[begin / cheapest_block] = sum;
   });
   return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
@@ -26,14 +24,14 @@ double sumAreas(const IntrinsicTriangulation& cover, const Workers& workers) {
 
 Mollification mollify(IntrinsicTriangulation& cover, double delta, const Workers& workers) {
   const std::int64_t triangles = cover.size() / 2;
-  Buffer<double> missing((triangles + block_size - 1) / block_size);
-  workers.forBlocks("mollify", triangles, block_size, [&](std::int64_t begin, std::int64_t end, int) {
+  Buffer<double> missing((triangles + cheapest_block - 1) / cheapest_block);
+  workers.forBlocks("mollify", triangles, cheapest_block, [&](std::int64_t begin, std::int64_t end, int) {
     double most = 0;
     for (std::int64_t t = begin; t < end; ++t) {  // front and back have the same lengths
       const double* length = cover.length.data() + 6 * t;
       most = std::max(most, delta - triangleSlack(length[0], length[1], length[2]));
     }
-    missing[begin / block_size] = most;
+    missing[begin / cheapest_block] = most;
   });
   const double added = missing.empty() ? 0 : *std::max_element(missing.begin(), missing.end());
   if (!(added > 0)) return {};

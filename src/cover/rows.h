@@ -35,9 +35,8 @@ inline Entry* mergeColumns(Entry* first, Entry* last, Buffer<Entry>& scratch) {
 
 /// mergeColumns() in every row. Returns the sizes of the rows, which still begin where they began.
 inline Buffer<int> mergeRows(Rows& rows, const Workers& workers) {
-  constexpr std::int64_t block_size = 8192;
   Buffer<int> size(rows.offset.size() - 1);
-  workers.forBlocks("assemble", std::ssize(size), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+  workers.forBlocks("assemble", std::ssize(size), cheap_block, [&](std::int64_t begin, std::int64_t end, int) {
     Buffer<Entry> scratch;
     for (std::int64_t p = begin; p < end; ++p) {
       Entry* const first = rows.entries.data() + rows.offset[p];

@@ -13,7 +13,6 @@
 namespace tufted {
 namespace {
 
-constexpr std::int64_t block_size = 256;
 constexpr double explained = 1.3;            // of the noise's variance, that of the residuals: a window without a bend
 constexpr double widened_radius = 1 + 1e-9;  // squared; or rounding would decide about a window's last neighbour
 constexpr double fade = 0.05;        // of the noise's variance, by which windows with larger residuals count less
@@ -154,7 +153,7 @@ Buffer<std::uint8_t> moveNextToCreases(const PointsView& points, const NeighborS
   forEachPoint(windows, workers,
                [&](int p) { normals.row(p) = mover.normalOf(p, std::max<int>(choice.window[p], 1)); });
   const auto forEachListed = [&](std::span<const int> which, int times, const auto& visit) {
-    workers.forBlocks("noise", std::ssize(which), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    workers.forBlocks("noise", std::ssize(which), costly_block, [&](std::int64_t begin, std::int64_t end, int) {
       CreaseScratch scratch;
       ListedSearch search(points, *source.search, windows);
       const auto count = [&](int p) { return times * windows.base[p]; };

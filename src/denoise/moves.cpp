@@ -11,8 +11,6 @@
 namespace tufted {
 namespace {
 
-constexpr std::int64_t block_size = 256;
-
 /// Fits in all windows of the noisy points, and of those that their decisions are averaged over.
 void fitNoisy(const WindowFitter& fitter, const NoiseLevel& noise, const Workers& workers, Windows& windows) {
   const int n = windows.size();
@@ -31,7 +29,7 @@ void fitNoisy(const WindowFitter& fitter, const NoiseLevel& noise, const Workers
 void moveAgain(const PointsView& points, const NeighborSource& source, const Windows& windows, const NoiseLevel& noise,
                std::span<const int> which, const WindowChoice& choice, const Workers& workers, PointBuffer& move) {
   const PointBuffer before = move;
-  workers.forBlocks("noise", std::ssize(which), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+  workers.forBlocks("noise", std::ssize(which), costly_block, [&](std::int64_t begin, std::int64_t end, int) {
     WindowNeighbors around;
     Buffer<int> kept;
     OffsetBuffer offsets;

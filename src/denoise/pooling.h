@@ -13,8 +13,7 @@ namespace tufted {
 /// Calls visit(p) for every point, which may write what belongs to p alone.
 template <class Visit>
 void forEachPoint(const Windows& windows, const Workers& workers, const Visit& visit) {
-  constexpr std::int64_t block_size = 1024;
-  workers.forBlocks("noise", windows.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+  workers.forBlocks("noise", windows.size(), star_block, [&](std::int64_t begin, std::int64_t end, int) {
     for (int p = static_cast<int>(begin); p < end; ++p) visit(p);
   });
 }

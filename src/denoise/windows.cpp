@@ -13,8 +13,6 @@
 namespace tufted {
 namespace {
 
-constexpr std::int64_t block_size = 256;
-
 /// @param p stands in where there are no neighbours
 void spread(int p, std::span<const Neighbor> neighbors, Windows::Pool& pool) {
   const std::size_t count = neighbors.size();
@@ -105,7 +103,7 @@ void WindowFitter::start(Windows& windows) const {
   windows.far.resize(size);
   CloudOptions options;
   const NeighborhoodFinder finder(points_, source_, options);
-  workers_.forBlocks("noise", n, block_size, [&](std::int64_t begin, std::int64_t end, int) {
+  workers_.forBlocks("noise", n, costly_block, [&](std::int64_t begin, std::int64_t end, int) {
     const int first = static_cast<int>(begin), count = static_cast<int>(end - begin);
     Buffer<Neighborhood> neighborhoods(static_cast<std::size_t>(count));
     NeighborhoodScratch scratch;
@@ -140,11 +138,11 @@ void WindowFitter::reset(std::span<const int> which, Windows& windows) const {
 }
 
 void WindowFitter::takePlanes(std::span<const int> which, Windows& windows) const {
-  workers_.forBlocks("noise", std::ssize(which), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+  workers_.forBlocks("noise", std::ssize(which), costly_block, [&](std::int64_t begin, std::int64_t end, int) {
     ListedSearch search(points_, *source_.search, windows);
     OffsetBuffer offsets;
-    std::array<Covariance, block_size> covariances;
-    std::array<PrincipalAxes, block_size> axes;
+    std::array<Covariance, costly_block> covariances;
+    std::array<PrincipalAxes, costly_block> axes;
     const auto block = which.subspan(begin, end - begin);
     std::size_t i = 0;
     search.forEach(
@@ -170,7 +168,7 @@ void WindowFitter::fitAll(std::span<const int> which, const Buffer<std::uint8_t>
 
 void WindowFitter::fit(std::span<const int> which, int sizes, const Buffer<std::uint8_t>& left_out,
                        Windows& windows) const {
-  workers_.forBlocks("noise", std::ssize(which), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+  workers_.forBlocks("noise", std::ssize(which), costly_block, [&](std::int64_t begin, std::int64_t end, int) {
     WindowNeighbors around;
     FitQueue queue(windows);
     Buffer<Neighbor> kept;

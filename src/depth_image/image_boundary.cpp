@@ -8,7 +8,6 @@
 namespace tufted {
 namespace {
 
-constexpr std::int64_t block_size = 4096;
 constexpr double farthest = 2;  // times the longest edge, in pixels
 constexpr int least_reach = 3;  // pixels
 constexpr int most_reach = 12;
@@ -109,7 +108,7 @@ Buffer<Boundary> findImageBoundary(const Stars& stars, const DepthImage& image, 
   Buffer<Boundary> boundary(stars.size(), Boundary::none);
   const ImageBoundaryFinder finder(stars, image);
   Buffer<Buffer<Gap>> gaps(workers.count());
-  workers.forBlocks("boundary", stars.size(), block_size, [&](std::int64_t begin, std::int64_t end, int worker) {
+  workers.forBlocks("boundary", stars.size(), usual_block, [&](std::int64_t begin, std::int64_t end, int worker) {
     for (int p = static_cast<int>(begin); p < static_cast<int>(end); ++p) boundary[p] = finder.find(p, gaps[worker]);
   });
   return boundary;

@@ -13,7 +13,6 @@
 namespace tufted {
 namespace {
 
-constexpr std::int64_t block_size = 1024;
 constexpr std::size_t usual_degree = 7;
 constexpr int first_rings = 2;  // of the window that the plane is fitted to and the star is looked for in
 constexpr int enough = 12;      // points in a window; where there are fewer it is widened
@@ -133,13 +132,13 @@ BuiltStars buildImageStars(const DepthImage& image, const PointBuffer& normals, 
   const int n = static_cast<int>(image.points.rows());
   BuiltStars built;
   makeRoom(n, built);
-  const std::int64_t blocks = (n + block_size - 1) / block_size;
+  const std::int64_t blocks = (n + star_block - 1) / star_block;
   Buffer<WorkerState> states(workers.count());
   const ImageStarBuilder builder(image, normals, options, built);
   BlocksInOrder in_order(blocks, built);
-  workers.forBlocks("stars", n, block_size, [&](std::int64_t begin, std::int64_t end, int worker) {
+  workers.forBlocks("stars", n, star_block, [&](std::int64_t begin, std::int64_t end, int worker) {
     builder.build(begin, end, states[worker]);
-    in_order.take(begin / block_size, states[worker].memory.block);
+    in_order.take(begin / star_block, states[worker].memory.block);
   });
   finishOffsets(built.stars);
   for (const WorkerState& state : states) {

@@ -11,7 +11,6 @@
 namespace tufted {
 namespace {
 
-constexpr std::int64_t block_size = 4096;
 constexpr std::array<int, 2> strides = {3, 9};
 constexpr double tolerance = 2;    // standard deviations of noise between two smoothed values
 constexpr double harmless = 0.01;  // of the squared spacing: a tenth of it in noise
@@ -83,7 +82,7 @@ void smoothFurther(const PixelGrid& grid, SmoothedRanges& smoothed, double noise
     const Buffer<double> before = asImage(grid, smoothed.range);
     const PixelsApart apart(grid, before, tolerance * noise, stride);
     workers.forBlocks(
-        "windows", std::ssize(smoothed.range), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+        "windows", std::ssize(smoothed.range), usual_block, [&](std::int64_t begin, std::int64_t end, int) {
           PixelsApart::Values values;
           for (std::int64_t p = begin; p < end; ++p) {
             SmoothedRange& range = smoothed.range[p];
@@ -100,7 +99,7 @@ PointBuffer displacementsAlongRays(const PixelGrid& grid, const PointsView& poin
   PointBuffer displacement;
   displacement.setZero(points.rows());
   Buffer<std::int64_t> counts(workers.count());
-  workers.forBlocks("windows", points.rows(), block_size, [&](std::int64_t begin, std::int64_t end, int worker) {
+  workers.forBlocks("windows", points.rows(), usual_block, [&](std::int64_t begin, std::int64_t end, int worker) {
     for (std::int64_t p = begin; p < end; ++p) {
       const Eigen::RowVector3d ray = points.row(p) - grid.origin;
       const double share = 1 / (ray.norm() * smoothed.range[p].inverse) - 1;

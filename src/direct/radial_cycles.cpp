@@ -14,8 +14,6 @@
 namespace tufted {
 namespace {
 
-constexpr std::int64_t block_size = 8192;
-
 /// Visits the sides of the star of p that are not glued within it.
 template <class Visit>
 void forEachOpenSide(const Stars& stars, int p, const Visit& visit) {
@@ -58,7 +56,7 @@ void RadialCycles::collect(const Workers& workers) {
 }
 
 void RadialCycles::sort(const PointsView& points, const Workers& workers) {
-  workers.forBlocks("glue", stars_.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+  workers.forBlocks("glue", stars_.size(), cheap_block, [&](std::int64_t begin, std::int64_t end, int) {
     Buffer<CycleSide> sides;
     KeySort<CycleSide> key_sort;
     for (int low = static_cast<int>(begin); low < end; ++low) {

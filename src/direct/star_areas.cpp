@@ -14,7 +14,6 @@
 namespace tufted {
 namespace {
 
-constexpr std::int64_t block_size = 8192;
 /// In mixed areas: what a sound Voronoi area exceeds by far, and what it keeps below by far. Ribbons gain 8 % of their
 /// area with 20, 25 % with 50; 10 takes from the rims of sound surfaces.
 constexpr double least_share = 0.1, most_share = 20;
@@ -76,7 +75,7 @@ void StarAreas::measure(const Stars& stars, int p, const TriangleFans& fans, int
 
 OwnAreas chooseAreas(const Stars& stars, StarAreas areas, const Workers& workers) {
   std::atomic<std::int64_t> bounded{0};
-  workers.forBlocks("mass", stars.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+  workers.forBlocks("mass", stars.size(), cheap_block, [&](std::int64_t begin, std::int64_t end, int) {
     std::int64_t bounded_here = 0;
     for (int p = static_cast<int>(begin); p < end; ++p) {
       const bool fits = stars.flat[p] != 0 && areas.voronoi[p] > least_share * areas.mixed[p];
@@ -95,7 +94,7 @@ OwnAreas ownAreas(const Stars& stars, const PointsView& points, const Workers& w
   const EdgeLengths length{points, stars.displacement};
   StarAreas areas;
   areas.resize(stars.size());
-  workers.forBlocks("mass", stars.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+  workers.forBlocks("mass", stars.size(), cheap_block, [&](std::int64_t begin, std::int64_t end, int) {
     TriangleFanBuffer buffer;
     forEachTriangleFan(stars, length, Numbers{begin, end}, buffer,
                        [&](int p, const TriangleFans& fans, int at) { areas.measure(stars, p, fans, at); });

@@ -12,8 +12,6 @@
 namespace tufted {
 namespace {
 
-constexpr std::int64_t block_size = 8192;
-
 /// Sums over one block of stars, so that they have the same bits for any number of threads.
 struct BlockSums {
   double length = 0, square = 0, least_slack = std::numeric_limits<double>::infinity();
@@ -75,11 +73,11 @@ StarMetric measureStars(const Stars& stars, const EdgeLengths& length, RawBuffer
   metric.area.resize(stars.size());
   metric.is_flat.resize(stars.size());
   if (own_areas != nullptr) own_areas->resize(stars.size());
-  Buffer<BlockSums> sums((stars.size() + block_size - 1) / block_size);
+  Buffer<BlockSums> sums((stars.size() + cheap_block - 1) / cheap_block);
   const StarMeasurer measurer(stars, length, metric, own_areas);
-  workers.forBlocks("lengths", stars.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+  workers.forBlocks("lengths", stars.size(), cheap_block, [&](std::int64_t begin, std::int64_t end, int) {
     TriangleFanBuffer buffer;
-    measurer.measure(static_cast<int>(begin), static_cast<int>(end), buffer, sums[begin / block_size]);
+    measurer.measure(static_cast<int>(begin), static_cast<int>(end), buffer, sums[begin / cheap_block]);
   });
   BlockSums all;
   for (const BlockSums& sum : sums) {

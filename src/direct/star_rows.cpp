@@ -8,8 +8,6 @@
 namespace tufted {
 namespace {
 
-constexpr std::int64_t block_size = 8192;
-
 class StarRows {
  public:
   /// The faces of the cover are dropped unless they are kept.
@@ -19,7 +17,7 @@ class StarRows {
         scale_(scale),
         mixed_(glued.disagrees),
         mass_(static_cast<std::size_t>(stars_.size())) {
-    workers.forBlocks("assemble", stars_.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    workers.forBlocks("assemble", stars_.size(), cheap_block, [&](std::int64_t begin, std::int64_t end, int) {
       for (int p = static_cast<int>(begin); p < end; ++p) {
         mixed_[p] |= metric_.is_flat[p] | static_cast<std::uint8_t>(glued.cover.isFlipped(p));
         mass_[p] = mixed_[p] == 0 ? 2 * scale_ * metric_.area[p] : 0;  // front and back, 3 stars, a third

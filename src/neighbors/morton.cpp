@@ -13,7 +13,6 @@
 namespace tufted {
 namespace {
 
-constexpr std::int64_t block_size = 4096;
 constexpr int axis_bits = 21;
 constexpr double axis_cells = 1 << axis_bits;
 constexpr double cells = 1 << 16;  // per median spread; so 2^21 cells reach over 32 spreads
@@ -135,7 +134,7 @@ RankedCloud rankPoints(const PointsRef& points, std::vector<PointStatus>& status
                                    [&](int i) { return status[i] != PointStatus::not_finite; });
   const std::int64_t size = std::ssize(cloud.input_index);
   const auto forAll = [&](const auto& visit) {
-    workers.forBlocks("order", size, block_size, [&](std::int64_t begin, std::int64_t end, int worker) {
+    workers.forBlocks("order", size, usual_block, [&](std::int64_t begin, std::int64_t end, int worker) {
       for (std::int64_t i = begin; i < end; ++i) visit(i, worker);
     });
   };

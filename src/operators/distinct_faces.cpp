@@ -8,8 +8,6 @@
 namespace tufted {
 namespace {
 
-constexpr std::int64_t block_size = 8192;
-
 std::array<int, 3> cornersOf(const IntrinsicTriangulation& cover, std::int64_t face, const std::vector<int>& number) {
   const auto& [a, b, c] = cover.faces[face];
   return number.empty() ? cover.faces[face] : std::array{number[a], number[b], number[c]};
@@ -60,14 +58,14 @@ std::vector<DistinctFace> distinctFaces(const IntrinsicTriangulation& cover, con
                                         const std::vector<int>& number) {
   std::vector<int> offset;
   const std::vector<int> list = facesByCorner(cover, number, offset);
-  std::vector<std::vector<DistinctFace>> parts((cover.vertices + block_size - 1) / block_size);
-  workers.forBlocks("faces", cover.vertices, block_size, [&](std::int64_t begin, std::int64_t end, int) {
+  std::vector<std::vector<DistinctFace>> parts((cover.vertices + cheap_block - 1) / cheap_block);
+  workers.forBlocks("faces", cover.vertices, cheap_block, [&](std::int64_t begin, std::int64_t end, int) {
     std::vector<DistinctFace> around;
     for (auto v = begin; v < end; ++v) {
       around.clear();
       for (int i = offset[v]; i < offset[v + 1]; ++i) around.push_back(distinctFace(cover, list[i], number));
       mergeCopies(around);
-      parts[begin / block_size].insert(parts[begin / block_size].end(), around.begin(), around.end());
+      parts[begin / cheap_block].insert(parts[begin / cheap_block].end(), around.begin(), around.end());
     }
   });
   std::vector<DistinctFace> faces;

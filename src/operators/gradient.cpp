@@ -19,7 +19,6 @@ namespace {
 
 constexpr int cloud_neighbors = 30;
 constexpr int most_neighbors = 10'000;
-constexpr std::int64_t block_size = 256;
 
 void checkArguments(const Laplacian& laplacian, const PointsRef& points, const Frames& frames,
                     const GradientOptions& options) {
@@ -104,11 +103,11 @@ Gradients fitGradients(const Laplacian& laplacian, const PointsRef& points, cons
   const auto has_surface = [&](int i) {
     return laplacian.representative[i] == i && laplacian.status[i] == PointStatus::active;
   };
-  std::vector<Rows> blocks((static_cast<std::size_t>(n) + block_size - 1) / block_size);
+  std::vector<Rows> blocks((static_cast<std::size_t>(n) + costly_block - 1) / costly_block);
   std::vector<GradientReport> reports(blocks.size());
-  workers.forBlocks("gradients", n, block_size, [&](std::int64_t begin, std::int64_t end, int worker) {
-    Rows& rows = blocks[begin / block_size];
-    GradientReport& report = reports[begin / block_size];
+  workers.forBlocks("gradients", n, costly_block, [&](std::int64_t begin, std::int64_t end, int worker) {
+    Rows& rows = blocks[begin / costly_block];
+    GradientReport& report = reports[begin / costly_block];
     for (int i = static_cast<int>(begin); i < end; ++i) {
       if (!has_surface(i)) {
         rows.lengths.push_back(0);

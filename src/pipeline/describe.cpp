@@ -20,7 +20,6 @@ namespace tufted {
 namespace {
 
 constexpr double outlier_ratio = 5;  // on random points of a surface the nearest is that far once in 3e7
-constexpr std::int64_t block_size = 4096;
 
 /// The k nearest of every point, and what is seen on the way.
 struct NeighborGraph {
@@ -39,7 +38,7 @@ NeighborGraph findNeighbors(const RankedCloud& cloud, int k, const Workers& work
   if (graph.k == 0) return graph;
   const NeighborSearch search(cloud.points, workers);
   Buffer<Buffer<Neighbor>> found(workers.count());
-  workers.forBlocks("neighbours", cloud.size(), block_size, [&](std::int64_t begin, std::int64_t end, int worker) {
+  workers.forBlocks("neighbours", cloud.size(), usual_block, [&](std::int64_t begin, std::int64_t end, int worker) {
     Buffer<Neighbor>& neighbors = found[worker];
     for (std::int64_t p = begin; p < end; ++p) {
       search.nearest(static_cast<int>(p), graph.k, neighbors);
@@ -62,7 +61,7 @@ double quantile(Buffer<double> values, double q) {
 /// Points far from all others, measured by how far their neighbours are from theirs.
 std::int64_t countOutliers(const NeighborGraph& graph, const Workers& workers) {
   Buffer<std::int64_t> counts(workers.count());
-  workers.forBlocks("outliers", static_cast<std::int64_t>(graph.distance.size()), block_size,
+  workers.forBlocks("outliers", static_cast<std::int64_t>(graph.distance.size()), usual_block,
                     [&](std::int64_t begin, std::int64_t end, int worker) {
                       Buffer<double> around(graph.k);
                       for (std::int64_t p = begin; p < end; ++p) {

@@ -6,18 +6,12 @@
 #include "stars/tangent_frame.h"
 
 namespace tufted {
-namespace {
-
-constexpr std::int64_t block_size = 4096;
-
-}  // namespace
-
 void setBoundaryAndNormals(const Buffer<Boundary>& boundary, const PointsView& normals, const RankedCloud& cloud,
                            const Workers& workers, Laplacian& result) {
   const auto n = static_cast<Eigen::Index>(result.status.size());
   result.boundary.assign(result.status.size(), Boundary::none);
   result.frames.normals.resize(n, 3);
-  workers.forBlocks("boundary", cloud.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+  workers.forBlocks("boundary", cloud.size(), usual_block, [&](std::int64_t begin, std::int64_t end, int) {
     for (std::int64_t p = begin; p < end; ++p) {
       const int i = cloud.input_index[p];
       result.boundary[i] = boundary[p];
@@ -36,12 +30,12 @@ void setBoundaryAndNormals(const Buffer<Boundary>& boundary, const PointsView& n
 void setPositions(const PointsRef& points, const PointBuffer& displacement, const RankedCloud& cloud,
                   const Workers& workers, Laplacian& result) {
   result.positions.resize(points.rows(), 3);
-  workers.forBlocks("boundary", points.rows(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+  workers.forBlocks("boundary", points.rows(), usual_block, [&](std::int64_t begin, std::int64_t end, int) {
     result.positions.middleRows(begin, end - begin) = points.middleRows(begin, end - begin);
   });
   if (displacement.rows() == 0) return;
   const PowerOfTwo unit(cloud.exponent);
-  workers.forBlocks("boundary", cloud.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+  workers.forBlocks("boundary", cloud.size(), usual_block, [&](std::int64_t begin, std::int64_t end, int) {
     for (std::int64_t p = begin; p < end; ++p) {
       auto position = result.positions.row(cloud.input_index[p]);
       for (int axis = 0; axis < 3; ++axis) {
@@ -58,7 +52,7 @@ void setPositions(const PointsRef& points, const PointBuffer& displacement, cons
 void faceViewpoint(const Eigen::Vector3d& viewpoint, const Workers& workers, Laplacian& result) {
   Points& normals = result.frames.normals;
   const Eigen::RowVector3d half = viewpoint.transpose() / 2;  // so that no difference overflows
-  workers.forBlocks("boundary", normals.rows(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+  workers.forBlocks("boundary", normals.rows(), usual_block, [&](std::int64_t begin, std::int64_t end, int) {
     for (std::int64_t i = begin; i < end; ++i)
       if (normals.row(i).dot(half - result.positions.row(i) / 2) < 0) normals.row(i) *= -1;
   });
@@ -68,7 +62,7 @@ void faceViewpoint(const Eigen::Vector3d& viewpoint, const Workers& workers, Lap
 void setTangents(const Workers& workers, Laplacian& result) {
   Frames& frames = result.frames;
   frames.tangents.resize(frames.normals.rows(), 3);
-  workers.forBlocks("assemble", frames.normals.rows(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+  workers.forBlocks("assemble", frames.normals.rows(), usual_block, [&](std::int64_t begin, std::int64_t end, int) {
     for (std::int64_t i = begin; i < end; ++i) {
       const Eigen::Vector3d normal = frames.normals.row(i);
       frames.tangents.row(i) = normal.isZero(0) ? normal : tangentOf(normal);

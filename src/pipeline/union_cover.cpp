@@ -5,17 +5,11 @@
 #include "direct/star_triangles.h"
 
 namespace tufted {
-namespace {
-
-constexpr std::int64_t block_size = 4096;
-
-}  // namespace
-
 void addStars(const Stars& stars, Gluing gluing, IntrinsicTriangulation& cover, const Workers& workers) {
   const int n = stars.size();
   const Buffer<int> first = firstTriangles(stars);
   resizeCover(cover, n, first[n]);
-  workers.forBlocks("union", n, block_size, [&](std::int64_t begin, std::int64_t end, int) {
+  workers.forBlocks("union", n, usual_block, [&](std::int64_t begin, std::int64_t end, int) {
     for (int p = static_cast<int>(begin); p < end; ++p) {
       int t = first[p];
       for (int i = stars.offset[p]; i < stars.offset[p + 1]; ++i)

@@ -7,8 +7,6 @@
 namespace tufted {
 namespace {
 
-constexpr std::int64_t block_size = 8192;
-
 /// Whether the stars of p and of link vertex i have the same two triangles at their edge.
 bool agreeOn(const Stars& stars, int p, int i) {
   const Sides here(stars, p, i);
@@ -21,7 +19,7 @@ bool agreeOn(const Stars& stars, int p, int i) {
 
 Buffer<std::uint8_t> findDisagreement(const Stars& stars, const Workers& workers) {
   Buffer<std::uint8_t> disagrees(stars.size());
-  workers.forBlocks("agreement", stars.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+  workers.forBlocks("agreement", stars.size(), cheap_block, [&](std::int64_t begin, std::int64_t end, int) {
     for (int p = static_cast<int>(begin); p < end; ++p) {
       for (int i = stars.offset[p]; i < stars.offset[p + 1]; ++i) {
         if (agreeOn(stars, p, i)) continue;

@@ -13,7 +13,6 @@
 namespace tufted {
 namespace {
 
-constexpr std::int64_t block_size = 4096;
 constexpr int search_factor = 8;    // times k: what is looked through for points beyond a gap
 constexpr double off_plane = 0.25;  // of the fit radius, as between the heights of two sheets
 constexpr double farthest = 2;      // times the longest edge
@@ -58,7 +57,7 @@ class BoundaryFinder {
   /// Has find() look from there as well.
   void lookFrom(const Eigen::Vector3d& viewpoint, const Workers& workers) {
     directions_.resize(points_.rows());
-    workers.forBlocks("boundary", points_.rows(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    workers.forBlocks("boundary", points_.rows(), usual_block, [&](std::int64_t begin, std::int64_t end, int) {
       for (std::int64_t p = begin; p < end; ++p)
         directions_.row(p) = (points_.row(p) - viewpoint.transpose()).normalized();
     });
@@ -139,7 +138,7 @@ Buffer<Boundary> findBoundary(const BuiltStars& built, const RankedCloud& cloud,
   const bool any = std::any_of(stars.ends.begin(), stars.ends.end(), [](std::uint8_t ends) { return ends != 0; });
   if (any && viewpoint != nullptr) finder.lookFrom(viewpoint->unaryExpr(scaled), workers);
   Buffer<WorkerState> states(workers.count());
-  workers.forBlocks("boundary", stars.size(), block_size, [&](std::int64_t begin, std::int64_t end, int worker) {
+  workers.forBlocks("boundary", stars.size(), usual_block, [&](std::int64_t begin, std::int64_t end, int worker) {
     for (int p = static_cast<int>(begin); p < end; ++p) boundary[p] = finder.find(p, states[worker]);
   });
   return boundary;

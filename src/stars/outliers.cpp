@@ -9,7 +9,6 @@
 namespace tufted {
 namespace {
 
-constexpr std::int64_t block_size = 1024;
 constexpr double steep = 0.5;  // sine of the angle between a tangent plane and the way to a point
 
 /// Whether p lies beyond the neighbours that q looked at.
@@ -65,7 +64,7 @@ void isolateOutliers(BuiltStars& built, const RankedCloud& cloud, const Neighbor
   bool found = true;
   for (int round = 0; found; ++round) {
     found = false;
-    workers.forBlocks("outliers", stars.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    workers.forBlocks("outliers", stars.size(), star_block, [&](std::int64_t begin, std::int64_t end, int) {
       Buffer<Neighbor> neighbors;
       for (int p = static_cast<int>(begin); p < end; ++p) {
         if (verdicts[p] != untried || !isSuspect(built, cloud.points, p, round > 0)) continue;

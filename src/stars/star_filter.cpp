@@ -14,7 +14,6 @@
 namespace tufted {
 namespace {
 
-constexpr std::int64_t block_size = 8192;
 /// Less takes triangles from steps of density, more leaves bridges from the last ring of a scan.
 constexpr double further = 2.75;
 constexpr double far_larger = 3;        // than its own neighbourhood, is no triangle of a surface
@@ -95,7 +94,7 @@ std::int64_t dropTriangles(Stars& stars, const Workers& workers, const Test& tes
   Buffer<std::uint8_t> condemned(stars.link.size());
   std::atomic<std::int64_t> dropped{0};
   const auto forEachEntry = [&](const auto& visit) {
-    workers.forBlocks("filter", stars.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+    workers.forBlocks("filter", stars.size(), cheap_block, [&](std::int64_t begin, std::int64_t end, int) {
       for (int p = static_cast<int>(begin); p < end; ++p)
         for (int i = stars.offset[p]; i < stars.offset[p + 1]; ++i) visit(p, i);
     });
@@ -134,7 +133,7 @@ void filterStars(BuiltStars& built, const PointsView& points, Filter filter, con
 
 void countVotes(const Stars& stars, const Buffer<std::uint8_t>& disagrees, const Workers& workers, Report& report) {
   std::array<std::atomic<std::int64_t>, 3> copies = {};
-  workers.forBlocks("votes", stars.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
+  workers.forBlocks("votes", stars.size(), cheap_block, [&](std::int64_t begin, std::int64_t end, int) {
     std::array<std::int64_t, 3> found = {};
     Buffer<int> others;
     for (int p = static_cast<int>(begin); p < end; ++p) {

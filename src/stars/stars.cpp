@@ -20,7 +20,6 @@
 namespace tufted {
 namespace {
 
-constexpr std::int64_t block_size = 1024;  // points per block: its neighbour lists stay in the second-level cache
 constexpr int group_size = NeighborhoodFinder::most_planes;  // frames come first, then stars from the same offsets
 constexpr std::size_t usual_degree = 7;                      // on average over a block
 constexpr int most_doublings = 2;                            // of the neighbours of an open star
@@ -203,13 +202,13 @@ BuiltStars buildStars(const RankedCloud& cloud, const NeighborSource& source, co
   if (options.steps.lengths == Lengths::denoised && !source.isWholeCloud(n)) stars.displacement.setZero(n);
 
   Stopwatch wall;
-  const std::int64_t blocks = (n + block_size - 1) / block_size;
+  const std::int64_t blocks = (n + star_block - 1) / star_block;
   Buffer<NoisyPoints> noisy(static_cast<std::size_t>(blocks));
   Buffer<WorkerState> states(workers.count());
   const StarBuilder builder(cloud, source, options, built);
   BlocksInOrder in_order(blocks, built);
-  workers.forBlocks("stars", n, block_size, [&](std::int64_t begin, std::int64_t end, int worker) {
-    const std::size_t number = begin / block_size;
+  workers.forBlocks("stars", n, star_block, [&](std::int64_t begin, std::int64_t end, int worker) {
+    const std::size_t number = begin / star_block;
     builder.build(begin, end, states[worker], noisy[number]);
     in_order.take(number, states[worker].memory.block);
   });

@@ -170,9 +170,6 @@ TEST_F(OutputOfCommands, IsWhollyOldOrWhollyNewAfterASignal) {
 }
 
 TEST_F(OutputOfCommands, IsWhollyOldOrWhollyNewWhicheverStepFailsOrIsInterrupted) {
-#ifdef TUFTED_SANITIZED
-  GTEST_SKIP() << "the leak sanitizer does not work under strace";
-#endif
   // Runs the command so that the n-th call of a kind fails, or a signal comes with it.
   const auto runWith = [&](const std::string& call, const std::string& fault, int n, std::vector<std::string> words) {
     std::vector<std::string> strace = {"strace", "-f", "-o", "/dev/null", "-e", "trace=" + call, "-e"};

@@ -34,7 +34,7 @@ TEST_P(Ribbon, HasTheAreaOfItsCoverAndOfItsSurfaceWherePointsFillIt) {
     int points;
     std::uint64_t seeds;
   };
-  for (const auto [n, seeds] : {Size{300, 10}, Size{1000, 5}, Size{3000, 3}, Size{10000, 1}, Size{30000, 1}}) {
+  for (const auto [n, seeds] : {Size{300, 10}, Size{1000, 5}, Size{3000, 3}, Size{10000, 1}}) {
     const bool is_filled = width >= std::sqrt(width / n);
     for (std::uint64_t seed = first_seed; seed < first_seed + seeds; ++seed) {
       const Points points = ribbon(n, width, seed);
