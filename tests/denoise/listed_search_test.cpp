@@ -6,22 +6,19 @@
 #include <cmath>
 #include <vector>
 
-#include "neighbors/morton.h"
 #include "shapes/shapes.h"
+#include "support/ranked.h"
 
 namespace tufted {
 namespace {
 
 /// A cloud that can be searched, with windows of 32 or 64 neighbours and their radii.
 struct SearchedCloud {
-  std::vector<PointStatus> status;
-  std::vector<int> representative;
   RankedCloud ranked;
   NeighborSearch search;
   Windows windows;
 
-  explicit SearchedCloud(const Points& points)
-      : ranked(rankPoints(points, status, representative)), search(ranked.points) {
+  explicit SearchedCloud(const Points& points) : ranked(support::ranked(points)), search(ranked.points) {
     const auto n = static_cast<std::size_t>(ranked.size());
     windows.base.resize(n);
     windows.radius.resize(n);

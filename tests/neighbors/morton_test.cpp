@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "shapes/shapes.h"
+#include "support/ranked.h"
 
 namespace tufted {
 namespace {
@@ -68,10 +69,7 @@ TEST(Rank, OfCrowdsAndCopiesIsTheSameOnAnyNumberOfThreads) {
 
 TEST(Rank, DoesNotDependOnTheCallersOrder) {
   const auto lattice = shapes::squareLattice(40);
-  std::vector<PointStatus> status;
-  std::vector<int> representative;
-  const RankedCloud a = rankPoints(lattice.points, status, representative);
-  const RankedCloud b = rankPoints(shapes::shuffled(lattice).points, status, representative);
+  const RankedCloud a = support::ranked(lattice.points), b = support::ranked(shapes::shuffled(lattice).points);
   EXPECT_EQ(a.points.all(), b.points.all());
 }
 

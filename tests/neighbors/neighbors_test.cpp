@@ -6,18 +6,16 @@
 #include <vector>
 
 #include "neighbors/batched_search.h"
-#include "neighbors/morton.h"
 #include "shapes/random.h"
 #include "shapes/shapes.h"
+#include "support/ranked.h"
 
 namespace tufted {
 namespace {
 
 TEST(Neighbors, EqualBruteForceWithTiesToTheSmallerIndex) {
   for (const auto& cloud : {shapes::sphere(1500), shapes::squareLattice(30), shapes::lidar({.azimuth_step = 4})}) {
-    std::vector<PointStatus> status;
-    std::vector<int> representative;
-    const RankedCloud ranked = rankPoints(cloud.points, status, representative);
+    const RankedCloud ranked = support::ranked(cloud.points);
     const NeighborSearch search(ranked.points);
     Buffer<Neighbor> found, expected;
     for (int p = 0; p < ranked.size(); ++p) {
@@ -48,9 +46,7 @@ std::vector<shapes::Cloud> oddClouds() {
 
 TEST(Neighbors, AreTheSameInAnyOrderAndWhateverWasSearchedBefore) {
   for (const auto& cloud : oddClouds()) {
-    std::vector<PointStatus> status;
-    std::vector<int> representative;
-    const RankedCloud ranked = rankPoints(cloud.points, status, representative);
+    const RankedCloud ranked = support::ranked(cloud.points);
     const NeighborSearch search(ranked.points);
     Buffer<Neighbor> expected, found;
     SearchBefore before, unordered_before;
@@ -76,10 +72,8 @@ TEST(Neighbors, AreTheSameInAnyNumberOfTrees) {
     cloud.points.topRows(20000) = 1e-3 * cloud.points.topRows(20000).eval();
     return cloud;
   }();
-  std::vector<PointStatus> status;
-  std::vector<int> representative;
   for (const auto& cloud : {crowds, shapes::squareLattice(200)}) {
-    const RankedCloud ranked = rankPoints(cloud.points, status, representative);
+    const RankedCloud ranked = support::ranked(cloud.points);
     const Progress silent;
     const Workers workers(3, silent);
     const NeighborSearch one(ranked.points), several(ranked.points, workers);
@@ -115,9 +109,7 @@ TEST(Neighbors, AreTheSameInAnyNumberOfTrees) {
 
 TEST(Neighbors, OfEachAreThoseOfOne) {
   for (const auto& cloud : oddClouds()) {
-    std::vector<PointStatus> status;
-    std::vector<int> representative;
-    const RankedCloud ranked = rankPoints(cloud.points, status, representative);
+    const RankedCloud ranked = support::ranked(cloud.points);
     const NeighborSearch search(ranked.points);
     const int k = std::min(30, ranked.size() - 1);
     BatchScratch scratch;
@@ -139,9 +131,7 @@ TEST(Neighbors, OfEachAreThoseOfOne) {
 TEST(Neighbors, OfKnownCandidatesAreThoseOfTheTree) {
   double even = 0;  // how often there are twice as many on the sphere
   for (const auto& cloud : oddClouds()) {
-    std::vector<PointStatus> status;
-    std::vector<int> representative;
-    const RankedCloud ranked = rankPoints(cloud.points, status, representative);
+    const RankedCloud ranked = support::ranked(cloud.points);
     const NeighborSearch search(ranked.points);
     BatchScratch scratch;
     Buffer<Neighbor> each, known, expected;

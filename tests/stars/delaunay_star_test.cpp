@@ -10,7 +10,6 @@
 #include <cstdint>
 #include <numbers>
 
-#include "neighbors/morton.h"
 #include "neighbors/neighbors.h"
 #include "oracles/oracles.h"
 #include "shapes/random.h"
@@ -21,6 +20,7 @@
 #include "stars/star_gap.h"
 #include "stars/tangent_frame.h"
 #include "support/compare_stars.h"
+#include "support/ranked.h"
 
 namespace tufted {
 namespace {
@@ -41,9 +41,7 @@ TEST(DelaunayStar, OfTheShortCutIsThatOfTheExactWay) {
   Buffer<Neighbor> neighbors;
   int inverted = 0, with_ties = 0, gaping = 0, all = 0;
   for (const auto& shape : shapes::allClouds(1500)) {
-    std::vector<PointStatus> status;
-    std::vector<int> representative;
-    const RankedCloud cloud = rankPoints(shape.points, status, representative);
+    const RankedCloud cloud = support::ranked(shape.points);
     const NeighborSearch search(cloud.points);
     for (int p = 0; p < cloud.size(); ++p) {
       search.nearest(p, p % 2 == 0 ? 30 : 60, neighbors);

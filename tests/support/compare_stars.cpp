@@ -5,11 +5,11 @@
 #include <cmath>
 #include <set>
 
-#include "neighbors/morton.h"
 #include "neighbors/neighbors.h"
 #include "oracles/oracles.h"
 #include "stars/delaunay_star.h"
 #include "stars/tangent_frame.h"
+#include "support/ranked.h"
 
 namespace tufted::support {
 namespace {
@@ -47,9 +47,7 @@ bool isTied(const PlanarPoint& q, const Buffer<PlanarPoint>& ring) {
 }  // namespace
 
 StarComparison compareStars(const Points& points, int step) {
-  std::vector<PointStatus> status;
-  std::vector<int> representative;
-  const RankedCloud cloud = rankPoints(points, status, representative);
+  const RankedCloud cloud = support::ranked(points);
   const NeighborSearch search(cloud.points);
   Buffer<Neighbor> neighbors;
   StarScratch scratch;
