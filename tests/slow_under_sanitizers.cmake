@@ -1,5 +1,5 @@
 # Core tests that are left to the release build: they compare results or measure errors of large shapes, which takes more
-# than 3 s under sanitizers, and others run the same code there.
+# than 3 s under sanitizers, and others run most of the same code there.
 set(slow_tests
     BlockLanczos.SearchesUntilNothingIsMissingAndStaysExact
     BlockLanczos.TakesMostOfASpaceWithoutLeadingIntoTheNullSpace

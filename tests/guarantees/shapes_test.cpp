@@ -17,7 +17,7 @@ using testing::IsEmpty;
 using testing::ValuesIn;
 
 #ifdef TUFTED_SANITIZED
-constexpr int point_count = 100;  // 1500 take minutes there
+constexpr int point_count = 200;  // 1500 take minutes there
 #else
 constexpr int point_count = 1500;
 #endif

@@ -38,7 +38,7 @@ TEST_P(Scans, ACleanSphereIsNoWorse) {
   EXPECT_LE(spectrumError(sphere, scan, 30), 1.02 * spectrumError(sphere, clean, 30));
 }
 
-INSTANTIATE_TEST_SUITE_P(Seeds, Scans, testing::Values(1));
+INSTANTIATE_TEST_SUITE_P(Seeds, Scans, testing::Values(1, 2, 3));
 
 TEST(Scans, ScanLinesAreNoWorseThanTheHullOfTheirPoints) {
   for (const double anisotropy : {10.0, 20.0}) {
