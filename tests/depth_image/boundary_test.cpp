@@ -9,17 +9,10 @@
 #include "shapes/shapes.h"
 #include "tufted/laplacian.h"
 
-namespace tufted {
+namespace tufted::boundary_test {
 namespace {
 
 using namespace image_tests;
-
-Laplacian build(const Points& points) {
-  const ScanStructure structure = imageStructure(width, height);
-  CloudOptions options;
-  options.structure = &structure;
-  return pointCloudLaplacian(points, options);
-}
 
 TEST(ImageBoundary, NamesRimsAndJumps) {
   // A wall with a hole, and a smaller one in front of its right half.
@@ -27,7 +20,7 @@ TEST(ImageBoundary, NamesRimsAndJumps) {
     if (column > 8 && column < 14 && row > 20 && row < 26) return std::nan("");
     return column >= 40 && row >= 10 && row < 40 ? 0.7 : planeDepth(column, row, 0.1, 0.2);
   });
-  const Laplacian laplacian = build(points);
+  const Laplacian laplacian = imageLaplacian(points);
   for (int i = 0; i < points.rows(); ++i) {
     const int column = i % width, row = i / width;
     if (std::isnan(points(i, 0))) continue;
@@ -57,7 +50,7 @@ TEST(ImageBoundary, OfATearBetweenTwoLipsIsNotBridged) {
   // A point above the tear has both lips in its window.
   const Points points = imageOf(
       [](int column, int row) { return 1 + 0.001 * column + std::max(0, row - 15) * (column < 30 ? -0.02 : 0.02); });
-  const Laplacian laplacian = build(points);
+  const Laplacian laplacian = imageLaplacian(points);
   for (int column = 0; column < laplacian.L.cols(); ++column) {
     for (SparseMatrix::InnerIterator entry(laplacian.L, column); entry; ++entry) {
       const auto row = static_cast<int>(entry.row());
@@ -71,7 +64,7 @@ TEST(ImageStars, WidenTheirWindowsWherePixelsAreMissing) {
   shapes::Random random(6);
   const Points points = imageOf(
       [&](int column, int row) { return random.uniform() < 0.9 ? std::nan("") : planeDepth(column, row, 0.2, 0.1); });
-  const Laplacian laplacian = build(points);
+  const Laplacian laplacian = imageLaplacian(points);
   EXPECT_GT(laplacian.report.grown_neighborhoods, 0);
   EXPECT_EQ(laplacian.report.components, 1);
   EXPECT_EQ(laplacian.report.isolated, 0);
@@ -98,4 +91,4 @@ TEST(DepthImage, IsToldByItsRays) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::boundary_test

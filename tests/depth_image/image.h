@@ -8,6 +8,7 @@
 #include "depth_image/image_stars.h"
 #include "depth_image/pixel_window.h"
 #include "neighbors/morton.h"
+#include "tufted/laplacian.h"
 #include "tufted/scan_structure.h"
 
 namespace tufted::image_tests {
@@ -28,6 +29,14 @@ inline Points imageOf(const std::function<double(int, int)>& depth) {
 /// A plane of depth 1 in the middle.
 inline double planeDepth(int column, int row, double slope_x, double slope_y) {
   return 1 / (1 - slope_x * (column - width / 2) / 100.0 - slope_y * (row - height / 2) / 100.0);
+}
+
+/// The Laplacian of an image by its pixels.
+inline Laplacian imageLaplacian(const Points& points, int columns = width, int rows = height) {
+  const ScanStructure structure = imageStructure(columns, rows);
+  CloudOptions options;
+  options.structure = &structure;
+  return pointCloudLaplacian(points, options);
 }
 
 /// An image with its ranks and surface.

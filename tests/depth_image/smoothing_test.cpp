@@ -9,7 +9,7 @@
 #include "shapes/random.h"
 #include "tufted/laplacian.h"
 
-namespace tufted {
+namespace tufted::smoothing_test {
 namespace {
 
 using namespace image_tests;
@@ -79,10 +79,7 @@ TEST(ImageSmoothing, BringsPointsToTheSurfaceAlongTheirRays) {
   for (const auto& depth : {slanted, ball}) {
     for (const double noise : {1e-3, 1e-2}) {
       const Points points = noisy(depth, noise, 3);
-      const ScanStructure structure = imageStructure(width, height);
-      CloudOptions options;
-      options.structure = &structure;
-      const Laplacian laplacian = pointCloudLaplacian(points, options);
+      const Laplacian laplacian = imageLaplacian(points);
       EXPECT_GT(laplacian.report.denoised, 0.95 * width * height);
       EXPECT_LT(distanceFrom(laplacian.positions, depth), (noise > 5e-3 ? 0.35 : 0.45) * distanceFrom(points, depth));
       for (int i = 0; i < points.rows(); ++i) {
@@ -96,10 +93,7 @@ TEST(ImageSmoothing, BringsPointsToTheSurfaceAlongTheirRays) {
 TEST(ImageSmoothing, LeavesExactPointsBitForBit) {
   for (const auto& depth : {slanted, ball}) {
     const Points points = imageOf(depth);
-    const ScanStructure structure = imageStructure(width, height);
-    CloudOptions options;
-    options.structure = &structure;
-    const Laplacian laplacian = pointCloudLaplacian(points, options);
+    const Laplacian laplacian = imageLaplacian(points);
     EXPECT_EQ(laplacian.report.denoised, 0);
     EXPECT_EQ(laplacian.positions, points);
   }
@@ -145,4 +139,4 @@ TEST(PixelFrame, IsNotTurnedByNoiseLargerThanThePixels) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::smoothing_test

@@ -8,7 +8,7 @@
 #include "shapes/random.h"
 #include "tufted/errors.h"
 
-namespace tufted {
+namespace tufted::windows_test {
 namespace {
 
 using namespace image_tests;
@@ -124,4 +124,4 @@ TEST(SurfaceWindows, AreThoseFoundPixelByPixel) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::windows_test
