@@ -89,10 +89,12 @@ preset() {
     tests "$1: tests" --preset "$1"
 }
 
-# consumer NAME BUILD ARGUMENTS...: installs BUILD and builds a project of a user's against what is installed.
+# consumer NAME BUILD ARGUMENTS...: installs BUILD and builds a project of a user's against what is installed; in build/, as
+# ccache knows the same files again below the project alone.
 consumer() {
-  local name=$1 build=$2 dir=$scratch/$1
+  local name=$1 build=$2 dir=$PWD/build/$1
   shift 2
+  rm -rf "$dir"
   step "$name: install" cmake --install "$build" --prefix "$dir/prefix" &&
     step "$name: configure" cmake -S tests/consumer -B "$dir/build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
       -DCMAKE_PREFIX_PATH="$dir/prefix" "$@" &&
