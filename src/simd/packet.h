@@ -138,15 +138,11 @@ constexpr int part_size = 2;
 
 template <class Result, class A, class Each>
 TUFTED_INLINE Result forPairs(const A& a, const Each& each) {
-  Result result;
-  for (int i = 0; i < pairs; ++i) result.of[i] = each(a.of[i]);
-  return result;
+  return {each(a.of[0]), each(a.of[1]), each(a.of[2]), each(a.of[3])};
 }
 template <class Result, class A, class B, class Each>
 TUFTED_INLINE Result forPairs(const A& a, const B& b, const Each& each) {
-  Result result;
-  for (int i = 0; i < pairs; ++i) result.of[i] = each(a.of[i], b.of[i]);
-  return result;
+  return {each(a.of[0], b.of[0]), each(a.of[1], b.of[1]), each(a.of[2], b.of[2]), each(a.of[3], b.of[3])};
 }
 
 TUFTED_INLINE Packet operator+(Packet a, Packet b) {
@@ -166,9 +162,8 @@ TUFTED_INLINE Packet operator-(Packet a) {
 }
 
 TUFTED_INLINE Packet broadcast(double value) {
-  Packet packet;
-  for (Pair& pair : packet.of) pair = Pair{value, value};
-  return packet;
+  const Pair pair{value, value};
+  return {pair, pair, pair, pair};
 }
 TUFTED_INLINE Part loadPart(const double* values) {
   Part part;
@@ -188,12 +183,13 @@ TUFTED_INLINE Part select(PairMask mask, Part a, Part b) {
   return mask ? a : b;
 }
 TUFTED_INLINE Packet load(const double* values) {
-  Packet packet;
-  __builtin_memcpy(&packet, values, sizeof(packet));
-  return packet;
+  return {loadPart(values), loadPart(values + 2), loadPart(values + 4), loadPart(values + 6)};
 }
 TUFTED_INLINE void store(const Packet& a, double* values) {
-  __builtin_memcpy(values, &a, sizeof(a));
+  store(a.of[0], values);
+  store(a.of[1], values + 2);
+  store(a.of[2], values + 4);
+  store(a.of[3], values + 6);
 }
 #ifdef __SSE2__  // what the compiler makes of the generic ones below takes longer
 TUFTED_INLINE Pair squareRoot(Pair x) {
@@ -267,19 +263,14 @@ TUFTED_INLINE Mask none() {
   return {};
 }
 TUFTED_INLINE unsigned bitsOf(const Mask& mask) {
-  unsigned bits = 0;
-  for (int i = 0; i < pairs; ++i) bits |= bitsOf(mask.of[i]) << (2 * i);
-  return bits;
+  return bitsOf(mask.of[0]) | bitsOf(mask.of[1]) << 2 | bitsOf(mask.of[2]) << 4 | bitsOf(mask.of[3]) << 6;
 }
 TUFTED_INLINE bool any(const Mask& mask) {
-  PairMask found = {};
-  for (const PairMask& pair : mask.of) found |= pair;
-  return bitsOf(found) != 0;
+  return bitsOf((mask.of[0] | mask.of[1]) | (mask.of[2] | mask.of[3])) != 0;
 }
 TUFTED_INLINE Packet select(Mask mask, Packet a, Packet b) {
-  Packet result;
-  for (int i = 0; i < pairs; ++i) result.of[i] = mask.of[i] ? a.of[i] : b.of[i];
-  return result;
+  return {mask.of[0] ? a.of[0] : b.of[0], mask.of[1] ? a.of[1] : b.of[1], mask.of[2] ? a.of[2] : b.of[2],
+          mask.of[3] ? a.of[3] : b.of[3]};
 }
 TUFTED_INLINE Mask firstOf(int count) {
   Mask mask;
@@ -293,8 +284,7 @@ TUFTED_INLINE Mask differ(const int* values, int value) {
   return mask;
 }
 TUFTED_INLINE int countOf(const Mask& mask) {
-  PairMask count = {};
-  for (const PairMask& pair : mask.of) count -= pair;
+  const PairMask count = -(mask.of[0] + mask.of[1] + mask.of[2] + mask.of[3]);
   return static_cast<int>(count[0] + count[1]);
 }
 
