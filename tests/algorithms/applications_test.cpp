@@ -18,7 +18,7 @@
 #include "tufted/io/read.h"
 #endif
 
-namespace tufted {
+namespace tufted::applications_test {
 namespace {
 
 using support::meanError;
@@ -103,4 +103,4 @@ TEST(Applications, HarmonicFunctionsStayWithinTheirPinsOnRealData) {
 #endif
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::applications_test

@@ -11,7 +11,7 @@
 #include "shapes/shapes.h"
 #include "tufted/tufted.h"
 
-namespace tufted {
+namespace tufted::block_lanczos_test {
 namespace {
 
 using Eigen::Index;
@@ -159,4 +159,4 @@ TEST(TallMatrix, TakesProductsOverNothing) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::block_lanczos_test

@@ -11,7 +11,7 @@
 #include "support/refusal.h"
 #include "tufted/tufted.h"
 
-namespace tufted {
+namespace tufted::curvature_test {
 namespace {
 
 using Principal = Eigen::RowVector2d;
@@ -207,4 +207,4 @@ TEST(Curvature, RefusesWhatDoesNotFit) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::curvature_test

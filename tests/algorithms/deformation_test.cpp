@@ -15,7 +15,7 @@
 #include "support/refusal.h"
 #include "tufted/tufted.h"
 
-namespace tufted {
+namespace tufted::deformation_test {
 namespace {
 
 using support::refusal;
@@ -260,4 +260,4 @@ TEST(Deformation, NamesWhatACallerGotWrong) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::deformation_test

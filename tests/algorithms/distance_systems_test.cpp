@@ -8,7 +8,7 @@
 #include "support/compare.h"
 #include "tufted/tufted.h"
 
-namespace tufted {
+namespace tufted::distance_systems_test {
 namespace {
 
 using support::meanError;
@@ -80,4 +80,4 @@ TEST(Distance, ReportsWhatItsFactorisationsTake) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::distance_systems_test

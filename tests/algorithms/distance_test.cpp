@@ -13,7 +13,7 @@
 #include "support/refusal.h"
 #include "tufted/tufted.h"
 
-namespace tufted {
+namespace tufted::distance_test {
 namespace {
 
 using support::meanError;
@@ -284,4 +284,4 @@ TEST(Distance, NamesWhatACallerGotWrong) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::distance_test

@@ -12,7 +12,7 @@
 #include "support/refusal.h"
 #include "tufted/tufted.h"
 
-namespace tufted {
+namespace tufted::failures_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -235,4 +235,4 @@ TEST(Progress, CancelsSolvesAndQueriesAtEveryCall) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::failures_test

@@ -9,7 +9,7 @@
 #include "support/defined_values.h"
 #include "tufted/tufted.h"
 
-namespace tufted {
+namespace tufted::five_tori_test {
 namespace {
 
 /// Five tori of 1000 points, apart; 10 % of all rows are copies of others, 20 % have a NaN, in random order.
@@ -127,4 +127,4 @@ TEST_F(FiveTori, HaveGradients) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::five_tori_test

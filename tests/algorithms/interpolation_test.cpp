@@ -14,7 +14,7 @@
 #include "support/refusal.h"
 #include "tufted/tufted.h"
 
-namespace tufted {
+namespace tufted::interpolation_test {
 namespace {
 
 using support::overshoot;
@@ -249,4 +249,4 @@ TEST(Interpolation, FailsTypedWhenSumsOverflow) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::interpolation_test

@@ -18,7 +18,7 @@
 #include "support/refusal.h"
 #include "tufted/tufted.h"
 
-namespace tufted {
+namespace tufted::kept_factors_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -332,4 +332,4 @@ TEST(LinearSystem, WithAnotherDiagonalIsAsOneMadeWithIt) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::kept_factors_test

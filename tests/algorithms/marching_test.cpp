@@ -18,7 +18,7 @@
 #include "support/refusal.h"
 #include "tufted/tufted.h"
 
-namespace tufted {
+namespace tufted::marching_test {
 namespace {
 
 using support::meanError;
@@ -285,4 +285,4 @@ TEST(Marching, NamesWhatACallerGotWrongAndStopsWhenTold) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::marching_test

@@ -7,7 +7,7 @@
 #include <fstream>
 #include <string>
 
-namespace tufted {
+namespace tufted::memory_limit_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -66,4 +66,4 @@ TEST(MemoryLimitOption, IsHalfOfWhatIsAvailableUnlessStated) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::memory_limit_test

@@ -12,7 +12,7 @@
 #include "support/refusal.h"
 #include "tufted/tufted.h"
 
-namespace tufted {
+namespace tufted::minimal_surface_test {
 namespace {
 
 using support::refusal;
@@ -191,4 +191,4 @@ TEST(MinimalSurface, NamesWhatACallerGotWrong) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::minimal_surface_test

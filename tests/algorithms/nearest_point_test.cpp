@@ -10,7 +10,7 @@
 #include "support/refusal.h"
 #include "tufted/tufted.h"
 
-namespace tufted {
+namespace tufted::nearest_point_test {
 namespace {
 
 TEST(NearestPoint, IsTheFirstActiveOne) {
@@ -105,4 +105,4 @@ TEST(NearestPoints, CancelAtEveryCall) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::nearest_point_test

@@ -15,7 +15,7 @@
 #include "support/overshoot.h"
 #include "tufted/tufted.h"
 
-namespace tufted {
+namespace tufted::nearly_disconnected_test {
 namespace {
 
 using support::joinedGrids;
@@ -207,4 +207,4 @@ TEST(Solver, EndsWithASmallBackwardErrorWhereSolutionsCrossZero) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::nearly_disconnected_test

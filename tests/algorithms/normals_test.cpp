@@ -9,7 +9,7 @@
 #include "support/refusal.h"
 #include "tufted/tufted.h"
 
-namespace tufted {
+namespace tufted::normals_test {
 namespace {
 
 /// The share of active points whose normal is on the side of the true one.
@@ -181,4 +181,4 @@ TEST(OrientedFrames, RefuseWhatDoesNotFit) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::normals_test

@@ -11,7 +11,7 @@
 #include "support/defined_values.h"
 #include "tufted/tufted.h"
 
-namespace tufted {
+namespace tufted::odd_data_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -272,4 +272,4 @@ TEST_F(OddMesh, HasGradients) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::odd_data_test

@@ -14,7 +14,7 @@
 #include "support/refusal.h"
 #include "tufted/tufted.h"
 
-namespace tufted {
+namespace tufted::parameterization_test {
 namespace {
 
 using Eigen::MatrixX2d;
@@ -283,4 +283,4 @@ TEST(Parameterize, GivesOddMeshesADefinedResult) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::parameterization_test

@@ -14,7 +14,7 @@
 #include "support/refusal.h"
 #include "tufted/tufted.h"
 
-namespace tufted {
+namespace tufted::path_test {
 namespace {
 
 /// The sum of the lengths between the points of a path.
@@ -189,4 +189,4 @@ TEST(Path, NamesWhatACallerGotWrongAndStopsWhenTold) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::path_test

@@ -13,7 +13,7 @@
 #include "support/refusal.h"
 #include "tufted/tufted.h"
 
-namespace tufted {
+namespace tufted::points_within_test {
 namespace {
 
 /// Expects the points within a radius to be those that a solver finds, bit for bit.
@@ -108,4 +108,4 @@ TEST(PointsWithin, NameWhatACallerGotWrong) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::points_within_test

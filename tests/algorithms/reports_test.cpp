@@ -7,7 +7,7 @@
 #include "shapes/shapes.h"
 #include "tufted/tufted.h"
 
-namespace tufted {
+namespace tufted::reports_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -78,4 +78,4 @@ TEST(EveryReport, HasMethodIterationsResidualAndSeconds) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::reports_test

@@ -15,7 +15,7 @@
 #include "support/refusal.h"
 #include "tufted/tufted.h"
 
-namespace tufted {
+namespace tufted::segments_test {
 namespace {
 
 /// Two unit spheres that are joined by a neck of radius 0.3: each loses a cap there.
@@ -145,4 +145,4 @@ TEST(Segments, RefuseWhatDoesNotFit) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::segments_test

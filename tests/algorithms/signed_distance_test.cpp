@@ -13,7 +13,7 @@
 #include "support/refusal.h"
 #include "tufted/tufted.h"
 
-namespace tufted {
+namespace tufted::signed_distance_test {
 namespace {
 
 using support::refusal;
@@ -184,4 +184,4 @@ TEST(SignedDistance, NamesWhatACallerGotWrong) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::signed_distance_test

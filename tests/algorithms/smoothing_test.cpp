@@ -12,7 +12,7 @@
 #include "support/refusal.h"
 #include "tufted/tufted.h"
 
-namespace tufted {
+namespace tufted::smoothing_test {
 namespace {
 
 using Mask = std::vector<std::uint8_t>;
@@ -277,4 +277,4 @@ TEST(Smoothing, OfValuesIsThatOfPositions) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::smoothing_test

@@ -8,7 +8,7 @@
 #include "support/refusal.h"
 #include "tufted/tufted.h"
 
-namespace tufted {
+namespace tufted::smoothing_volume_test {
 namespace {
 
 /// Root mean square of how far points lie from the unit sphere.
@@ -135,4 +135,4 @@ TEST(Smoothing, RefusesVolumesThatAreNotThere) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::smoothing_volume_test

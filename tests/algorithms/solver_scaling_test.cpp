@@ -7,7 +7,7 @@
 #include "shapes/shapes.h"
 #include "tufted/tufted.h"
 
-namespace tufted {
+namespace tufted::solver_scaling_test {
 namespace {
 
 TEST(Multigrid, NeedsAtMost60IterationsFrom10kTo300kPoints) {
@@ -59,4 +59,4 @@ TEST(Multigrid, NeedsAtMost60IterationsOnScans) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::solver_scaling_test

@@ -12,7 +12,7 @@
 #include "support/compare.h"
 #include "tufted/tufted.h"
 
-namespace tufted {
+namespace tufted::solver_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -284,4 +284,4 @@ TEST(Solver, TakesRightSidesThatVanishOnPartsOfASurface) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::solver_test

@@ -13,7 +13,7 @@
 #include "support/refusal.h"
 #include "tufted/tufted.h"
 
-namespace tufted {
+namespace tufted::spectral_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -146,4 +146,4 @@ TEST(Spectral, NamesWhatACallerGotWrong) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::spectral_test

@@ -9,7 +9,7 @@
 #include "shapes/spectra.h"
 #include "tufted/tufted.h"
 
-namespace tufted {
+namespace tufted::spectrum_accuracy_test {
 namespace {
 
 class SphereEigenpairs : public testing::TestWithParam<Preset> {};
@@ -74,4 +74,4 @@ TEST(Convergence, OfEigenvaluesAndPoissonIsOfFirstOrderInThePoints) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::spectrum_accuracy_test

@@ -16,7 +16,7 @@
 #include "support/refusal.h"
 #include "tufted/tufted.h"
 
-namespace tufted {
+namespace tufted::spectrum_share_test {
 namespace {
 
 using Eigen::Index;
@@ -212,4 +212,4 @@ TEST(SpectrumOfMost, RefusesALimitBelowZero) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::spectrum_share_test

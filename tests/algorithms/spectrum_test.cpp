@@ -15,7 +15,7 @@
 #include "support/compare.h"
 #include "tufted/tufted.h"
 
-namespace tufted {
+namespace tufted::spectrum_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -311,4 +311,4 @@ TEST(MostEigenpairs, IsTheLargestCountThatSpectrumTakes) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::spectrum_test

@@ -16,7 +16,7 @@
 #include "support/refusal.h"
 #include "tufted/tufted.h"
 
-namespace tufted {
+namespace tufted::surface_triangles_test {
 namespace {
 
 using Corners = std::array<int, 3>;
@@ -185,4 +185,4 @@ TEST(SurfaceTriangles, RefuseWhatDoesNotFit) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::surface_triangles_test

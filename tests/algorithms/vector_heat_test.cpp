@@ -12,7 +12,7 @@
 #include "support/refusal.h"
 #include "tufted/tufted.h"
 
-namespace tufted {
+namespace tufted::vector_heat_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -290,4 +290,4 @@ TEST(VectorHeat, RefusesWhatDoesNotFit) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::vector_heat_test

@@ -13,7 +13,7 @@
 #include "support/refusal.h"
 #include "tufted/tufted.h"
 
-namespace tufted {
+namespace tufted::weights_test {
 namespace {
 
 using Eigen::MatrixXd;
@@ -157,4 +157,4 @@ TEST(BoundedWeights, NameWhatACallerGotWrong) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::weights_test

@@ -6,7 +6,7 @@
 
 #include "shapes/random.h"
 
-namespace tufted {
+namespace tufted::disjoint_sets_test {
 namespace {
 
 TEST(DisjointSets, HaveTheirSmallestElementAsRootInAnyOrderOfUnions) {
@@ -23,4 +23,4 @@ TEST(DisjointSets, HaveTheirSmallestElementAsRootInAnyOrderOfUnions) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::disjoint_sets_test

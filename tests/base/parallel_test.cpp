@@ -7,7 +7,7 @@
 
 #include "tufted/errors.h"
 
-namespace tufted {
+namespace tufted::parallel_test {
 namespace {
 
 TEST(Workers, VisitEveryItemOnce) {
@@ -44,4 +44,4 @@ TEST(Workers, StopWhenTheCallerSaysSo) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::parallel_test

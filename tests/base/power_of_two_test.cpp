@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace tufted {
+namespace tufted::power_of_two_test {
 namespace {
 
 TEST(PowerOfTwo, MultipliesLikeLdexpAtAnyScale) {
@@ -35,4 +35,4 @@ TEST(PowerOfTwo, OfANumberIsNotAboveItAndHasAnInverse) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::power_of_two_test

@@ -8,7 +8,7 @@
 
 #include "base/buffer.h"
 
-namespace tufted {
+namespace tufted::stable_sort_test {
 namespace {
 
 TEST(StableSort, AgreesWithTheStandardLibrary) {
@@ -25,4 +25,4 @@ TEST(StableSort, AgreesWithTheStandardLibrary) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::stable_sort_test

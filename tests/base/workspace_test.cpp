@@ -9,7 +9,7 @@
 #include "base/buffer.h"
 #include "base/parallel.h"
 
-namespace tufted {
+namespace tufted::workspace_test {
 namespace {
 
 TEST(Workspace, BlocksAreUsedAgainForSizesLikeTheirs) {
@@ -114,4 +114,4 @@ TEST(Workspace, AllThreadsOfABuildTakeFromIt) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::workspace_test

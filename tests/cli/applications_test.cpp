@@ -9,6 +9,7 @@
 #include "subcommands.h"
 #include "tufted/io/write.h"
 
+namespace applications_test {
 namespace {
 
 class ApplicationCommands : public Subcommands {};
@@ -333,3 +334,4 @@ TEST_F(ApplicationCommands, TellWhichPairIsAllRounding) {
 }
 
 }  // namespace
+}  // namespace applications_test

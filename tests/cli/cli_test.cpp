@@ -8,6 +8,7 @@
 #include "command.h"
 #include "samples.h"
 
+namespace cli_test {
 namespace {
 
 const char* const outputs[] = {"L.npz",        "M.npy",       "status.npy", "representative.npy",
@@ -325,3 +326,4 @@ TEST_F(Command, IsInterruptedWhileAFaceOfManyCornersIsTriangulated) {
 }
 
 }  // namespace
+}  // namespace cli_test

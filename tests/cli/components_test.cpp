@@ -5,6 +5,7 @@
 #include "subcommands.h"
 #include "tufted/io/read.h"
 
+namespace components_test {
 namespace {
 
 class ComponentCommands : public Subcommands {
@@ -99,3 +100,4 @@ TEST_F(ComponentCommands, HaveTrianglesToLookAt) {
 }
 
 }  // namespace
+}  // namespace components_test

@@ -8,6 +8,7 @@
 
 #include "subcommands.h"
 
+namespace console_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -197,3 +198,4 @@ TEST_F(ConsoleOutput, OnATerminalProgressShowsStagesAndTheirPaceAndQuietShowsNon
 }
 
 }  // namespace
+}  // namespace console_test

@@ -8,6 +8,7 @@
 #include "command.h"
 #include "malformed_files.h"
 
+namespace files_test {
 namespace {
 
 class Files : public testing::Test {
@@ -110,3 +111,4 @@ TEST_F(Files, WeldJoinsCoincidentVerticesOfMeshesOnly) {
 }
 
 }  // namespace
+}  // namespace files_test

@@ -6,6 +6,7 @@
 #include "../io/temporary_dir.h"
 #include "command.h"
 
+namespace info_test {
 namespace {
 
 using Json = nlohmann::json;
@@ -92,3 +93,4 @@ TEST_F(Info, AnUnreadableFileIsOneLineAndOne) {
 }
 
 }  // namespace
+}  // namespace info_test

@@ -4,6 +4,7 @@
 
 #include "subcommands.h"
 
+namespace moved_points_test {
 namespace {
 
 /// A unit square of n x n cells that a bump lifts in its middle.
@@ -213,3 +214,4 @@ TEST_F(MovedPoints, DeformPutsHandlesWhereTheyShallLie) {
 }
 
 }  // namespace
+}  // namespace moved_points_test

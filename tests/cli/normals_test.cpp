@@ -6,6 +6,7 @@
 #include "subcommands.h"
 #include "tufted/io/read.h"
 
+namespace normals_test {
 namespace {
 
 using Normals = Subcommands;
@@ -98,3 +99,4 @@ TEST_F(Normals, RefuseWhatTheyCannotUse) {
 }
 
 }  // namespace
+}  // namespace normals_test

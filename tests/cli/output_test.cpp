@@ -11,6 +11,7 @@
 #include "../io/small_disk.h"
 #include "subcommands.h"
 
+namespace output_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -234,3 +235,4 @@ TEST_F(OutputOfCommands, IsStillThereAfterTheProcessIsKilled) {
 }
 
 }  // namespace
+}  // namespace output_test

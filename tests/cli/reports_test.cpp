@@ -3,6 +3,7 @@
 
 #include "subcommands.h"
 
+namespace reports_test {
 namespace {
 
 class SolverOptionsOfCommands : public Subcommands {
@@ -75,3 +76,4 @@ TEST_F(SolverOptionsOfCommands, AreNamedInHelpByTheWordsOfMessages) {
 }
 
 }  // namespace
+}  // namespace reports_test

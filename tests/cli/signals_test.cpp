@@ -6,6 +6,7 @@
 
 #include "subcommands.h"
 
+namespace signals_test {
 namespace {
 
 class SignalCommands : public Subcommands {
@@ -169,3 +170,4 @@ TEST_F(SignalCommands, EmbedGivesCoordinatesWithoutConstants) {
 }
 
 }  // namespace
+}  // namespace signals_test

@@ -3,6 +3,7 @@
 
 #include "subcommands.h"
 
+namespace spectrum_folder_test {
 namespace {
 
 class SpectrumFolder : public Subcommands {
@@ -97,3 +98,4 @@ TEST_F(SpectrumFolder, IsRefusedWhereItsArraysAreDamaged) {
 }
 
 }  // namespace
+}  // namespace spectrum_folder_test

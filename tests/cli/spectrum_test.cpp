@@ -3,6 +3,7 @@
 
 #include "subcommands.h"
 
+namespace spectrum_test {
 namespace {
 
 class SpectrumCommand : public Subcommands {};
@@ -219,3 +220,4 @@ TEST_F(SpectrumCommand, StopsAtCtrlC) {
 }
 
 }  // namespace
+}  // namespace spectrum_test

@@ -6,6 +6,7 @@
 #include "command.h"
 #include "samples.h"
 
+namespace structure_test {
 namespace {
 
 class Structures : public testing::Test {
@@ -140,3 +141,4 @@ TEST_F(Structures, TakesTheAzimuthsOfAFileWhoseRingsItHasToFind) {
 }
 
 }  // namespace
+}  // namespace structure_test

@@ -5,6 +5,7 @@
 
 #include "subcommands.h"
 
+namespace units_test {
 namespace {
 
 class Units : public Subcommands {
@@ -108,3 +109,4 @@ TEST_F(Units, ManyPositionsAreSaidInTheReport) {
 }
 
 }  // namespace
+}  // namespace units_test

@@ -10,6 +10,7 @@
 #include "command.h"
 #include "samples.h"
 
+namespace validate_results_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -89,3 +90,4 @@ TEST_F(ValidateResults, TakesALaplacianThatWasWritten) {
 }
 
 }  // namespace
+}  // namespace validate_results_test

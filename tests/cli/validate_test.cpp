@@ -12,6 +12,7 @@
 #include "command.h"
 #include "samples.h"
 
+namespace validate_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -327,3 +328,4 @@ INSTANTIATE_TEST_SUITE_P(All, ValidateFolder,
                          testing::Values(TUFTED_SAMPLES_DIR, TUFTED_DATA_DIR, TUFTED_CGAL_DATA_DIR), folderName);
 
 }  // namespace
+}  // namespace validate_test

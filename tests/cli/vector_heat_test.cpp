@@ -4,6 +4,7 @@
 #include "subcommands.h"
 #include "tufted/io/read.h"
 
+namespace vector_heat_test {
 namespace {
 
 using VectorHeat = Subcommands;
@@ -86,3 +87,4 @@ TEST_F(VectorHeat, DefaultsDoForATetrahedron) {
 }
 
 }  // namespace
+}  // namespace vector_heat_test

@@ -6,6 +6,7 @@
 
 #include "subcommands.h"
 
+namespace view_test {
 namespace {
 
 class View : public Subcommands {
@@ -139,3 +140,4 @@ TEST_F(View, MistakesAreRefusedBeforeTheBuild) {
 }
 
 }  // namespace
+}  // namespace view_test

@@ -3,6 +3,7 @@
 
 #include "subcommands.h"
 
+namespace words_test {
 namespace {
 
 class Words : public Subcommands {
@@ -138,3 +139,4 @@ TEST_F(Words, FewerNeighboursThanAskedForAreStated) {
 }
 
 }  // namespace
+}  // namespace words_test

@@ -10,7 +10,7 @@
 #include "shapes/shapes.h"
 #include "tufted/tufted.h"
 
-namespace tufted {
+namespace tufted::cover_test {
 namespace {
 
 const Progress silent;
@@ -211,4 +211,4 @@ TEST(Validate, FindsANeedleThatIsNotDelaunay) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::cover_test

@@ -11,7 +11,7 @@
 #include "support/compare.h"
 #include "tufted/tufted.h"
 
-namespace tufted {
+namespace tufted::flips_test {
 namespace {
 
 TEST(Flips, OfSeveralBlocksHaveTheSameBitsOnAnyThreads) {
@@ -68,4 +68,4 @@ TEST(Flips, LeaveNoEdgeOfNeedlesThatIsNotDelaunay) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::flips_test

@@ -12,7 +12,7 @@
 #include "shapes/shapes.h"
 #include "tufted/errors.h"
 
-namespace tufted {
+namespace tufted::denoise_test {
 namespace {
 
 using shapes::Cloud;
@@ -184,4 +184,4 @@ TEST(Denoise, RefusesMistakesAndCanBeCancelled) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::denoise_test

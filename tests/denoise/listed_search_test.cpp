@@ -9,7 +9,7 @@
 #include "shapes/shapes.h"
 #include "support/ranked.h"
 
-namespace tufted {
+namespace tufted::listed_search_test {
 namespace {
 
 /// A cloud that can be searched, with windows of 32 or 64 neighbours and their radii.
@@ -69,4 +69,4 @@ TEST(ListedSearch, OfMoreNeighborsThanThereAreFindsAll) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::listed_search_test

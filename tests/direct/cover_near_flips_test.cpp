@@ -11,7 +11,7 @@
 #include "stars/surface_stars.h"
 #include "tufted/tufted.h"
 
-namespace tufted {
+namespace tufted::cover_near_flips_test {
 namespace {
 
 const Progress silent;
@@ -93,4 +93,4 @@ TEST_F(ShearedSphere, AddsStarsBehindAllRangesWhereTheyDoNotFit) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::cover_near_flips_test

@@ -9,7 +9,7 @@
 #include "stars/surface_stars.h"
 #include "tufted/laplacian.h"
 
-namespace tufted {
+namespace tufted::star_areas_test {
 namespace {
 
 const Progress silent;
@@ -47,4 +47,4 @@ TEST(StarAreas, AreNoMoreThanTwentyTimesTheTrianglesOfTheStar) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::star_areas_test

@@ -9,7 +9,7 @@
 #include "tufted/errors.h"
 #include "tufted/io/read.h"
 
-namespace tufted::guarantees {
+namespace tufted::guarantees::files_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -49,4 +49,4 @@ INSTANTIATE_TEST_SUITE_P(CgalMeshes, GuaranteesOfFile, testing::ValuesIn(filesIn
                          testName);
 
 }  // namespace
-}  // namespace tufted::guarantees
+}  // namespace tufted::guarantees::files_test

@@ -12,7 +12,7 @@
 #include "tufted/gradient.h"
 #include "tufted/io/read.h"
 
-namespace tufted::guarantees {
+namespace tufted::guarantees::gradients_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -84,4 +84,4 @@ TEST_P(GradientsOfFile, AreNoWorseThanPlainFitsOverThirtyPoints) {
 INSTANTIATE_TEST_SUITE_P(Clouds, GradientsOfFile, testing::ValuesIn(filesIn(TUFTED_DATA_DIR "/clouds")), testName);
 
 }  // namespace
-}  // namespace tufted::guarantees
+}  // namespace tufted::guarantees::gradients_test

@@ -10,7 +10,7 @@
 #include "shapes/shapes.h"
 #include "tufted/check.h"
 
-namespace tufted::guarantees {
+namespace tufted::guarantees::planted_test {
 namespace {
 
 constexpr int not_finite_row = 500, coincident_row = 501;
@@ -158,4 +158,4 @@ INSTANTIATE_TEST_SUITE_P(Guarantees, PlantedViolation, testing::ValuesIn(planted
                          [](const auto& shape) { return shape.param.name; });
 
 }  // namespace
-}  // namespace tufted::guarantees
+}  // namespace tufted::guarantees::planted_test

@@ -11,7 +11,7 @@
 #include "guarantees/guarantees.h"
 #include "tufted/check.h"
 
-namespace tufted::guarantees {
+namespace tufted::guarantees::random_input_test {
 namespace {
 
 using testing::IsEmpty;
@@ -121,4 +121,4 @@ constexpr int past_seeds = 130;
 INSTANTIATE_TEST_SUITE_P(Seeds, RandomInput, testing::Range(100, past_seeds));
 
 }  // namespace
-}  // namespace tufted::guarantees
+}  // namespace tufted::guarantees::random_input_test

@@ -10,7 +10,7 @@
 
 #include "guarantees/guarantees.h"
 
-namespace tufted::guarantees {
+namespace tufted::guarantees::shapes_test {
 namespace {
 
 using testing::IsEmpty;
@@ -102,4 +102,4 @@ INSTANTIATE_TEST_SUITE_P(Shapes, GuaranteesOfMesh, ValuesIn(pointersTo(meshes())
                          [](const auto& shape) { return shape.param->name; });
 
 }  // namespace
-}  // namespace tufted::guarantees
+}  // namespace tufted::guarantees::shapes_test

@@ -9,7 +9,7 @@
 #include "shapes/shapes.h"
 #include "tufted/check.h"
 
-namespace tufted::guarantees {
+namespace tufted::guarantees::surface_test {
 namespace {
 
 using testing::Contains;
@@ -134,4 +134,4 @@ TEST(Surface, LengthsOfFewDigitsAreLeftOutAndCounted) {
 }
 
 }  // namespace
-}  // namespace tufted::guarantees
+}  // namespace tufted::guarantees::surface_test

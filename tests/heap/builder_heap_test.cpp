@@ -9,7 +9,7 @@
 #include "shapes/shapes.h"
 #include "tufted/laplacian_builder.h"
 
-namespace tufted {
+namespace tufted::builder_heap_test {
 namespace {
 
 /// The memory that `frame()` takes from the heap.
@@ -111,4 +111,4 @@ TEST(Heap, MemoryThatSomebodyElseHoldsIsNotCopied) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::builder_heap_test

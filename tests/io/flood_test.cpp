@@ -12,6 +12,7 @@
 #include "tufted/errors.h"
 #include "tufted/io/read.h"
 
+namespace flood_test {
 namespace {
 
 struct Flood {
@@ -163,3 +164,4 @@ INSTANTIATE_TEST_SUITE_P(All, FloodOf, testing::ValuesIn(floods()), [](const aut
 });
 
 }  // namespace
+}  // namespace flood_test

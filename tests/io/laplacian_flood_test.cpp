@@ -10,6 +10,7 @@
 #include "memory_peak.h"
 #include "odd_sphere.h"
 
+namespace laplacian_flood_test {
 namespace {
 
 constexpr std::size_t many = 20'000'000;
@@ -178,3 +179,4 @@ TEST_F(LaplacianFlood, AReportIsNotNestedDeeply) {
 }
 
 }  // namespace
+}  // namespace laplacian_flood_test

@@ -6,6 +6,7 @@
 #include "tufted/errors.h"
 #include "tufted/io/read.h"
 
+namespace las_test {
 namespace {
 
 tufted::Geometry parse(const LasFile& file) {
@@ -188,3 +189,4 @@ TEST(Las, AnExtraValueBeyondThePointIsRefused) {
 }
 
 }  // namespace
+}  // namespace las_test

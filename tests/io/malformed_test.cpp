@@ -14,6 +14,7 @@ void PrintTo(const Malformed& file, std::ostream* stream) {
   *stream << file.name;
 }
 
+namespace malformed_test {
 namespace {
 
 class MalformedFile : public testing::TestWithParam<Malformed> {};
@@ -114,3 +115,4 @@ TEST(Read, AStreamGivesWhatTheFileGives) {
 }
 
 }  // namespace
+}  // namespace malformed_test

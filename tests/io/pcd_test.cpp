@@ -9,6 +9,7 @@
 #include "temporary_dir.h"
 #include "tufted/io/read.h"
 
+namespace pcd_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -158,3 +159,4 @@ TEST(Pcd, TheViewpointIsKept) {
 }
 
 }  // namespace
+}  // namespace pcd_test

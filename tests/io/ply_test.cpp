@@ -12,6 +12,7 @@
 #include "temporary_dir.h"
 #include "tufted/io/read.h"
 
+namespace ply_test {
 namespace {
 
 /// Writes the values of a PLY body in one of its three formats (on a little endian machine).
@@ -240,3 +241,4 @@ TEST(Ply, AnOrganizedCloudKeepsItsSize) {
 }
 
 }  // namespace
+}  // namespace ply_test

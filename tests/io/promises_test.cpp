@@ -13,6 +13,7 @@
 #include "tufted/distance.h"
 #include "tufted/gradient.h"
 
+namespace promises_test {
 namespace {
 
 using tufted::Format;
@@ -246,3 +247,4 @@ TEST_F(Promises, FailuresThatOnlyTheReportKnowsReachValidate) {
 }
 
 }  // namespace
+}  // namespace promises_test

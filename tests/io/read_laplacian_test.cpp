@@ -12,6 +12,7 @@
 #include "tufted/errors.h"
 #include "tufted/io/results.h"
 
+namespace read_laplacian_test {
 namespace {
 
 using tufted::Format;
@@ -128,3 +129,4 @@ TEST(ReadArray, TakesRowsAndColumnsOfAnyType) {
 }
 
 }  // namespace
+}  // namespace read_laplacian_test

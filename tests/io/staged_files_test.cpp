@@ -14,6 +14,7 @@
 #include "tufted/errors.h"
 #include "tufted/io/write.h"
 
+namespace staged_files_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -184,3 +185,4 @@ TEST(CheckWritable, RefusesWhatCannotBeWrittenAndLeavesNothing) {
 }
 
 }  // namespace
+}  // namespace staged_files_test

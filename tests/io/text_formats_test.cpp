@@ -12,6 +12,7 @@
 #include "tufted/errors.h"
 #include "tufted/io/read.h"
 
+namespace text_formats_test {
 namespace {
 
 /// A .npy file of points, by rows or by columns.
@@ -279,3 +280,4 @@ TEST(Read, EveryExtensionThatItNamesIsReadableAndNoOther) {
 }
 
 }  // namespace
+}  // namespace text_formats_test

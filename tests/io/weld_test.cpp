@@ -3,6 +3,7 @@
 #include "field_values.h"
 #include "tufted/io/read.h"
 
+namespace weld_test {
 namespace {
 
 TEST(Weld, EqualVerticesBecomeTheFirstOfThem) {
@@ -36,3 +37,4 @@ TEST(Weld, NormalsOfDroppedVerticesAreDropped) {
 }
 
 }  // namespace
+}  // namespace weld_test

@@ -9,6 +9,7 @@
 #include "tufted/errors.h"
 #include "tufted/io/write.h"
 
+namespace write_matrices_test {
 namespace {
 
 using tufted::Format;
@@ -144,3 +145,4 @@ TEST(WriteLaplacian, NoPointsAreWrittenInEveryFormat) {
 }
 
 }  // namespace
+}  // namespace write_matrices_test

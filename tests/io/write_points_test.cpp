@@ -20,6 +20,7 @@
 #include "tufted/io/results.h"
 #include "tufted/io/write.h"
 
+namespace write_points_test {
 namespace {
 
 using tufted::FieldType;
@@ -297,3 +298,4 @@ TEST(WriteLaplacian, AFieldWithoutAProperNameIsTheCallersMistake) {
 }
 
 }  // namespace
+}  // namespace write_points_test

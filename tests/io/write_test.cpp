@@ -16,6 +16,7 @@
 #include "tufted/errors.h"
 #include "tufted/io/operators.h"
 
+namespace write_test {
 namespace {
 
 std::size_t entries(const std::filesystem::path& dir) {
@@ -249,3 +250,4 @@ TEST(WriteLaplacian, TheReportStatesSignScaleAndOptions) {
 }
 
 }  // namespace
+}  // namespace write_test

@@ -9,7 +9,7 @@
 #include "shapes/shapes.h"
 #include "support/ranked.h"
 
-namespace tufted {
+namespace tufted::morton_test {
 namespace {
 
 RankedCloud rankOn(int threads, const Points& points, std::vector<PointStatus>& status,
@@ -83,4 +83,4 @@ TEST(Rank, NamesTheLowestIndexOfCoincidentPoints) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::morton_test

@@ -10,7 +10,7 @@
 #include "shapes/shapes.h"
 #include "support/ranked.h"
 
-namespace tufted {
+namespace tufted::neighbors_test {
 namespace {
 
 TEST(Neighbors, EqualBruteForceWithTiesToTheSmallerIndex) {
@@ -200,4 +200,4 @@ TEST(Neighbors, AreAllOthersWhenThereAreFewer) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::neighbors_test

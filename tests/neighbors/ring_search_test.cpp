@@ -10,7 +10,7 @@
 #include "shapes/shapes.h"
 #include "tufted/errors.h"
 
-namespace tufted {
+namespace tufted::ring_search_test {
 namespace {
 
 /// A cloud with its ranks and the search by its structure.
@@ -109,4 +109,4 @@ TEST(ScanStructure, OfTheWrongSizeIsNamed) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::ring_search_test

@@ -6,7 +6,7 @@
 
 #include "shapes/shapes.h"
 
-namespace tufted {
+namespace tufted::run_boxes_test {
 namespace {
 
 std::vector<int> pointsIn(const std::vector<Ball>& balls, const Points& points, const Points& displacement) {
@@ -40,4 +40,4 @@ TEST(RunBoxes, FindThePointsOfAllBallsOnce) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::run_boxes_test

@@ -11,7 +11,7 @@
 #include "tufted/errors.h"
 #include "tufted/gradient.h"
 
-namespace tufted {
+namespace tufted::check_test {
 namespace {
 
 /// A sphere of 500 points, then a point that is not finite and a copy of point 7.
@@ -154,4 +154,4 @@ TEST(LaplacianCheck, CancelsAtEveryCall) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::check_test

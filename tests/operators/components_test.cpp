@@ -14,7 +14,7 @@
 #include "support/refusal.h"
 #include "tufted/tufted.h"
 
-namespace tufted {
+namespace tufted::components_test {
 namespace {
 
 constexpr int small = 300, large = 500;
@@ -132,4 +132,4 @@ TEST(Components, HaveTheirConstantsInHeatSignatures) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::components_test

@@ -9,7 +9,7 @@
 #include "shapes/shapes.h"
 #include "tufted/tufted.h"
 
-namespace tufted {
+namespace tufted::gradient_test {
 namespace {
 
 /// The gradient as a vector in space.
@@ -280,4 +280,4 @@ TEST(Gradients, NameWhatACallerGotWrong) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::gradient_test

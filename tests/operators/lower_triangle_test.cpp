@@ -5,7 +5,7 @@
 
 #include <limits>
 
-namespace tufted {
+namespace tufted::lower_triangle_test {
 namespace {
 
 TEST(LowerTriangle, HoldsTheEntriesOfThePointsSelected) {
@@ -27,4 +27,4 @@ TEST(LowerTriangle, LeavesRoomForFactorsOfMoreEntriesThanAnInt) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::lower_triangle_test

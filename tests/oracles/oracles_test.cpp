@@ -13,7 +13,7 @@
 #include "shapes/random.h"
 #include "shapes/shapes.h"
 
-namespace tufted::oracles {
+namespace tufted::oracles::oracles_test {
 namespace {
 
 using shapes::Sampling;
@@ -197,4 +197,4 @@ TEST(ClassicHeat, MeetsExactDistancesOnAGoodMesh) {
 }
 
 }  // namespace
-}  // namespace tufted::oracles
+}  // namespace tufted::oracles::oracles_test

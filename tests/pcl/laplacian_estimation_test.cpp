@@ -13,7 +13,7 @@
 #include "shapes/shapes.h"
 #include "support/compare.h"
 
-namespace tufted {
+namespace tufted::laplacian_estimation_test {
 namespace {
 
 using namespace pcl_tests;
@@ -277,4 +277,4 @@ TEST(LaplacianEstimation, KeepsWhatIsSet) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::laplacian_estimation_test

@@ -9,7 +9,7 @@
 #include "pcl/clouds.h"
 #include "shapes/shapes.h"
 
-namespace tufted {
+namespace tufted::laplacian_smoothing_test {
 namespace {
 
 using namespace pcl_tests;
@@ -210,4 +210,4 @@ TEST(LaplacianSmoothing, KeepsWhatIsSet) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::laplacian_smoothing_test

@@ -11,7 +11,7 @@
 #include "tufted/pcl/laplacian_smoothing.h"
 #include "tufted/pcl/surface_denoising.h"
 
-namespace tufted {
+namespace tufted::point_types_test {
 namespace {
 
 using namespace pcl_tests;
@@ -46,4 +46,4 @@ TYPED_TEST(PointTypes, GiveTheCoresResult) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::point_types_test

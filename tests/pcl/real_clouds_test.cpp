@@ -11,7 +11,7 @@
 #include "tufted/pcl/laplacian_estimation.h"
 #include "tufted/pcl/laplacian_smoothing.h"
 
-namespace tufted {
+namespace tufted::real_clouds_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -111,4 +111,4 @@ std::string testName(const testing::TestParamInfo<const char*>& info) {
 INSTANTIATE_TEST_SUITE_P(Scans, RealClouds, testing::Values("office1", "mosd_learn1", "cturtle"), testName);
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::real_clouds_test

@@ -6,7 +6,7 @@
 #include "pcl/clouds.h"
 #include "shapes/shapes.h"
 
-namespace tufted {
+namespace tufted::surface_denoising_test {
 namespace {
 
 using namespace pcl_tests;
@@ -69,4 +69,4 @@ TEST(SurfaceDenoising, TellsMistakesOnTheConsole) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::surface_denoising_test

@@ -8,7 +8,7 @@
 #include "shapes/spectra.h"
 #include "tufted/tufted.h"
 
-namespace tufted {
+namespace tufted::accuracy_test {
 namespace {
 
 constexpr std::array presets = {Preset::clean, Preset::scan};
@@ -97,4 +97,4 @@ TEST(Lattice, IsCoveredExactlyOnceInAnyOrder) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::accuracy_test

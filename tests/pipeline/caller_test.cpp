@@ -10,7 +10,7 @@
 #include "support/compare.h"
 #include "tufted/tufted.h"
 
-namespace tufted {
+namespace tufted::caller_test {
 namespace {
 
 /// The k nearest by brute force, as a caller would hand them over.
@@ -110,4 +110,4 @@ TEST(CallersProgress, CancelsAtEveryStage) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::caller_test

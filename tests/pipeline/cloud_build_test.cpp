@@ -7,7 +7,7 @@
 #include "pipeline/build.h"
 #include "shapes/shapes.h"
 
-namespace tufted {
+namespace tufted::cloud_build_test {
 namespace {
 
 /// The largest difference of two matrices over the larger diagonal, row by row and column by column.
@@ -67,4 +67,4 @@ TEST(CloudBuild, IsTheSameInManyBlocks) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::cloud_build_test

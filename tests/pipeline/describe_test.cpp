@@ -8,7 +8,7 @@
 #include "shapes/shapes.h"
 #include "tufted/errors.h"
 
-namespace tufted {
+namespace tufted::describe_test {
 namespace {
 
 Points joined(const Points& a, const Points& b) {
@@ -104,4 +104,4 @@ TEST(DescribeCloud, MistakesAreNamed) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::describe_test

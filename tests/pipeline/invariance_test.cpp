@@ -9,7 +9,7 @@
 #include "support/compare.h"
 #include "tufted/tufted.h"
 
-namespace tufted {
+namespace tufted::invariance_test {
 namespace {
 
 using support::largestDifference;
@@ -117,4 +117,4 @@ TEST_F(Invariance, TheRandomOrderFollowsItsSeed) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::invariance_test

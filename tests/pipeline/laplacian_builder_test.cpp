@@ -8,7 +8,7 @@
 #include "support/compare.h"
 #include "tufted/errors.h"
 
-namespace tufted {
+namespace tufted::laplacian_builder_test {
 namespace {
 
 using support::sameBits;
@@ -157,4 +157,4 @@ TEST(LaplacianBuilder, FramesThatGrowLeaveLittleBehind) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::laplacian_builder_test

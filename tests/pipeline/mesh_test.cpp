@@ -11,7 +11,7 @@
 #include "support/compare.h"
 #include "tufted/tufted.h"
 
-namespace tufted {
+namespace tufted::mesh_test {
 namespace {
 
 using support::largestDifference;
@@ -196,4 +196,4 @@ TEST(MeshLaplacian, OrdersOfFacesAllGiveValidCovers) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::mesh_test

@@ -8,7 +8,7 @@
 #include "shapes/shapes.h"
 #include "tufted/tufted.h"
 
-namespace tufted {
+namespace tufted::mistakes_test {
 namespace {
 
 TEST(Mistake, NamesFunctionValueAndRule) {
@@ -49,4 +49,4 @@ TEST(Mistake, TooManyNeighboursAreClampedAndReported) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::mistakes_test

@@ -10,7 +10,7 @@
 #include "shapes/shapes.h"
 #include "tufted/tufted.h"
 
-namespace tufted {
+namespace tufted::odd_clouds_test {
 namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
@@ -220,4 +220,4 @@ TEST(OddCloud, AllOddAtOnce) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::odd_clouds_test

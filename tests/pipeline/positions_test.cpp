@@ -8,7 +8,7 @@
 #include "shapes/shapes.h"
 #include "tufted/tufted.h"
 
-namespace tufted {
+namespace tufted::positions_test {
 namespace {
 
 bool sameBits(const Points& a, const Points& b) {
@@ -86,4 +86,4 @@ TEST(Positions, OfTheWrongNumberAreRefused) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::positions_test

@@ -7,7 +7,7 @@
 #include "support/compare.h"
 #include "tufted/tufted.h"
 
-namespace tufted {
+namespace tufted::scans_test {
 namespace {
 
 double spectrumError(const shapes::Cloud& cloud, const CloudOptions& options, int eigenvalues) {
@@ -123,4 +123,4 @@ TEST(Scans, PresetsDependOnTheShapeAlone) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::scans_test

@@ -13,7 +13,7 @@
 #include "support/refusal.h"
 #include "tufted/tufted.h"
 
-namespace tufted {
+namespace tufted::structure_test {
 namespace {
 
 Laplacian build(const Points& points, const ScanStructure& structure, Preset preset = Preset::clean, int threads = 0) {
@@ -247,4 +247,4 @@ TEST(ScanStructure, AndNeighborhoodsTogetherAreAMistake) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::structure_test

@@ -8,7 +8,7 @@
 #include "shapes/shapes.h"
 #include "tufted/tufted.h"
 
-namespace tufted {
+namespace tufted::thin_surfaces_test {
 namespace {
 
 // Constants of the library were chosen on seeds 1 to 9.
@@ -78,4 +78,4 @@ TEST(MassReport, CountsBoundedAreasOfRibbonsAndNextToNoneOfSurfaces) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::thin_surfaces_test

@@ -9,7 +9,7 @@
 #include "support/refusal.h"
 #include "tufted/tufted.h"
 
-namespace tufted {
+namespace tufted::views_test {
 namespace {
 
 using PointsMap = Eigen::Map<const Points>;
@@ -124,4 +124,4 @@ TEST(PointsRef, OfTooFewRowsIsRefused) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::views_test

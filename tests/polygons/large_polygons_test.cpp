@@ -8,7 +8,7 @@
 #include "tufted/errors.h"
 #include "tufted/polygons.h"
 
-namespace tufted {
+namespace tufted::large_polygons_test {
 namespace {
 
 using Eigen::Vector2d;
@@ -150,4 +150,4 @@ TEST(LargePolygon, ReportsProgressAndIsCancelled) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::large_polygons_test

@@ -10,7 +10,7 @@
 #include "support/compare.h"
 #include "tufted/tufted.h"
 
-namespace tufted {
+namespace tufted::polygons_test {
 namespace {
 
 Points planar(const std::vector<std::array<double, 2>>& corners) {
@@ -71,4 +71,4 @@ TEST(EarClipping, NamesAnIndexOutOfRange) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::polygons_test

@@ -10,7 +10,7 @@
 #include "shapes/shapes.h"
 #include "shapes/spectra.h"
 
-namespace tufted::shapes {
+namespace tufted::shapes::clouds_test {
 namespace {
 
 using Eigen::RowVector3d;
@@ -284,4 +284,4 @@ TEST(Spectra, MatchKnownValues) {
 }
 
 }  // namespace
-}  // namespace tufted::shapes
+}  // namespace tufted::shapes::clouds_test

@@ -10,7 +10,7 @@
 #include "oracles/oracles.h"
 #include "shapes/shapes.h"
 
-namespace tufted::shapes {
+namespace tufted::shapes::meshes_test {
 namespace {
 
 const std::vector<Mesh>& meshes() {
@@ -138,4 +138,4 @@ TEST(Meshes, KleinBottleHasNoCoincidentPoints) {
 }
 
 }  // namespace
-}  // namespace tufted::shapes
+}  // namespace tufted::shapes::meshes_test

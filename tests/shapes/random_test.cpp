@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-namespace tufted::shapes {
+namespace tufted::shapes::random_test {
 namespace {
 
 TEST(Random, UniformIsTheEnginesTop53Bits) {
@@ -41,4 +41,4 @@ TEST(Random, PermutationHoldsEveryIndexOnce) {
 }
 
 }  // namespace
-}  // namespace tufted::shapes
+}  // namespace tufted::shapes::random_test

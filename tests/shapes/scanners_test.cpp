@@ -5,7 +5,7 @@
 
 #include "shapes/shapes.h"
 
-namespace tufted::shapes {
+namespace tufted::shapes::scanners_test {
 namespace {
 
 using enum RoomSurface;
@@ -218,4 +218,4 @@ TEST(Scanners, DepthCameraHasDepthJumps) {
 }
 
 }  // namespace
-}  // namespace tufted::shapes
+}  // namespace tufted::shapes::scanners_test

@@ -17,7 +17,7 @@
 #include "stars/tangent_frame.h"
 #include "tufted/laplacian.h"
 
-namespace tufted {
+namespace tufted::kernels_test {
 namespace {
 
 TEST(Kernels, HaveTheSameBitsOnAnyProcessor) {
@@ -292,4 +292,4 @@ TEST(Kernels, GiveTheSameLaplacianOnAnyProcessor) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::kernels_test

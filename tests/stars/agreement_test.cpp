@@ -11,7 +11,7 @@
 #include "stars/surface_stars.h"
 #include "tufted/laplacian.h"
 
-namespace tufted {
+namespace tufted::agreement_test {
 namespace {
 
 const Progress silent;
@@ -63,4 +63,4 @@ TEST(Agreement, IsThatOfEveryStarWithEachOfItsLinkVertices) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::agreement_test

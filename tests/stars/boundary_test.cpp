@@ -11,7 +11,7 @@
 #include "support/compare.h"
 #include "tufted/tufted.h"
 
-namespace tufted {
+namespace tufted::boundary_test {
 namespace {
 
 using shapes::Rim;
@@ -249,4 +249,4 @@ TEST(BoundaryTags, RefuseAViewpointThatIsNotFinite) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::boundary_test

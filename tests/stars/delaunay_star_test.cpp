@@ -22,7 +22,7 @@
 #include "support/compare_stars.h"
 #include "support/ranked.h"
 
-namespace tufted {
+namespace tufted::delaunay_star_test {
 namespace {
 
 void expectStarsOfCloud(const std::string& name, const Points& points) {
@@ -211,4 +211,4 @@ TEST(StarGap, IsOpenWhereTheStarOfMorePointsIs) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::delaunay_star_test

@@ -10,7 +10,7 @@
 #include "stars/offsets.h"
 #include "stars/tangent_frame.h"
 
-namespace tufted {
+namespace tufted::denoise_test {
 namespace {
 
 /// Row 0 at the middle, the others around it on h(u, v), all moved far away.
@@ -107,4 +107,4 @@ TEST(PrincipalAxes, AreThoseOfEigenWhateverTheShape) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::denoise_test

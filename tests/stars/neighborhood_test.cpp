@@ -9,7 +9,7 @@
 #include "shapes/shapes.h"
 #include "stars/stars.h"
 
-namespace tufted {
+namespace tufted::neighborhood_test {
 namespace {
 
 /// Neighbourhoods of a cloud, its points as they are.
@@ -154,4 +154,4 @@ TEST(Neighborhood, MayLoseAllItsNeighbors) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::neighborhood_test

@@ -6,7 +6,7 @@
 #include "support/compare_stars.h"
 #include "tufted/io/read.h"
 
-namespace tufted {
+namespace tufted::real_stars_test {
 namespace {
 
 TEST(RealScans, HaveCgalsStarsAtEverySixteenthPoint) {
@@ -22,4 +22,4 @@ TEST(RealScans, HaveCgalsStarsAtEverySixteenthPoint) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::real_stars_test

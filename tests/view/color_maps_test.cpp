@@ -7,6 +7,7 @@
 
 #include "tufted/errors.h"
 
+namespace color_maps_test {
 namespace {
 
 using tufted::ColorMap;
@@ -83,3 +84,4 @@ TEST(ColorMaps, OklabKeepsColours) {
 }
 
 }  // namespace
+}  // namespace color_maps_test

@@ -12,7 +12,7 @@
 #include "view/page_block.h"
 #include "view/page_columns.h"
 
-namespace tufted {
+namespace tufted::page_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -238,4 +238,4 @@ TEST(WritePage, WritesTheWholePageOrNothing) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::page_test

@@ -15,6 +15,7 @@
 #include "tufted/view/colors.h"
 #include "view/color_maps.h"
 
+namespace picture_test {
 namespace {
 
 using tufted::FieldKind;
@@ -314,3 +315,4 @@ TEST(PictureOf, MistakesAreRefused) {
 }
 
 }  // namespace
+}  // namespace picture_test

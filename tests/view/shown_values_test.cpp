@@ -9,7 +9,7 @@
 #include "view/color_maps.h"
 #include "view/ticks.h"
 
-namespace tufted {
+namespace tufted::shown_values_test {
 namespace {
 
 using view::rangesOf;
@@ -116,4 +116,4 @@ TEST(PictureOf, CoordinatesAreNotBlendedAcrossTheirCut) {
 }
 
 }  // namespace
-}  // namespace tufted
+}  // namespace tufted::shown_values_test
