@@ -3,12 +3,15 @@
 #include <cstdint>
 
 #include "tufted/options.h"
+#include "tufted/scan_structure.h"
 #include "tufted/types.h"
 
 namespace tufted {
 
 /// Options of denoise().
 struct DenoiseOptions {
+  /// Not null: the pixels of a depth image, see imageStructure(). Its points move along their rays. Borrowed.
+  const ScanStructure* structure = nullptr;
   int threads = 0;         ///< at most this many; 0: one per processor
   Progress progress = {};  ///< called while it searches, fits and moves
 };
@@ -19,7 +22,10 @@ struct DenoiseReport {
   std::int64_t not_finite = 0;  ///< NaN, infinite, or beyond 1e70 median spreads or 1e152; they stay
   std::int64_t coincident = 0;  ///< equal to an earlier point; they move with it
   std::int64_t moved = 0;       ///< points that moved, without coincident ones
-  std::int64_t outliers = 0;    ///< points that stayed because they hover over the surface of their neighbours
+  std::int64_t unplaced = 0;    ///< usable points that have no pixel of their own in the depth image; they stay
+  /// Points that stayed because they hover over the surface of their neighbours; in a depth image those whose pixel
+  /// shows no surface that one beside it shows.
+  std::int64_t outliers = 0;
   double noise = 0;  ///< median over the moved points of DenoisedPoints::noise, in the caller's unit; 0 if none moved
   double mean_move = 0;      ///< mean way of the points that moved, in the caller's unit
   double farthest_move = 0;  ///< the longest way of a point, in the caller's unit
@@ -29,8 +35,8 @@ struct DenoiseReport {
 /// Points on the surface that noisy ones lie around.
 struct DenoisedPoints {
   Points positions;  ///< N x 3, in the caller's unit; those of points that stay are the caller's bit for bit
-  /// N; the standard deviation of the noise around a point that moved, along the normal, in the caller's unit; 0 at
-  /// points that stay.
+  /// N; the standard deviation of the noise around a point that moved, along the normal (of a depth image along the
+  /// ray), in the caller's unit; 0 at points that stay.
   VectorXd noise;
   DenoiseReport report;  ///< what happened
 };
@@ -44,11 +50,16 @@ struct DenoisedPoints {
 /// creases windows of points beside it serve, on one side of the crease. Neighbours of other surfaces that pass by are
 /// left out.
 ///
+/// Noise of a depth image lies along the line of sight, however strong it is, and pixels that are noise lie beside
+/// those of the same surface. So with `structure` ranges are smoothed over pixels, as in a build (Lengths::denoised):
+/// the result is Laplacian::positions of pointCloudLaplacian() bit for bit.
+///
 /// Points of exact data, outliers, points in volumes, and whatever cannot be told from the shape of the surface stay
 /// exactly where they are. A permuted cloud gives the permuted result; moved or turned clouds that moved or turned, up
 /// to rounding; any number of threads the same bits.
 /// @param points N x 3; NaN and infinite rows stay as they are
-/// @throws InvalidInput for a negative number of threads, or more than 2^31 points
+/// @throws InvalidInput for a negative number of threads, more than 2^31 points, and a structure with rings or of
+/// another size than the points
 /// @throws Cancelled when `options.progress` returns false
 DenoisedPoints denoise(const PointsRef& points, const DenoiseOptions& options = {});
 

@@ -40,6 +40,7 @@ struct Report {
   std::int64_t isolated_by_sheets = 0;     ///< points without a star: nearly all neighbours belong to other sheets
   std::int64_t outliers = 0;               ///< points without a star: they hover over a surface, see CloudSteps
   std::int64_t denoised = 0;               ///< points moved onto a surface for the lengths, see Lengths
+  double noise = 0;                        ///< of a depth image: its standard deviation along rays, the median
   std::int64_t grown_stars = 0;            ///< times k was doubled because a closed star was not certified
   std::int64_t closed_stars = 0;           ///< open stars that closed with two or four times the neighbours
   std::int64_t open_stars = 0;             ///< points whose Voronoi cell is not compact

@@ -6,11 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "base/median.h"
 #include "base/power_of_two.h"
 #include "base/stage_clock.h"
 #include "denoise/moves.h"
+#include "depth_image/image_stars.h"
 #include "neighbors/morton.h"
 #include "neighbors/neighbor_source.h"
+#include "neighbors/scan/ranked_scan.h"
 #include "tufted/errors.h"
 
 namespace tufted {
@@ -25,28 +28,25 @@ void check(const PointsRef& points, const DenoiseOptions& options) {
   if (points.rows() > INT32_MAX)
     throw InvalidInput(std::string(function_name) + ": " + std::to_string(points.rows()) +
                        " points, must be less than 2^31");
-}
-
-double medianOf(Buffer<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + std::ssize(values) / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  if (options.structure != nullptr && options.structure->has_rings)
+    throw InvalidInput(std::string(function_name) + ": structure has rings, must be that of a depth image");
 }
 
 /// Moves the points of `denoised`, which are the caller's.
-void apply(const SurfaceMoves& moves, const RankedCloud& cloud, DenoisedPoints& denoised) {
+/// @param moves n x 3, or 0 x 3 where none moves
+/// @param noiseOf(p) standard deviation around a point that moves
+template <class NoiseOf>
+void apply(const PointBuffer& moves, const NoiseOf& noiseOf, const RankedCloud& cloud, DenoisedPoints& denoised) {
   const PowerOfTwo unit(cloud.exponent);
   DenoiseReport& report = denoised.report;
   Buffer<double> noise;
   double way = 0;
-  for (int p = 0; p < cloud.size(); ++p) {
-    if (!moves.noise.outlier.empty()) report.outliers += moves.noise.outlier[p];
-    const Eigen::RowVector3d move = moves.move.row(p);
+  for (int p = 0; p < moves.rows(); ++p) {
+    const Eigen::RowVector3d move = moves.row(p);
     if (move.isZero(0)) continue;
     const int i = cloud.input_index[p];
     for (int axis = 0; axis < 3; ++axis) denoised.positions(i, axis) += unit.times(move[axis]);
-    denoised.noise[i] = unit.times(std::sqrt(moves.noise.variance[p]));
+    denoised.noise[i] = unit.times(noiseOf(p));
     noise.push_back(denoised.noise[i]);
     const double length = unit.times(move.norm());
     way += length;
@@ -55,6 +55,26 @@ void apply(const SurfaceMoves& moves, const RankedCloud& cloud, DenoisedPoints& 
   report.moved = std::ssize(noise);
   if (report.moved > 0) report.mean_move = way / static_cast<double>(report.moved);
   report.noise = medianOf(std::move(noise));
+}
+
+void moveOntoSurface(const RankedCloud& cloud, const Workers& workers, DenoisedPoints& denoised) {
+  NeighborSource source;
+  source.k = std::min(Windows::first_base, std::max(0, cloud.size() - 1));
+  source.search = std::make_unique<NeighborSearch>(cloud.points, workers);
+  const SurfaceMoves moves = surfaceMoves(cloud.points, source, workers);
+  const auto noiseOf = [&](int p) { return std::sqrt(moves.noise.variance[p]); };
+  apply(moves.move, noiseOf, cloud, denoised);
+  const Buffer<std::uint8_t>& outlier = moves.noise.outlier;
+  denoised.report.outliers = std::count(outlier.begin(), outlier.end(), 1);
+}
+
+void moveAlongRays(const RankedScan& scan, const RankedCloud& cloud, const Workers& workers, DenoisedPoints& denoised) {
+  const SurfaceImage image = surfaceImage(scan, cloud.points, true, workers);
+  const auto noiseOf = [&](int p) { return image.noiseOf(p); };
+  apply(image.windows.displacement, noiseOf, cloud, denoised);
+  denoised.report.unplaced = image.unplaced;
+  const Buffer<std::uint64_t>& around = image.windows.around;
+  denoised.report.outliers = std::count(around.begin(), around.end(), 0) - image.unplaced;
 }
 
 }  // namespace
@@ -68,10 +88,11 @@ DenoisedPoints denoise(const PointsRef& points, const DenoiseOptions& options) {
   std::vector<int> representative;
   const RankedCloud cloud = rankPoints(points, status, representative, workers);
 
-  NeighborSource source;
-  source.k = std::min(Windows::first_base, std::max(0, cloud.size() - 1));
-  source.search = std::make_unique<NeighborSearch>(cloud.points, workers);
-  apply(surfaceMoves(cloud.points, source, workers), cloud, denoised);
+  if (options.structure != nullptr) {
+    moveAlongRays(rankScan(*options.structure, cloud, status, representative, function_name), cloud, workers, denoised);
+  } else {
+    moveOntoSurface(cloud, workers, denoised);
+  }
 
   denoised.report.points = points.rows();
   for (Eigen::Index i = 0; i < points.rows(); ++i) {

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <utility>
 
+#include "base/median.h"
 #include "base/power_of_two.h"
 #include "depth_image/depth_noise.h"
 #include "depth_image/pixel_frame.h"
@@ -113,17 +115,20 @@ class ImageStarBuilder {
 
 }  // namespace
 
-SurfaceImage surfaceImage(const ScanStructure& structure, const RankedCloud& cloud, const CloudOptions& options,
-                          const std::vector<PointStatus>& status, const std::vector<int>& representative,
-                          const Workers& workers, Report& report) {
+double SurfaceImage::noiseOfMoved() const {
+  Buffer<double> values;
+  values.reserve(static_cast<std::size_t>(windows.moved));
+  for (Eigen::Index p = 0; p < windows.displacement.rows(); ++p)
+    if (!windows.displacement.row(p).isZero(0)) values.push_back(noiseOf(static_cast<int>(p)));
+  return medianOf(std::move(values));
+}
+
+SurfaceImage surfaceImage(const RankedScan& scan, const PointsView& points, bool smooths, const Workers& workers) {
   SurfaceImage image;
-  image.grid = pixelGrid(rankScan(structure, cloud, status, representative));
-  report.unplaced = std::count(image.grid.pixel.begin(), image.grid.pixel.end(), -1);
-  image.noise = inverseRangeNoise(image.grid, cloud.points);
-  const bool smooths = options.steps.lengths == Lengths::denoised;
-  image.windows = findSurfaceWindows(image.grid, cloud.points, image.noise, smooths, workers);
-  report.cut_neighbors = image.windows.cut;
-  report.denoised = image.windows.moved;
+  image.grid = pixelGrid(scan);
+  image.unplaced = std::count(image.grid.pixel.begin(), image.grid.pixel.end(), -1);
+  image.noise = inverseRangeNoise(image.grid, points);
+  image.windows = findSurfaceWindows(image.grid, points, image.noise, smooths, workers);
   return image;
 }
 

@@ -1,12 +1,12 @@
 #pragma once
 
 #include <cstddef>
-#include <vector>
+#include <cstdint>
 
 #include "base/parallel.h"
 #include "base/stage_clock.h"
 #include "depth_image/pixel_window.h"
-#include "neighbors/morton.h"
+#include "neighbors/scan/ranked_scan.h"
 #include "stars/stars.h"
 #include "tufted/options.h"
 #include "tufted/report.h"
@@ -17,8 +17,13 @@ namespace tufted {
 struct SurfaceImage {
   PixelGrid grid;
   SurfaceWindows windows;
-  double noise = 0;  ///< see inverseRangeNoise()
+  double noise = 0;           ///< see inverseRangeNoise()
+  std::int64_t unplaced = 0;  ///< points without a pixel
 
+  /// Standard deviation of the noise of a point that has a pixel, along its ray.
+  double noiseOf(int p) const { return noise * windows.range[p] * windows.range[p]; }
+  /// The median over the points that are moved; 0 if none are.
+  double noiseOfMoved() const;
   std::size_t bytes() const {
     return grid.bytes() + bytesOf(windows.around) + bytesOf(windows.range) + windows.displacement.bytes();
   }
@@ -26,10 +31,9 @@ struct SurfaceImage {
   DepthImage view(const PointsView& points) const { return {grid, points, windows, JumpTest(noise)}; }
 };
 
-/// Finds the surface in the windows of all pixels, and moves points onto it if the options say so.
-SurfaceImage surfaceImage(const ScanStructure& structure, const RankedCloud& cloud, const CloudOptions& options,
-                          const std::vector<PointStatus>& status, const std::vector<int>& representative,
-                          const Workers& workers, Report& report);
+/// Finds the surface in the windows of all pixels.
+/// @param smooths whether points are moved onto it
+SurfaceImage surfaceImage(const RankedScan& scan, const PointsView& points, bool smooths, const Workers& workers);
 
 /// The Delaunay stars of all points among the points in the windows of their pixels. Counts grown,
 /// open and dropped ones; the caller books the cost.

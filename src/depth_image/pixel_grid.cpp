@@ -52,9 +52,10 @@ PixelGrid pixelGrid(const RankedScan& scan) {
   });
   // By what the caller gave: how many of the points are usable must not decide.
   if (rows.extent() * columns.extent() > std::max(most_pixels, pixels_per_point * scan.entries)) {
-    throw InvalidInput("pointCloudLaplacian: structure has points in " + std::to_string(rows.extent()) + " rows of " +
-                       std::to_string(columns.extent()) + " columns, must be at most 64 pixels for each of its " +
-                       std::to_string(scan.entries) + " entries");
+    throw InvalidInput(std::string(scan.function) + ": structure has points in " + std::to_string(rows.extent()) +
+                       " rows of " + std::to_string(columns.extent()) +
+                       " columns, must be at most 64 pixels for each of its " + std::to_string(scan.entries) +
+                       " entries");
   }
   rows.reserve();
   columns.reserve();

@@ -36,6 +36,7 @@ Json reportObject(const Report& report) {
       {"isolated_by_sheets", report.isolated_by_sheets},
       {"outliers", report.outliers},
       {"denoised", report.denoised},
+      {"noise", report.noise},
       {"grown_stars", report.grown_stars},
       {"closed_stars", report.closed_stars},
       {"open_stars", report.open_stars},
@@ -95,9 +96,10 @@ const char* name(Sign sign) {
 }
 
 Json denoiseObject(const DenoiseReport& report) {
-  return {{"points", report.points},       {"not_finite", report.not_finite},       {"coincident", report.coincident},
-          {"moved", report.moved},         {"outliers", report.outliers},           {"noise", report.noise},
-          {"mean_move", report.mean_move}, {"farthest_move", report.farthest_move}, {"seconds", report.seconds}};
+  return {{"points", report.points},  {"not_finite", report.not_finite}, {"coincident", report.coincident},
+          {"moved", report.moved},    {"unplaced", report.unplaced},     {"outliers", report.outliers},
+          {"noise", report.noise},    {"mean_move", report.mean_move},   {"farthest_move", report.farthest_move},
+          {"seconds", report.seconds}};
 }
 
 /// What clouds and meshes have in common.

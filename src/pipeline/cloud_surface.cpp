@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "base/power_of_two.h"
 #include "depth_image/image_boundary.h"
 #include "depth_image/image_stars.h"
 #include "neighbors/neighbor_source.h"
@@ -16,7 +17,12 @@ CloudSurface imageSurface(const RankedCloud& cloud, const CloudOptions& options,
                           Report& report) {
   const PointBuffer normals = rankedNormals(options.normals, cloud, report);
   report.neighbors = std::min(WindowPixels::count, std::max(0, cloud.size() - 1));
-  SurfaceImage surface = surfaceImage(*options.structure, cloud, options, status, representative, workers, report);
+  SurfaceImage surface = surfaceImage(rankScan(*options.structure, cloud, status, representative), cloud.points,
+                                      options.steps.lengths == Lengths::denoised, workers);
+  report.unplaced = surface.unplaced;
+  report.cut_neighbors = surface.windows.cut;
+  report.denoised = surface.windows.moved;
+  report.noise = PowerOfTwo(cloud.exponent).times(surface.noiseOfMoved());
   clock.finish("windows", surface.bytes());
   const DepthImage image = surface.view(cloud.points);
   BuiltStars built = buildImageStars(image, normals, options, workers, report);

@@ -77,10 +77,12 @@ Eigen::MatrixXd smoothedValues(const Laplacian& laplacian, const Eigen::MatrixXd
   return run(progress, [&](const Progress& called) { return smoothValues(laplacian, values, how.with(called)); });
 }
 
-py::tuple denoised(const Doubles& points, int threads, const py::object& progress) {
+py::tuple denoised(const Doubles& points, const std::optional<ScanStructure>& structure, int threads,
+                   const py::object& progress) {
   const auto view = pointsOf(points);
-  DenoisedPoints done =
-      run(progress, [&](const Progress& called) { return denoise(view, {.threads = threads, .progress = called}); });
+  DenoisedPoints done = run(progress, [&](const Progress& called) {
+    return denoise(view, {.structure = structure ? &*structure : nullptr, .threads = threads, .progress = called});
+  });
   const DenoiseReport& report = done.report;
   return py::make_tuple(std::move(done.positions), std::move(done.noise), report.moved, report.outliers, report.noise);
 }

@@ -69,6 +69,39 @@ TEST_F(MovedPoints, ParameterizeRefusesWhatItCannotLayOut) {
                 "line 2: is not INDEX or INDEX U V", 1);
 }
 
+TEST_F(MovedPoints, DenoiseMovesTheDepthsOfAnImageAlongItsRays) {
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> noise(0, 0.002);
+  std::string text =
+      "VERSION .7\nFIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 60\nHEIGHT 50\nPOINTS 3000\n";
+  text += "DATA ascii\n";
+  for (int i = 0; i < 3000; ++i) {
+    const double u = (i % 60 - 30) / 100.0, v = (i / 60 - 25) / 100.0,
+                 depth = 1 / (1 - 0.3 * u + 0.2 * v + noise(random));
+    for (const double c : {u * depth, v * depth, depth}) text += std::to_string(c) + ' ';
+    text += '\n';
+  }
+  const std::string image = dir_.write("image.pcd", text);
+  EXPECT_NE(run({"denoise", image, "--out", in("clean")}).out.find("rays"), std::string::npos);
+  const nlohmann::json made = report("clean")["report"];
+  EXPECT_GT(made["moved"], 2850);
+  EXPECT_NEAR(made["noise"], 0.002, 0.0003);
+  // A build does the same by itself, asked or not.
+  for (const std::vector<std::string>& asked :
+       {std::vector<std::string>{}, {"--denoise"}, {"--denoise", "--preset", "clean"}}) {
+    std::vector<std::string> command = {"laplacian", image, "--format", "npy", "--out", in("built")};
+    command.insert(command.end(), asked.begin(), asked.end());
+    run(command);
+    EXPECT_EQ(report("built")["options"]["structure"], "image");
+    EXPECT_EQ(report("built")["report"]["noise"], made["noise"]);
+    EXPECT_EQ(values("built/measured_positions.npy"), values("clean/positions.npy"));
+  }
+  EXPECT_EQ(run({"denoise", image, "--structure", "none", "--out", in("clean")}).out.find("rays"), std::string::npos);
+  EXPECT_NE(values("built/measured_positions.npy"), values("clean/positions.npy"));
+  expectRefusal({"denoise", cloud_, "--structure", "image"}, "is one row of points", 1);
+  expectRefusal({"denoise", cloud_, "--structure", "rings"}, "rings is none of automatic|image|none");
+}
+
 TEST_F(MovedPoints, DenoiseBringsPointsToTheSurface) {
   std::mt19937_64 random(1);
   std::normal_distribution<double> noise(0, 0.02);
@@ -93,6 +126,14 @@ TEST_F(MovedPoints, DenoiseBringsPointsToTheSurface) {
     return std::sqrt(3 * sum / static_cast<double>(x.size()));
   };
   EXPECT_LT(off(values("clean/positions.npy")), 0.008);
+  // Commands that move points start there with --denoise: after a step of next to no time they are where they were.
+  run({"smooth", scan, "--denoise", "--time-step", "1e-9", "--out", in("smooth")});
+  const std::vector<double> clean = values("clean/positions.npy"), still = values("smooth/positions.npy");
+  for (std::size_t i = 0; i < clean.size(); ++i) ASSERT_NEAR(still[i], clean[i], 1e-6) << i;
+  run({"filter", scan, "--positions", "--denoise", "--count", "20", "--out", in("filter")});
+  run({"filter", in("clean/points.ply"), "--positions", "--count", "20", "--out", in("expected")});
+  const std::vector<double> filtered = values("filter/filtered.npy"), expected = values("expected/filtered.npy");
+  for (std::size_t i = 0; i < clean.size(); ++i) ASSERT_NEAR(filtered[i], expected[i], 1e-5) << i;
   const std::string ply = readAll(dir_ / "clean/points.ply");
   EXPECT_NE(ply.find("property float noise"), std::string::npos);
   EXPECT_EQ(ply.find("property double mass"), std::string::npos);

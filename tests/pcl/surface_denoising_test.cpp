@@ -58,6 +58,28 @@ TEST(SurfaceDenoising, MovesTheIndicesAlone) {
   EXPECT_EQ(moved, 2);
 }
 
+TEST(SurfaceDenoising, MovesThePointsOfADepthImageAlongTheirRays) {
+  const shapes::Cloud noisy = withNoise(shapes::sphere(3000), 0.002, 7);
+  Points points(3000, 3);
+  for (int i = 0; i < 3000; ++i)
+    points.row(i) = Eigen::RowVector3d((i % 60 - 30) / 100.0, (i / 60 - 25) / 100.0, 1) * noisy.points.row(i).norm();
+  const Cloud::Ptr cloud = cloudOf<Point>(points);
+  SurfaceDenoising<Point> denoising;
+  denoising.setInputCloud(cloud);
+  denoising.setOrganizedSearch(true);
+  Cloud output;
+  EXPECT_NE(consoleOf([&] { denoising.filter(output); }).find("setOrganizedSearch"), std::string::npos);
+  EXPECT_TRUE(output.empty());
+  cloud->width = 60;
+  cloud->height = 50;
+  denoising.filter(output);
+  const ScanStructure structure = imageStructure(60, 50);
+  const DenoisedPoints core = denoise(pointsOf(*cloud), {.structure = &structure});
+  EXPECT_TRUE(samePositions(pointsOf(output), rounded(core.positions)));
+  EXPECT_GT(core.report.moved, 2900);
+  EXPECT_EQ(denoising.getReport().noise, core.report.noise);
+}
+
 TEST(SurfaceDenoising, TellsMistakesOnTheConsole) {
   SurfaceDenoising<Point> denoising;
   denoising.setInputCloud(noisySphere());

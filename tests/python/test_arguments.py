@@ -101,6 +101,7 @@ MESH = torus_mesh(10, 8)
     (lambda: tufted.PointCloud(CLOUD).divergence(np.zeros((400, 3))), "divergence: vectors has 3 columns, must have 2"),
     (lambda: tufted.denoise(np.zeros((4, 2))), "denoise: points has the shape 4 x 2, must be N x 3"),
     (lambda: tufted.denoise(CLOUD, threads=-1), "denoise: threads = -1, must be at least 0"),
+    (lambda: tufted.denoise(CLOUD, image=(20, 21)), "denoise: image = (20, 21), must be (width, height) of 400 points"),
     (lambda: tufted.PointCloud(CLOUD).smooth(iterations=0), "smooth: iterations = 0, must be at least 1"),
     (lambda: tufted.PointCloud(CLOUD).smooth(method="box"), "smooth: method = 'box', must be one of"),
     (lambda: tufted.PointCloud(CLOUD).smooth(method="taubin", mu=1), "smooth: mu = 1, must lie in [-1, 0]"),

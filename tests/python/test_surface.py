@@ -190,6 +190,20 @@ def test_denoise_brings_points_to_the_surface():
     np.testing.assert_array_equal(unmoved.points, exact)
 
 
+def test_denoise_moves_the_points_of_a_depth_image_along_their_rays():
+    random = np.random.default_rng(1)
+    u, v = np.meshgrid((np.arange(60) - 30) / 100, (np.arange(50) - 25) / 100)
+    depth = 1 / (1 - 0.3 * u + 0.2 * v + 0.002 * random.normal(size=u.shape))
+    origin = np.array([1, 2, 3])
+    points = np.stack([u * depth, v * depth, depth], axis=-1).reshape(-1, 3) + origin
+    found = tufted.denoise(points, image=(60, 50), viewpoint=origin)
+    assert found.median_noise == pytest.approx(0.002, rel=0.1)
+    np.testing.assert_allclose(np.cross(found.points - origin, points - origin), 0, atol=1e-14)
+    cloud = tufted.PointCloud(points, image=(60, 50), viewpoint=origin)
+    assert same(found.points, cloud.positions)
+    assert cloud.report["noise"] == found.median_noise
+
+
 def test_smoothing_shrinks_and_keeps_fixed_points(cloud):
     fixed = np.zeros(3000, bool)
     fixed[:10] = True

@@ -70,13 +70,15 @@ tufted::Laplacian buildLaplacian(const tufted::Geometry& geometry, const Input& 
     build.cloud.normals = &geometry.normals;
   }
   if (build.structure == Structure::automatic) {
-    // Who names neighbours, moves points first or has rings wants a search.
-    const bool may_be_image = build.neighbors->count() == 0 && !build.denoise && build.preset != tufted::Preset::lidar;
+    // Who names neighbours or has rings wants a search.
+    const bool may_be_image = build.neighbors->count() == 0 && build.preset != tufted::Preset::lidar;
     build.structure = may_be_image ? structureFor(geometry) : Structure::none;
   }
   build.scan = structureOf(geometry, build.structure, input.name());
   if (build.scan) build.cloud.structure = &*build.scan;
   build.cloud.steps = tufted::cloudSteps(build.preset);
+  const bool is_image = build.structure == Structure::image;
+  if (build.denoise && is_image) build.cloud.steps.lengths = tufted::Lengths::denoised;  // which moves them all
   // The position is at hand where a file states one, and where an image of depths leaves it at the origin.
   build.viewpoint = {geometry.viewpoint[0], geometry.viewpoint[1], geometry.viewpoint[2]};
   const bool is_given = !build.given_viewpoint.empty();
@@ -91,7 +93,7 @@ tufted::Laplacian buildLaplacian(const tufted::Geometry& geometry, const Input& 
   build.mesh.keep_cover = keep_cover;
   if (build.mollify) build.cloud.mollify = build.mesh.mollify = *build.mollify;
   if (geometry.is_mesh) return tufted::meshLaplacian(geometry.points, geometry.triangles, build.mesh);
-  if (!build.denoise) return tufted::pointCloudLaplacian(geometry.points, build.cloud);
+  if (!build.denoise || is_image) return tufted::pointCloudLaplacian(geometry.points, build.cloud);
   tufted::DenoisedPoints denoised =
       tufted::denoise(geometry.points, {.threads = build.cloud.threads, .progress = progress});
   build.denoised = denoised.report;
@@ -99,9 +101,10 @@ tufted::Laplacian buildLaplacian(const tufted::Geometry& geometry, const Input& 
 }
 
 void addBuild(const tufted::Report& report, const Build& build, Summary& summary) {
-  if (build.structure == Structure::image)
-    summary.add("structure", "depth image, %lld points moved along their rays",
-                static_cast<long long>(report.denoised));
+  if (build.structure == Structure::image && report.denoised == 0) summary.add("structure", "depth image, no noise");
+  if (build.structure == Structure::image && report.denoised > 0)
+    summary.add("structure", "depth image, %lld points moved along their rays, noise %.3g",
+                static_cast<long long>(report.denoised), report.noise);
   if (build.denoised)
     summary.add("denoised", "%lld points, noise %.4g", static_cast<long long>(build.denoised->moved),
                 build.denoised->noise);

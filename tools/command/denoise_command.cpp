@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -12,6 +13,7 @@
 #include "peak_memory.h"
 #include "progress_bar.h"
 #include "scene_fields.h"
+#include "structure.h"
 #include "tufted/denoise.h"
 #include "tufted/errors.h"
 #include "tufted/io/results.h"
@@ -29,19 +31,27 @@ constexpr const char* footer =
 
 There is no radius to choose: how wide a surface is fitted follows from the noise around each point and the bend of the
 surface. Exact points, outliers, and whatever cannot be told from the shape of the surface stay as they are, bit for bit.
+The points of a depth image move along the rays of its camera, however strong the noise is: of an organized cloud that a
+pinhole camera saw from the file's viewpoint, or with --structure image; --structure none takes it as any cloud.
 To build L and M from the points where they are now, give --denoise to any subcommand, or points.ply as its FILE.
 
 Writes into DIR, renamed one after the other when all are complete:
   positions.npy  N x 3, float64, in the order of the file
-  noise.npy      N, float64: standard deviation of the noise around a point that moved, in the file's unit; 0 at others
+  noise.npy      N, float64: standard deviation of the noise around a point that moved, along the normal (of a depth
+                 image along the ray), in the file's unit; 0 at others
   points.ply     the points where they are now, with the file's fields but for normals, and noise, float32; points.pcd
                  with --format pcd
   report.json    points moved, outliers, noise, mean and farthest way, seconds)";
+
+/// Rings of a scanner are no image.
+const std::map<std::string, Structure> image_structures = {
+    {"automatic", Structure::automatic}, {"none", Structure::none}, {"image", Structure::image}};
 
 struct Settings {
   Input input;
   std::filesystem::path out;
   std::vector<tufted::Format> copies = {tufted::Format::ply};
+  Structure structure = Structure::automatic;
   int threads = 0;
   Console console;
   Look look;
@@ -61,8 +71,10 @@ int runDenoise(Settings& settings) {
   checkColor(settings.look, geometry, {"noise"});
   if (interrupted()) throw tufted::Cancelled("cancelled");
   bar.setPoints(geometry.points.rows());
-  const tufted::DenoisedPoints denoised =
-      tufted::denoise(geometry.points, {.threads = settings.threads, .progress = progress});
+  if (settings.structure == Structure::automatic) settings.structure = structureFor(geometry);
+  const auto scan = structureOf(geometry, settings.structure, settings.input.name());
+  const tufted::DenoisedPoints denoised = tufted::denoise(
+      geometry.points, {.structure = scan ? &*scan : nullptr, .threads = settings.threads, .progress = progress});
   bar.setPoints(0);
   geometry.points = denoised.positions;
   geometry.normals.resize(0, 3);  // they belong to where the points were
@@ -87,7 +99,8 @@ int runDenoise(Settings& settings) {
   summary.add("points", "%lld, %lld moved, %lld outliers", static_cast<long long>(done.points),
               static_cast<long long>(done.moved), static_cast<long long>(done.outliers));
   if (done.moved > 0) {
-    summary.add("noise", "%.4g, standard deviation along the normal", done.noise);
+    summary.add("noise", "%.4g, standard deviation along the %s", done.noise,
+                scan ? "rays of a depth image" : "normal");
     summary.add("way", "of the moved points %.4g in the mean, by %.4g at most", done.mean_move, done.farthest_move);
   } else {
     summary.add("noise", "none that can be told from the shape of the surface");
@@ -110,6 +123,7 @@ void addDenoise(CLI::App& app, Run& run) {
   addInput(command, settings->input);
   addOut(command, settings->out);
   addCopies(command, settings->copies);
+  addChoice(command, "--structure", settings->structure, image_structures, "How the surface is looked for (automatic)");
   addNumber(command, "--threads", settings->threads, 1, 1 << 16, "At most this many threads (all)")->type_name("N");
   addLookOptions(command, settings->look);
   addConsole(command, settings->console);

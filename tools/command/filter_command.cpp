@@ -28,7 +28,8 @@ constexpr const char* footer =
 
 Keeps what the means over the connected components and the eigenvectors of the smallest positive eigenvalues
 hold: the first K, or those of waves at least W long (2 pi over the root of the eigenvalue, in the points' unit of
-length; a W that is longer than all of them, or shorter than the points can tell, is refused).
+length; a W that is longer than all of them, or shorter than the points can tell, is refused). With --denoise positions
+are those that it moves the points to, and not those of FILE.
 
 Writes into DIR, renamed one after the other when all are complete:
   filtered.npy  N values, N x c for c columns, or N x 3 positions, float64; points that are not finite or isolated keep
@@ -59,7 +60,6 @@ void check(Settings& settings, const Operator& source) {
   } else {
     if (has_signals) throw tufted::InvalidInput("--positions excludes --field and --values");
     checkHasPoints(source);
-    settings.values = source.geometry.points;
   }
   if (!settings.wavelength || !settings.pairs.folder.empty()) checkPairs(settings.pairs, source, settings.source.out);
 }
@@ -116,6 +116,7 @@ tufted::Spectrum longWavesOfFolder(const Operator& source, double wavelength, co
 }
 
 Results compute(Settings& settings, Operator& source) {
+  if (settings.positions) settings.values = source.startingPoints();
   requireFinite(settings.values, source);
   const tufted::Spectrum spectrum = !settings.wavelength ? positivePairs(settings.pairs, source)
                                     : settings.pairs.folder.empty()

@@ -56,8 +56,8 @@ Presets of clouds:
   lidar  the same from a spinning scanner, whose rings would be taken for sheets
 
 Structures of scans:
-  automatic  image for an organized cloud that a pinhole camera saw from the file's viewpoint, unless --neighbors,
-             --denoise or --preset lidar is given; else none
+  automatic  image for an organized cloud that a pinhole camera saw from the file's viewpoint, unless --neighbors or
+             --preset lidar is given; else none
   none   the nearest points in space
   image  the pixels around the point, none behind a depth jump; noise is smoothed along the rays of the camera, however
          strong it is. The cloud must be organized (PCD, or PLY with obj_info num_cols)

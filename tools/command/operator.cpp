@@ -173,6 +173,7 @@ int runWithOperator(OperatorSettings& settings, std::vector<std::string> files, 
   source.solving = settings.solving;
   source.threads = settings.build.cloud.threads;
   source.progress = showOn(bar);
+  source.is_denoised = settings.build.denoise;
   const auto checkpoint = [] {
     if (interrupted()) throw tufted::Cancelled("cancelled");
   };

@@ -58,7 +58,10 @@ struct Operator {
   Solving solving;
   int threads = 0;
   tufted::Progress progress;
+  bool is_denoised = false;  ///< --denoise was given
 
+  /// The points as a command that moves them finds them: those of the file, or where --denoise has moved them.
+  const tufted::Points& startingPoints() const { return is_denoised ? laplacian.positions : geometry.points; }
   int points() const {
     return static_cast<int>(std::max<std::size_t>(geometry.points.rows(), laplacian.status.size()));
   }

@@ -31,6 +31,12 @@ class SurfaceDenoising : public pcl::Filter<PointT> {
   /// See setNumberOfThreads().
   unsigned int getNumberOfThreads() const { return static_cast<unsigned int>(threads_); }
 
+  /// Whether an organized input is a depth image seen from its sensor_origin_, whose points move along their rays;
+  /// false unless set. To be set for depth cameras, as in LaplacianEstimation.
+  void setOrganizedSearch(bool organized) { organized_ = organized; }
+  /// See setOrganizedSearch().
+  bool getOrganizedSearch() const { return organized_; }
+
   /// What happened in the last filter(): points moved, outliers, the noise in the cloud's unit.
   const DenoiseReport& getReport() const { return report_; }
 
@@ -45,6 +51,7 @@ class SurfaceDenoising : public pcl::Filter<PointT> {
 
  private:
   int threads_ = 0;
+  bool organized_ = false;
   DenoiseReport report_;
 };
 

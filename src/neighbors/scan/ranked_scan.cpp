@@ -14,20 +14,18 @@
 namespace tufted {
 namespace {
 
-constexpr const char* function_name = "pointCloudLaplacian: structure.";
-
-void checkSize(const char* what, std::size_t size, std::size_t points) {
+void checkSize(const std::string& name, std::size_t size, std::size_t points) {
   if (size == points) return;
-  throw InvalidInput(std::string(function_name) + what + " has " + std::to_string(size) + " entries, must have " +
-                     std::to_string(points) + ", one per point");
+  throw InvalidInput(name + " has " + std::to_string(size) + " entries, must have " + std::to_string(points) +
+                     ", one per point");
 }
 
 /// The azimuth in [0, 2 pi), or the column as it is.
-double positionOf(const ScanStructure& structure, std::size_t i) {
+double positionOf(const ScanStructure& structure, std::size_t i, const std::string& name) {
   const double position = structure.position[i];
   if (!structure.has_rings) {
     if (position >= 0 && position < INT32_MAX && position == std::floor(position)) return position;
-    throw InvalidInput(std::string(function_name) + "position[" + std::to_string(i) + "] = " + numberText(position) +
+    throw InvalidInput(name + "position[" + std::to_string(i) + "] = " + numberText(position) +
                        ", must be a whole column >= 0 in an image");
   }
   constexpr double turn = 2 * std::numbers::pi;
@@ -39,20 +37,19 @@ double positionOf(const ScanStructure& structure, std::size_t i) {
 }  // namespace
 
 RankedScan rankScan(const ScanStructure& structure, const RankedCloud& cloud, const std::vector<PointStatus>& status,
-                    const std::vector<int>& representative) {
-  checkSize("row", structure.row.size(), status.size());
-  checkSize("position", structure.position.size(), status.size());
-  if (!structure.origin.allFinite()) {
-    throw InvalidInput(std::string(function_name) + "origin is not finite, must be");
-  }
+                    const std::vector<int>& representative, const char* function) {
+  const std::string name = std::string(function) + ": structure.";
+  checkSize(name + "row", structure.row.size(), status.size());
+  checkSize(name + "position", structure.position.size(), status.size());
+  if (!structure.origin.allFinite()) throw InvalidInput(name + "origin is not finite, must be");
   Buffer<int> rank(status.size(), -1);
   for (int r = 0; r < cloud.size(); ++r) rank[cloud.input_index[r]] = r;
-  RankedScan scan{Buffer<int>(cloud.size(), -1), Buffer<double>(cloud.size(), 0), {}, std::ssize(status)};
+  RankedScan scan{Buffer<int>(cloud.size(), -1), Buffer<double>(cloud.size(), 0), {}, std::ssize(status), function};
   for (int axis = 0; axis < 3; ++axis) scan.origin[axis] = std::ldexp(structure.origin[axis], -cloud.exponent);
   for (std::size_t i = 0; i < status.size(); ++i) {
     const int p = rank[representative[i]];
     if (p < 0 || structure.row[i] < 0 || !std::isfinite(structure.position[i])) continue;
-    const double position = positionOf(structure, i);
+    const double position = positionOf(structure, i, name);
     if (scan.row[p] >= 0 && std::tie(scan.row[p], scan.position[p]) <= std::tie(structure.row[i], position)) continue;
     scan.row[p] = structure.row[i];
     scan.position[p] = position;

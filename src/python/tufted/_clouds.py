@@ -17,6 +17,13 @@ def _solving(function, threads, solver, memory_limit):
             "threads": check.whole(function, "threads", threads, 0)}
 
 
+def _pixels(function, points, image, origin):
+    size = check.integers(function, "image", image)
+    if size.shape != (2,) or size[0] * size[1] != len(points):
+        raise InvalidInput(f"{function}: image = {image!r}, must be (width, height) of {len(points)} points")
+    return _tufted.image_structure(int(size[0]), int(size[1]), origin)
+
+
 class PointCloud(Surface):
     """The Laplacian of a point cloud, which is built at once.
 
@@ -70,10 +77,7 @@ class PointCloud(Surface):
             if isinstance(structure, _tufted.ScanStructure):  # of a file, see read()
                 return structure
         if image is not None:
-            size = check.integers(name, "image", image)
-            if size.shape != (2,) or size[0] * size[1] != len(points):
-                raise InvalidInput(f"{name}: image = {image!r}, must be (width, height) of {len(points)} points")
-            return _tufted.image_structure(int(size[0]), int(size[1]), origin)
+            return _pixels(name, points, image, origin)
         if isinstance(rings, str):
             if rings != "find":
                 raise InvalidInput(f"{name}: rings = '{rings}', must be numbers or 'find'")
@@ -128,17 +132,22 @@ class Mesh(Surface):
         return self._frame_parts()
 
 
-def denoise(points, *, threads=0, progress=None):
+def denoise(points, *, image=None, viewpoint=None, threads=0, progress=None):
     """Moves the points of a noisy scan onto the surface, without a radius to choose.
 
     points: N x 3, float32 or float64; rows with NaN stay as they are.
+    image: (width, height) of a depth image, whose points then move along their rays. viewpoint: where its camera stood,
+    3 values; None: at the origin.
     threads: at most this many; 0: all. progress: a function of stage and fraction.
     Returns points (N x 3), noise (N: its standard deviation around each point that moved, 0 where it stayed), how many
     moved, how many stayed as outliers, and median_noise over those that moved.
     """
-    return Denoised(*_tufted.denoise(check.rows_of_three("denoise", "points", points),
-                                     check.whole("denoise", "threads", threads, 0),
-                                     check.callback("denoise", progress)))
+    name = "denoise"
+    points = check.rows_of_three(name, "points", points)
+    origin = np.zeros(3) if viewpoint is None else check.vector_of_three(name, "viewpoint", viewpoint)
+    structure = None if image is None else _pixels(name, points, image, origin)
+    return Denoised(*_tufted.denoise(points, structure, check.whole(name, "threads", threads, 0),
+                                     check.callback(name, progress)))
 
 
 def _set_geometry(surface, geometry, source):

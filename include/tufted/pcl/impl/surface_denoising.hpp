@@ -16,7 +16,10 @@ void tufted::SurfaceDenoising<PointT>::applyFilter(PointCloud& output) {
     detail::checkIndices("setIndices", *input_, *indices_);
     pcl::Indices all(input_->size());
     std::iota(all.begin(), all.end(), 0);
-    const DenoisedPoints denoised = denoise(detail::toPoints(*input_, all), {.threads = threads_});
+    ScanStructure structure;
+    if (organized_) structure = detail::pixelsOf(*input_, all);
+    const DenoisedPoints denoised =
+        denoise(detail::toPoints(*input_, all), {.structure = organized_ ? &structure : nullptr, .threads = threads_});
     report_ = denoised.report;
     output.is_dense = denoised.positions.allFinite();
     for (const pcl::index_t i : *indices_)

@@ -1,0 +1,111 @@
+// denoise() of depth images: along the rays, as a build moves points.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "depth_image/image.h"
+#include "shapes/random.h"
+#include "support/refusal.h"
+#include "tufted/denoise.h"
+
+namespace tufted::denoised_image_test {
+namespace {
+
+using image_tests::height;
+using image_tests::width;
+
+/// A slanted plane with noise of the inverse depth.
+Points noisyPlane(double noise, int seed = 1) {
+  shapes::Random random(seed);
+  return image_tests::imageOf([&](int column, int row) {
+    return 1 / (1 / image_tests::planeDepth(column, row, 0.3, -0.2) + noise * random.normal());
+  });
+}
+
+TEST(DenoisedImage, LiesWhereABuildMeasures) {
+  const ScanStructure structure = imageStructure(width, height);
+  for (const double scale : {1.0, 1000.0, 1e-3}) {
+    const Points points = scale * noisyPlane(2e-3);
+    const DenoisedPoints done = denoise(points, {.structure = &structure});
+    const Laplacian laplacian = image_tests::imageLaplacian(points);
+    EXPECT_EQ(done.positions, laplacian.positions);
+    EXPECT_EQ(done.report.moved, laplacian.report.denoised);
+    EXPECT_EQ(done.report.noise, laplacian.report.noise);
+    EXPECT_GT(done.report.moved, 0.95 * width * height);
+  }
+}
+
+TEST(DenoisedImage, SaysHowStrongTheNoiseIsAlongTheRays) {
+  const ScanStructure structure = imageStructure(width, height);
+  const double noise = 2e-3;
+  const Points points = noisyPlane(noise);
+  const DenoisedPoints done = denoise(points, {.structure = &structure});
+  for (int i = 0; i < points.rows(); ++i) {
+    if (done.noise[i] == 0) {
+      EXPECT_EQ(done.positions.row(i), points.row(i));
+      continue;
+    }
+    // Of the inverse depth, so times the squared depth, and more along an oblique ray.
+    EXPECT_NEAR(done.noise[i], noise * points(i, 2) * points.row(i).norm(), 0.15 * noise * points.row(i).squaredNorm());
+  }
+}
+
+TEST(DenoisedImage, OfExactPointsIsTheSameBitForBit) {
+  const ScanStructure structure = imageStructure(width, height);
+  const Points points = noisyPlane(0);
+  const DenoisedPoints done = denoise(points, {.structure = &structure});
+  EXPECT_EQ(done.positions, points);
+  EXPECT_EQ(done.report.moved, 0);
+  EXPECT_EQ(done.report.noise, 0);
+}
+
+TEST(DenoisedImage, HasTheSameBitsForAnyNumberOfThreads) {
+  const ScanStructure structure = imageStructure(width, height);
+  const Points points = noisyPlane(2e-3);
+  const DenoisedPoints one = denoise(points, {.structure = &structure, .threads = 1});
+  for (const int threads : {2, 3, 7}) {
+    const DenoisedPoints done = denoise(points, {.structure = &structure, .threads = threads});
+    EXPECT_EQ(done.positions, one.positions) << threads;
+    EXPECT_EQ(done.noise, one.noise) << threads;
+  }
+}
+
+TEST(DenoisedImage, LeavesPointsWithoutASurfaceWhereTheyAre) {
+  Points points = noisyPlane(2e-3);
+  points.row(7).setConstant(NAN);
+  const int flying = 20 * width + 20, twice = flying + 7;
+  points.row(flying) *= 0.5;
+  points.row(twice) = points.row(twice + 1);
+  ScanStructure structure = imageStructure(width, height);
+  const int unplaced = flying + 20;
+  structure.row[unplaced] = -1;
+  const DenoisedPoints done = denoise(points, {.structure = &structure});
+  for (const int i : {flying, unplaced}) EXPECT_EQ(done.positions.row(i), points.row(i)) << i;
+  EXPECT_TRUE(done.positions.row(7).array().isNaN().all());
+  EXPECT_EQ(done.positions.row(twice), done.positions.row(twice + 1));
+  EXPECT_EQ(done.report.not_finite, 1);
+  EXPECT_EQ(done.report.coincident, 1);
+  EXPECT_EQ(done.report.unplaced, 1);
+  EXPECT_EQ(done.report.outliers, 1);
+}
+
+TEST(DenoisedImage, OfNoPointsOrOneIsDefined) {
+  for (const int few : {0, 1, 5}) {
+    const ScanStructure structure = imageStructure(few, 1);
+    const Points points = noisyPlane(2e-3).topRows(few);
+    EXPECT_EQ(denoise(points, {.structure = &structure}).positions, points);
+  }
+}
+
+TEST(DenoisedImage, RefusesAStructureThatIsNoneOfItsPoints) {
+  const Points points = noisyPlane(0);
+  ScanStructure structure = imageStructure(width, height - 1);
+  const auto call = [&] { denoise(points, {.structure = &structure}); };
+  EXPECT_EQ(support::refusal(call), "denoise: structure.row has 2940 entries, must have 3000, one per point");
+  structure = imageStructure(width, height);
+  structure.has_rings = true;
+  EXPECT_EQ(support::refusal(call), "denoise: structure has rings, must be that of a depth image");
+}
+
+}  // namespace
+}  // namespace tufted::denoised_image_test
