@@ -1,0 +1,154 @@
+"""The part of Surface about its shape, and about new places of its points."""
+import numpy as np
+
+from . import _arguments as check
+from . import _tufted
+from ._results import Curvature, Deformation, MinimalSurface, Parameterization, Segments
+from ._tufted import InvalidInput
+
+
+class Shape:
+    def normals(self, *, viewpoint=None, progress=None):
+        """Normals of one sign on each component: as their neighbours' and outwards, or towards a viewpoint.
+
+        viewpoint: 3 values; None: the one that the cloud was built with, if any.
+        Returns N x 3, unit length.
+        """
+        return self._signed_frames(viewpoint, progress)[0]
+
+    def curvature(self, *, method="fit", progress=None):
+        """Curvature at each point, with the normals of normals().
+
+        method: "fit" of a surface to as many neighbours as the noise asks for, or "laplacian", mean curvature alone.
+        Returns mean (N, 1/length), gaussian (N, 1/length^2), principal (N x 2, k1 >= k2, 1/length) and directions
+        (N x 2 x 3, of k1 and of k2); all but the first are empty with "laplacian".
+        """
+        progress = check.callback("curvature", progress)
+        mean, gaussian, principal, first, second = _tufted.curvature(
+            self._laplacian, *self._signed_frames(None, progress), method, self._solving["threads"], progress)
+        return Curvature(mean, gaussian, principal, np.stack([first, second], axis=1))
+
+    def segments(self, count=8, *, method="voronoi", seeds=None, progress=None):
+        """Cuts the surface into segments.
+
+        count: how many, >= 1; not used with seeds.
+        method: "voronoi" cells of points far from each other, or "spectral" parts that narrow necks join.
+        seeds: points whose Voronoi cells are the segments.
+        Returns labels (N int32, 0 for the largest segment, -1: none), areas (length^2) and seeds (empty with
+        "spectral").
+        """
+        count = check.whole("segments", "count", count, 1)
+        where = np.zeros(0, np.int32) if seeds is None else check.indices("segments", "seeds", seeds, len(self))
+        if method != "spectral":
+            self._need_cover("segments")
+        return Segments(*_tufted.segments(self._laplacian, method, count, where, self._solver(),
+                                          check.callback("segments", progress)))
+
+    def smooth(self, points=None, *, method="implicit", time_step=1.0, lambda_=0.5, mu=-0.53, iterations=1, fixed=None,
+               keep_volume=False, progress=None):
+        """Smooths positions.
+
+        points: N x 3; None: the own ones. method: "implicit" steps of the heat equation, which shrink, or "taubin": a
+        step towards the mean of the neighbours, by lambda_, then one away from it, by mu, which hardly shrink.
+        time_step: of implicit steps, >= 0, in mean squared edges. lambda_: in (0, 1]; mu: in [-1, 0].
+        iterations: steps >= 1. fixed: N booleans; points with True stay in place.
+        keep_volume: scale each component, which must be closed, to the volume it had.
+        Returns N x 3.
+        """
+        points = self._points if points is None else check.rows_of_three("smooth", "points", points, len(self))
+        fixed = self._marks("smooth", fixed)
+        time_step = check.number("smooth", "time_step", time_step)
+        iterations = check.whole("smooth", "iterations", iterations, 1)
+        progress = check.callback("smooth", progress)
+        if method == "implicit" and not keep_volume:
+            key = time_step, None if fixed is None else fixed.tobytes()
+            solver = self._keep_last("smooth", key, lambda: _tufted.SmoothingSolver(
+                self._laplacian, time_step, fixed, self._solver(), progress))
+            return solver.smooth(points, iterations, progress)
+        return _tufted.smooth(
+            self._laplacian, points, method, time_step, check.number("smooth", "lambda_", lambda_),
+            check.number("smooth", "mu", mu), iterations, fixed, self._surface_faces("smooth") if keep_volume else None,
+            self._solving["threads"], progress)
+
+    def smooth_values(self, values, *, method="implicit", time_step=1.0, lambda_=0.5, mu=-0.53, iterations=1,
+                      fixed=None, progress=None):
+        """Smooths functions on the points.
+
+        values: N or N x c, finite at active points. method, time_step, lambda_, mu, iterations: as in smooth().
+        fixed: N booleans; points with True keep their values.
+        Returns the shape of values.
+        """
+        table, flat = check.columns("smooth_values", "values", values, len(self))
+        result = _tufted.smooth_values(
+            self._laplacian, table, method, check.number("smooth_values", "time_step", time_step),
+            check.number("smooth_values", "lambda_", lambda_), check.number("smooth_values", "mu", mu),
+            check.whole("smooth_values", "iterations", iterations, 1), self._marks("smooth_values", fixed),
+            self._solving["threads"], check.callback("smooth_values", progress))
+        return result[:, 0] if flat else result
+
+    def parameterize(self, *, method="conformal", weights="laplacian", rim=None, rim_positions=None, progress=None):
+        """Lays the surface out in the plane.
+
+        method: "conformal" keeps angles as well as can be, with a free rim; "harmonic" has the rim on a circle of
+        radius 1 or where rim_positions puts it, and each other point is a mean of its neighbours.
+        weights: of harmonic maps: of the "laplacian", or "mean-value", which flip no triangle.
+        rim: of harmonic maps: the points of the rim in order; None: found. rim_positions: one row u, v for each.
+        Returns uv (N x 2, NaN where a point has no place), quasi_conformal_error (1: angles are kept), and how many
+        triangles were laid out and how many of them are flipped.
+        """
+        where = np.zeros(0, np.int32) if rim is None else check.indices("parameterize", "rim", rim, len(self))
+        places = np.zeros((0, 2))
+        if rim_positions is not None:
+            places, _ = check.columns("parameterize", "rim_positions", rim_positions, where.size)
+            if places.shape[1] != 2:
+                raise InvalidInput(f"parameterize: rim_positions has {places.shape[1]} columns, must have 2")
+        return Parameterization(*_tufted.parameterize(
+            self._laplacian, self._surface_faces("parameterize"), method, weights, where, places, self._solver(),
+            check.callback("parameterize", progress)))
+
+    def minimal_surface(self, fixed=None, *, tolerance=1e-4, max_iterations=300, progress=None):
+        """The surface of the least area that its rim, or given points, span.
+
+        fixed: the points that stay in place; None: those of the rim. tolerance: iterations end where no point moves off
+        the surface by more than this part of its extent, or after max_iterations.
+        Returns points (N x 3), their area, and whether iterations converged.
+        """
+        where = np.zeros(0, np.int32) if fixed is None else check.indices("minimal_surface", "fixed", fixed, len(self))
+        return MinimalSurface(*_tufted.minimal_surface(
+            self._laplacian, self._surface_faces("minimal_surface"), where,
+            check.number("minimal_surface", "tolerance", tolerance),
+            check.whole("minimal_surface", "max_iterations", max_iterations, 1), self._solver(),
+            check.callback("minimal_surface", progress)))
+
+    def deform(self, handles, targets, *, method="rigid", smoothness=1e-3, tolerance=1e-3, max_iterations=500,
+               progress=None):
+        """Moves some points to given places, and lets all others follow.
+
+        handles: P indices. targets: P x 3, where they shall lie.
+        method: "rigid", as rigid as possible: neighbourhoods turn smoothly and hardly stretch; or "linear", for small
+        turns.
+        smoothness: of "rigid": how much bending costs, as part of the area; 0: nothing.
+        tolerance: of "rigid": iterations end where no point moves by more than this part of the longest way of a
+        handle, or after max_iterations. The factor for the last handles is kept.
+        Returns points (N x 3), by how much edges stretch in their length, and whether iterations converged.
+        """
+        where = check.indices("deform", "handles", handles, len(self))
+        places = check.rows_of_three("deform", "targets", targets, where.size)
+        smoothness = check.number("deform", "smoothness", smoothness)
+        tolerance = check.number("deform", "tolerance", tolerance)
+        max_iterations = check.whole("deform", "max_iterations", max_iterations, 1)
+        progress = check.callback("deform", progress)
+        solver = self._keep_last("deform", (where.tobytes(), method, smoothness, tolerance, max_iterations),
+                                 lambda: _tufted.DeformationSolver(self._laplacian, where, method, smoothness,
+                                                                   tolerance, max_iterations, self._solver(),
+                                                                   progress))
+        return Deformation(*solver.deform(places, progress))
+
+    def _marks(self, function, fixed):
+        """N booleans as bytes, or None."""
+        if fixed is None:
+            return None
+        fixed = np.asarray(fixed)
+        if fixed.shape != (len(self),):
+            raise InvalidInput(f"{function}: fixed has {fixed.size} values, must have {len(self)}, one per point")
+        return np.ascontiguousarray(fixed.astype(bool), dtype=np.uint8)

@@ -1,0 +1,97 @@
+"""What eigenvalues and eigenvectors say: the part of Surface that a spectrum is for."""
+import numpy as np
+
+from . import _arguments as check
+from . import _tufted
+from ._results import Spectrum
+from ._tufted import InvalidInput
+
+
+class Spectral:
+    def spectrum(self, k=32, *, null_space=True, tolerance=1e-10, progress=None):
+        """The k smallest eigenvalues of L x = lambda M x, with their vectors.
+
+        The null space is exact: the eigenvalue 0 for each component. Vectors are M-orthonormal, and their largest entry
+        is positive.
+
+        k: number of pairs, less than the number of active points.
+        null_space: False leaves out the eigenvalues 0.
+        tolerance: relative accuracy of vectors, in (0, 1).
+        Returns values (k, ascending, 1/length^2) and vectors (N x k, 1/length; 0 at points that take no part).
+        """
+        pairs = self._pairs(k, null_space, tolerance, progress)
+        return Spectrum(pairs.values, pairs.vectors)
+
+    def hks(self, times=None, *, k=100, samples=16, spectrum=None, progress=None):
+        """The heat kernel signature of every point: sum of exp(-lambda t) phi(x)^2 over the pairs of a spectrum.
+
+        times: T times, length^2; None: `samples` of them, for which k pairs suffice.
+        k: number of positive eigenvalues to take; at most as many as there are.
+        spectrum: what spectrum() returned, to be used instead of k.
+        Returns N x T, 1/length^2.
+        """
+        pairs = self._positive("hks", k, spectrum, progress)
+        if times is None:
+            times = _tufted.heat_times(pairs, check.whole("hks", "samples", samples, 1))
+        else:
+            times = check.columns("hks", "times", times, np.size(times))[0].reshape(-1)
+        return _tufted.hks(self._laplacian, pairs, times)
+
+    def wks(self, energies=None, *, width=None, k=100, samples=100, spectrum=None, progress=None):
+        """The wave kernel signature of every point.
+
+        energies: E logarithms of eigenvalues; None: `samples` of them between those of the spectrum.
+        width: standard deviation of the energy; None: seven times the distance between the first two energies.
+        k, spectrum: as in hks().
+        Returns N x E, 1/length^2.
+        """
+        pairs = self._positive("wks", k, spectrum, progress)
+        if energies is None:
+            return _tufted.wks(pairs, check.whole("wks", "samples", samples, 2))
+        energies = check.columns("wks", "energies", energies, np.size(energies))[0].reshape(-1)
+        if width is None:
+            if energies.size < 2:
+                raise InvalidInput("wks: width = None, must be given for fewer than two energies")
+            width = 7 * abs(energies[1] - energies[0])
+        return _tufted.wks_at(pairs, energies, check.number("wks", "width", width))
+
+    def embed(self, dimension=3, *, distance="commute", progress=None):
+        """Coordinates of every point between which Euclidean distances are spectral distances.
+
+        dimension: number of coordinates, one per positive eigenvalue.
+        distance: "commute" (commute times, no unit) or "biharmonic" (length).
+        Returns N x dimension.
+        """
+        pairs = self._pairs(check.whole("embed", "dimension", dimension, 1), False, 1e-10, progress)
+        return _tufted.embed(pairs, distance)
+
+    def filter(self, values, *, k=100, gain=None, spectrum=None, progress=None):
+        """A low-pass filter: keeps what the means over components and the first k eigenvectors hold.
+
+        values: N or N x c, finite at active points.
+        gain: a function of an eigenvalue (1/length^2), the factor of its vector; None: 1.
+        k, spectrum: as in hks().
+        Returns the shape of values; points that are not finite or isolated keep theirs.
+        """
+        table, flat = check.columns("filter", "values", values, len(self))
+        if gain is not None and not callable(gain):
+            raise InvalidInput(f"filter: gain = {gain!r}, must be None or a function of an eigenvalue")
+        result = _tufted.filter(self._laplacian, self._positive("filter", k, spectrum, progress), table, gain)
+        return result[:, 0] if flat else result
+
+    def _pairs(self, k, null_space, tolerance, progress):
+        k = check.whole("spectrum", "k", k, 1)
+        tolerance = check.number("spectrum", "tolerance", tolerance)
+        return self._keep(("spectrum", k, bool(null_space), tolerance), lambda: _tufted.spectrum(
+            self._laplacian, k, bool(null_space), tolerance, self._solver(), check.callback("spectrum", progress)))
+
+    def _positive(self, function, k, spectrum, progress):
+        """Pairs of positive eigenvalues: the caller's, or the first k."""
+        if spectrum is None:
+            most = _tufted.most_eigenpairs(self._laplacian, False)
+            if most < 1:
+                raise InvalidInput(f"{function}: no eigenvalue is positive, must be one: too few points take part")
+            return self._pairs(min(check.whole(function, "k", k, 1), most), False, 1e-10, progress)
+        values, vectors = spectrum
+        vectors, _ = check.columns(function, "spectrum", vectors, len(self))
+        return _tufted.Spectrum(np.asarray(values, np.float64), vectors).positive()
