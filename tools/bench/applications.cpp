@@ -87,6 +87,7 @@ int main(int argc, char** argv) {
                                                     {"handles", bench::printHandles},
                                                     {"weights", bench::printWeights},
                                                     {"depth", bench::printDepthImages},
+                                                    {"depth-denoise", bench::printDenoisedImages},
                                                     {"frames", bench::printDepthImageSpeed}};
   CLI::App app("Tables of distances, interpolation, Green's functions, maps and moved points against what is exact.");
   std::vector<std::string> names;

@@ -11,6 +11,7 @@
 #include "bench/shape_tables.h"
 #include "shapes/random.h"
 #include "shapes/shapes.h"
+#include "tufted/denoise.h"
 #include "tufted/laplacian.h"
 
 namespace tufted::bench {
@@ -192,6 +193,17 @@ Quality measure(const View& view, const Points& points, const Laplacian& laplaci
   return quality;
 }
 
+/// Root mean square distance from the surface, five pixels and more away from edges.
+double offSurface(const View& view, const Points& points) {
+  double sum = 0, count = 0;
+  for (int i = 0; i < points.rows(); ++i) {
+    if (!std::isfinite(points(i, 0)) || !isInside(view, i)) continue;
+    sum += std::pow((points.row(i) - view.points.row(i)).dot(view.normals.row(i)), 2);
+    ++count;
+  }
+  return std::sqrt(sum / count);
+}
+
 }  // namespace
 
 void printDepthImages() {
@@ -224,6 +236,27 @@ void printDepthImages() {
                     sum.normal / n, sum.worst_normal / n, sum.linear / n, 100 * sum.agreed / n);
         std::fflush(stdout);
       }
+    }
+  }
+}
+
+void printDenoisedImages() {
+  std::printf("| view | disparity | off the surface, mm | denoise, by the tree | by pixels |\n|---|---|---|---|---|\n");
+  const std::vector<CameraNoise> noises = {{"exact", 0, 0}, {"steps of 1/8, noise .1 px", 0.125, 0.1}};
+  for (const View& view : views()) {
+    const ScanStructure structure = imageStructure(view.width, view.height);
+    for (const CameraNoise& noise : noises) {
+      double raw = 0, by_tree = 0, by_pixels = 0;
+      for (std::uint64_t seed = first_seed; seed <= last_seed; ++seed) {
+        const Points points = seenBy(view, noise, seed);
+        raw += offSurface(view, points);
+        by_tree += offSurface(view, denoise(points).positions);
+        by_pixels += offSurface(view, denoise(points, {.structure = &structure}).positions);
+      }
+      const double scale = 1000.0 / static_cast<double>(last_seed - first_seed + 1);
+      std::printf("| %s | %s | %.2f | %.2f | %.2f |\n", view.name.c_str(), noise.name.c_str(), scale * raw,
+                  scale * by_tree, scale * by_pixels);
+      std::fflush(stdout);
     }
   }
 }
