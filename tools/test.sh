@@ -89,8 +89,8 @@ preset() {
     tests "$1: tests" --preset "$1"
 }
 
-# consumer NAME BUILD ARGUMENTS...: installs BUILD and builds a project of a user's against what is installed; in build/, as
-# ccache knows the same files again below the project alone.
+# consumer NAME BUILD ARGUMENTS...: installs BUILD and builds a project of a user's against what is installed; in build/,
+# because ccache finds files of another clone again only below the project's folder.
 consumer() {
   local name=$1 build=$2 dir=$PWD/build/$1
   shift 2

@@ -39,7 +39,7 @@ function(unity_is_alone result path target)
 endfunction()
 
 # Puts each file of a target into the first group that has room for it, and none of its names. Files with a namespace of
-# their own and others do not mix: these could mean what those have.
+# their own and others do not mix: a function outside that says `using namespace` would find both's names.
 function(unity_groups target size)
   get_target_property(sources ${target} SOURCES)
   get_target_property(folder ${target} SOURCE_DIR)
@@ -59,7 +59,8 @@ function(unity_groups target size)
       list(LENGTH files_${group} count)
       set(shared ${names})
       list(FILTER shared INCLUDE REGEX "^(${names_${group}})$")
-      if(count LESS size AND NOT shared AND has_namespace STREQUAL kind_${group})
+      list(LENGTH shared shared_count)
+      if(count LESS size AND shared_count EQUAL 0 AND has_namespace STREQUAL kind_${group})
         break()
       endif()
       math(EXPR group "${group} + 1")

@@ -23,8 +23,8 @@ struct DenoiseReport {
   std::int64_t coincident = 0;  ///< equal to an earlier point; they move with it
   std::int64_t moved = 0;       ///< points that moved, without coincident ones
   std::int64_t unplaced = 0;    ///< usable points that have no pixel of their own in the depth image; they stay
-  /// Points that stayed because they hover over the surface of their neighbours; in a depth image those whose pixel
-  /// shows no surface that one beside it shows.
+  /// Points that stayed because they hover over the surface of their neighbours; in a depth image those that no surface
+  /// joins with another point in the 7 x 7 pixels around.
   std::int64_t outliers = 0;
   double noise = 0;  ///< median over the moved points of DenoisedPoints::noise, in the caller's unit; 0 if none moved
   double mean_move = 0;      ///< mean way of the points that moved, in the caller's unit
@@ -55,11 +55,11 @@ struct DenoisedPoints {
 /// the result is Laplacian::positions of pointCloudLaplacian() bit for bit.
 ///
 /// Points of exact data, outliers, points in volumes, and whatever cannot be told from the shape of the surface stay
-/// exactly where they are. A permuted cloud gives the permuted result; moved or turned clouds that moved or turned, up
-/// to rounding; any number of threads the same bits.
+/// exactly where they are. A permuted cloud (with its structure) gives the permuted result; moved or turned clouds that
+/// moved or turned, up to rounding; any number of threads the same bits.
 /// @param points N x 3; NaN and infinite rows stay as they are
-/// @throws InvalidInput for a negative number of threads, more than 2^31 points, and a structure with rings or of
-/// another size than the points
+/// @throws InvalidInput for a negative number of threads, more than 2^31 points, and a structure that has rings,
+/// another size than the points, no finite origin, columns that are not whole, or more pixels than ScanStructure says
 /// @throws Cancelled when `options.progress` returns false
 DenoisedPoints denoise(const PointsRef& points, const DenoiseOptions& options = {});
 

@@ -30,17 +30,19 @@ struct Report {
 
   // Clouds
   int neighbors = 0;  ///< k in use, after clamping to N - 1; with the caller's lists, the longest; of a depth image 48
-  bool neighbors_clamped = false;          ///< the caller's k exceeded N - 1
-  std::int64_t rejected_normals = 0;       ///< caller's normals that are zero or not finite, replaced by PCA
-  std::int64_t rejected_neighbors = 0;     ///< caller's neighbours that are repeated, unusable or the point itself
-  std::int64_t unplaced = 0;               ///< usable points that have no place in the structure of the scan
-  std::int64_t cut_neighbors = 0;          ///< neighbours in the scan left out because the surface jumps in between
-  std::int64_t grown_neighborhoods = 0;    ///< k doubled because the neighbours say too little, see Growth
-  std::int64_t split_neighborhoods = 0;    ///< neighbours of another sheet left out
-  std::int64_t isolated_by_sheets = 0;     ///< points without a star: nearly all neighbours belong to other sheets
-  std::int64_t outliers = 0;               ///< points without a star: they hover over a surface, see CloudSteps
-  std::int64_t denoised = 0;               ///< points moved onto a surface for the lengths, see Lengths
-  double noise = 0;                        ///< of a depth image: its standard deviation along rays, the median
+  bool neighbors_clamped = false;        ///< the caller's k exceeded N - 1
+  std::int64_t rejected_normals = 0;     ///< caller's normals that are zero or not finite, replaced by PCA
+  std::int64_t rejected_neighbors = 0;   ///< caller's neighbours that are repeated, unusable or the point itself
+  std::int64_t unplaced = 0;             ///< usable points that have no place in the structure of the scan
+  std::int64_t cut_neighbors = 0;        ///< neighbours in the scan left out because the surface jumps in between
+  std::int64_t grown_neighborhoods = 0;  ///< k doubled because the neighbours say too little, see Growth
+  std::int64_t split_neighborhoods = 0;  ///< neighbours of another sheet left out
+  std::int64_t isolated_by_sheets = 0;   ///< points without a star: nearly all neighbours belong to other sheets
+  std::int64_t outliers = 0;             ///< points without a star: they hover over a surface, see CloudSteps
+  std::int64_t denoised = 0;             ///< points moved onto a surface for the lengths, see Lengths
+  /// Of a depth image whose points were moved: standard deviation of their noise along the rays, in the caller's unit,
+  /// the median over them; else 0.
+  double noise = 0;
   std::int64_t grown_stars = 0;            ///< times k was doubled because a closed star was not certified
   std::int64_t closed_stars = 0;           ///< open stars that closed with two or four times the neighbours
   std::int64_t open_stars = 0;             ///< points whose Voronoi cell is not compact

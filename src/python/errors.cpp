@@ -68,6 +68,7 @@ constexpr std::array words = {
     Name{"SolverMethod::cholesky", "'cholesky'"},
     Name{"SolverMethod::multigrid", "'multigrid'"},
     Name{"set method to", "set solver to"},
+    Name{"structure.origin", "viewpoint"},
     Name{"componentMeans", "filter"},
 };
 

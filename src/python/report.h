@@ -27,6 +27,7 @@ void visitNumbers(AnyReport& report, const Visit& visit) {
   TUFTED_VISIT(isolated_by_sheets);
   TUFTED_VISIT(outliers);
   TUFTED_VISIT(denoised);
+  TUFTED_VISIT(noise);
   TUFTED_VISIT(grown_stars);
   TUFTED_VISIT(closed_stars);
   TUFTED_VISIT(open_stars);

@@ -89,10 +89,10 @@ TEST_F(MovedPoints, DenoiseMovesTheDepthsOfAnImageAlongItsRays) {
   // A build does the same by itself, asked or not.
   for (const std::vector<std::string>& asked :
        {std::vector<std::string>{}, {"--denoise"}, {"--denoise", "--preset", "clean"}}) {
-    std::vector<std::string> command = {"laplacian", image, "--format", "npy", "--out", in("built")};
+    std::vector<std::string> command = {"laplacian", image, "--out", in("built")};
     command.insert(command.end(), asked.begin(), asked.end());
     run(command);
-    EXPECT_EQ(report("built")["options"]["structure"], "image");
+    EXPECT_EQ(report("built")["cloud_options"]["structure"], "image");
     EXPECT_EQ(report("built")["report"]["noise"], made["noise"]);
     EXPECT_EQ(values("built/measured_positions.npy"), values("clean/positions.npy"));
   }
@@ -142,6 +142,11 @@ TEST_F(MovedPoints, DenoiseBringsPointsToTheSurface) {
   run({"laplacian", scan, "--denoise", "--out", in("built")});
   EXPECT_LT(off(values("built/measured_positions.npy")), 0.008);
   EXPECT_GT(report("built")["denoised"]["moved"], 2900);
+  // Handles that stay do so there.
+  dir_.write("stay.txt", "0\n100\n2000\n");
+  run({"deform", scan, "--denoise", "--handles", in("stay.txt"), "--out", in("deform")});
+  const std::vector<double> measured = values("built/measured_positions.npy"), kept = values("deform/positions.npy");
+  for (std::size_t i = 0; i < measured.size(); ++i) ASSERT_NEAR(kept[i], measured[i], 1e-6) << i;
   run({"distance", scan, "--denoise", "--source", "0", "--out", in("distance")});
   EXPECT_GT(report("distance")["denoised"]["moved"], 2900);
 }

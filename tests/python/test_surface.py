@@ -200,7 +200,7 @@ def test_denoise_moves_the_points_of_a_depth_image_along_their_rays():
     assert found.median_noise == pytest.approx(0.002, rel=0.1)
     np.testing.assert_allclose(np.cross(found.points - origin, points - origin), 0, atol=1e-14)
     cloud = tufted.PointCloud(points, image=(60, 50), viewpoint=origin)
-    assert same(found.points, cloud.positions)
+    np.testing.assert_array_equal(found.points, cloud.positions)
     assert cloud.report["noise"] == found.median_noise
 
 

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <map>
+#include <utility>
 
 #include "options.h"
 #include "point_options.h"
@@ -78,7 +79,8 @@ tufted::Laplacian buildLaplacian(const tufted::Geometry& geometry, const Input& 
   if (build.scan) build.cloud.structure = &*build.scan;
   build.cloud.steps = tufted::cloudSteps(build.preset);
   const bool is_image = build.structure == Structure::image;
-  if (build.denoise && is_image) build.cloud.steps.lengths = tufted::Lengths::denoised;  // which moves them all
+  // A build moves the points of an image by itself, with all presets but `clean`.
+  if (build.denoise && is_image) build.cloud.steps.lengths = tufted::Lengths::denoised;
   // The position is at hand where a file states one, and where an image of depths leaves it at the origin.
   build.viewpoint = {geometry.viewpoint[0], geometry.viewpoint[1], geometry.viewpoint[2]};
   const bool is_given = !build.given_viewpoint.empty();
@@ -93,15 +95,21 @@ tufted::Laplacian buildLaplacian(const tufted::Geometry& geometry, const Input& 
   build.mesh.keep_cover = keep_cover;
   if (build.mollify) build.cloud.mollify = build.mesh.mollify = *build.mollify;
   if (geometry.is_mesh) return tufted::meshLaplacian(geometry.points, geometry.triangles, build.mesh);
-  if (!build.denoise || is_image) return tufted::pointCloudLaplacian(geometry.points, build.cloud);
+  if (!build.denoise || is_image) {
+    tufted::Laplacian laplacian = tufted::pointCloudLaplacian(geometry.points, build.cloud);
+    if (build.denoise) build.moved = laplacian.positions;
+    return laplacian;
+  }
   tufted::DenoisedPoints denoised =
       tufted::denoise(geometry.points, {.threads = build.cloud.threads, .progress = progress});
   build.denoised = denoised.report;
-  return tufted::pointCloudLaplacian(denoised.positions, build.cloud);
+  build.moved = std::move(denoised.positions);
+  return tufted::pointCloudLaplacian(build.moved, build.cloud);
 }
 
 void addBuild(const tufted::Report& report, const Build& build, Summary& summary) {
-  if (build.structure == Structure::image && report.denoised == 0) summary.add("structure", "depth image, no noise");
+  if (build.structure == Structure::image && report.denoised == 0)
+    summary.add("structure", "depth image, no point moved");
   if (build.structure == Structure::image && report.denoised > 0)
     summary.add("structure", "depth image, %lld points moved along their rays, noise %.3g",
                 static_cast<long long>(report.denoised), report.noise);

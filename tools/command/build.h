@@ -27,7 +27,8 @@ struct Build {
   std::string given_viewpoint;  ///< X,Y,Z; empty: that of the file, if it has one
   std::optional<tufted::ScanStructure> scan;
   Eigen::Vector3d viewpoint = Eigen::Vector3d::Zero();
-  std::optional<tufted::DenoiseReport> denoised;  ///< what was done, if it was
+  std::optional<tufted::DenoiseReport> denoised;  ///< what was done, if it was; not of images, whose build does it
+  tufted::Points moved;                           ///< where --denoise has moved the points; 0 x 3 without it
 
   const CLI::Option* neighbors = nullptr;      ///< --neighbors
   std::vector<const CLI::Option*> cloud_only;  ///< options that have no meaning for a mesh

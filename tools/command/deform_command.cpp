@@ -45,6 +45,7 @@ struct Settings {
   tufted::DeformationOptions options;
   std::vector<int> handles;
   tufted::Points targets;
+  std::vector<Eigen::Index> staying;  ///< which of the handles have no target of their own
 
   std::vector<std::string> files() const { return {"positions.npy"}; }
 };
@@ -61,10 +62,12 @@ void check(Settings& settings, const Operator& source) {
       throw tufted::IoError(row.name + ": is not INDEX or INDEX X Y Z");
     const int point = indexOf({row.name, {row.numbers[0]}}, source.points());
     settings.handles.push_back(point);
-    if (row.numbers.size() == 4)
+    if (row.numbers.size() == 4) {
       settings.targets.row(k) << row.numbers[1], row.numbers[2], row.numbers[3];
-    else
+    } else {
+      settings.staying.push_back(k);
       settings.targets.row(k) = source.geometry.points.row(point);
+    }
     if (!settings.targets.row(k).allFinite()) throw tufted::IoError(row.name + ": the place is not finite, must be");
   }
 }
@@ -72,6 +75,9 @@ void check(Settings& settings, const Operator& source) {
 Results compute(Settings& settings, Operator& source) {
   Results results;
   settings.options.solver = source.solverOptions();
+  // From where lengths are measured, as all points are moved; of noisy points that is not where the file has them.
+  for (const Eigen::Index k : settings.staying)
+    settings.targets.row(k) = source.laplacian.positions.row(settings.handles[static_cast<std::size_t>(k)]);
   tufted::DeformationReport made;
   const tufted::Points moved = forOption("--handles " + settings.handles_file.string(), [&] {
     return tufted::deform(source.laplacian, settings.handles, settings.targets, settings.options, &made);

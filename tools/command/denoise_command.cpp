@@ -31,8 +31,8 @@ constexpr const char* footer =
 
 There is no radius to choose: how wide a surface is fitted follows from the noise around each point and the bend of the
 surface. Exact points, outliers, and whatever cannot be told from the shape of the surface stay as they are, bit for bit.
-The points of a depth image move along the rays of its camera, however strong the noise is: of an organized cloud that a
-pinhole camera saw from the file's viewpoint, or with --structure image; --structure none takes it as any cloud.
+An organized cloud that a pinhole camera saw from the file's viewpoint is a depth image, as any is with --structure
+image: its points move along the camera's rays, however strong the noise is. --structure none takes it as any cloud.
 To build L and M from the points where they are now, give --denoise to any subcommand, or points.ply as its FILE.
 
 Writes into DIR, renamed one after the other when all are complete:
@@ -81,6 +81,7 @@ int runDenoise(Settings& settings) {
 
   const tufted::DenoiseReport& done = denoised.report;
   nlohmann::ordered_json json = {{"tufted", TUFTED_VERSION}, {"command", "denoise"}, {"source", settings.input.name()}};
+  json["structure"] = nameOf(settings.structure);
   json["report"] = nlohmann::ordered_json::parse(toJson(done));
   const std::vector<tufted::ResultArray> results = {
       {.name = "positions", .values = denoised.positions, .per_point = false},
@@ -123,7 +124,8 @@ void addDenoise(CLI::App& app, Run& run) {
   addInput(command, settings->input);
   addOut(command, settings->out);
   addCopies(command, settings->copies);
-  addChoice(command, "--structure", settings->structure, image_structures, "How the surface is looked for (automatic)");
+  addChoice(command, "--structure", settings->structure, image_structures,
+            "Whether the points are a depth image (automatic)");
   addNumber(command, "--threads", settings->threads, 1, 1 << 16, "At most this many threads (all)")->type_name("N");
   addLookOptions(command, settings->look);
   addConsole(command, settings->console);

@@ -29,7 +29,7 @@ constexpr const char* footer =
 Keeps what the means over the connected components and the eigenvectors of the smallest positive eigenvalues
 hold: the first K, or those of waves at least W long (2 pi over the root of the eigenvalue, in the points' unit of
 length; a W that is longer than all of them, or shorter than the points can tell, is refused). With --denoise positions
-are those that it moves the points to, and not those of FILE.
+are those that it moves the points to, and not those of FILE; with --operator those of points.ply.
 
 Writes into DIR, renamed one after the other when all are complete:
   filtered.npy  N values, N x c for c columns, or N x 3 positions, float64; points that are not finite or isolated keep

@@ -101,7 +101,11 @@ void write(const OperatorSettings& settings, const Operator& source, const Resul
   json.update(results.report);
   const tufted::Report& built = source.laplacian.report;
   if (settings.folder.empty() && built.neighbors > 0)  // a cloud
-    json["build"] = {{"neighbors", built.neighbors}, {"neighbors_clamped", built.neighbors_clamped}};
+    json["build"] = {{"neighbors", built.neighbors},
+                     {"neighbors_clamped", built.neighbors_clamped},
+                     {"structure", nameOf(settings.build.structure)},
+                     {"denoised", built.denoised},
+                     {"noise", built.noise}};
   if (settings.build.denoised) json["denoised"] = nlohmann::ordered_json::parse(toJson(*settings.build.denoised));
   tufted::ResultOptions options = {.copies = settings.copies, .progress = source.progress};
   // A path need not be UTF-8.
@@ -173,7 +177,6 @@ int runWithOperator(OperatorSettings& settings, std::vector<std::string> files, 
   source.solving = settings.solving;
   source.threads = settings.build.cloud.threads;
   source.progress = showOn(bar);
-  source.is_denoised = settings.build.denoise;
   const auto checkpoint = [] {
     if (interrupted()) throw tufted::Cancelled("cancelled");
   };
@@ -195,6 +198,7 @@ int runWithOperator(OperatorSettings& settings, std::vector<std::string> files, 
   if (settings.folder.empty())
     source.laplacian =
         buildLaplacian(source.geometry, settings.input, settings.build, settings.needs_cover, source.progress);
+  source.moved = std::move(settings.build.moved);
   bar.setPoints(0);
   checkpoint();
   Results chosen;

@@ -58,10 +58,10 @@ struct Operator {
   Solving solving;
   int threads = 0;
   tufted::Progress progress;
-  bool is_denoised = false;  ///< --denoise was given
+  tufted::Points moved;  ///< where --denoise has moved the points; 0 x 3 without it
 
-  /// The points as a command that moves them finds them: those of the file, or where --denoise has moved them.
-  const tufted::Points& startingPoints() const { return is_denoised ? laplacian.positions : geometry.points; }
+  /// From where a command moves the points.
+  const tufted::Points& startingPoints() const { return moved.rows() > 0 ? moved : geometry.points; }
   int points() const {
     return static_cast<int>(std::max<std::size_t>(geometry.points.rows(), laplacian.status.size()));
   }

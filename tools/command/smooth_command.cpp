@@ -27,7 +27,7 @@ constexpr const char* footer =
   implicit  steps of the heat equation, of any size: all stays within the range of what was, shapes shrink
   taubin    a step towards the mean of the neighbours, by lambda, then one away from it, by mu: shapes hardly shrink
 --keep-volume scales each component about its centre of mass to the volume it had; all must be closed.
-With --denoise it starts from where that moves the points, and not from those of FILE.
+With --denoise it starts from where that moves the points, and not from those of FILE; with --operator from points.ply.
 
 Writes into DIR, renamed one after the other when all are complete:
   positions.npy  N x 3, float64; points that are not finite or isolated stay, coincident ones lie where their

@@ -10,6 +10,12 @@ Structure structureFor(const tufted::Geometry& geometry) {
   return is_seen ? Structure::image : Structure::none;
 }
 
+std::string nameOf(Structure structure) {
+  for (const auto& [name, value] : structures)
+    if (value == structure) return name;
+  return "";
+}
+
 std::optional<tufted::ScanStructure> structureOf(const tufted::Geometry& geometry, Structure structure,
                                                  const std::string& name) {
   if (structure == Structure::none) return std::nullopt;

@@ -19,6 +19,9 @@ inline const std::map<std::string, Structure> structures = {{"automatic", Struct
 /// What `automatic` stands for: `image` for a cloud that a pinhole camera saw, else `none`.
 Structure structureFor(const tufted::Geometry& geometry);
 
+/// The value of --structure.
+std::string nameOf(Structure structure);
+
 /// The structure of a file's scan, which is no longer `automatic`: its width and height; or its fields `ring` and
 /// `azimuth`, and for either one that it lacks the elevations or azimuths seen from its viewpoint.
 /// @param name of the input, for messages

@@ -14,18 +14,23 @@
 namespace tufted {
 namespace {
 
-void checkSize(const std::string& name, std::size_t size, std::size_t points) {
+/// How messages begin; made only where there is one, as a frame takes nothing from the heap.
+std::string nameIn(const char* function, const char* member) {
+  return std::string(function) + ": structure." + member;
+}
+
+void checkSize(const char* function, const char* member, std::size_t size, std::size_t points) {
   if (size == points) return;
-  throw InvalidInput(name + " has " + std::to_string(size) + " entries, must have " + std::to_string(points) +
-                     ", one per point");
+  throw InvalidInput(nameIn(function, member) + " has " + std::to_string(size) + " entries, must have " +
+                     std::to_string(points) + ", one per point");
 }
 
 /// The azimuth in [0, 2 pi), or the column as it is.
-double positionOf(const ScanStructure& structure, std::size_t i, const std::string& name) {
+double positionOf(const ScanStructure& structure, std::size_t i, const char* function) {
   const double position = structure.position[i];
   if (!structure.has_rings) {
     if (position >= 0 && position < INT32_MAX && position == std::floor(position)) return position;
-    throw InvalidInput(name + "position[" + std::to_string(i) + "] = " + numberText(position) +
+    throw InvalidInput(nameIn(function, "position[") + std::to_string(i) + "] = " + numberText(position) +
                        ", must be a whole column >= 0 in an image");
   }
   constexpr double turn = 2 * std::numbers::pi;
@@ -38,10 +43,9 @@ double positionOf(const ScanStructure& structure, std::size_t i, const std::stri
 
 RankedScan rankScan(const ScanStructure& structure, const RankedCloud& cloud, const std::vector<PointStatus>& status,
                     const std::vector<int>& representative, const char* function) {
-  const std::string name = std::string(function) + ": structure.";
-  checkSize(name + "row", structure.row.size(), status.size());
-  checkSize(name + "position", structure.position.size(), status.size());
-  if (!structure.origin.allFinite()) throw InvalidInput(name + "origin is not finite, must be");
+  checkSize(function, "row", structure.row.size(), status.size());
+  checkSize(function, "position", structure.position.size(), status.size());
+  if (!structure.origin.allFinite()) throw InvalidInput(nameIn(function, "origin") + " is not finite, must be");
   Buffer<int> rank(status.size(), -1);
   for (int r = 0; r < cloud.size(); ++r) rank[cloud.input_index[r]] = r;
   RankedScan scan{Buffer<int>(cloud.size(), -1), Buffer<double>(cloud.size(), 0), {}, std::ssize(status), function};
@@ -49,7 +53,7 @@ RankedScan rankScan(const ScanStructure& structure, const RankedCloud& cloud, co
   for (std::size_t i = 0; i < status.size(); ++i) {
     const int p = rank[representative[i]];
     if (p < 0 || structure.row[i] < 0 || !std::isfinite(structure.position[i])) continue;
-    const double position = positionOf(structure, i, name);
+    const double position = positionOf(structure, i, function);
     if (scan.row[p] >= 0 && std::tie(scan.row[p], scan.position[p]) <= std::tie(structure.row[i], position)) continue;
     scan.row[p] = structure.row[i];
     scan.position[p] = position;

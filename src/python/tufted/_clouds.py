@@ -19,7 +19,7 @@ def _solving(function, threads, solver, memory_limit):
 
 def _pixels(function, points, image, origin):
     size = check.integers(function, "image", image)
-    if size.shape != (2,) or size[0] * size[1] != len(points):
+    if size.shape != (2,) or size.min() < 0 or size[0] * size[1] != len(points):
         raise InvalidInput(f"{function}: image = {image!r}, must be (width, height) of {len(points)} points")
     return _tufted.image_structure(int(size[0]), int(size[1]), origin)
 
@@ -32,7 +32,7 @@ class PointCloud(Surface):
     neighbors: k >= 3, of each point.
     normals: N x 3, used for the tangent planes, of any length; None: planes are fitted.
     viewpoint: where the sensor stood, 3 values; normals then face it.
-    image: (width, height) of an organized cloud, whose rows then give the neighbours.
+    image: (width, height) of a depth image: pixels take the place of neighbours, noise is smoothed along the rays.
     rings: N numbers of the scanner's ring that a point lies on, or "find"; the rings then give the neighbours.
     neighborhoods: N x k indices used as they are; negative ones are padding.
     mollify: in mean edge lengths, 0 to 1.
@@ -144,8 +144,12 @@ def denoise(points, *, image=None, viewpoint=None, threads=0, progress=None):
     """
     name = "denoise"
     points = check.rows_of_three(name, "points", points)
-    origin = np.zeros(3) if viewpoint is None else check.vector_of_three(name, "viewpoint", viewpoint)
-    structure = None if image is None else _pixels(name, points, image, origin)
+    structure = None
+    if image is not None:
+        origin = np.zeros(3) if viewpoint is None else check.vector_of_three(name, "viewpoint", viewpoint)
+        structure = _pixels(name, points, image, origin)
+    elif viewpoint is not None:
+        raise InvalidInput("denoise: viewpoint is given, must be None without image")
     return Denoised(*_tufted.denoise(points, structure, check.whole(name, "threads", threads, 0),
                                      check.callback(name, progress)))
 
