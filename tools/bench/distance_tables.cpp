@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
@@ -11,6 +10,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/stage_clock.h"
 #include "oracles/classic_heat.h"
 #include "oracles/geodesics.h"
 #include "oracles/planar.h"
@@ -24,16 +24,6 @@
 
 namespace tufted::bench {
 namespace {
-
-class Stopwatch {
- public:
-  double milliseconds() const {
-    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start_).count();
-  }
-
- private:
-  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
-};
 
 /// Errors of distances, where the exact distance is finite; infinite if one of these distances is not finite.
 struct Error {
@@ -152,7 +142,7 @@ double leastTime(const std::function<void()>& work) {
   for (int repetition = 0; repetition < 10; ++repetition) {
     const Stopwatch watch;
     work();
-    least = std::min(least, watch.milliseconds());
+    least = std::min(least, 1e3 * watch.seconds());
   }
   return least;
 }
@@ -214,7 +204,7 @@ void printPaths() {
       const int to = drawn(exact.size());
       if (exact[to] > 0) lengths.emplace_back(to, solver.path(geometry.triangles(0, 0), to).length);
     }
-    milliseconds += watch.milliseconds();
+    milliseconds += 1e3 * watch.seconds();
     for (const auto& [to, length] : lengths)
       meshes.add(length, length < (1 - rounding) * exact[to] ? exactFrom(geometry, to) : exact[to]);
   });
@@ -230,7 +220,7 @@ void printPaths() {
       const int to = drawn(n);
       if (exact[to] > 0) clouds.add(solver.path(from, to).length, exact[to]);
     }
-    clouds.print(("sphere, " + std::to_string(n) + " points").c_str(), watch.milliseconds());
+    clouds.print(("sphere, " + std::to_string(n) + " points").c_str(), 1e3 * watch.seconds());
   }
 }
 
