@@ -40,8 +40,8 @@ struct Report {
   std::int64_t isolated_by_sheets = 0;   ///< points without a star: nearly all neighbours belong to other sheets
   std::int64_t outliers = 0;             ///< points without a star: they hover over a surface, see CloudSteps
   std::int64_t denoised = 0;             ///< points moved onto a surface for the lengths, see Lengths
-  /// Of a depth image whose points were moved: standard deviation of their noise along the rays, in the caller's unit,
-  /// the median over them; else 0.
+  /// The noise of a depth image is a standard deviation along the ray of each point that was moved: this is the median
+  /// over these points, in the caller's unit. It is 0 where no point was moved, and of all other clouds.
   double noise = 0;
   std::int64_t grown_stars = 0;            ///< times k was doubled because a closed star was not certified
   std::int64_t closed_stars = 0;           ///< open stars that closed with two or four times the neighbours

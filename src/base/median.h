@@ -7,7 +7,7 @@
 
 namespace tufted {
 
-/// Of an even number of values the upper one of the two in the middle; 0 of none.
+/// The median of the values. Of an even number it is the upper one of the two in the middle, and of no values it is 0.
 inline double medianOf(Buffer<double> values) {
   if (values.empty()) return 0;
   const auto middle = values.begin() + std::ssize(values) / 2;

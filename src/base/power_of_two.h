@@ -14,6 +14,11 @@ class PowerOfTwo {
       : third_(std::ldexp(1.0, exponent / 3)), rest_(std::ldexp(1.0, exponent - 2 * (exponent / 3))) {}
 
   double times(double x) const { return x * third_ * third_ * rest_; }
+  /// Adds the product with x to a sum. A product of 0 is not added, as it would turn a sum of -0 into 0.
+  void addTo(double& sum, double x) const {
+    const double product = times(x);
+    if (product != 0) sum += product;
+  }
 
  private:
   double third_, rest_;

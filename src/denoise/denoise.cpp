@@ -45,8 +45,7 @@ void apply(const PointBuffer& moves, const NoiseOf& noiseOf, const RankedCloud& 
     const Eigen::RowVector3d move = moves.row(p);
     if (move.isZero(0)) continue;
     const int i = cloud.input_index[p];
-    for (int axis = 0; axis < 3; ++axis)
-      if (move[axis] != 0) denoised.positions(i, axis) += unit.times(move[axis]);  // -0.0 stays what it is
+    for (int axis = 0; axis < 3; ++axis) unit.addTo(denoised.positions(i, axis), move[axis]);
     denoised.noise[i] = unit.times(noiseOf(p));
     noise.push_back(denoised.noise[i]);
     const double length = unit.times(move.norm());

@@ -38,10 +38,7 @@ void setPositions(const PointsRef& points, const PointBuffer& displacement, cons
   workers.forBlocks("boundary", cloud.size(), usual_block, [&](std::int64_t begin, std::int64_t end, int) {
     for (std::int64_t p = begin; p < end; ++p) {
       auto position = result.positions.row(cloud.input_index[p]);
-      for (int axis = 0; axis < 3; ++axis) {
-        const double moved = unit.times(displacement.row(p)[axis]);
-        if (moved != 0) position[axis] += moved;  // or -0 would become 0
-      }
+      for (int axis = 0; axis < 3; ++axis) unit.addTo(position[axis], displacement.row(p)[axis]);
     }
   });
   for (Eigen::Index i = 0; i < points.rows(); ++i)

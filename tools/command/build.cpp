@@ -108,11 +108,13 @@ tufted::Laplacian buildLaplacian(const tufted::Geometry& geometry, const Input& 
 }
 
 void addBuild(const tufted::Report& report, const Build& build, Summary& summary) {
-  if (build.structure == Structure::image && report.denoised == 0)
-    summary.add("structure", "depth image, no point moved");
-  if (build.structure == Structure::image && report.denoised > 0)
-    summary.add("structure", "depth image, %lld points moved along their rays, noise %.3g",
-                static_cast<long long>(report.denoised), report.noise);
+  if (build.structure == Structure::image) {
+    if (report.denoised == 0)
+      summary.add("structure", "depth image, no point moved");
+    else
+      summary.add("structure", "depth image, %lld points moved along their rays, noise %.3g",
+                  static_cast<long long>(report.denoised), report.noise);
+  }
   if (build.denoised)
     summary.add("denoised", "%lld points, noise %.4g", static_cast<long long>(build.denoised->moved),
                 build.denoised->noise);
