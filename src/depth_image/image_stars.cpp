@@ -1,6 +1,7 @@
 #include "depth_image/image_stars.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 #include <utility>
@@ -21,35 +22,118 @@ constexpr int enough = 12;      // points in a window; where there are fewer it 
 constexpr int most_rings = 24;
 constexpr int most_certain_rings = 12;
 
+constexpr std::uint64_t first_window = WindowPixels::rings(first_rings);
+static_assert(WindowPixels::inRings(first_rings) == pixels_around && WindowPixels::inRings(1) == pixels_beside);
+
 struct WorkerState {
   PixelWindow window;
   StarMemory memory;
+  PixelsAround around{};
+  PixelStars pixel_stars{};
   std::int64_t grown_neighborhoods = 0, grown_stars = 0;
 };
 
 class ImageStarBuilder {
  public:
   ImageStarBuilder(const DepthImage& image, const PointBuffer& normals, const CloudOptions& options, BuiltStars& built)
-      : image_(image), normals_(normals), wrapping_(options.delaunay), stars_(built.stars), support_(built.support) {}
+      : image_(image),
+        normals_(normals),
+        wrapping_(options.delaunay),
+        by_packets_(normals.rows() == 0 && options.delaunay == Delaunay::star),
+        stars_(built.stars),
+        support_(built.support) {
+    for (int i = 0; i < pixels_around; ++i)
+      shift_[i] = std::ptrdiff_t{around_row[i]} * image.grid.columns + around_column[i];
+  }
 
   void build(std::int64_t begin, std::int64_t end, WorkerState& state) const {
     const std::size_t count = usual_degree * static_cast<std::size_t>(end - begin);
     state.memory.block.link.reserve(count);
     state.memory.block.triangle.reserve(count);
     state.memory.block.radius.reserve(count);
-    for (int p = static_cast<int>(begin); p < static_cast<int>(end); ++p) {
-      state.memory.star.link.clear();
-      state.memory.star.radius.clear();
-      state.memory.star.closed = false;
-      const std::optional<PixelFrame> frame = findFrame(p, state);
-      // A power of two near the size of the window, so that the predicates meet numbers near 1.
-      const double unit = frame ? 1 / magnitudeOf(frame->radius) : 1;
-      if (frame) findStar(p, *frame, unit, state);
-      store(p, frame.value_or(PixelFrame{Eigen::Vector3d::UnitZ()}), unit, state);
-    }
+    for (auto p = static_cast<int>(begin); p < static_cast<int>(end); p += kernel_packet)
+      buildSome(p, std::min(p + kernel_packet, static_cast<int>(end)), state);
   }
 
  private:
+  /// Stars of at most a packet. Where windows are whole, planes and stars are found for all lanes at once; the few
+  /// stars that reach beyond the eight pixels beside p are looked for one by one, as are all others.
+  void buildSome(int begin, int end, WorkerState& state) const {
+    const PixelStars& found = state.pixel_stars;
+    const unsigned is_whole = by_packets_ ? wrapWhole(begin, end, state) : 0;
+    for (int p = begin; p < end; ++p) {
+      const int lane = p - begin;
+      if ((is_whole & found.is_certain) >> lane & 1U) {
+        takeCertain(p, lane, found, state.memory.star);
+        store(p, frameOfLane(found, lane), 1, state.memory);
+      } else if ((is_whole & found.is_found) >> lane & 1U) {
+        state.window.take(image_, p, first_rings);
+        buildOne(p, frameOfLane(found, lane), state);
+      } else {
+        buildOne(p, findFrame(p, state), state);
+      }
+    }
+  }
+
+  /// Returns which lanes have a whole window.
+  unsigned wrapWhole(int begin, int end, WorkerState& state) const {
+    PixelsAround& around = state.around;
+    unsigned is_whole = 0;
+    for (int p = begin; p < end; ++p) {
+      if ((image_.windows.around[p] & first_window) != first_window) continue;
+      const int lane = p - begin;
+      is_whole |= 1U << lane;
+      const int* const rank = image_.grid.rank.data() + image_.grid.pixel[p];
+      const double* const places = image_.moved.data();
+      const double* const here = places + 3 * std::ptrdiff_t{p};
+      for (int i = 0; i < pixels_around; ++i) {
+        const double* const there = places + 3 * std::ptrdiff_t{rank[shift_[i]]};
+        around.x[i][lane] = there[0] - here[0];
+        around.y[i][lane] = there[1] - here[1];
+        around.z[i][lane] = there[2] - here[2];
+      }
+      const Eigen::RowVector3d sight = image_.points.row(p) - image_.grid.origin;
+      around.sight_x[lane] = sight[0];
+      around.sight_y[lane] = sight[1];
+      around.sight_z[lane] = sight[2];
+    }
+    if (is_whole != 0) kernels().wrapPixels(around, state.pixel_stars);
+    return is_whole;
+  }
+
+  static PixelFrame frameOfLane(const PixelStars& found, int lane) {
+    return {{found.normal_x[lane], found.normal_y[lane], found.normal_z[lane]},
+            found.fit_radius[lane],
+            isFlat(found.height_variance[lane], found.second_variance[lane])};
+  }
+
+  void takeCertain(int p, int lane, const PixelStars& found, DelaunayStar& star) const {
+    const int* const rank = image_.grid.rank.data() + image_.grid.pixel[p];
+    star.link.clear();
+    star.radius.clear();
+    star.closed = true;
+    for (int i = 0; i < pixels_beside; ++i) {
+      const bool is_corner = i % 2 == 1;
+      if (is_corner && (found.has_corner[i / 2] >> lane & 1U) == 0) continue;
+      star.link.push_back({0, 0, rank[shift_[i]]});
+      star.radius.push_back(found.radius[i][lane]);
+    }
+    if ((found.is_mirrored >> lane & 1U) == 0) return;
+    // Each circle belongs to a vertex and the next.
+    std::reverse(star.link.begin(), star.link.end());
+    std::reverse(star.radius.begin(), star.radius.end() - 1);
+  }
+
+  void buildOne(int p, const std::optional<PixelFrame>& frame, WorkerState& state) const {
+    state.memory.star.link.clear();
+    state.memory.star.radius.clear();
+    state.memory.star.closed = false;
+    // A power of two near the size of the window, so that the predicates meet numbers near 1.
+    const double unit = frame ? 1 / magnitudeOf(frame->radius) : 1;
+    if (frame) findStar(p, *frame, unit, state);
+    store(p, frame.value_or(PixelFrame{Eigen::Vector3d::UnitZ()}), unit, state.memory);
+  }
+
   /// Fills the window, wider where it holds few points, and fits the plane to it.
   std::optional<PixelFrame> findFrame(int p, WorkerState& state) const {
     if (image_.grid.pixel[p] < 0) return std::nullopt;
@@ -97,18 +181,20 @@ class ImageStarBuilder {
     return 2 * star.largestCircumradius() <= next;
   }
 
-  void store(int p, const PixelFrame& frame, double unit, WorkerState& state) const {
+  void store(int p, const PixelFrame& frame, double unit, StarMemory& memory) const {
     support_.normals.row(p) = frame.normal;
     support_.fit_radius[p] = frame.radius;
     support_.isolated[p] = 0;
     stars_.flat[p] = frame.is_flat ? 1 : 0;
     const auto isOneSurface = [this](int a, int b) { return image_.isOneSurface(a, b); };
-    storeStar(p, 1 / unit, isOneSurface, state.memory, stars_);
+    storeStar(p, 1 / unit, isOneSurface, memory, stars_);
   }
 
   const DepthImage& image_;
   const PointBuffer& normals_;
   StarWrapping wrapping_;
+  bool by_packets_;                                    ///< whole windows, eight at once
+  std::array<std::ptrdiff_t, pixels_around> shift_{};  ///< in the image
   Stars& stars_;
   StarSupport& support_;
 };

@@ -25,10 +25,13 @@ struct SurfaceImage {
   /// The median over the points that are moved; 0 if none are.
   double noiseOfMoved() const;
   std::size_t bytes() const {
-    return grid.bytes() + bytesOf(windows.around) + bytesOf(windows.range) + windows.displacement.bytes();
+    return grid.bytes() + bytesOf(windows.around) + bytesOf(windows.range) + windows.displacement.bytes() +
+           windows.place.bytes();
   }
   /// @param points of the cloud, borrowed
-  DepthImage view(const PointsView& points) const { return {grid, points, windows, JumpTest(noise)}; }
+  DepthImage view(const PointsView& points) const {
+    return {grid, points, windows.place.rows() > 0 ? PointsView(windows.place) : points, windows, JumpTest(noise)};
+  }
 };
 
 /// Finds the surface in the windows of all pixels.

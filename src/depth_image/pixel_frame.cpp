@@ -12,6 +12,10 @@ constexpr double flat_share = 0.02;  // of the second variance, as in stars.cpp
 
 }  // namespace
 
+bool isFlat(double height_variance, double second) {
+  return height_variance < flat_share * second;
+}
+
 std::optional<PixelFrame> fitFrame(const DepthImage& image, const PixelWindow& window, int p) {
   const int count = window.count();
   const Offsets offsets = window.offsets();
@@ -65,7 +69,7 @@ PixelFrame frameOf(const Eigen::Vector3d& normal, const PixelWindow& window) {
   const double n = count + 1;
   const double variance = heights / n - (height_sum / n) * (height_sum / n);
   const double middle = (uu + vv) / 2, second = (middle - std::hypot((uu - vv) / 2, uv)) / n;
-  return {normal, std::sqrt(2 * squares / std::max(1, count)), variance < flat_share * second};
+  return {normal, std::sqrt(2 * squares / std::max(1, count)), isFlat(variance, second)};
 }
 
 }  // namespace tufted

@@ -14,6 +14,9 @@ struct PixelFrame {
   bool is_flat = false;    ///< these points are nearly on a plane
 };
 
+/// @param second the smaller variance along the plane
+bool isFlat(double height_variance, double second);
+
 /// The plane along which positions change with rows and columns, by least squares over the points of the window. Noise
 /// along the line of sight, however large, does not turn it by its mean, as it turns principal axes.
 /// @returns nothing where the pixels are on one line

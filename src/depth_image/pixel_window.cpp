@@ -68,11 +68,10 @@ void PixelWindow::widen(const DepthImage& image, int p, int rings) {
 }
 
 void PixelWindow::measure(const DepthImage& image, int p) {
-  offsets_.fill(static_cast<int>(neighbors_.size()), [&](int i) {
-    const Eigen::RowVector3d d = image.offset(p, neighbors_[i].index);
-    neighbors_[i].squared_distance = d.squaredNorm();
-    return d;
-  });
+  offsets_.take(image.moved, p, neighbors_);
+  const Offsets d = offsets_.view();
+  for (int i = 0; i < d.count; ++i)
+    neighbors_[i].squared_distance = d.x[i] * d.x[i] + d.y[i] * d.y[i] + d.z[i] * d.z[i];
 }
 
 double PixelWindow::nearestInLastRing() const {

@@ -16,16 +16,11 @@ namespace tufted {
 /// A depth image and what was found in it. Borrowed.
 struct DepthImage {
   const PixelGrid& grid;
-  PointsView points;
+  PointsView points;  ///< as measured
+  PointsView moved;   ///< on the surface
   const SurfaceWindows& windows;
   JumpTest test;
 
-  /// From p to q, both where they have been moved to.
-  Eigen::RowVector3d offset(int p, int q) const {
-    Eigen::RowVector3d d = points.row(q) - points.row(p);
-    if (windows.displacement.rows() > 0) d += windows.displacement.row(q) - windows.displacement.row(p);
-    return d;
-  }
   bool isMoved(int p) const { return windows.displacement.rows() > 0 && !windows.displacement.row(p).isZero(0); }
   bool isOneSurface(int a, int b, double most = JumpTest::steepest) const {
     const double *const p = points.data() + 3 * std::ptrdiff_t{a}, *const q = points.data() + 3 * std::ptrdiff_t{b};

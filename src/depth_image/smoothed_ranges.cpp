@@ -7,6 +7,7 @@
 #include <numeric>
 
 #include "depth_image/window_pixels.h"
+#include "simd/kernels.h"
 
 namespace tufted {
 namespace {
@@ -14,83 +15,100 @@ namespace {
 constexpr std::array<int, 2> strides = {3, 9};
 constexpr double tolerance = 2;    // standard deviations of noise between two smoothed values
 constexpr double harmless = 0.01;  // of the squared spacing: a tenth of it in noise
+constexpr double steepest = 4;     // pixels along the line of sight for one across
 
-/// Inverse ranges pixel by pixel, not a number where there is none.
-Buffer<double> asImage(const PixelGrid& grid, const RawBuffer<SmoothedRange>& range) {
-  Buffer<double> image(grid.rank.size(), std::numeric_limits<double>::quiet_NaN());
-  for (std::size_t p = 0; p < range.size(); ++p)
-    if (grid.pixel[p] >= 0) image[grid.pixel[p]] = range[p].inverse;
-  return image;
-}
-
-/// The values of the pixels of a window that are `stride` apart, and which of them may be of one surface with the
-/// middle: those that differ from it by no more than a slope and noise explain.
-class PixelsApart {
+/// Smooths an image again by values that are some pixels apart: those around a pixel that differ from its own by no
+/// more than a slope and noise explain may be of one surface with it.
+class RangeSmoother {
  public:
-  using Values = std::array<double, WindowPixels::side() * WindowPixels::side()>;
-  static constexpr int middle() { return WindowPixels::count / 2; }
+  RangeSmoother(const PixelGrid& grid, double noise, int stride, SmoothedRanges& smoothed)
+      : grid_(grid), noise_(noise), stride_(stride), reach_(WindowPixels::reach * stride), smoothed_(smoothed) {
+    inverse_.assign(grid.rank.size() + 2 * static_cast<std::size_t>(room()), std::numeric_limits<double>::quiet_NaN());
+    double* const image = inverse_.data() + room();
+    for (std::size_t p = 0; p < smoothed.range.size(); ++p)
+      if (grid.pixel[p] >= 0) image[grid.pixel[p]] = smoothed.range[p].inverse;
+  }
 
-  PixelsApart(const PixelGrid& grid, const Buffer<double>& inverse, double most_noise, int stride)
-      : grid_(grid), inverse_(inverse), tolerance_(most_noise), stride_(stride) {
-    for (int i = 0; i < WindowPixels::count; ++i) {
-      const auto [row, column] = window_pixels.step[i];
-      shift_[i] = stride * (std::int64_t{row} * grid.columns + column);
-      place_[i] = middle() + WindowPixels::side() * row + column;
+  void smoothRow(int row) const {
+    for (int column = PixelGrid::margin; column < grid_.columns - PixelGrid::margin; column += kernel_packet)
+      smoothSome(row, column);
+  }
+
+ private:
+  using Slopes = std::array<double, kernel_packet>;
+
+  /// What packets read beyond both ends of the image.
+  int room() const { return reach_ + kernel_packet; }
+  const double* inverseAt(int row, int column) const { return inverse_.data() + room() + pixelAt(row, column); }
+  std::int64_t pixelAt(int row, int column) const { return std::int64_t{row} * grid_.columns + column; }
+
+  void smoothSome(int row, int column) const {
+    const int count = std::min(kernel_packet, grid_.columns - PixelGrid::margin - column);
+    const int* const rank = grid_.rank.data() + pixelAt(row, column);
+    Slopes slope{};
+    unsigned is_wanted = 0;
+    for (int lane = 0; lane < count; ++lane) {
+      const int p = rank[lane];
+      if (p < 0 || !(smoothed_.range[p].variance > harmless * smoothed_.spacing_squared[p])) continue;
+      is_wanted |= 1U << lane;
+      slope[lane] = steepest * std::sqrt(smoothed_.spacing_squared[p]) * stride_;
+    }
+    if (is_wanted == 0) return;
+    const PixelRows rows{inverseAt(row, column), std::ptrdiff_t{stride_} * grid_.columns, stride_};
+    const unsigned is_whole = is_wanted & wholeWindows(row, column, rows, slope);
+    SquareFits fits{};
+    if (is_whole != 0) kernels().fitSquares7(rows, fits);
+    for (int lane = 0; lane < count; ++lane) {
+      if ((is_wanted >> lane & 1U) == 0) continue;
+      SmoothedRange& range = smoothed_.range[rank[lane]];
+      if ((is_whole >> lane & 1U) != 0) {
+        range = smoothedFurther({fits.value[lane], fits.variance[lane]}, range, noise_);
+      } else {
+        const PixelRows around{rows.at + lane, rows.row_step, rows.column_step};
+        range = smoothedFurther(around, joined(row, column + lane, around, slope[lane]), range, noise_);
+      }
     }
   }
 
-  /// @param spacing of neighbouring pixels, in inverse range
-  std::uint64_t take(std::int64_t pixel, double spacing, Values& values) const {
-    const std::int64_t row = pixel / grid_.columns, column = pixel % grid_.columns;
-    const std::int64_t reach = WindowPixels::reach * std::int64_t{stride_};
-    const bool is_inside =
-        row >= reach && column >= reach && row + reach < grid_.rows && column + reach < grid_.columns;
-    const double here = values[middle()] = inverse_[pixel];
+  /// The lanes whose windows are of one surface, as bits.
+  unsigned wholeWindows(int row, int column, const PixelRows& rows, const Slopes& slope) const {
+    if (row < reach_ || row + reach_ >= grid_.rows) return 0;
+    unsigned is_inside = 0;
+    for (int lane = 0; lane < kernel_packet; ++lane)
+      if (column + lane >= reach_ && column + lane + reach_ < grid_.columns) is_inside |= 1U << lane;
+    return is_inside == 0 ? 0 : is_inside & kernels().squaresWithin(rows, slope.data(), tolerance * noise_);
+  }
+
+  /// The pixels of a window that are of one surface with the middle.
+  std::uint64_t joined(int row, int column, const PixelRows& ranges, double slope) const {
     std::uint64_t around = 0;
-    for (int ring = 1, i = 0; ring <= WindowPixels::reach; ++ring) {
-      const double most = steepest * spacing * stride_ * ring + tolerance_;
-      for (; i < WindowPixels::inRings(ring); ++i) {
-        const double value = is_inside || holds(row, column, i) ? inverse_[pixel + shift_[i]] : 0;
-        values[place_[i]] = value;
-        around |= static_cast<std::uint64_t>(std::abs(value - here) <= most) << i;
-      }
+    for (int i = 0; i < WindowPixels::count; ++i) {
+      const PixelStep& step = window_pixels.step[i];
+      const int r = row + stride_ * step.row, c = column + stride_ * step.column;
+      if (r < 0 || c < 0 || r >= grid_.rows || c >= grid_.columns) continue;
+      const double value = ranges.at[step.row * ranges.row_step + step.column * ranges.column_step];
+      const bool is_joined = std::abs(value - ranges.at[0]) <= slope * step.ring() + tolerance * noise_;
+      around |= static_cast<std::uint64_t>(is_joined) << i;
     }
     return around;
   }
 
- private:
-  static constexpr double steepest = 4;  // pixels along the line of sight for one across
-
-  bool holds(std::int64_t row, std::int64_t column, int i) const {
-    const std::int64_t r = row + stride_ * window_pixels.step[i].row,
-                       c = column + stride_ * window_pixels.step[i].column;
-    return r >= 0 && c >= 0 && r < grid_.rows && c < grid_.columns;
-  }
-
   const PixelGrid& grid_;
-  const Buffer<double>& inverse_;
-  double tolerance_;
-  int stride_;
-  std::array<std::int64_t, WindowPixels::count> shift_;
-  std::array<int, WindowPixels::count> place_;
+  double noise_;
+  int stride_, reach_;
+  SmoothedRanges& smoothed_;
+  Buffer<double> inverse_;  ///< before
 };
 
 }  // namespace
 
 void smoothFurther(const PixelGrid& grid, SmoothedRanges& smoothed, double noise, const Workers& workers) {
   for (const int stride : strides) {
-    const Buffer<double> before = asImage(grid, smoothed.range);
-    const PixelsApart apart(grid, before, tolerance * noise, stride);
-    workers.forBlocks(
-        "windows", std::ssize(smoothed.range), usual_block, [&](std::int64_t begin, std::int64_t end, int) {
-          PixelsApart::Values values;
-          for (std::int64_t p = begin; p < end; ++p) {
-            SmoothedRange& range = smoothed.range[p];
-            if (!(range.variance > harmless * smoothed.spacing_squared[p])) continue;
-            const std::uint64_t set = apart.take(grid.pixel[p], std::sqrt(smoothed.spacing_squared[p]), values);
-            range = smoothedFurther({values.data() + PixelsApart::middle(), WindowPixels::side()}, set, range, noise);
-          }
-        });
+    const RangeSmoother smoother(grid, noise, stride, smoothed);
+    const std::int64_t rows_at_once = std::max<std::int64_t>(1, usual_block / grid.columns);
+    workers.forBlocks("windows", grid.rows, rows_at_once, [&](std::int64_t begin, std::int64_t end, int) {
+      for (auto row = static_cast<int>(begin); row < end; ++row) smoother.smoothRow(row);
+    });
   }
 }
 

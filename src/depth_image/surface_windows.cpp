@@ -8,6 +8,7 @@
 
 #include "depth_image/smoothed_ranges.h"
 #include "depth_image/window_pixels.h"
+#include "simd/kernels.h"
 
 namespace tufted {
 namespace {
@@ -142,6 +143,7 @@ class WindowFinder {
 
   void findRow(int first, Tile& tile, std::int64_t& cut) const {
     for (int i = 0; i < WindowPixels::count; ++i) reach(i, first, tile);
+    std::array<std::uint64_t, tile_columns> all_around{};
     for (int column = 0; column < tile_columns; ++column) {
       const int pixel = first + column, p = tile.rank[pixel];
       if (p < 0) continue;
@@ -151,11 +153,13 @@ class WindowFinder {
         around |= (tile.reached[i][column] & is_filled) << i;
         filled |= is_filled << i;
       }
-      windows_.around[p] = around;
+      windows_.around[p] = all_around[column] = around;
       windows_.range[p] = tile.range[pixel];
       cut += std::popcount(filled & ~around);
-      if (smoothed_ != nullptr) smooth(p, pixel, around, tile);
     }
+    if (smoothed_ == nullptr) return;
+    for (int column = 0; column < tile_columns; column += kernel_packet)
+      smoothSome(first + column, all_around.data() + column, tile);
   }
 
   /// Which pixels of a row the step leads to, from p or over a pixel reached before.
@@ -185,26 +189,45 @@ class WindowFinder {
       reached[column] &= linked[column] | (over[column] & (refused[column] ^ 1));
   }
 
-  void smooth(int p, int pixel, std::uint64_t around, const Tile& tile) const {
-    const std::uint64_t next = around & WindowPixels::rings(1);
-    const double inverse = tile.inverse[pixel], square = inverse * inverse;
-    if (next == 0) {
-      smoothed_->range[p] = {inverse, 0};
-      smoothed_->spacing_squared[p] = 0;
-      return;
+  /// Smooths a packet of pixels.
+  void smoothSome(int first, const std::uint64_t* around, const Tile& tile) const {
+    bool any_narrow = false, any_wide = false;
+    std::array<bool, kernel_packet> is_wanted{};
+    for (int lane = 0; lane < kernel_packet; ++lane) {
+      const int pixel = first + lane, p = tile.rank[pixel];
+      if (p < 0) continue;
+      const std::uint64_t beside = around[lane] & WindowPixels::rings(1);
+      const double spacing_squared = beside == 0 ? 0 : spacingSquared(pixel, beside, tile);
+      smoothed_->range[p] = {tile.inverse[pixel], 0};
+      smoothed_->spacing_squared[p] = spacing_squared;
+      is_wanted[lane] = beside != 0 && needsSmoothing(tile.inverse[pixel], noise_, spacing_squared);
+      any_narrow |= is_wanted[lane] && (around[lane] & WindowPixels::rings(2)) == WindowPixels::rings(2);
+      any_wide |= is_wanted[lane] && around[lane] == WindowPixels::rings(3);
     }
+    const PixelRows rows{tile.inverse.data() + first, all_columns, 1};
+    SquareFits narrow{}, wide{};
+    if (any_narrow) kernels().fitSquares5(rows, narrow);
+    if (any_wide) kernels().fitSquares7(rows, wide);
+    for (int lane = 0; lane < kernel_packet; ++lane) {
+      if (!is_wanted[lane]) continue;
+      const auto smoothed = smoothedInverseRange({rows.at + lane, rows.row_step, rows.column_step}, around[lane],
+                                                 {narrow.value[lane], narrow.variance[lane]},
+                                                 {wide.value[lane], wide.variance[lane]}, noise_);
+      if (smoothed) smoothed_->range[tile.rank[first + lane]] = *smoothed;
+    }
+  }
+
+  /// Of a pixel and those beside it that are joined with it, in inverse range.
+  static double spacingSquared(int pixel, std::uint64_t beside, const Tile& tile) {
     double across = 0;
-    forEachPixel(next, [&](int i) {
+    forEachPixel(beside, [&](int i) {
       const int q = pixel + ways.way[i].shift;
       const double x = tile.x[q] - tile.x[pixel], y = tile.y[q] - tile.y[pixel], z = tile.z[q] - tile.z[pixel];
       const double along = tile.range[q] - tile.range[pixel];
       across += x * x + y * y + z * z - along * along;
     });
-    const double spacing_squared = across / std::popcount(next) * square * square;
-    const auto fitted =
-        smoothedInverseRange({tile.inverse.data() + pixel, all_columns}, around, noise_, spacing_squared);
-    smoothed_->range[p] = fitted ? *fitted : SmoothedRange{inverse, 0};
-    smoothed_->spacing_squared[p] = spacing_squared;
+    const double square = tile.inverse[pixel] * tile.inverse[pixel];
+    return across / std::popcount(beside) * square * square;
   }
 
   const PixelGrid& grid_;
@@ -236,6 +259,8 @@ SurfaceWindows findSurfaceWindows(const PixelGrid& grid, const PointsView& point
   if (!smooths) return windows;
   smoothFurther(grid, smoothed, noise, workers);
   windows.displacement = displacementsAlongRays(grid, points, smoothed, workers, windows.moved);
+  windows.place.resize(points.rows());
+  windows.place.all() = points + windows.displacement.all();
   return windows;
 }
 

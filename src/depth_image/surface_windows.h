@@ -19,6 +19,7 @@ struct SurfaceWindows {
   Buffer<std::uint64_t> around;
   RawBuffer<double> range;   ///< n, from the sensor; not set where a point has no pixel
   PointBuffer displacement;  ///< n x 3, along the ray, onto the surface; 0 x 3 without smoothing
+  PointBuffer place;         ///< n x 3, where that leads to; 0 x 3 without smoothing
   std::int64_t cut = 0;      ///< points in windows that a jump of the surface leaves out
   std::int64_t moved = 0;    ///< points whose displacement is not 0
 };

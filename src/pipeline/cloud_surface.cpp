@@ -30,13 +30,7 @@ CloudSurface imageSurface(const RankedCloud& cloud, const CloudOptions& options,
   built.stars.displacement = std::move(surface.windows.displacement);
   const bool is_whole_cloud = cloud.size() <= WindowPixels::count + 1;
   // Triangles are as large as they are between points on the surface.
-  PointBuffer moved;
-  if (built.stars.displacement.rows() > 0) {
-    moved.resize(cloud.size());
-    moved.all() = cloud.points.all() + built.stars.displacement.all();
-  }
-  const PointsView points = moved.rows() > 0 ? PointsView(moved) : PointsView(cloud.points);
-  CloudSurface result{filteredStars(std::move(built), is_whole_cloud, points, options, workers, report), {}};
+  CloudSurface result{filteredStars(std::move(built), is_whole_cloud, image.moved, options, workers, report), {}};
   clock.restart();
   result.boundary = findImageBoundary(result.built.stars, image, workers);
   return result;

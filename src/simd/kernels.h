@@ -1,6 +1,7 @@
 #pragma once
 
 // Plain arrays and no functions of others: see kernels_source.h.
+#include <cstddef>
 #include <cstdint>
 
 namespace tufted {
@@ -99,6 +100,48 @@ struct InvertedStar {
   double radius[most];
 };
 
+/// The pixels around one in an image, 5 x 5 without itself, by steps of rows and columns: first ring 1 by direction,
+/// from where rows grow to where columns grow, then ring 2.
+constexpr int pixels_around = 24, pixels_beside = 8;
+constexpr int around_row[pixels_around] = {1, 1,  0,  -1, -1, -1, 0,  1,  2, 2, 2, 1,
+                                           0, -1, -2, -2, -2, -2, -2, -1, 0, 1, 2, 2};
+constexpr int around_column[pixels_around] = {0, 1, 1, 1, 0, -1, -1, -1, 0,  1,  2,  2,
+                                              2, 2, 2, 1, 0, -1, -2, -2, -2, -2, -2, -1};
+
+/// The points in the pixels around each of eight points, relative to it. Lanes that stand for no point may
+/// hold any numbers.
+struct PixelsAround {
+  alignas(64) double x[pixels_around][kernel_packet], y[pixels_around][kernel_packet], z[pixels_around][kernel_packet];
+  alignas(64) double sight_x[kernel_packet], sight_y[kernel_packet], sight_z[kernel_packet];  ///< from the sensor
+};
+
+/// Frames and stars of eight points of an image among PixelsAround; sets of lanes are bits.
+struct PixelStars {
+  alignas(64) double normal_x[kernel_packet], normal_y[kernel_packet], normal_z[kernel_packet];  ///< to the sensor
+  alignas(64) double fit_radius[kernel_packet];  ///< of a disk with the mean squared distance of all points around
+  alignas(64) double height_variance[kernel_packet], second_variance[kernel_packet];  ///< second: the smaller in plane
+  /// Of the circles: [2 c] of the edge that starts at number 2 c of PixelsAround, [2 c + 1] of the one that ends at
+  /// number 2 c + 2. They are the same where corner 2 c + 1 is not in the link.
+  alignas(64) double radius[pixels_beside][kernel_packet];
+  unsigned has_corner[pixels_beside / 2];  ///< number 2 c + 1 is in the link
+  unsigned is_found;                       ///< there is a plane
+  unsigned is_mirrored;                    ///< the numbers of ring 1 run clockwise around the normal
+  unsigned is_certain;  ///< the star is closed, beyond doubt that among the points around, and no circle reaches ring 3
+};
+
+/// Values of an image around each of eight: what is `row` rows and `column` columns on from lane l is
+/// at[l + row * row_step + column * column_step]. Borrowed.
+struct PixelRows {
+  const double* at;
+  std::ptrdiff_t row_step, column_step;
+};
+
+/// Quadratics by least squares over the square of pixels around each of eight.
+struct SquareFits {
+  alignas(64) double value[kernel_packet];     ///< in the middle
+  alignas(64) double variance[kernel_packet];  ///< of the residuals
+};
+
 /// Triangles side by side: number i has the spokes i and i + 1, which start at one point, and the rim between their
 /// ends. Borrowed arrays of `count` numbers and room for whole packets; those of the spokes have one packet more.
 struct TriangleFans {
@@ -152,6 +195,15 @@ struct Kernels {
   void (*measureTriangleFans)(const TriangleFans& fans, double added);
   /// See wrapInverted().
   StarKind (*wrapInverted)(const PlanarOffsets& planar, InvertedStar& star);
+  /// The plane through the points around each pixel, as fitFrame() has it, and the star where it is made of ring 1.
+  /// Each lane has the same bits as if it were alone.
+  void (*wrapPixels)(const PixelsAround& around, PixelStars& stars);
+  /// Over 5 x 5 and 7 x 7 pixels.
+  void (*fitSquares5)(const PixelRows& rows, SquareFits& fits);
+  void (*fitSquares7)(const PixelRows& rows, SquareFits& fits);
+  /// The lanes whose 7 x 7 values all differ from the middle by at most the lane's slope times the ring, plus the
+  /// tolerance; as bits. What is no number differs.
+  unsigned (*squaresWithin)(const PixelRows& rows, const double* slope, double tolerance);
   // NOLINTEND(readability-identifier-naming)
 };
 

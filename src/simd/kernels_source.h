@@ -1,6 +1,8 @@
 // The kernels, compiled once for each kind of processor: TUFTED_KERNELS names the table to define.
 #include "simd/connected_heights.h"
 #include "simd/kernels.h"
+#include "simd/pixel_star.h"
+#include "simd/square_fit.h"
 #include "simd/star_by_inversion.h"
 
 namespace tufted {
@@ -279,9 +281,10 @@ void measureTriangleFans(const TriangleFans& given, double added) {
 }  // namespace
 
 extern const Kernels TUFTED_KERNELS;
-const Kernels TUFTED_KERNELS = {takeWithin,         rankValues,   extent,           sumOffsets,
-                                sumHeights,         solveHeights, connectedHeights, connectedHeightsAlong,
-                                keepConnected,      findSmallest, project,          measureTriangleFans,
-                                wrapInvertedPackets};
+const Kernels TUFTED_KERNELS = {takeWithin,          rankValues,   extent,           sumOffsets,
+                                sumHeights,          solveHeights, connectedHeights, connectedHeightsAlong,
+                                keepConnected,       findSmallest, project,          measureTriangleFans,
+                                wrapInvertedPackets, wrapPixels,   fitSquares<2>,    fitSquares<3>,
+                                squaresWithin};
 
 }  // namespace tufted

@@ -21,6 +21,7 @@ constexpr int packet_size = 8, float_packet_size = 16;
 using Packet = __m512d;
 using Mask = __mmask8;  // a bit for each number
 using Part = Packet;
+using PartMask = Mask;
 constexpr int part_size = packet_size;
 
 TUFTED_INLINE Packet broadcast(double value) {
@@ -73,6 +74,10 @@ TUFTED_INLINE Mask logicalOr(Mask a, Mask b) {
 }
 TUFTED_INLINE bool any(Mask mask) {
   return mask != 0;
+}
+/// Bit i is number i's.
+TUFTED_INLINE unsigned bitsOf(Mask mask) {
+  return mask;
 }
 TUFTED_INLINE Mask none() {
   return 0;
@@ -134,6 +139,7 @@ struct Mask {
   PairMask of[pairs];
 };
 using Part = Pair;
+using PartMask = PairMask;
 constexpr int part_size = 2;
 
 template <class Result, class A, class Each>
@@ -178,6 +184,12 @@ TUFTED_INLINE Part broadcastPart(double value) {
 }
 TUFTED_INLINE PairMask isLess(Part a, Part b) {
   return a < b;
+}
+TUFTED_INLINE PairMask isAtMost(Part a, Part b) {
+  return a <= b;
+}
+TUFTED_INLINE PairMask logicalAnd(PairMask a, PairMask b) {
+  return a & b;
 }
 TUFTED_INLINE Part select(PairMask mask, Part a, Part b) {
   return mask ? a : b;

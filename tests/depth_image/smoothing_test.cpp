@@ -1,12 +1,15 @@
 // The noise of depth images, and how ranges get rid of it.
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
+#include <array>
 #include <cmath>
 
 #include "depth_image/image.h"
 #include "depth_image/pixel_frame.h"
 #include "depth_image/range_fit.h"
 #include "shapes/random.h"
+#include "simd/kernels.h"
 #include "tufted/laplacian.h"
 
 namespace tufted::smoothing_test {
@@ -51,7 +54,7 @@ TEST(InverseRangeNoise, IsNotJumps) {
 }
 
 TEST(SmoothedInverseRange, KeepsQuadraticsAndTakesTheRest) {
-  std::array<double, 49> values{};
+  std::array<double, 49 + kernel_packet> values{};
   const auto fill = [&](double cubic) {
     for (int i = -3; i <= 3; ++i)
       for (int j = -3; j <= 3; ++j)
@@ -60,12 +63,50 @@ TEST(SmoothedInverseRange, KeepsQuadraticsAndTakesTheRest) {
   };
   fill(0);
   values[24] += 0.01;  // the noise of the middle
-  const InverseRanges ranges{values.data() + 24, 7};
-  const auto smoothed = smoothedInverseRange(ranges, WindowPixels::rings(3), 0.01, 1e-6);
+  const PixelRows ranges{values.data() + 24, 7, 1};
+  const auto smoothedOf = [&](std::uint64_t around) {
+    SquareFits narrow, wide;
+    kernels().fitSquares5(ranges, narrow);
+    kernels().fitSquares7(ranges, wide);
+    return smoothedInverseRange(ranges, around, {narrow.value[0], narrow.variance[0]},
+                                {wide.value[0], wide.variance[0]}, 0.01);
+  };
+  const auto smoothed = smoothedOf(WindowPixels::rings(3));
   ASSERT_TRUE(smoothed);
   EXPECT_NEAR(smoothed->inverse, 1, 0.01 * 0.16);  // its own weight
-  EXPECT_FALSE(smoothedInverseRange(ranges, WindowPixels::rings(3), 0.01, 1e6)) << "far less than the spacing";
-  EXPECT_FALSE(smoothedInverseRange(ranges, 0xF, 0.01, 1e-6)) << "few pixels";
+  EXPECT_FALSE(smoothedOf(0xF)) << "few pixels";
+  EXPECT_TRUE(needsSmoothing(1, 0.01, 1e-6));
+  EXPECT_FALSE(needsSmoothing(1, 0.01, 1e6)) << "far less than the spacing";
+  EXPECT_FALSE(needsSmoothing(1e9, 0.01, 1e-6)) << "rounding";
+}
+
+TEST(SmoothedInverseRange, AtEdgesIsThatOfAPlane) {
+  // A plane over the left half of the window, with noise across it that no plane explains.
+  std::array<double, 49> values{};
+  std::uint64_t around = 0;
+  for (int i = 0; i < WindowPixels::count; ++i) {
+    const auto [row, column] = window_pixels.step[i];
+    if (column > 0) continue;
+    values[24 + 7 * row + column] = 2 + 0.1 * row - 0.3 * column + (row % 2 == 0 ? 1e-3 : -1e-3);
+    around |= std::uint64_t{1} << i;
+  }
+  values[24] = 2 + 1e-3;
+  const PixelRows ranges{values.data() + 24, 7, 1};
+  const auto smoothed = smoothedInverseRange(ranges, around, {}, {}, 1e-3);
+  ASSERT_TRUE(smoothed);
+  // By the normal equations of all 28 pixels.
+  Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d right = Eigen::Vector3d::Zero();
+  for (int row = -3; row <= 3; ++row) {
+    for (int column = -3; column <= 0; ++column) {
+      const Eigen::Vector3d base(1, row, column);
+      moments += base * base.transpose();
+      right += values[24 + 7 * row + column] * base;
+    }
+  }
+  EXPECT_NEAR(smoothed->inverse, moments.ldlt().solve(right)[0], 1e-14);
+  EXPECT_NEAR(smoothed->variance, moments.inverse()(0, 0) * 1e-6, 2e-7);
+  EXPECT_FALSE(smoothedInverseRange(ranges, around, {}, {}, 1e-4)) << "more than noise";
 }
 
 double distanceFrom(const Points& points, const std::function<double(int, int)>& depth) {
