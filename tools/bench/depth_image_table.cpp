@@ -8,115 +8,16 @@
 #include <string>
 #include <vector>
 
+#include "bench/depth_views.h"
 #include "bench/shape_tables.h"
-#include "shapes/random.h"
-#include "shapes/shapes.h"
 #include "tufted/denoise.h"
 #include "tufted/laplacian.h"
 
 namespace tufted::bench {
 namespace {
 
-constexpr std::uint64_t first_seed = 101, last_seed = 103;
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-constexpr double disparity = 43.1;  // pixels times metres: 575 pixels of focal length, 7.5 cm between the lenses
 constexpr double degrees = 180 / std::numbers::pi;
-
-/// What a pinhole camera of 640 x 480 pixels would see exactly.
-struct View {
-  std::string name;
-  double focal = 525;
-  int width = 640, height = 480;
-  Points points;
-  Points normals;
-  std::vector<int> bodies;
-};
-
-/// A plane through `place` with a normal, a ball around it, or a cylinder around the axis through it.
-struct Body {
-  enum class Kind { plane, ball, cylinder } kind;
-  Eigen::Vector3d place, axis;
-  double radius = 0;
-
-  /// Distance along the ray, and the normal there; nothing where they do not meet.
-  std::pair<double, Eigen::Vector3d> meet(const Eigen::Vector3d& ray) const {
-    if (kind == Kind::plane) return {place.dot(axis) / ray.dot(axis), axis};
-    Eigen::Vector3d from = -place, along = ray;
-    if (kind == Kind::cylinder) {
-      from -= from.dot(axis) * axis;
-      along -= along.dot(axis) * axis;
-    }
-    const double a = along.squaredNorm(), b = from.dot(along), c = from.squaredNorm() - radius * radius;
-    const double t = b * b > a * c ? (-b - std::sqrt(b * b - a * c)) / a : nothing;
-    return {t, (from + t * along) / radius};
-  }
-};
-
-View viewOf(const std::string& name, const std::vector<Body>& bodies) {
-  View view{.name = name, .points = {}, .normals = {}, .bodies = {}};
-  const int n = view.width * view.height;
-  view.points.setConstant(n, 3, nothing);
-  view.normals.setZero(n, 3);
-  view.bodies.assign(static_cast<std::size_t>(n), -1);
-  for (int i = 0; i < n; ++i) {
-    const Eigen::Vector3d ray((i % view.width - (view.width - 1) / 2.0) / view.focal,
-                              (i / view.width - (view.height - 1) / 2.0) / view.focal, 1);
-    double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t b = 0; b < bodies.size(); ++b) {
-      const auto [t, normal] = bodies[b].meet(ray);
-      if (!(t > 1e-6 && t < nearest)) continue;
-      nearest = t;
-      view.points.row(i) = (t * ray).transpose();
-      view.normals.row(i) = normal.transpose();
-      view.bodies[i] = static_cast<int>(b);
-    }
-  }
-  return view;
-}
-
-View roomView() {
-  const shapes::Cloud cloud = shapes::depthCamera({.depth_step = 0, .max_depth = 100, .dropouts = 0});
-  return {"room", 525, cloud.width, cloud.height, cloud.points, cloud.normals, cloud.labels};
-}
-
-std::vector<View> views() {
-  using enum Body::Kind;
-  const auto wall = [](double depth, const Eigen::Vector3d& normal) {
-    return Body{plane, {0, 0, depth}, normal.normalized()};
-  };
-  return {
-      roomView(),
-      viewOf("near: mug, ball, pole, table, wall", {{cylinder, {0, 0, 0.6}, Eigen::Vector3d::UnitY(), 0.04},
-                                                    {ball, {0.12, 0.02, 0.65}, Eigen::Vector3d::Zero(), 0.05},
-                                                    {cylinder, {-0.1, 0, 0.7}, Eigen::Vector3d::UnitY(), 0.0018},
-                                                    {plane, {0, 0.12, 0}, Eigen::Vector3d(0, -0.9, -0.3).normalized()},
-                                                    wall(0.9, {0, 0, -1})}),
-      viewOf("ball, 1.2 m", {{ball, {0, 0, 1.2}, Eigen::Vector3d::Zero(), 0.4}}),
-      viewOf("corner, 1.2 m",
-             {{plane, {0, 0.4, 0}, Eigen::Vector3d(0, -0.8, -0.6)}, wall(1.2, {-1, 0, -1}), wall(1.2, {1, 0, -1})}),
-      viewOf("slanted wall, 2.5 m", {wall(2.5, {0.5, -0.3, -0.8})}),
-      viewOf("floor to 6 m", {{plane, {0, 0.8, 0}, Eigen::Vector3d(0, -1, 0)}, wall(6, {0, 0, -1})}),
-      viewOf("wall, 4 m", {wall(4, {0.2, 0.1, -0.97})})};
-}
-
-/// Noise of a camera that measures disparities.
-struct CameraNoise {
-  std::string name;
-  double step, sigma;  ///< of the disparity, pixels
-};
-
-Points seenBy(const View& view, const CameraNoise& noise, std::uint64_t seed) {
-  shapes::Random random(seed);
-  Points points = view.points;
-  for (Eigen::Index i = 0; i < points.rows(); ++i) {
-    const double z = points(i, 2);
-    if (!std::isfinite(z)) continue;
-    double measured = disparity / z + noise.sigma * random.normal();
-    if (noise.step > 0) measured = std::round(measured / noise.step) * noise.step;
-    points.row(i) *= measured > 0 ? disparity / measured / z : nothing;
-  }
-  return points;
-}
 
 /// Whether a pixel is at least five pixels inside of its body in the image.
 bool isInside(const View& view, int i) {
@@ -211,18 +112,14 @@ void printDepthImages() {
       "| view | disparity | by | edges across jumps | area | normals off, median and 90 %% | L x in the plane | "
       "triangles "
       "from all corners |\n|---|---|---|---|---|---|---|---|\n");
-  const std::vector<CameraNoise> noises = {{"exact", 0, 0},
-                                           {"steps of 1/8 px", 0.125, 0},
-                                           {"steps of 1/8, noise .1 px", 0.125, 0.1},
-                                           {"noise .25 px", 0, 0.25}};
   for (const View& view : views()) {
     const ScanStructure structure = imageStructure(view.width, view.height);
     const Eigen::Vector3d sensor = Eigen::Vector3d::Zero();
-    for (const CameraNoise& noise : noises) {
-      const std::uint64_t last = noise.sigma > 0 ? last_seed : first_seed;
+    for (const CameraNoise& noise : camera_noises) {
+      const std::uint64_t last = noise.sigma > 0 ? last_view_seed : first_view_seed;
       for (const bool by_pixels : {false, true}) {
         Quality sum;
-        for (std::uint64_t seed = first_seed; seed <= last; ++seed) {
+        for (std::uint64_t seed = first_view_seed; seed <= last; ++seed) {
           CloudOptions options;
           options.viewpoint = &sensor;
           options.keep_cover = false;
@@ -230,7 +127,7 @@ void printDepthImages() {
           const Points points = seenBy(view, noise, seed);
           sum += measure(view, points, pointCloudLaplacian(points, options));
         }
-        const auto n = static_cast<double>(last - first_seed + 1);
+        const auto n = static_cast<double>(last - first_view_seed + 1);
         std::printf("| %s | %s | %s | %.0f | %+.1f %% | %.2f, %.2f deg | %.1e | %.1f %% |\n", view.name.c_str(),
                     noise.name.c_str(), by_pixels ? "pixels" : "tree", sum.across / n, 100 * sum.area / n,
                     sum.normal / n, sum.worst_normal / n, sum.linear / n, 100 * sum.agreed / n);
@@ -247,13 +144,13 @@ void printDenoisedImages() {
     const ScanStructure structure = imageStructure(view.width, view.height);
     for (const CameraNoise& noise : noises) {
       double raw = 0, by_tree = 0, by_pixels = 0;
-      for (std::uint64_t seed = first_seed; seed <= last_seed; ++seed) {
+      for (std::uint64_t seed = first_view_seed; seed <= last_view_seed; ++seed) {
         const Points points = seenBy(view, noise, seed);
         raw += offSurface(view, points);
         by_tree += offSurface(view, denoise(points).positions);
         by_pixels += offSurface(view, denoise(points, {.structure = &structure}).positions);
       }
-      const double scale = 1000.0 / static_cast<double>(last_seed - first_seed + 1);
+      const double scale = 1000.0 / static_cast<double>(last_view_seed - first_view_seed + 1);
       std::printf("| %s | %s | %.2f | %.2f | %.2f |\n", view.name.c_str(), noise.name.c_str(), scale * raw,
                   scale * by_tree, scale * by_pixels);
       std::fflush(stdout);

@@ -11,6 +11,7 @@ void printSmoothing();        ///< a noisy sphere
 void printNoise();            ///< points moved out of noise
 void printDepthImages();      ///< depth images by their pixels and by the tree
 void printDenoisedImages();   ///< denoise() of the same views
+void printDepthSpectra();     ///< eigenvalues of one of them
 void printDepthImageSpeed();  ///< what they cost
 void printHandles();          ///< edits of well and of badly triangulated solids, and of boolean results
 

@@ -1,0 +1,96 @@
+// Eigenvalues of a ball that a depth camera sees from one side.
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <numbers>
+#include <vector>
+
+#include "bench/depth_views.h"
+#include "bench/shape_tables.h"
+#include "tufted/laplacian.h"
+#include "tufted/spectrum.h"
+
+namespace tufted::bench {
+namespace {
+
+constexpr int wanted = 20;  // eigenvalues above 0
+/// Of the part that is looked at, from the point of the ball that is nearest to the camera. Up to here the surface is
+/// seen at less than 72 degrees, so that its rim is known to a pixel.
+constexpr double angle = 52 * std::numbers::pi / 180;
+
+/// Eigenvalues of the unit sphere's Laplacian on the cap, without flow through its rim: for each order m along the
+/// circles of latitude those of an equation in the polar angle, by linear finite elements.
+std::vector<double> eigenvaluesOfCap() {
+  constexpr int nodes = 400, most_order = 12;
+  const double step = angle / (nodes - 1);
+  std::vector<double> eigenvalues;
+  for (int order = 0; order <= most_order; ++order) {
+    Eigen::MatrixXd stiffness = Eigen::MatrixXd::Zero(nodes, nodes), mass = stiffness;
+    for (int e = 0; e + 1 < nodes; ++e) {
+      for (const double at : {0.5 - 0.5 / std::numbers::sqrt3, 0.5 + 0.5 / std::numbers::sqrt3}) {
+        const double sine = std::sin((e + at) * step), weight = step / 2;
+        const Eigen::Vector2d value(1 - at, at), slope(-1 / step, 1 / step);
+        stiffness.block<2, 2>(e, e) +=
+            weight * (sine * slope * slope.transpose() + order * order / sine * value * value.transpose());
+        mass.block<2, 2>(e, e) += weight * sine * value * value.transpose();
+      }
+    }
+    const Eigen::GeneralizedSelfAdjointEigenSolver<Eigen::MatrixXd> solver(stiffness, mass, Eigen::EigenvaluesOnly);
+    for (int i = 0; i < wanted; ++i)
+      for (int copy = 0; copy < (order == 0 ? 1 : 2); ++copy) eigenvalues.push_back(solver.eigenvalues()[i]);
+  }
+  std::sort(eigenvalues.begin(), eigenvalues.end());
+  return {eigenvalues.begin() + 1, eigenvalues.begin() + 1 + wanted};
+}
+
+/// The largest relative error of the eigenvalues, and the mean one with its sign.
+struct Errors {
+  double largest = 0, mean = 0;
+};
+
+Errors errorsOf(const Points& points, const CloudOptions& options, const std::vector<double>& truth) {
+  const Spectrum found = spectrum(pointCloudLaplacian(points, options), wanted + 1);
+  Errors errors;
+  for (int i = 0; i < wanted; ++i) {
+    const double error = found.values[i + 1] * ball_radius * ball_radius / truth[i] - 1;
+    errors.largest = std::max(errors.largest, std::abs(error));
+    errors.mean += error / wanted;
+  }
+  return errors;
+}
+
+}  // namespace
+
+void printDepthSpectra() {
+  std::printf("| disparity | eigenvalues of the cap, by the tree: largest error, mean | by pixels |\n|---|---|---|\n");
+  const View view = ballView();
+  const ScanStructure structure = imageStructure(view.width, view.height);
+  const std::vector<double> truth = eigenvaluesOfCap();
+  const Eigen::RowVector3d middle(0, 0, ball_depth);
+  for (const CameraNoise& noise : camera_noises) {
+    Errors errors[2];
+    const std::uint64_t last_seed = noise.sigma > 0 ? last_view_seed : first_view_seed;
+    const auto runs = static_cast<double>(last_seed - first_view_seed + 1);
+    for (std::uint64_t seed = first_view_seed; seed <= last_seed; ++seed) {
+      Points points = seenBy(view, noise, seed);
+      for (Eigen::Index i = 0; i < points.rows(); ++i)
+        if (!((middle - view.points.row(i)).z() > ball_radius * std::cos(angle)))
+          points.row(i).setConstant(std::numeric_limits<double>::quiet_NaN());
+      for (const bool by_pixels : {false, true}) {
+        CloudOptions options;
+        options.keep_cover = false;
+        if (by_pixels) options.structure = &structure;
+        const Errors here = errorsOf(points, options, truth);
+        errors[by_pixels ? 1 : 0].largest += here.largest / runs;
+        errors[by_pixels ? 1 : 0].mean += here.mean / runs;
+      }
+    }
+    std::printf("| %s | %.2f %%, %+.2f %% | %.2f %%, %+.2f %% |\n", noise.name.c_str(), 100 * errors[0].largest,
+                100 * errors[0].mean, 100 * errors[1].largest, 100 * errors[1].mean);
+    std::fflush(stdout);
+  }
+}
+
+}  // namespace tufted::bench

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "tufted/laplacian.h"
+
+// Depth images whose surfaces are known.
+
+namespace tufted::bench {
+
+constexpr std::uint64_t first_view_seed = 101, last_view_seed = 103;  // of the noise
+
+/// What a pinhole camera of 640 x 480 pixels would see exactly.
+struct View {
+  std::string name;
+  double focal = 525;
+  int width = 640, height = 480;
+  Points points;
+  Points normals;
+  std::vector<int> bodies;
+};
+
+/// A room, things on a table, a ball, a corner, walls and a floor.
+std::vector<View> views();
+
+/// The ball of views().
+View ballView();
+constexpr double ball_depth = 1.2, ball_radius = 0.4;  // m
+
+/// Noise of a camera that measures disparities.
+struct CameraNoise {
+  std::string name;
+  double step, sigma;  ///< of the disparity, pixels
+};
+
+inline const std::vector<CameraNoise> camera_noises = {{"exact", 0, 0},
+                                                       {"steps of 1/8 px", 0.125, 0},
+                                                       {"steps of 1/8, noise .1 px", 0.125, 0.1},
+                                                       {"noise .25 px", 0, 0.25}};
+
+/// The points of a view as a camera with such noise has them.
+Points seenBy(const View& view, const CameraNoise& noise, std::uint64_t seed);
+
+}  // namespace tufted::bench
