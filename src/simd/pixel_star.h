@@ -7,9 +7,8 @@
 namespace tufted {
 namespace {
 
-constexpr double least_sine = 1e-6;  // between how positions change with rows and with columns
-constexpr double next_ring =
-    3.0 / 2;  // times the distance of ring 2 is that of ring 3, as in isCertain() of image_stars.cpp
+constexpr double least_sine = 1e-6;    // between how positions change with rows and with columns
+constexpr double next_ring = 3.0 / 2;  // times the distance of ring 2; as in isCertain() of image_stars.cpp
 constexpr int corners = pixels_beside / 2;
 
 struct VectorPart {
