@@ -34,13 +34,6 @@ BuiltStars starsOf(const Image& image, const CloudOptions& options, Report& repo
   return buildImageStars(image.view(), {}, options, Workers(2, silent), report);
 }
 
-/// The link vertices from the smallest rank on.
-std::vector<int> turned(const Stars& stars, int p) {
-  std::vector<int> link(stars.link.begin() + stars.offset[p], stars.link.begin() + stars.offset[p + 1]);
-  std::rotate(link.begin(), std::min_element(link.begin(), link.end()), link.end());
-  return link;
-}
-
 TEST(ImageStars, RunCounterclockwiseAndKnowTheCirclesOfTheirTriangles) {
   for (const bool is_mirrored : {false, true}) {
     const Image image(scene(is_mirrored));
@@ -72,6 +65,13 @@ TEST(ImageStars, RunCounterclockwiseAndKnowTheCirclesOfTheirTriangles) {
 }
 
 #ifdef TUFTED_WITH_GPL
+/// The link vertices from the smallest rank on.
+std::vector<int> turned(const Stars& stars, int p) {
+  std::vector<int> link(stars.link.begin() + stars.offset[p], stars.link.begin() + stars.offset[p + 1]);
+  std::rotate(link.begin(), std::min_element(link.begin(), link.end()), link.end());
+  return link;
+}
+
 TEST(ImageStars, AreThoseOfCgal) {
   for (const bool smooths : {false, true}) {
     const Image image(scene(false), smooths ? 1e-3 : 0, smooths);
