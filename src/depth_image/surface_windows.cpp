@@ -217,7 +217,7 @@ class WindowFinder {
     }
   }
 
-  /// Of a pixel and those beside it that are joined with it, in inverse range.
+  /// The squared spacing, in inverse range, between a pixel and those beside it that are joined with it.
   static double spacingSquared(int pixel, std::uint64_t beside, const Tile& tile) {
     double across = 0;
     forEachPixel(beside, [&](int i) {

@@ -2,9 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/QR>
-#include <algorithm>
-#include <bit>
+#include <array>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 #include "depth_image/smoothed_ranges.h"
 #include "depth_image/window_pixels.h"

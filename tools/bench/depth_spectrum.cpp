@@ -16,7 +16,7 @@ namespace tufted::bench {
 namespace {
 
 constexpr int wanted = 20;  // eigenvalues above 0
-/// Of the part that is looked at, from the point of the ball that is nearest to the camera. Up to here the surface is
+/// The polar angle of the rim of the cap, counted from the point of the ball that is nearest to the camera. The cap is
 /// seen at less than 72 degrees, so that its rim is known to a pixel.
 constexpr double angle = 52 * std::numbers::pi / 180;
 
