@@ -320,12 +320,11 @@ TEST_P(ValidateFolder, NothingFails) {
 }
 
 std::string folderName(const testing::TestParamInfo<const char*>& info) {
-  const char* const names[] = {"Samples", "RealData", "CgalSamples"};
+  const char* const names[] = {"Samples", "RealData"};
   return names[info.index];
 }
 
-INSTANTIATE_TEST_SUITE_P(All, ValidateFolder,
-                         testing::Values(TUFTED_SAMPLES_DIR, TUFTED_DATA_DIR, TUFTED_CGAL_DATA_DIR), folderName);
+INSTANTIATE_TEST_SUITE_P(All, ValidateFolder, testing::Values(TUFTED_SAMPLES_DIR, TUFTED_DATA_DIR), folderName);
 
 }  // namespace
 }  // namespace validate_test

@@ -18,8 +18,10 @@ using testing::ValuesIn;
 
 #ifdef TUFTED_SANITIZED
 constexpr int point_count = 200;  // 1500 take minutes there
+constexpr bool is_sanitized = true;
 #else
 constexpr int point_count = 1500;
+constexpr bool is_sanitized = false;
 #endif
 
 const std::vector<shapes::Cloud>& clouds() {
@@ -49,6 +51,7 @@ class GuaranteesOfCloud : public testing::TestWithParam<const shapes::Cloud*> {
 TEST_P(GuaranteesOfCloud, InAnyGluingAndOrder) {
   for (const Gluing gluing : {Gluing::star, Gluing::vertex_pair}) {
     for (const FaceOrder order : face_orders) {
+      if (is_sanitized && gluing == Gluing::vertex_pair && order != FaceOrder::angle) continue;
       SCOPED_TRACE(std::to_string(static_cast<int>(gluing)) + " " + std::to_string(static_cast<int>(order)));
       const CloudOptions options{.gluing = gluing, .order = order, .seed = 3};
       EXPECT_THAT(brokenGuarantees(pointCloudLaplacian(points(), options), points()), IsEmpty());

@@ -108,7 +108,7 @@ std::string testName(const testing::TestParamInfo<const char*>& info) {
   return info.param;
 }
 
-INSTANTIATE_TEST_SUITE_P(Scans, RealClouds, testing::Values("office1", "mosd_learn1", "cturtle"), testName);
+INSTANTIATE_TEST_SUITE_P(Scans, RealClouds, testing::Values("office1", "cturtle"), testName);
 
 }  // namespace
 }  // namespace tufted::real_clouds_test

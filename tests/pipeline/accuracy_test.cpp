@@ -26,10 +26,6 @@ TEST_P(SphereSpectrum, Of16kRandomPointsIsWithin3Permille) {
   for (const Preset preset : presets) EXPECT_LE(spectrumError(points, cloudOptions(preset)), 3.0e-3);
 }
 
-TEST_P(SphereSpectrum, Of64kRandomPointsIsWithin08Permille) {
-  EXPECT_LE(spectrumError(shapes::sphere(64000, shapes::Sampling::uniform, GetParam()).points), 8e-4);
-}
-
 TEST_P(SphereSpectrum, StaysFivePercentOffWithThePapersOwnGluing) {
   const Points points = shapes::sphere(16000, shapes::Sampling::uniform, GetParam()).points;
   const double error = spectrumError(points, {.gluing = Gluing::vertex_pair});

@@ -9,6 +9,7 @@ import time
 from browser import browser, pixels_of
 
 side = 101  # points along the sides of the squares
+SIZE = [800, 600]  # of the window: a processor draws each pixel
 GREY = [150, 150, 150]
 
 
@@ -196,7 +197,7 @@ def test_touch_on_a_phone(page, dir):
     assert page.run(is_folded)
     page.run("document.getElementById('fold').click()")
     assert not page.run(is_folded)
-    page.resize(1280, 800)
+    page.resize(*SIZE)
 
 
 def test_a_logarithmic_scale_and_names(page, dir):
@@ -348,7 +349,7 @@ if __name__ == "__main__":
         for name, test in list(globals().items()):
             if not name.startswith("test_") or (only and name not in only):
                 continue
-            page.resize(1280, 800)
+            page.resize(*SIZE)
             page.prefer("light")
             try:
                 test(page, pages)
