@@ -1,8 +1,6 @@
 // Eigenpairs where most of the space is wanted, by both methods, against dense matrices; and pairs that nothing finds.
 #include <gtest/gtest.h>
 
-#include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -21,7 +19,6 @@ namespace {
 
 using Eigen::Index;
 using Eigen::MatrixXd;
-using LongMatrixXd = Eigen::Matrix<long double, Eigen::Dynamic, Eigen::Dynamic>;
 
 enum class Kind { cloud, clean_cloud, mesh };
 constexpr Kind kinds[] = {Kind::cloud, Kind::clean_cloud, Kind::mesh};
@@ -43,27 +40,6 @@ Laplacian spheres(Kind kind, int parts, int n, std::uint64_t seed) {
   return pointCloudLaplacian(points, cloudOptions(kind == Kind::cloud ? Preset::scan : Preset::clean));
 }
 
-std::vector<int> pointsWhere(const Laplacian& laplacian, bool with_mass) {
-  std::vector<int> points;
-  for (int i = 0; i < laplacian.M.size(); ++i)
-    if (laplacian.status[i] == PointStatus::active && (laplacian.M[i] > 0) == with_mass) points.push_back(i);
-  return points;
-}
-
-/// All eigenvalues by dense matrices, ascending; points without mass are eliminated.
-template <class Matrix>
-Eigen::Matrix<typename Matrix::Scalar, Eigen::Dynamic, 1> denseEigenvalues(const Laplacian& laplacian) {
-  using Scalar = typename Matrix::Scalar;
-  const std::vector<int> points = pointsWhere(laplacian, true), massless = pointsWhere(laplacian, false);
-  const Matrix L = MatrixXd(laplacian.L).cast<Scalar>();
-  Matrix S = L(points, points);
-  if (!massless.empty())
-    S -= L(points, massless) * Eigen::LLT<Matrix>(Matrix(L(massless, massless))).solve(Matrix(L(massless, points)));
-  const auto scale = laplacian.M(points).template cast<Scalar>().cwiseSqrt().cwiseInverse().eval();
-  S = scale.asDiagonal() * S * scale.asDiagonal();
-  return Eigen::SelfAdjointEigenSolver<Matrix>(S, Eigen::EigenvaluesOnly).eigenvalues();
-}
-
 /// The residuals are measured here once more.
 void expectPairs(const Laplacian& laplacian, const Spectrum& found, const VectorXd& expected, const std::string& name) {
   const Index k = found.values.size();
@@ -83,7 +59,7 @@ void expectPairs(const Laplacian& laplacian, const Spectrum& found, const Vector
 }
 
 void expectMostOf(const Laplacian& laplacian, const std::vector<int>& dense_limits, const std::string& name) {
-  const VectorXd expected = denseEigenvalues<MatrixXd>(laplacian);
+  const VectorXd expected = oracles::denseEigenvalues(laplacian.L, laplacian.M);
   const int n = static_cast<int>(expected.size());
   for (const int k : {n / 2, 2 * n / 3, n - 1}) {
     for (const int dense_limit : dense_limits) {
@@ -141,7 +117,7 @@ TEST(SpectrumOfMost, IsExactWhereMassesAreUnevenOrNone) {
       shapes::Random random(seed);
       for (double& mass : laplacian.M) mass *= std::pow(10, -decades * random.uniform());
       for (const int i : {3, 4, 50, 119}) laplacian.M[i] = 0;
-      const VectorXd expected = denseEigenvalues<LongMatrixXd>(laplacian).cast<double>();
+      const VectorXd expected = oracles::denseEigenvalues(laplacian.L, laplacian.M, oracles::Precision::extended);
       for (const int k : {10, 60, 115}) {
         for (const int dense_limit : {by_default, 0}) {
           // The search loses two digits more, for it knows the smallest eigenvalues of an inverse by its largest alone.

@@ -48,7 +48,8 @@ double errorOnSphere(int n) {
     const Eigen::Vector3d end = points.row(i);
     if (angleBetween(start, end) > 2.5) continue;
     const Eigen::Vector3d tangent = found.row(i) - found.row(i).dot(end) * end.transpose();
-    sum += angleBetween(Eigen::Quaterniond::FromTwoVectors(start, end) * vector, tangent);
+    const Eigen::AngleAxisd turn(angleBetween(start, end), start.cross(end).normalized());
+    sum += angleBetween(turn * vector, tangent);
     ++count;
     EXPECT_NEAR(found.row(i).norm(), 1, 0.01);
   }

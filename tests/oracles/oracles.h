@@ -30,6 +30,11 @@ struct Spectrum {
 Spectrum smallestEigenpairs(const SparseMatrix& L, const VectorXd& M, int k);
 VectorXd smallestEigenvalues(const SparseMatrix& L, const VectorXd& M, int k);
 
+enum class Precision { usual, extended };
+/// All eigenvalues of L x = lambda M x by dense matrices of doubles or of long doubles, ascending. Points without mass
+/// are eliminated; rows with L = 0 and M = 0 do not take part.
+VectorXd denseEigenvalues(const SparseMatrix& L, const VectorXd& M, Precision precision = Precision::usual);
+
 /// Mean of |computed - analytic| / analytic over the first min(sizes) values, analytic zeros left out.
 double meanRelativeError(const VectorXd& computed, const VectorXd& analytic);
 
