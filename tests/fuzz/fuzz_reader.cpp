@@ -1,15 +1,18 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <string>
 #include <string_view>
 
 #include "tufted/errors.h"
 #include "tufted/io/read.h"
 
 // Any bytes at all are either read or refused with an IoError that is one line and begins with the path.
-// TUFTED_FUZZ_NAME is the name the reader goes by, "fuzz.pcd" say; without extension the format goes by the content.
+// With --format=pcd the reader goes by that extension, without by the content.
 
 namespace {
+
+std::string name = "fuzz";  ///< of the file that the bytes come from
 
 void require(bool condition) {
   if (!condition) std::abort();
@@ -46,15 +49,25 @@ void checkGeometry(const tufted::Geometry& geometry) {
 
 }  // namespace
 
+/// libFuzzer leaves options that begin with two dashes to the target.
+extern "C" int LLVMFuzzerInitialize(int* count, char*** arguments) {
+  constexpr std::string_view option = "--format=";
+  for (int i = 1; i < *count; ++i) {
+    const std::string_view argument = (*arguments)[i];
+    if (argument.starts_with(option)) name.append(".").append(argument.substr(option.size()));
+  }
+  return 0;
+}
+
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
-    tufted::Geometry geometry = tufted::parse({reinterpret_cast<const char*>(data), size}, TUFTED_FUZZ_NAME);
+    tufted::Geometry geometry = tufted::parse({reinterpret_cast<const char*>(data), size}, name);
     checkGeometry(geometry);
     tufted::weld(geometry);
     checkGeometry(geometry);
   } catch (const tufted::IoError& error) {
     const std::string_view message = error.what();
-    require(message.starts_with(TUFTED_FUZZ_NAME ": "));
+    require(message.starts_with(name + ": "));
     require(message.find('\n') == std::string_view::npos);
   }
   return 0;
