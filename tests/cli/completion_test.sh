@@ -26,6 +26,7 @@ expect() {
 
 expect lap -- laplacian
 expect h -- help hks
+expect sig -- signed-distance
 expect help spec -- spectrum
 expect --v -- --version
 expect laplacian --pres -- --preset

@@ -4,7 +4,7 @@ _tufted() {
   local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} help
   COMPREPLY=()
   if ((COMP_CWORD == 1)) || [[ $COMP_CWORD == 2 && $before == help ]]; then
-    help=$("${COMP_WORDS[0]}" --help 2>/dev/null | sed -n '/^Options:/,/^$/d; /^Examples:/q; s/^  \([a-z]\{1,\}\) .*/\1/p')
+    help=$("${COMP_WORDS[0]}" --help 2>/dev/null | sed -n '/^Options:/,/^$/d; /^Examples:/q; s/^  \([a-z-]\{1,\}\) .*/\1/p')
     mapfile -t COMPREPLY < <(compgen -W "$help help --help --version" -- "$word")
     return
   fi
