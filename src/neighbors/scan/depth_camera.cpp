@@ -28,7 +28,8 @@ std::vector<Sighting> takeSightings(const Points& points, int width, int height,
   for (std::int64_t i = 0; i < points.rows(); i += stride) {
     const Eigen::Vector3d ray = points.row(i).transpose() - origin;
     if (!ray.allFinite() || ray.isZero(0)) continue;
-    const auto column = static_cast<double>(i % width), row = static_cast<double>(i / width);
+    const std::int64_t above = i / width;
+    const auto column = static_cast<double>(i % width), row = static_cast<double>(above);
     sightings.push_back({{2 * column / (width - 1) - 1, 2 * row / (height - 1) - 1}, ray.stableNormalized()});
   }
   return sightings;
