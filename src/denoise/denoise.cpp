@@ -34,9 +34,9 @@ void check(const PointsRef& points, const DenoiseOptions& options) {
 
 /// Moves the points of `denoised`, which are the caller's.
 /// @param moves n x 3, or 0 x 3 where none moves
-/// @param noiseOf(p) standard deviation around a point that moves
-template <class NoiseOf>
-void apply(const PointBuffer& moves, const NoiseOf& noiseOf, const RankedCloud& cloud, DenoisedPoints& denoised) {
+/// @param deviation(p) standard deviation around a point that moves
+template <class Deviation>
+void apply(const PointBuffer& moves, const Deviation& deviation, const RankedCloud& cloud, DenoisedPoints& denoised) {
   const PowerOfTwo unit(cloud.exponent);
   DenoiseReport& report = denoised.report;
   Buffer<double> noise;
@@ -46,7 +46,7 @@ void apply(const PointBuffer& moves, const NoiseOf& noiseOf, const RankedCloud& 
     if (move.isZero(0)) continue;
     const int i = cloud.input_index[p];
     for (int axis = 0; axis < 3; ++axis) unit.addTo(denoised.positions(i, axis), move[axis]);
-    denoised.noise[i] = unit.times(noiseOf(p));
+    denoised.noise[i] = unit.times(deviation(p));
     noise.push_back(denoised.noise[i]);
     const double length = unit.times(move.norm());
     way += length;

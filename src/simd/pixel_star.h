@@ -109,7 +109,7 @@ TUFTED_INLINE InvertedPixels invertPixels(const VectorPart* offset, const PlaneO
   }
   inverted.is_in_range = logicalAnd(isLess(least, nearest), isLess(furthest, most));
 
-  // The same variances and the same radius as frameOf() of pixel_frame.cpp finds for one point.
+  // frameOf() of pixel_frame.cpp computes the same variances and the same radius for one point.
   const Part share = broadcastPart(1.0 / (pixels_around + 1)), half = broadcastPart(0.5);
   const Part difference = half * (uu - vv), mean = h1 * share;
   store(hh * share - mean * mean, stars.height_variance + part);

@@ -67,9 +67,9 @@ class StarWrapping {
 void makeRoom(int n, BuiltStars& built);
 
 /// Puts memory.star, times `unit`, into memory.block, and whether it ends into `stars`.
-/// @param isUsable(a, b) whether a triangle with link vertices a and b may stay
-template <class IsUsable>
-void storeStar(int p, double unit, const IsUsable& isUsable, StarMemory& memory, Stars& stars) {
+/// @param keeps(a, b) whether a triangle with link vertices a and b may stay
+template <class Keeps>
+void storeStar(int p, double unit, const Keeps& keeps, StarMemory& memory, Stars& stars) {
   const DelaunayStar& star = memory.star;
   memory.open_stars += star.closed ? 0 : 1;
   stars.ends[p] = star.closed ? 0 : 1;
@@ -78,7 +78,7 @@ void storeStar(int p, double unit, const IsUsable& isUsable, StarMemory& memory,
     memory.block.link.push_back(star.link[i].index);
     const bool is_triangle = i < star.triangles();
     const bool is_usable =
-        is_triangle && std::isfinite(star.radius[i]) && isUsable(star.link[i].index, star.after(i).index);
+        is_triangle && std::isfinite(star.radius[i]) && keeps(star.link[i].index, star.after(i).index);
     memory.block.radius.push_back(is_usable ? star.radius[i] * unit : 0);
     memory.block.triangle.push_back(is_usable ? 1 : 0);
     if (is_triangle && !is_usable) {

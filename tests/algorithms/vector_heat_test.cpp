@@ -46,9 +46,10 @@ double errorOnSphere(int n) {
   int count = 0;
   for (int i = 0; i < n; ++i) {
     const Eigen::Vector3d end = points.row(i);
-    if (angleBetween(start, end) > 2.5) continue;
+    const double angle = angleBetween(start, end);
+    if (angle > 2.5) continue;
     const Eigen::Vector3d tangent = found.row(i) - found.row(i).dot(end) * end.transpose();
-    const Eigen::AngleAxisd turn(angleBetween(start, end), start.cross(end).normalized());
+    const Eigen::AngleAxisd turn(angle, start.cross(end).normalized());
     sum += angleBetween(turn * vector, tangent);
     ++count;
     EXPECT_NEAR(found.row(i).norm(), 1, 0.01);

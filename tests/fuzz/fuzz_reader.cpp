@@ -12,7 +12,7 @@
 
 namespace {
 
-std::string name = "fuzz";  ///< of the file that the bytes come from
+std::string name = "fuzz";  ///< the reader takes the bytes for a file of this name
 
 void require(bool condition) {
   if (!condition) std::abort();

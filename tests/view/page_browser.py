@@ -9,7 +9,7 @@ import time
 from browser import browser, pixels_of
 
 side = 101  # points along the sides of the squares
-SIZE = [800, 600]  # of the window: a processor draws each pixel
+SIZE = [800, 600]  # of the window, in pixels; small, as a processor draws them
 GREY = [150, 150, 150]
 
 
