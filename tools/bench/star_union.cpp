@@ -4,9 +4,9 @@
 #include <stdexcept>
 #include <string>
 
+#include "base/stage_clock.h"
 #include "neighbors/morton.h"
-#include "neighbors/neighbor_source.h"
-#include "stars/surface_stars.h"
+#include "pipeline/cloud_surface.h"
 
 namespace tufted::bench {
 
@@ -16,8 +16,9 @@ Triangles unionOfStars(const Points& points, const CloudOptions& options, const 
   std::vector<int> representative;
   Report report;
   const RankedCloud cloud = rankPoints(points, status, representative);
-  const NeighborSource source = neighborSource(options, cloud, status, representative, workers, report);
-  const Stars stars = surfaceStars(cloud, source, options, workers, report).stars;
+  StageClock clock(report);
+  const Stars stars =
+      findSurface(cloud, options, options.viewpoint, status, representative, workers, clock, report).built.stars;
 
   Triangles triangles(laplacian.report.triangles, 3);
   Eigen::Index count = 0;
