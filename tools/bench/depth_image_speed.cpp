@@ -1,9 +1,11 @@
-// What the build of a depth image costs, stage by stage, beside the tree's and PCL's normals.
+// What the build of a depth image or of the rings of a scanner costs, stage by stage, beside the tree's and PCL's
+// normals.
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "base/stage_clock.h"
@@ -16,13 +18,22 @@
 namespace tufted::bench {
 namespace {
 
-constexpr int frames = 5;
+constexpr int frames = 9;
 
 struct Image {
   std::string name;
   Points points;
   int width, height;
+  bool has_rings = false;
 
+  /// The preset for what the scan's structure is used with.
+  Preset preset() const { return has_rings ? Preset::lidar : Preset::scan; }
+  ScanStructure structure() const {
+    if (!has_rings) return imageStructure(width, height);
+    std::vector<int> ring;
+    for (int i = 0; i < width * height; ++i) ring.push_back(i / width);
+    return ringStructure(points, std::move(ring));
+  }
   double finite() const { return static_cast<double>((points.rowwise().sum().array().isFinite()).count()); }
 };
 
@@ -37,6 +48,10 @@ std::vector<Image> images() {
   }
   const shapes::Cloud camera = shapes::depthCamera({}, 101);
   images.push_back({"simulated room", camera.points, camera.width, camera.height});
+  for (const int rings : {16, 64}) {
+    const shapes::Cloud room = shapes::lidar({.rings = rings, .azimuth_step = 0.2, .noise = 0.02}, 101);
+    images.push_back({"room, " + std::to_string(rings) + " rings", room.points, room.width, room.height, true});
+  }
   return images;
 }
 
@@ -46,12 +61,12 @@ struct Frame {
   double seconds = HUGE_VAL;
 };
 
-Frame fastestFrame(const Image& image, bool by_pixels, int threads) {
-  const ScanStructure structure = imageStructure(image.width, image.height);
-  CloudOptions options;
+Frame fastestFrame(const Image& image, bool by_structure, int threads) {
+  const ScanStructure structure = image.structure();
+  CloudOptions options = by_structure ? cloudOptions(image.preset()) : CloudOptions();
   options.threads = threads;
   options.keep_cover = false;
-  if (by_pixels) options.structure = &structure;
+  if (by_structure) options.structure = &structure;
   LaplacianBuilder builder;
   Frame fastest;
   for (int i = 0; i < frames; ++i) {
@@ -72,12 +87,13 @@ void printDepthImageSpeed() {
   for (const Image& image : images()) {
     const double us = 1e6 / image.finite();
 #ifdef TUFTED_BENCH_PCL
-    const NormalSeconds pcl = pclNormalSeconds(image.points, image.width, image.height);
+    const NormalSeconds pcl = image.has_rings ? pclNormalSeconds(image.points, image.width * image.height, 1)
+                                              : pclNormalSeconds(image.points, image.width, image.height);
 #else
     const NormalSeconds pcl{NAN, NAN};
 #endif
-    for (const bool by_pixels : {false, true}) {
-      const Frame one = fastestFrame(image, by_pixels, 1), two = fastestFrame(image, by_pixels, 2);
+    for (const bool by_structure : {false, true}) {
+      const Frame one = fastestFrame(image, by_structure, 1), two = fastestFrame(image, by_structure, 2);
       std::string stages;
       for (const StageCost& stage : one.report.stages) {
         char text[80];
@@ -86,8 +102,11 @@ void printDepthImageSpeed() {
         if (us * stage.seconds >= 0.005) stages += text;
       }
       std::printf("| %s, %.0f | %s | %s | %.2f | %.1f, %.1f | %.2f, %.2f |\n", image.name.c_str(), image.finite(),
-                  by_pixels ? "pixels" : "tree", stages.c_str(), us * one.seconds, 1 / one.seconds, 1 / two.seconds,
-                  us * pcl.by_neighbors, us * pcl.by_integrals);
+                  !by_structure     ? "tree"
+                  : image.has_rings ? "rings"
+                                    : "pixels",
+                  stages.c_str(), us * one.seconds, 1 / one.seconds, 1 / two.seconds, us * pcl.by_neighbors,
+                  us * pcl.by_integrals);
       std::fflush(stdout);
     }
   }

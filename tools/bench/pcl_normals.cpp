@@ -5,7 +5,7 @@
 #include <pcl/point_types.h>
 #include <pcl/search/kdtree.h>
 
-#include <algorithm>
+#include <cmath>
 
 #include "base/stage_clock.h"
 
@@ -22,13 +22,15 @@ NormalSeconds pclNormalSeconds(const Points& points, int width, int height) {
   cloud->height = static_cast<std::uint32_t>(height);
   cloud->is_dense = false;
   pcl::PointCloud<pcl::Normal> normals;
-  NormalSeconds seconds{};
+  NormalSeconds seconds{NAN, NAN};
   Stopwatch watch;
-  pcl::IntegralImageNormalEstimation<pcl::PointXYZ, pcl::Normal> by_integrals;
-  by_integrals.setNormalEstimationMethod(by_integrals.AVERAGE_3D_GRADIENT);
-  by_integrals.setInputCloud(cloud);
-  by_integrals.compute(normals);
-  seconds.by_integrals = watch.restart();
+  if (height > 1) {
+    pcl::IntegralImageNormalEstimation<pcl::PointXYZ, pcl::Normal> by_integrals;
+    by_integrals.setNormalEstimationMethod(by_integrals.AVERAGE_3D_GRADIENT);
+    by_integrals.setInputCloud(cloud);
+    by_integrals.compute(normals);
+    seconds.by_integrals = watch.restart();
+  }
 
   pcl::NormalEstimation<pcl::PointXYZ, pcl::Normal> by_neighbors;
   by_neighbors.setInputCloud(cloud);

@@ -4,10 +4,10 @@
 
 namespace tufted::bench {
 
-/// Seconds that PCL takes on one thread for the normals of an organized cloud.
+/// Seconds that PCL takes on one thread for the normals of a cloud.
 struct NormalSeconds {
   double by_neighbors;  ///< pcl::NormalEstimation with 30 neighbours
-  double by_integrals;  ///< pcl::IntegralImageNormalEstimation, average of 3D gradients
+  double by_integrals;  ///< pcl::IntegralImageNormalEstimation, average of 3D gradients; NaN without rows
 };
 
 /// @param points width x height rows
