@@ -40,6 +40,7 @@ class ImageStarBuilder {
         normals_(normals),
         wrapping_(options.delaunay),
         by_packets_(normals.rows() == 0 && options.delaunay == Delaunay::star),
+        most_rings_of_star_(image.windows.moved == 0 ? most_certain_rings : WindowPixels::reach),
         stars_(built.stars),
         support_(built.support) {
     for (int i = 0; i < pixels_around; ++i)
@@ -160,16 +161,15 @@ class ImageStarBuilder {
     }
   }
 
-  /// The star among the points of the window, and of wider ones until no point beyond can change it. Where ranges are
-  /// noise, so are points far away, and the window of SurfaceWindows is the widest.
+  /// The star among the points of the window, and of wider ones until no point beyond can change it. Where the ranges
+  /// of an image are noise, so are points far away, and the window of SurfaceWindows is the widest.
   void findStar(int p, const PixelFrame& frame, double unit, WorkerState& state) const {
     PixelWindow& window = state.window;
     const DelaunayStar& star = state.memory.star;
     for (int rings = window.rings();; ++state.grown_stars) {
       wrapping_.wrap(p, frame.normal, unit, window.offsets(), window.neighbors(), state.memory);
       if (star.closed && isCertain(star, window, unit)) break;
-      const bool is_exact = star.closed && !image_.isMoved(p);
-      if (widened(rings) > (is_exact ? most_certain_rings : WindowPixels::reach)) break;
+      if (widened(rings) > (star.closed ? most_rings_of_star_ : WindowPixels::reach)) break;
       widen(p, rings, window);
     }
   }
@@ -194,6 +194,7 @@ class ImageStarBuilder {
   const PointBuffer& normals_;
   StarWrapping wrapping_;
   bool by_packets_;                                    ///< whole windows, eight at once
+  int most_rings_of_star_;                             ///< of the window of a closed one
   std::array<std::ptrdiff_t, pixels_around> shift_{};  ///< in the image
   Stars& stars_;
   StarSupport& support_;

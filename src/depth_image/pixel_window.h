@@ -21,7 +21,6 @@ struct DepthImage {
   const SurfaceWindows& windows;
   JumpTest test;
 
-  bool isMoved(int p) const { return windows.displacement.rows() > 0 && !windows.displacement.row(p).isZero(0); }
   bool isOneSurface(int a, int b, double most = JumpTest::steepest) const {
     const double *const p = points.data() + 3 * std::ptrdiff_t{a}, *const q = points.data() + 3 * std::ptrdiff_t{b};
     const double x = p[0] - q[0], y = p[1] - q[1], z = p[2] - q[2];
