@@ -22,29 +22,39 @@ constexpr double sum_of_squares = 70;                    // of 1, 4, 6, 4, 1
 /// Inverse ranges of five pixels in a row.
 using Five = std::array<double, 5>;
 
-Buffer<Five> takeFives(const PixelGrid& grid, const PointsView& points) {
+/// Those along rows and columns around some pixels; the first value is NaN where one of the five has no point.
+RawBuffer<Five> takeFives(const PixelGrid& grid, const PointsView& points, const Workers& workers) {
   const auto inverseRange = [&](std::int64_t pixel) {
     const int p = grid.rank[pixel];
     return p < 0 ? std::numeric_limits<double>::quiet_NaN() : 1 / (points.row(p) - grid.origin).norm();
   };
-  Buffer<Five> fives;
   const std::int64_t pixels = std::ssize(grid.rank), stride = std::max<std::int64_t>(1, pixels / samples) | 1;
-  for (std::int64_t pixel = 2 * grid.columns; pixel < pixels - 2 * grid.columns; pixel += stride) {
-    if (grid.rank[pixel] < 0) continue;
-    for (const std::int64_t side : {std::int64_t{1}, std::int64_t{grid.columns}}) {
-      Five w;
-      for (int i = 0; i < 5; ++i) w[i] = inverseRange(pixel + (i - 2) * side);
-      if (std::isfinite(w[0] + w[1] + w[2] + w[3] + w[4])) fives.push_back(w);
+  const std::int64_t first = 2 * std::int64_t{grid.columns},
+                     count = std::max<std::int64_t>(0, (pixels - 2 * first + stride - 1) / stride);
+  RawBuffer<Five> fives(static_cast<std::size_t>(2 * count));
+  workers.forBlocks("windows", count, usual_block, [&](std::int64_t begin, std::int64_t end, int) {
+    for (std::int64_t i = begin; i < end; ++i) {
+      const std::int64_t pixel = first + i * stride;
+      for (const int direction : {0, 1}) {
+        const std::int64_t side = direction == 0 ? 1 : grid.columns;
+        Five& w = fives[2 * i + direction];
+        w[0] = std::numeric_limits<double>::quiet_NaN();
+        if (grid.rank[pixel] < 0) continue;
+        for (int k = 0; k < 5; ++k) w[k] = inverseRange(pixel + (k - 2) * side);
+        if (!std::isfinite(w[0] + w[1] + w[2] + w[3] + w[4])) w[0] = std::numeric_limits<double>::quiet_NaN();
+      }
     }
-  }
+  });
   return fives;
 }
 
 /// The standard deviation by the smallest fourth differences of those without a jump.
 /// @param least step of inverse ranges that may be a jump
-double noiseOf(const Buffer<Five>& fives, double least, double share, double mean_square) {
+double noiseOf(const RawBuffer<Five>& fives, double least, double share, double mean_square) {
   Buffer<double> squares;
+  squares.reserve(fives.size());
   for (const Five& w : fives) {
+    if (std::isnan(w[0])) continue;
     const auto jumps = [least](double a, double b) { return std::abs(a - b) > std::max(least, jump * std::min(a, b)); };
     if (std::adjacent_find(w.begin(), w.end(), jumps) != w.end()) continue;
     const double difference = w[0] - 4 * w[1] + 6 * w[2] - 4 * w[3] + w[4];
@@ -53,15 +63,14 @@ double noiseOf(const Buffer<Five>& fives, double least, double share, double mea
   const auto count = static_cast<std::ptrdiff_t>(share * static_cast<double>(squares.size()));
   if (count == 0) return 0;
   std::nth_element(squares.begin(), squares.begin() + count, squares.end());
-  std::sort(squares.begin(), squares.begin() + count);  // so that the sum has the same bits whatever came before
   const double sum = std::accumulate(squares.begin(), squares.begin() + count, 0.0);
   return std::sqrt(sum / static_cast<double>(count) / mean_square / sum_of_squares);
 }
 
 }  // namespace
 
-double inverseRangeNoise(const PixelGrid& grid, const PointsView& points) {
-  const Buffer<Five> fives = takeFives(grid, points);
+double inverseRangeNoise(const PixelGrid& grid, const PointsView& points, const Workers& workers) {
+  const RawBuffer<Five> fives = takeFives(grid, points, workers);
   const double at_first = noiseOf(fives, std::numeric_limits<double>::infinity(), kept_at_first, spread_at_first);
   return noiseOf(fives, likely_jump * at_first, kept, spread);
 }

@@ -214,7 +214,7 @@ SurfaceImage surfaceImage(const RankedScan& scan, const PointsView& points, bool
   SurfaceImage image;
   image.grid = pixelGrid(scan);
   image.unplaced = std::count(image.grid.pixel.begin(), image.grid.pixel.end(), -1);
-  image.noise = inverseRangeNoise(image.grid, points);
+  image.noise = inverseRangeNoise(image.grid, points, workers);
   image.windows = findSurfaceWindows(image.grid, points, image.noise, smooths, workers);
   return image;
 }

@@ -12,122 +12,140 @@
 namespace tufted {
 namespace {
 
-constexpr std::array<int, 2> strides = {3, 9};
+constexpr std::array<int, 2> strides = {3, SmoothedRanges::widest_stride};
 constexpr double tolerance = 2;    // standard deviations of noise between two smoothed values
 constexpr double harmless = 0.01;  // of the squared spacing: a tenth of it in noise
 constexpr double steepest = 4;     // pixels along the line of sight for one across
+
+/// Calls work(row, worker) for all rows, those of the border too.
+template <class Work>
+void forEachRow(const SmoothedRanges& image, const Workers& workers, const Work& work) {
+  const std::int64_t rows = image.rows + 2 * SmoothedRanges::border;
+  const std::int64_t rows_at_once = std::max<std::int64_t>(1, usual_block / image.columns);
+  workers.forBlocks("windows", rows, rows_at_once, [&](std::int64_t begin, std::int64_t end, int worker) {
+    for (std::int64_t row = begin; row < end; ++row) work(static_cast<int>(row) - SmoothedRanges::border, worker);
+  });
+}
 
 /// Smooths an image again by values that are some pixels apart: those around a pixel that differ from its own by no
 /// more than a slope and noise explain may be of one surface with it.
 class RangeSmoother {
  public:
-  RangeSmoother(const PixelGrid& grid, double noise, int stride, SmoothedRanges& smoothed)
-      : grid_(grid), noise_(noise), stride_(stride), reach_(WindowPixels::reach * stride), smoothed_(smoothed) {
-    inverse_.assign(grid.rank.size() + 2 * static_cast<std::size_t>(room()), std::numeric_limits<double>::quiet_NaN());
-    double* const image = inverse_.data() + room();
-    for (std::size_t p = 0; p < smoothed.range.size(); ++p)
-      if (grid.pixel[p] >= 0) image[grid.pixel[p]] = smoothed.range[p].inverse;
+  /// @param[out] after inverse ranges
+  RangeSmoother(double noise, int stride, SmoothedRanges& smoothed, RawBuffer<double>& after)
+      : noise_(noise), stride_(stride), smoothed_(smoothed), after_(after) {
+    for (int i = 0; i < WindowPixels::count; ++i) {
+      const PixelStep& step = window_pixels.step[i];
+      shift_[i] = stride * (step.row * smoothed.row_step + step.column);
+    }
   }
 
   void smoothRow(int row) const {
-    for (int column = PixelGrid::margin; column < grid_.columns - PixelGrid::margin; column += kernel_packet)
-      smoothSome(row, column);
+    const std::ptrdiff_t begin = smoothed_.at(row, -SmoothedRanges::border), end = begin + smoothed_.row_step;
+    std::copy(smoothed_.inverse.begin() + begin, smoothed_.inverse.begin() + end, after_.begin() + begin);
+    if (row < 0 || row >= smoothed_.rows) return;
+    for (int column = PixelGrid::margin; column < smoothed_.columns - PixelGrid::margin; column += kernel_packet)
+      smoothSome(smoothed_.at(row, column));
   }
 
  private:
-  using Slopes = std::array<double, kernel_packet>;
-
-  /// What packets read beyond both ends of the image.
-  int room() const { return reach_ + kernel_packet; }
-  const double* inverseAt(int row, int column) const { return inverse_.data() + room() + pixelAt(row, column); }
-  std::int64_t pixelAt(int row, int column) const { return std::int64_t{row} * grid_.columns + column; }
-
-  void smoothSome(int row, int column) const {
-    const int count = std::min(kernel_packet, grid_.columns - PixelGrid::margin - column);
-    const int* const rank = grid_.rank.data() + pixelAt(row, column);
-    Slopes slope{};
+  void smoothSome(std::ptrdiff_t at) const {
+    std::array<double, kernel_packet> slope;
     unsigned is_wanted = 0;
-    for (int lane = 0; lane < count; ++lane) {
-      const int p = rank[lane];
-      if (p < 0 || !(smoothed_.range[p].variance > harmless * smoothed_.spacing_squared[p])) continue;
-      is_wanted |= 1U << lane;
-      slope[lane] = steepest * std::sqrt(smoothed_.spacing_squared[p]) * stride_;
+    for (int lane = 0; lane < kernel_packet; ++lane) {
+      const double spacing_squared = smoothed_.spacing_squared[at + lane];
+      is_wanted |= static_cast<unsigned>(smoothed_.variance[at + lane] > harmless * spacing_squared) << lane;
     }
     if (is_wanted == 0) return;
-    const PixelRows rows{inverseAt(row, column), std::ptrdiff_t{stride_} * grid_.columns, stride_};
-    const unsigned is_whole = is_wanted & wholeWindows(row, column, rows, slope);
-    SquareFits fits{};
-    if (is_whole != 0) kernels().fitSquares7(rows, fits);
-    for (int lane = 0; lane < count; ++lane) {
-      if ((is_wanted >> lane & 1U) == 0) continue;
-      SmoothedRange& range = smoothed_.range[rank[lane]];
-      if ((is_whole >> lane & 1U) != 0) {
-        range = smoothedFurther({fits.value[lane], fits.variance[lane]}, range, noise_);
-      } else {
-        const PixelRows around{rows.at + lane, rows.row_step, rows.column_step};
-        range = smoothedFurther(around, joined(row, column + lane, around, slope[lane]), range, noise_);
-      }
-    }
-  }
-
-  /// The lanes whose windows are of one surface, as bits.
-  unsigned wholeWindows(int row, int column, const PixelRows& rows, const Slopes& slope) const {
-    if (row < reach_ || row + reach_ >= grid_.rows) return 0;
-    unsigned is_inside = 0;
     for (int lane = 0; lane < kernel_packet; ++lane)
-      if (column + lane >= reach_ && column + lane + reach_ < grid_.columns) is_inside |= 1U << lane;
-    return is_inside == 0 ? 0 : is_inside & kernels().squaresWithin(rows, slope.data(), tolerance * noise_);
-  }
-
-  /// The pixels of a window that are of one surface with the middle.
-  std::uint64_t joined(int row, int column, const PixelRows& ranges, double slope) const {
-    std::uint64_t around = 0;
-    for (int i = 0; i < WindowPixels::count; ++i) {
-      const PixelStep& step = window_pixels.step[i];
-      const int r = row + stride_ * step.row, c = column + stride_ * step.column;
-      if (r < 0 || c < 0 || r >= grid_.rows || c >= grid_.columns) continue;
-      const double value = ranges.at[step.row * ranges.row_step + step.column * ranges.column_step];
-      const bool is_joined = std::abs(value - ranges.at[0]) <= slope * step.ring() + tolerance * noise_;
-      around |= static_cast<std::uint64_t>(is_joined) << i;
+      slope[lane] = steepest * std::sqrt(smoothed_.spacing_squared[at + lane]) * stride_;
+    const double* const values = smoothed_.inverse.data() + at;
+    const PixelRows rows{values, stride_ * smoothed_.row_step, stride_};
+    std::array<unsigned char, WindowPixels::count> within;
+    const unsigned is_whole =
+        kernels().squaresWithin(values, shift_.data(), slope.data(), tolerance * noise_, is_wanted, within.data());
+    SquareFits fits{};
+    if ((is_wanted & is_whole) != 0) kernels().fitSquares7(rows, fits);
+    for (int lane = 0; lane < kernel_packet; ++lane) {
+      if ((is_wanted >> lane & 1U) == 0) continue;
+      const SmoothedRange before{values[lane], smoothed_.variance[at + lane]};
+      SmoothedRange range;
+      if ((is_whole >> lane & 1U) != 0) {
+        range = smoothedFurther({fits.value[lane], fits.variance[lane]}, before, noise_);
+      } else {
+        std::uint64_t around = 0;
+        for (int i = 0; i < WindowPixels::count; ++i) around |= std::uint64_t{within[i] >> lane & 1U} << i;
+        range = smoothedFurther({rows.at + lane, rows.row_step, rows.column_step}, around, before, noise_);
+      }
+      after_[at + lane] = range.inverse;
+      smoothed_.variance[at + lane] = range.variance;
     }
-    return around;
   }
 
-  const PixelGrid& grid_;
   double noise_;
-  int stride_, reach_;
+  int stride_;
   SmoothedRanges& smoothed_;
-  Buffer<double> inverse_;  ///< before
+  RawBuffer<double>& after_;
+  std::array<std::ptrdiff_t, WindowPixels::count> shift_{};
 };
 
 }  // namespace
 
-void smoothFurther(const PixelGrid& grid, SmoothedRanges& smoothed, double noise, const Workers& workers) {
+void SmoothedRanges::clear(const PixelGrid& grid, const Workers& workers) {
+  rows = grid.rows;
+  columns = grid.columns;
+  row_step = columns + 2 * border;
+  const auto size = static_cast<std::size_t>((rows + 2 * border) * row_step + kernel_packet);
+  for (RawBuffer<double>* const values : {&inverse, &variance, &spacing_squared}) values->resize(size);
+  forEachRow(*this, workers, [this](int row, int) {
+    const std::ptrdiff_t begin = at(row, -border);
+    std::fill_n(inverse.begin() + begin, row_step, std::numeric_limits<double>::quiet_NaN());
+    std::fill_n(variance.begin() + begin, row_step, 0);
+    std::fill_n(spacing_squared.begin() + begin, row_step, 0);
+  });
+  std::fill_n(inverse.end() - kernel_packet, kernel_packet, 0);
+  std::fill_n(variance.end() - kernel_packet, kernel_packet, 0);
+  std::fill_n(spacing_squared.end() - kernel_packet, kernel_packet, 0);
+}
+
+void smoothFurther(SmoothedRanges& smoothed, double noise, const Workers& workers) {
+  RawBuffer<double> after(smoothed.inverse.size());
+  std::fill_n(after.end() - kernel_packet, kernel_packet, 0);
   for (const int stride : strides) {
-    const RangeSmoother smoother(grid, noise, stride, smoothed);
-    const std::int64_t rows_at_once = std::max<std::int64_t>(1, usual_block / grid.columns);
-    workers.forBlocks("windows", grid.rows, rows_at_once, [&](std::int64_t begin, std::int64_t end, int) {
-      for (auto row = static_cast<int>(begin); row < end; ++row) smoother.smoothRow(row);
-    });
+    const RangeSmoother smoother(noise, stride, smoothed, after);
+    forEachRow(smoothed, workers, [&](int row, int) { smoother.smoothRow(row); });
+    smoothed.inverse.swap(after);
   }
 }
 
-PointBuffer displacementsAlongRays(const PixelGrid& grid, const PointsView& points, const SmoothedRanges& smoothed,
-                                   const Workers& workers, std::int64_t& moved) {
-  PointBuffer displacement;
-  displacement.setZero(points.rows());
-  Buffer<std::int64_t> counts(workers.count());
-  workers.forBlocks("windows", points.rows(), usual_block, [&](std::int64_t begin, std::int64_t end, int worker) {
-    for (std::int64_t p = begin; p < end; ++p) {
-      const Eigen::RowVector3d ray = points.row(p) - grid.origin;
-      const double share = 1 / (ray.norm() * smoothed.range[p].inverse) - 1;
-      if (!(smoothed.range[p].variance > 0) || share == 0 || !std::isfinite(share)) continue;
-      displacement.row(p) = share * ray;
-      ++counts[worker];
+void moveAlongRays(const PixelGrid& grid, const PointsView& points, const SmoothedRanges& smoothed,
+                   const Workers& workers, SurfaceWindows& windows) {
+  windows.displacement.resize(points.rows());
+  windows.place.resize(points.rows());
+  Buffer<std::int64_t> moved(workers.count());
+  const auto move = [&](int p, const Eigen::RowVector3d& displacement) {
+    windows.displacement.row(p) = displacement;
+    windows.place.row(p) = points.row(p) + displacement;
+  };
+  forEachRow(smoothed, workers, [&](int row, int worker) {
+    if (row < 0 || row >= grid.rows) return;
+    for (int column = PixelGrid::margin; column < grid.columns - PixelGrid::margin; ++column) {
+      const int p = grid.rank[std::int64_t{row} * grid.columns + column];
+      if (p < 0) continue;
+      const std::ptrdiff_t at = smoothed.at(row, column);
+      const double share = 1 / (windows.range[p] * smoothed.inverse[at]) - 1;
+      const bool moves = smoothed.variance[at] > 0 && share != 0 && std::isfinite(share);
+      moved[worker] += moves ? 1 : 0;
+      if (moves) {
+        move(p, share * (points.row(p) - grid.origin));
+      } else {
+        move(p, Eigen::RowVector3d::Zero());
+      }
     }
   });
-  moved = std::accumulate(counts.begin(), counts.end(), std::int64_t{0});
-  return displacement;
+  for (int p = 0; p < static_cast<int>(points.rows()); ++p)
+    if (grid.pixel[p] < 0) move(p, Eigen::RowVector3d::Zero());
+  windows.moved = std::accumulate(moved.begin(), moved.end(), std::int64_t{0});
 }
 
 }  // namespace tufted

@@ -1,33 +1,38 @@
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 
 #include "base/buffer.h"
 #include "base/parallel.h"
 #include "base/point_buffer.h"
 #include "depth_image/pixel_grid.h"
 #include "depth_image/range_fit.h"
+#include "depth_image/surface_windows.h"
 
 namespace tufted {
 
-/// Inverse ranges without noise, by rank.
+/// Inverse ranges without noise, pixel by pixel. A border goes around the image, as wide as any window reaches.
 struct SmoothedRanges {
-  RawBuffer<SmoothedRange> range;
+  static constexpr int widest_stride = 9;  ///< pixels between the values of a window
+  static constexpr int border = WindowPixels::reach * widest_stride;
+
+  int rows = 0, columns = 0;          ///< of the grid
+  std::ptrdiff_t row_step = 0;        ///< in these arrays
+  RawBuffer<double> inverse;          ///< NaN where there is no point
+  RawBuffer<double> variance;         ///< of it; 0: as measured, and where there is no point
   RawBuffer<double> spacing_squared;  ///< of neighbouring pixels, in inverse range
 
-  void resize(std::size_t n) {
-    range.assign(n, {0, 0});
-    spacing_squared.assign(n, 0);
-  }
+  std::ptrdiff_t at(int row, int column) const { return (row + border) * row_step + column + border; }
+  /// Makes room for an image, in which no pixel holds a point.
+  void clear(const PixelGrid& grid, const Workers& workers);
 };
 
 /// Where what is left of the noise is not small against the spacing of the pixels, as on walls far away, smooths again
 /// over pixels that are 3 apart, then 9: over 19 pixels, then 55, and more by what was smoothed before.
-void smoothFurther(const PixelGrid& grid, SmoothedRanges& smoothed, double noise, const Workers& workers);
+void smoothFurther(SmoothedRanges& smoothed, double noise, const Workers& workers);
 
-/// From each point along its ray to the smoothed range, n x 3.
-/// @param[out] moved points whose displacement is not 0
-PointBuffer displacementsAlongRays(const PixelGrid& grid, const PointsView& points, const SmoothedRanges& smoothed,
-                                   const Workers& workers, std::int64_t& moved);
+/// Moves each point along its ray to the smoothed range: sets displacements, places and how many move.
+void moveAlongRays(const PixelGrid& grid, const PointsView& points, const SmoothedRanges& smoothed,
+                   const Workers& workers, SurfaceWindows& windows);
 
 }  // namespace tufted

@@ -137,6 +137,23 @@ struct PixelRows {
   std::ptrdiff_t row_step, column_step;
 };
 
+/// The pixels of 7 x 7 around one, see depth_image/window_pixels.h: first those of ring 1, then ring 2 and 3.
+constexpr int pixels_of_window = 48;
+
+/// A row of an image: where its first pixel is in arrays that hold the image row by row, relative to the sensor; a
+/// pixel without a point may hold any numbers. Borrowed.
+struct PixelPoints {
+  const double *x, *y, *z, *range;
+};
+constexpr int pixels_in_word = 64;
+
+/// Steps from a pixel to others of the image.
+struct PixelSteps {
+  int count;
+  const int* shift;    ///< in the arrays of the image
+  const double* most;  ///< squared tangents, see JumpTest::steepestOf()
+};
+
 /// Quadratics by least squares over the square of pixels around each of eight.
 struct SquareFits {
   alignas(64) double value[kernel_packet];     ///< in the middle
@@ -202,9 +219,22 @@ struct Kernels {
   /// Over 5 x 5 and 7 x 7 pixels.
   void (*fitSquares5)(const PixelRows& rows, SquareFits& fits);
   void (*fitSquares7)(const PixelRows& rows, SquareFits& fits);
-  /// The lanes whose 7 x 7 values all differ from the middle by at most the lane's slope times the ring, plus the
-  /// tolerance; as bits. What is no number differs.
-  unsigned (*squaresWithin)(const PixelRows& rows, const double* slope, double tolerance);
+  /// For each step whether JumpTest joins each pixel of a row with the one that the step leads to: bits of 64 pixels.
+  void (*joinPixels)(const PixelPoints& pixels, const PixelSteps& steps, double tolerance, std::uint64_t* joined);
+  /// The mean squared spacing, in inverse range, between each of eight pixels and those beside it that are chosen; 0
+  /// where none is.
+  /// @param shift of the pixels of ring 1
+  /// @param beside of each of them, for which lanes it is chosen
+  void (*spacingsOf)(const PixelPoints& pixels, const int* shift, const unsigned char* beside, double* squared);
+  /// Which values of a 7 x 7 window differ from the middle by at most the lane's slope times the ring, plus the
+  /// tolerance; what is no number differs.
+  /// @param values in the middle of each of eight windows
+  /// @param shift to each pixel of the window
+  /// @param wanted lanes
+  /// @param[out] within for each pixel of the window, the lanes; not set where those wanted are within as a whole
+  /// @returns the lanes of which all are within
+  unsigned (*squaresWithin)(const double* values, const std::ptrdiff_t* shift, const double* slope, double tolerance,
+                            unsigned wanted, unsigned char* within);
   // NOLINTEND(readability-identifier-naming)
 };
 

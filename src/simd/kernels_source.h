@@ -1,6 +1,7 @@
 // The kernels, compiled once for each kind of processor: TUFTED_KERNELS names the table to define.
 #include "simd/connected_heights.h"
 #include "simd/kernels.h"
+#include "simd/pixel_joins.h"
 #include "simd/pixel_star.h"
 #include "simd/square_fit.h"
 #include "simd/star_by_inversion.h"
@@ -285,6 +286,6 @@ const Kernels TUFTED_KERNELS = {takeWithin,          rankValues,   extent,      
                                 sumHeights,          solveHeights, connectedHeights, connectedHeightsAlong,
                                 keepConnected,       findSmallest, project,          measureTriangleFans,
                                 wrapInvertedPackets, wrapPixels,   fitSquares<2>,    fitSquares<3>,
-                                squaresWithin};
+                                joinPixels,          spacingsOf,   squaresWithin};
 
 }  // namespace tufted

@@ -79,6 +79,10 @@ TUFTED_INLINE bool any(Mask mask) {
 TUFTED_INLINE unsigned bitsOf(Mask mask) {
   return mask;
 }
+/// The inverse of bitsOf(), for as many numbers as a part has.
+TUFTED_INLINE PartMask maskOf(unsigned bits) {
+  return static_cast<PartMask>(bits);
+}
 TUFTED_INLINE Mask none() {
   return 0;
 }
@@ -190,6 +194,9 @@ TUFTED_INLINE PairMask isAtMost(Part a, Part b) {
 }
 TUFTED_INLINE PairMask logicalAnd(PairMask a, PairMask b) {
   return a & b;
+}
+TUFTED_INLINE PairMask maskOf(unsigned bits) {
+  return -PairMask{bits & 1, bits >> 1 & 1};
 }
 TUFTED_INLINE Part select(PairMask mask, Part a, Part b) {
   return mask ? a : b;

@@ -45,32 +45,5 @@ void fitSquares(const PixelRows& rows, SquareFits& fits) {
   for (int part = 0; part < packet_size; part += part_size) fitSquare<Reach>(rows, part, fits);
 }
 
-unsigned squaresWithin(const PixelRows& rows, const double* slope, double tolerance) {
-  unsigned lanes = 0;
-  for (int part = 0; part < packet_size; part += part_size) {
-    const Part middle = loadPart(rows.at + part), rise = loadPart(slope + part);
-    const auto difference = [&](int row, int column) {
-      return absolute(loadPart(rows.at + part + row * rows.row_step + column * rows.column_step) - middle);
-    };
-    PartMask are_within = isLess(difference(0, 0), broadcastPart(1));  // all; a middle that is no number fails below
-    for (int ring = 1; ring <= 3; ++ring) {
-      const Part most = broadcastPart(ring) * rise + broadcastPart(tolerance);
-      const auto test = [&](int row, int column) {
-        are_within = logicalAnd(are_within, isAtMost(difference(row, column), most));
-      };
-      for (int i = -ring; i <= ring; ++i) {
-        test(-ring, i);
-        test(ring, i);
-      }
-      for (int i = 1 - ring; i < ring; ++i) {
-        test(i, -ring);
-        test(i, ring);
-      }
-    }
-    lanes |= bitsOf(are_within) << part;
-  }
-  return lanes;
-}
-
 }  // namespace
 }  // namespace tufted

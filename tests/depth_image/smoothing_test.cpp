@@ -26,7 +26,8 @@ Points noisy(const std::function<double(int, int)>& depth, double noise, int see
 /// In units of the caller.
 double noiseOf(const Points& points) {
   const Image image(points);
-  return std::ldexp(inverseRangeNoise(image.grid(), image.cloud().points), -image.cloud().exponent);
+  const Progress silent;
+  return std::ldexp(inverseRangeNoise(image.grid(), image.cloud().points, Workers(2, silent)), -image.cloud().exponent);
 }
 
 double slanted(int column, int row) {

@@ -4,8 +4,10 @@
 #include <Eigen/QR>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <vector>
 
+#include "depth_image/window_pixels.h"
 #include "shapes/random.h"
 #include "simd/kernels.h"
 
@@ -46,21 +48,41 @@ TEST(SquareFit, OfPixelsNextToEachOtherOrApart) {
   }
 }
 
-TEST(SquareFit, SeesWhichSquaresStayWithinASlope) {
-  constexpr int columns = 40;
+TEST(SquareFit, SeesWhichValuesStayWithinASlope) {
+  constexpr int columns = 40, middle = 3 * columns + 10;
   std::vector<double> image(7 * columns);
   for (int i = 0; i < std::ssize(image); ++i) image[i] = 0.1 * (i % columns) + 0.2 * (i / columns);
-  const PixelRows around{image.data() + 3 * columns + 10, columns, 1};
   const std::array slope = {0.31, 0.29, 0.31, 0.31, 0.31, 0.31, 0.31, 0.31};  // .3 from corner to corner
+  std::array<std::ptrdiff_t, pixels_of_window> shift;
+  for (int i = 0; i < pixels_of_window; ++i)
+    shift[i] = window_pixels.step[i].row * columns + window_pixels.step[i].column;
   for (const Kernels* kernel : {&kernels(), &portableKernels()}) {
-    EXPECT_EQ(kernel->squaresWithin(around, slope.data(), 1e-9), 0xFDU);
-    EXPECT_EQ(kernel->squaresWithin(around, slope.data(), 0.1), 0xFFU);
+    std::array<unsigned char, pixels_of_window> within;
+    const auto whole = [&](double tolerance) {
+      within.fill(0x55);
+      return kernel->squaresWithin(&image[middle], shift.data(), slope.data(), tolerance, 0xFF, within.data());
+    };
+    const auto expectEachWithin = [&](double tolerance) {
+      for (int i = 0; i < pixels_of_window; ++i) {
+        for (int lane = 0; lane < kernel_packet; ++lane) {
+          const double difference = std::abs(image[middle + lane + shift[i]] - image[middle + lane]);
+          const bool is_within = difference <= slope[lane] * window_pixels.step[i].ring() + tolerance;
+          EXPECT_EQ(within[i] >> lane & 1, is_within ? 1 : 0) << i << ' ' << lane;
+        }
+      }
+    };
+    EXPECT_EQ(whole(1e-9), 0xFDU);
+    expectEachWithin(1e-9);
+    EXPECT_EQ(whole(0.1), 0xFFU);
+    EXPECT_EQ(within[0], 0x55);     // all are whole, so there is nothing to tell
     image[6 * columns + 20] = NAN;  // in the windows of pixels 17 to 23
-    EXPECT_EQ(kernel->squaresWithin(around, slope.data(), 0.1), 0x7FU);
+    EXPECT_EQ(whole(0.1), 0x7FU);
+    expectEachWithin(0.1);
     image[6 * columns + 20] = 0.1 * 20 + 0.2 * 6;
-    image[3 * columns + 10] = NAN;  // a middle, and in the windows of the next three
-    EXPECT_EQ(kernel->squaresWithin(around, slope.data(), 0.1), 0xF0U);
-    image[3 * columns + 10] = 0.1 * 10 + 0.2 * 3;
+    image[middle] = NAN;  // a middle, and in the windows of the next three
+    EXPECT_EQ(whole(0.1), 0xF0U);
+    expectEachWithin(0.1);
+    image[middle] = 0.1 * 10 + 0.2 * 3;
   }
 }
 

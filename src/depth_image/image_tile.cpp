@@ -1,0 +1,158 @@
+#include "depth_image/image_tile.h"
+
+#include <bit>
+#include <cmath>
+
+#include "depth_image/surface_windows.h"
+
+namespace tufted {
+namespace {
+
+/// How a step is reached: whether by a step down or by its inverse, and over which pixels one ring further in.
+struct Way {
+  int down = 0;    ///< number of the step down
+  PixelStep from;  ///< to the pixel that the step down starts at
+  int parents = 0;
+  std::array<int, 3> parent{};  ///< numbers of steps
+  std::array<int, 3> link_down{};
+  std::array<PixelStep, 3> link_from{};  ///< of the step from each parent on
+};
+
+struct Ways {
+  std::array<Way, WindowPixels::count> way{};
+  std::array<PixelStep, ImageTile::steps_down> down{};
+  std::array<int, ImageTile::steps_down> down_shift{};
+  std::array<double, ImageTile::steps_down> most{};
+  std::array<int, pixels_beside> beside_shift{};
+
+  constexpr Ways() {
+    int size = 0;
+    for (const PixelStep& step : window_pixels.step)
+      if (isDown(step)) down[size++] = step;
+    for (int i = 0; i < ImageTile::steps_down; ++i) {
+      down_shift[i] = shiftOf(down[i]);
+      most[i] = JumpTest::steepestOf(down[i]);
+    }
+    for (int i = 0; i < pixels_beside; ++i) beside_shift[i] = shiftOf(window_pixels.step[i]);
+    for (int i = 0; i < WindowPixels::count; ++i) {
+      const PixelStep& step = window_pixels.step[i];
+      Way& to = way[i];
+      setDown(step, {0, 0}, to.down, to.from);
+      if (step.ring() == 1) continue;
+      for (int j = 0; j < i; ++j) {
+        const PixelStep& before = window_pixels.step[j];
+        const PixelStep last{step.row - before.row, step.column - before.column};
+        if (before.ring() != step.ring() - 1 || last.ring() != 1) continue;
+        to.parent[to.parents] = j;
+        setDown(last, before, to.link_down[to.parents], to.link_from[to.parents]);
+        ++to.parents;
+      }
+    }
+  }
+
+ private:
+  static constexpr bool isDown(const PixelStep& step) { return step.row > 0 || (step.row == 0 && step.column > 0); }
+  static constexpr int shiftOf(const PixelStep& step) { return step.row * pixels_in_word + step.column; }
+  constexpr void setDown(const PixelStep& step, const PixelStep& start, int& number, PixelStep& from) const {
+    const PixelStep wanted = isDown(step) ? step : PixelStep{-step.row, -step.column};
+    number = 0;
+    while (down[number].row != wanted.row || down[number].column != wanted.column) ++number;
+    from = isDown(step) ? start : PixelStep{start.row + step.row, start.column + step.column};
+  }
+};
+
+constexpr Ways ways;
+
+/// The set of pixels from which a step of so many columns leads into the given one.
+std::uint64_t stepped(std::uint64_t pixels, int columns) {
+  return columns >= 0 ? pixels >> columns : pixels << -columns;
+}
+
+}  // namespace
+
+void transposeBits(std::array<std::uint64_t, 64>& words) {
+  std::uint64_t low = 0x00000000FFFFFFFF;
+  for (int half = 32; half > 0; half /= 2, low ^= low << half) {
+    for (int first = 0; first < 64; first += 2 * half) {
+      for (int i = first; i < first + half; ++i) {
+        const std::uint64_t change = ((words[i] >> half) ^ words[i + half]) & low;
+        words[i] ^= change << half;
+        words[i + half] ^= change;
+      }
+    }
+  }
+}
+
+bool ImageTile::take(const PixelGrid& grid, const PointsView& points, int top, int left, double tolerance) {
+  bool any = false;
+  for (int row = 0; row < all_rows; ++row) {
+    is_filled_[row] = is_open_[row] = 0;
+    for (int column = 0; column < pixels_in_word; ++column) {
+      const int i = row * pixels_in_word + column;
+      const bool is_inside = top + row < grid.rows && left + column < grid.columns;
+      const int p = is_inside ? grid.rank[std::int64_t{top + row} * grid.columns + left + column] : -1;
+      rank_[i] = p;
+      if (p < 0) {
+        is_open_[row] |= std::uint64_t{grid.isInImage(top + row, left + column)} << column;
+        x_[i] = y_[i] = z_[i] = 0;
+        continue;
+      }
+      is_filled_[row] |= std::uint64_t{1} << column;
+      const double* const point = points.data() + 3 * std::ptrdiff_t{p};
+      x_[i] = point[0] - grid.origin[0];
+      y_[i] = point[1] - grid.origin[1];
+      z_[i] = point[2] - grid.origin[2];
+    }
+    any |= row >= halo && row < halo + rows && (is_filled_[row] & ownPixels()) != 0;
+  }
+  if (!any) return false;
+  using Row = Eigen::Map<Eigen::Array<double, all_pixels, 1>>;
+  const auto inFull = [](Values& values) { return Row(values.data()); };
+  inFull(range_) = (inFull(x_).square() + inFull(y_).square() + inFull(z_).square()).sqrt();
+  inFull(inverse_) = inFull(range_).inverse();
+  const PixelSteps steps{steps_down, ways.down_shift.data(), ways.most.data()};
+  for (int row = 0; row < all_rows; ++row)
+    kernels().joinPixels(pixelsAt(row * pixels_in_word), steps, tolerance, joined_[row].data());
+  return true;
+}
+
+std::int64_t ImageTile::findWindows(int row, std::array<std::uint64_t, pixels_in_word>& windows) {
+  const int here = row + halo;
+  std::int64_t left_out = 0;
+  std::array<std::uint64_t, WindowPixels::count> reached, filled;
+  for (int i = 0; i < WindowPixels::count; ++i) {
+    const Way& way = ways.way[i];
+    const PixelStep& step = window_pixels.step[i];
+    const auto joined = [&](int down, const PixelStep& from) {
+      return stepped(joined_[here + from.row][down], from.column);
+    };
+    const std::uint64_t open = stepped(is_open_[here + step.row], step.column);
+    filled[i] = stepped(is_filled_[here + step.row], step.column);
+    reached[i] = open | (filled[i] & joined(way.down, way.from));
+    if (way.parents > 0) {
+      std::uint64_t linked = 0, over = 0, refused = 0;
+      for (int j = 0; j < way.parents; ++j) {
+        const int parent = way.parent[j];
+        const std::uint64_t is_linked = open | joined(way.link_down[j], way.link_from[j]);
+        const std::uint64_t from = reached[parent] & filled[parent];
+        over |= reached[parent] & ~filled[parent];
+        linked |= from & is_linked;
+        refused |= from & ~is_linked;
+      }
+      reached[i] &= linked | (over & ~refused);
+    }
+    windows[i] = around_[i] = reached[i] & filled[i];
+    left_out += std::popcount(filled[i] & ~reached[i] & is_filled_[here] & ownPixels());
+  }
+  for (int i = WindowPixels::count; i < pixels_in_word; ++i) windows[i] = 0;
+  transposeBits(windows);
+  return left_out;
+}
+
+void ImageTile::spacings(int row, int column, double* squared) const {
+  std::array<unsigned char, pixels_beside> beside;
+  for (int i = 0; i < pixels_beside; ++i) beside[i] = static_cast<unsigned char>(around_[i] >> (column + halo));
+  kernels().spacingsOf(pixelsAt(at(row, column)), ways.beside_shift.data(), beside.data(), squared);
+}
+
+}  // namespace tufted
