@@ -5,8 +5,8 @@
 namespace tufted {
 
 extern const Kernels portable_kernels;
-#ifdef TUFTED_AVX512
-extern const Kernels avx512_kernels;
+#ifdef TUFTED_X86_KERNELS
+extern const Kernels avx2_kernels, avx512_kernels;
 #endif
 
 namespace {
@@ -14,9 +14,10 @@ namespace {
 std::atomic<const Kernels*> chosen_kernels = nullptr;
 
 const Kernels& fastestKernels() {
-#ifdef TUFTED_AVX512
+#ifdef TUFTED_X86_KERNELS
   if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512dq"))
     return avx512_kernels;
+  if (__builtin_cpu_supports("avx2")) return avx2_kernels;
 #endif
   return portable_kernels;
 }

@@ -170,7 +170,7 @@ struct TriangleFans {
   double *cotan_at_next, *cotan_at_own;                               ///< opposite spoke i, opposite spoke i + 1
 };
 
-/// The loops that a build spends its time in. They are compiled for every processor and once more for AVX-512; the
+/// The loops that a build spends its time in. They are compiled for every processor, for AVX2 and for AVX-512; the
 /// operations are the same, and so are the bits.
 struct Kernels {
   // NOLINTBEGIN(readability-identifier-naming): they are called as functions
