@@ -69,7 +69,8 @@ double smoothedAt(const SmoothedRanges& image, const RawBuffer<double>& before, 
 }
 
 TEST(SmoothedFurther, IsThatOfALoopOverPixelsForImagesOfAnySize) {
-  for (const auto& [width, height] : {std::pair{70, 61}, {64, 20}, {61, 58}, {13, 90}, {1, 30}, {9, 7}, {57, 1}}) {
+  for (const auto& size : {std::pair{70, 61}, {64, 20}, {61, 58}, {13, 90}, {1, 30}, {9, 7}, {57, 1}}) {
+    const int width = size.first, height = size.second;
     const Progress silent;
     const Workers workers(2, silent);
     Case image(width, height, workers);
