@@ -22,7 +22,7 @@ constexpr double sum_of_squares = 70;                    // of 1, 4, 6, 4, 1
 /// Inverse ranges of five pixels in a row.
 using Five = std::array<double, 5>;
 
-/// Those along rows and columns around some pixels; the first value is NaN where one of the five has no point.
+/// Inverse ranges along the row and the column of some pixels. The first of five is NaN where a pixel has no point.
 RawBuffer<Five> takeFives(const PixelGrid& grid, const PointsView& points, const Workers& workers) {
   const auto inverseRange = [&](std::int64_t pixel) {
     const int p = grid.rank[pixel];
@@ -38,8 +38,6 @@ RawBuffer<Five> takeFives(const PixelGrid& grid, const PointsView& points, const
       for (const int direction : {0, 1}) {
         const std::int64_t side = direction == 0 ? 1 : grid.columns;
         Five& w = fives[2 * i + direction];
-        w[0] = std::numeric_limits<double>::quiet_NaN();
-        if (grid.rank[pixel] < 0) continue;
         for (int k = 0; k < 5; ++k) w[k] = inverseRange(pixel + (k - 2) * side);
         if (!std::isfinite(w[0] + w[1] + w[2] + w[3] + w[4])) w[0] = std::numeric_limits<double>::quiet_NaN();
       }
