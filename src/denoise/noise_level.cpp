@@ -25,11 +25,6 @@ constexpr double exact_share = 0.1;   // of the points around
 constexpr double noise_growth = 1.4;  // of the residuals' variance from window to window: noise 1, a crease 2 to 3
 constexpr double sure_share = 0.15;   // of the points around
 
-double leastVariance(const Windows& windows, int p) {
-  const double least = least_noise * windows.spacing(p);
-  return least * least;
-}
-
 /// The median thickness around each point.
 RawBuffer<double> thicknessAround(const Windows& windows, const Workers& workers) {
   RawBuffer<double> around(windows.base.size());
@@ -143,6 +138,11 @@ void findNoisy(const Windows& windows, const Buffer<std::uint8_t>& is_thick, con
 }
 
 }  // namespace
+
+double leastVariance(const Windows& windows, int p) {
+  const double least = least_noise * windows.spacing(p);
+  return least * least;
+}
 
 NoiseLevel findNoise(const WindowFitter& fitter, const Workers& workers, Windows& windows) {
   NoiseLevel noise;

@@ -19,6 +19,9 @@ constexpr double least_noise = 0.01;
 /// leverage is about .2, at a corner .7.
 constexpr double most_leverage = 0.9;
 
+/// The least variance of noise that matters around a point.
+double leastVariance(const Windows& windows, int p);
+
 /// Makes base windows, wider where the points are as thick as wide, fits the two smaller windows, and decides where
 /// there is noise.
 NoiseLevel findNoise(const WindowFitter& fitter, const Workers& workers, Windows& windows);
