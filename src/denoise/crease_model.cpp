@@ -1,0 +1,327 @@
+#include "denoise/crease_model.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <utility>
+
+#include "stars/denoise.h"
+#include "stars/tangent_frame.h"
+
+namespace tufted {
+namespace {
+
+constexpr int most_groups = 8;         // bevels between faces, which few points are on, are groups as well
+constexpr int least_members = 12;      // four times as many points as a plane has coefficients
+constexpr int least_curved = 24;       // four times as many as a quadratic has
+constexpr double bend = 4;             // chi squared that the quadratic's three further coefficients have to explain
+constexpr int member_rounds = 2;       // of choosing members and fitting; a third changes nothing
+constexpr double ambiguous = 2;        // sigmas: points nearer to a crease may belong to either face
+constexpr double member_height = 3;    // sigmas from a face, farther points are not of it
+constexpr double lesser_side = 0.1;    // of the points, that noise alone may put on the other side of a face that ends
+constexpr double most_rounded = 1;     // sigmas of a mean; points next to a crease lie on its outer side
+constexpr double well_modelled = 1.6;  // of the noise's variance, that of the distances; small faces may be missed
+
+/// Whether face f is one of the `faces`, which are bits.
+bool holdsFace(unsigned faces, int f) {
+  return (faces >> f & 1U) != 0;
+}
+
+}  // namespace
+
+void CreaseModel::start(double variance, double unit) {
+  variance_ = variance;
+  unit_ = unit;
+  for (Buffer<double>& coordinate : coordinates_) coordinate.clear();
+  normals_.clear();
+}
+
+void CreaseModel::add(const Eigen::RowVector3d& position, const Eigen::RowVector3d& normal) {
+  for (int axis = 0; axis < 3; ++axis) coordinates_[axis].push_back(position[axis]);
+  normals_.push_back(normal.transpose());
+}
+
+/// Groups the points by their normals: each in turn joins the group whose normal is most like its own, or founds one.
+/// Then once more by the mean normals. The largest groups become faces.
+void CreaseModel::group() {
+  struct Group {
+    Eigen::Vector3d normal, sum = Eigen::Vector3d::Zero();
+    int count = 0;
+  };
+  std::array<Group, most_groups> groups;
+  int n = 0;
+  const auto closest = [&](const Eigen::Vector3d& normal) {
+    int best = -1;
+    double most = same_face;
+    for (int g = 0; g < n; ++g) {
+      const double cosine = std::abs(groups[g].normal.dot(normal));
+      if (cosine > most) {
+        most = cosine;
+        best = g;
+      }
+    }
+    return best;
+  };
+  for (const Eigen::Vector3d& normal : std::span(normals_).first(size())) {
+    if (normal.isZero(0)) continue;
+    int g = closest(normal);
+    if (g < 0 && n == most_groups) continue;
+    if (g < 0) groups[g = n++].normal = normal;
+    groups[g].sum += std::copysign(1, groups[g].normal.dot(normal)) * normal;
+    ++groups[g].count;
+  }
+  std::stable_sort(groups.begin(), groups.begin() + n,
+                   [](const Group& a, const Group& b) { return a.count > b.count; });
+  count_ = 0;
+  for (; count_ < std::min(n, most_faces) && groups[count_].count >= least_members; ++count_) {
+    groups[count_].normal = groups[count_].sum.normalized();
+    faces_[count_].normal = groups[count_].normal;
+    faces_[count_].members.clear();
+  }
+  n = count_;
+  for (int i = 0; i < size(); ++i) {
+    if (normals_[i].isZero(0)) continue;
+    const int g = closest(normals_[i]);
+    if (g >= 0) faces_[g].members.push_back(i);
+  }
+}
+
+/// A plane through the members, which is far steadier at its rim than a quadratic, or where they bend, a mean of both.
+bool CreaseModel::fitFace(Face& face) {
+  const auto count = static_cast<int>(face.members.size());
+  if (count < least_members) return false;
+  face.first = tangentOf(face.normal);
+  face.second = face.normal.cross(face.first);
+  offsets_.fill(count, [&](int i) -> Eigen::RowVector3d { return positionOf(face.members[i]).transpose(); });
+  HeightMoments moments = heightMoments(offsets_.view(), face.normal, unit_);
+  moments.count = count;  // the origin counts only if it is a member
+  const HeightSums& s = moments.sums;
+  Eigen::Matrix3d gram;
+  gram << count, s.u, s.v, s.u, s.uu, s.uv, s.v, s.uv, s.vv;
+  const Eigen::Vector3d right(s.h, s.hu, s.hv), plane = gram.ldlt().solve(right);
+  if (!plane.allFinite()) return false;
+  // The more of the plane's residuals a quadratic explains, in units of the noise, the more it counts (the estimator of
+  // James and Stein). A decision for either would move one point by this one and the next by that one.
+  const double residual = (s.hh - plane.dot(right)) * unit_ * unit_;
+  if (count >= least_curved && residual > bend * variance_) {
+    HeightFit fit;
+    fitHeights({&moments, 1}, {&fit, 1});
+    const double gain = residual - fit.variance * static_cast<double>(count - std::ssize(fit.coefficient));
+    if (fit.is_valid && gain > bend * variance_) {
+      const double share = 1 - bend * variance_ / gain;
+      for (int j = 0; j < std::ssize(face.coefficient); ++j)
+        face.coefficient[j] = share * fit.coefficient[j] + (j < 3 ? (1 - share) * plane[j] : 0);
+      face.is_plane = false;
+      return true;
+    }
+  }
+  const Eigen::Vector3d across = face.normal - plane[1] * face.first - plane[2] * face.second;
+  const double length = across.norm();
+  face.normal = across / length;
+  face.coefficient = {plane[0] / length};
+  face.is_plane = true;
+  return true;
+}
+
+void CreaseModel::fitFaces() {
+  for (int f = count_ - 1; f >= 0; --f)
+    if (!fitFace(faces_[f])) drop(f);
+}
+
+/// Takes the heights of all points over the faces, and the tangent planes.
+void CreaseModel::measure() {
+  for (Face& face : std::span(faces_).first(count_)) {
+    const auto& c = face.coefficient;
+    face.heights.resize(static_cast<std::size_t>(size()));
+    const double *const x = coordinates_[0].data(), *const y = coordinates_[1].data(),
+                        *const z = coordinates_[2].data();
+    double* const heights = face.heights.data();
+    const double to_x = face.normal[0], to_y = face.normal[1], to_z = face.normal[2], at = unit_ * c[0];
+    for (int i = 0, n = size(); i < n; ++i) heights[i] = x[i] * to_x + y[i] * to_y + z[i] * to_z - at;
+    face.tangent = face.normal;
+    face.height = -unit_ * c[0];
+    if (face.is_plane) continue;
+    for (int i = 0; i < size(); ++i) {
+      const Eigen::Vector3d position = positionOf(i) / unit_;
+      const double u = position.dot(face.first), v = position.dot(face.second);
+      heights[i] -= unit_ * (c[1] * u + c[2] * v + c[3] * u * u + c[4] * u * v + c[5] * v * v);
+    }
+    const Eigen::Vector3d across = face.normal - c[1] * face.first - c[2] * face.second;
+    const double length = across.norm();
+    face.tangent = across / length;
+    face.height /= length;
+  }
+}
+
+void CreaseModel::drop(int f) {
+  std::rotate(faces_.begin() + f, faces_.begin() + f + 1, faces_.begin() + count_);
+  --count_;
+}
+
+/// Leaves out the lesser of two faces that are alike.
+void CreaseModel::dropAlike() {
+  const auto is_larger = [](const Face& a, const Face& b) { return a.members.size() > b.members.size(); };
+  for (int f = 1; f < count_; ++f)
+    for (int g = f; g > 0 && is_larger(faces_[g], faces_[g - 1]); --g) std::swap(faces_[g], faces_[g - 1]);
+  for (int f = 0; f < count_; ++f)
+    for (int g = count_ - 1; g > f; --g)
+      if (std::abs(faces_[f].tangent.dot(faces_[g].tangent)) > same_face) drop(g);
+}
+
+/// Finds on which side of the others each face lies, by the points on it that are clear of the others.
+void CreaseModel::findSides() {
+  const double bound = member_height * std::sqrt(variance_);
+  for (int f = 0; f < count_; ++f)
+    for (int g = 0; g < count_; ++g) {
+      if (f == g) continue;
+      const double *const own = faces_[f].heights.data(), *const other = faces_[g].heights.data();
+      int above = 0, below = 0;
+      for (int i = 0, n = size(); i < n; ++i) {
+        const int is_on = std::abs(own[i]) <= bound ? 1 : 0;
+        above += is_on & (other[i] > bound ? 1 : 0);
+        below += is_on & (other[i] < -bound ? 1 : 0);
+      }
+      const double few = lesser_side * (above + below);
+      faces_[f].side[g] = below < few ? 1 : above < few ? -1 : 0;
+    }
+}
+
+/// Takes as members the points on a face that are clear of its creases. How far along the face a point lies says
+/// nothing about its noise across it, so the choice has no bias, as the nearest points would have.
+void CreaseModel::chooseMembers(int f) {
+  const double sigma = std::sqrt(variance_);
+  Face& face = faces_[f];
+  const int n = size();
+  room_.resize(static_cast<std::size_t>(n));
+  double* const room = room_.data();
+  const double* const height = face.heights.data();
+  for (int i = 0; i < n; ++i) room[i] = member_height * sigma - std::abs(height[i]);
+  for (int g = 0; g < count_; ++g) {
+    if (g == f) continue;
+    const double cosine = face.tangent.dot(faces_[g].tangent), sine = std::sqrt(1 - cosine * cosine);
+    const double least = ambiguous * sigma * sine;
+    const double* const other = faces_[g].heights.data();
+    const auto keep_clear = [&](const auto& from_crease) {
+      for (int i = 0; i < n; ++i) {
+        const double left = from_crease(other[i] - height[i] * cosine) - least;  // distances times the sine
+        room[i] = left < room[i] ? left : room[i];
+      }
+    };
+    if (face.side[g] == 0)
+      keep_clear([](double distance) { return std::abs(distance); });
+    else
+      keep_clear([side = static_cast<double>(face.side[g])](double distance) { return side * distance; });
+  }
+  face.members.resize(static_cast<std::size_t>(n));
+  int count = 0;
+  for (int i = 0; i < n; ++i) {
+    face.members[count] = i;
+    count += room[i] > 0 ? 1 : 0;
+  }
+  face.members.resize(static_cast<std::size_t>(count));
+}
+
+/// Whether the points next to the creases, through which no face is fitted, lie within them: around a bend. Noise alone
+/// puts them a little outside.
+bool CreaseModel::isRounded() {
+  std::array<int, most_faces> inner{};  // the side of each face that all others are on
+  for (int f = 0; f < count_; ++f)
+    for (int g = 0; g < count_; ++g) {
+      if (f == g) continue;
+      const int side = faces_[g].side[f];
+      if (side == 0 || inner[f] == -side) return false;  // no convex body, nor the hollow of one
+      inner[f] = side;
+    }
+  is_member_.assign(static_cast<std::size_t>(size()), 0);
+  for (const Face& face : std::span(faces_).first(count_))
+    for (const int i : face.members) is_member_[i] = 1;
+  const double bound = member_height * std::sqrt(variance_);
+  double sum = 0;
+  int n = 0;
+  for (int i = 0; i < size(); ++i) {
+    if (is_member_[i] != 0) continue;
+    double depth = bound;
+    for (int f = 0; f < count_; ++f) depth = std::min(depth, inner[f] * faces_[f].heights[i]);
+    sum += std::max(depth, -bound);
+    ++n;
+  }
+  return sum > 0 && sum * sum > most_rounded * most_rounded * variance_ * n;
+}
+
+bool CreaseModel::isExplained() const {
+  double sum = 0;
+  for (int i = 0; i < size(); ++i) {
+    double least = std::abs(faces_[0].heights[i]);
+    for (int f = 1; f < count_; ++f) least = std::min(least, std::abs(faces_[f].heights[i]));
+    sum += least * least;
+  }
+  return sum < well_modelled * variance_ * size();
+}
+
+bool CreaseModel::fit(int count) {
+  size_ = std::min<int>(count, static_cast<int>(normals_.size()));
+  group();
+  if (count_ < 2) return false;
+  fitFaces();
+  for (int round = 0; round < member_rounds; ++round) {
+    measure();
+    dropAlike();
+    if (count_ < 2) return false;
+    findSides();
+    for (int f = 0; f < count_; ++f) chooseMembers(f);
+    fitFaces();
+  }
+  measure();
+  dropAlike();
+  if (count_ < 2) return false;
+  findSides();
+  return isExplained() && !isRounded();
+}
+
+/// @param meeting faces that x is on
+bool CreaseModel::isOnFace(int f, const Eigen::Vector3d& x, unsigned meeting) const {
+  for (int g = 0; g < count_; ++g)
+    if (!holdsFace(meeting, g) && faces_[f].side[g] * (faces_[g].height + faces_[g].tangent.dot(x)) < 0) return false;
+  return true;
+}
+
+/// The place nearest to the origin where the tangent planes of up to three faces meet; not finite where they do not.
+Eigen::Vector3d CreaseModel::meetingPlace(unsigned meeting) const {
+  std::array<const Face*, 3> of{};
+  int n = 0;
+  for (int f = 0; f < count_; ++f)
+    if (holdsFace(meeting, f)) of[n++] = &faces_[f];
+  const Face& a = *of[0];
+  if (n == 1) return -a.height * a.tangent;
+  const Face& b = *of[1];
+  if (n == 2) {
+    const double cosine = a.tangent.dot(b.tangent), squared_sine = 1 - cosine * cosine;
+    return ((cosine * b.height - a.height) * a.tangent + (cosine * a.height - b.height) * b.tangent) / squared_sine;
+  }
+  const Face& c = *of[2];
+  const Eigen::Vector3d across = b.tangent.cross(c.tangent);
+  return -(a.height * across + b.height * c.tangent.cross(a.tangent) + c.height * a.tangent.cross(b.tangent)) /
+         a.tangent.dot(across);
+}
+
+PlaceOnFaces CreaseModel::nearest() const {
+  PlaceOnFaces best{Eigen::Vector3d::Zero(), faces_[0].tangent};
+  double least = std::numeric_limits<double>::infinity();
+  for (unsigned meeting = 1; meeting < 1U << count_; ++meeting) {
+    if (std::popcount(meeting) > 3) continue;
+    const Eigen::Vector3d x = meetingPlace(meeting);
+    if (!(x.squaredNorm() < least)) continue;
+    bool is_on_all = true;
+    for (int f = 0; f < count_ && is_on_all; ++f) is_on_all = !holdsFace(meeting, f) || isOnFace(f, x, meeting);
+    if (!is_on_all) continue;
+    least = x.squaredNorm();
+    best = {x, faces_[std::countr_zero(meeting)].tangent};
+  }
+  return best;
+}
+
+}  // namespace tufted

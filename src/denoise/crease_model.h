@@ -1,0 +1,80 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <cstdint>
+
+#include "base/buffer.h"
+#include "stars/offsets.h"
+
+namespace tufted {
+
+/// A place on a surface.
+struct PlaceOnFaces {
+  Eigen::Vector3d position, normal;
+};
+
+/// Smooth faces that meet in creases and corners around one point, found from noisy points. Positions are relative to
+/// that point. Memory of one worker.
+class CreaseModel {
+ public:
+  /// Normals of faces differ by more than the angle of this cosine, which is 40 degrees. A smooth surface that bends by
+  /// as much within a window is told from a crease by isRounded() only.
+  static constexpr double same_face = 0.77;
+
+  /// Forgets all points.
+  /// @param variance of the noise
+  /// @param unit of lengths, about the extent of the points
+  void start(double variance, double unit);
+  /// Points are added in ascending distance.
+  /// @param normal of the surface there, zero where it is not known; its sign does not matter
+  void add(const Eigen::RowVector3d& position, const Eigen::RowVector3d& normal);
+  /// Finds the faces. False where fewer than two of them explain the points by noise alone.
+  /// @param count of the points that are looked at, the first ones
+  bool fit(int count);
+  /// The place on the faces, each of which ends where it meets others, that is nearest to the origin.
+  PlaceOnFaces nearest() const;
+
+ private:
+  static constexpr int most_faces = 4;
+
+  /// A quadratic over a plane, or a plane.
+  struct Face {
+    Eigen::Vector3d normal, first, second;  ///< of the plane
+    std::array<double, 6> coefficient;      ///< of 1, u, v, u^2, u v, v^2, in units
+    bool is_plane;
+    Eigen::Vector3d tangent;           ///< the normal of the tangent plane next to the origin
+    double height;                     ///< of the origin over the tangent plane
+    std::array<int, most_faces> side;  ///< of each other face that this one lies on: 1 above, -1 below, 0 both
+    Buffer<int> members;               ///< points that it is fitted through
+    Buffer<double> heights;            ///< of all points over it
+  };
+
+  void group();
+  bool fitFace(Face& face);
+  void fitFaces();
+  void measure();
+  void drop(int f);
+  void dropAlike();
+  void findSides();
+  void chooseMembers(int f);
+  bool isRounded();
+  bool isExplained() const;
+  bool isOnFace(int f, const Eigen::Vector3d& x, unsigned meeting) const;
+  Eigen::Vector3d meetingPlace(unsigned meeting) const;
+
+  Eigen::Vector3d positionOf(int i) const { return {coordinates_[0][i], coordinates_[1][i], coordinates_[2][i]}; }
+  int size() const { return size_; }
+
+  double variance_ = 0, unit_ = 1;
+  std::array<Buffer<double>, 3> coordinates_;
+  Buffer<Eigen::Vector3d> normals_;
+  int size_ = 0;   ///< points that are looked at
+  int count_ = 0;  ///< faces
+  std::array<Face, most_faces> faces_;
+  OffsetBuffer offsets_;
+  Buffer<std::uint8_t> is_member_;
+  Buffer<double> room_;
+};
+
+}  // namespace tufted
