@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 
+#include "denoise/crease_model.h"
 #include "denoise/listed_search.h"
 #include "denoise/pooling.h"
 #include "stars/displacements.h"
@@ -25,6 +26,9 @@ constexpr int one_side = 4;          // times the base window; half of it may be
 constexpr double agreement = 0.9;    // cosine between the normals of points on one side
 constexpr int least_on_side = 12;    // twice as many points as coefficients
 constexpr double most_step = 2;      // sigmas in one round
+constexpr int faces_within = 4;      // times the base window; half of it where that holds more than one crease
+constexpr int widest_crossing = 2;   // the widest window that may lie across a crease and take it for a bend
+constexpr double most_way = 5;       // sigmas; of normal noise one point in a million is farther from its face
 
 /// The surface of a window at one position.
 struct LentSurface {
@@ -57,6 +61,7 @@ struct CreaseScratch {
   Buffer<Lender> lenders;
   Buffer<int> side;
   OffsetBuffer offsets;
+  CreaseModel model;
 };
 
 class CreaseMover {
@@ -131,6 +136,22 @@ class CreaseMover {
     return fits[1].height * normal.transpose();
   }
 
+  /// Finds the faces that meet around p.
+  /// @param normal(q) of the surface at point q, zero where it is not known
+  /// @param scratch with the neighbours of p
+  template <class Normal>
+  bool findFaces(int p, const Normal& normal, CreaseScratch& scratch) const {
+    CreaseModel& model = scratch.model;
+    model.start(noise_.variance[p], windows_.radius[p]);
+    model.add(Eigen::RowVector3d::Zero(), normal(p));
+    for (std::size_t i = 0; i < scratch.around.all.size(); ++i) {
+      const int q = scratch.around.all[i].index;
+      if (scratch.around.skipped[i] == 0) model.add(points_.row(q) - points_.row(p), normal(q));
+    }
+    const auto all = static_cast<int>(scratch.around.all.size());
+    return model.fit(all) || model.fit(all / 2);  // all may be around more than one crease
+  }
+
   Eigen::RowVector3d normalOf(int p, int window) const {
     return surfaceAt(windows_, p, window, Eigen::Vector3d::Zero()).normal.transpose();
   }
@@ -139,6 +160,36 @@ class CreaseMover {
   PointsView points_;
   const Windows& windows_;
   const NoiseLevel& noise_;
+};
+
+/// The normals of the surface around points whose windows lie within one face.
+class FaceNormals {
+ public:
+  /// All arguments are borrowed.
+  FaceNormals(const NoiseLevel& noise, const WindowChoice& choice, const Buffer<std::uint8_t>& is_moved,
+              const PointBuffer& normals)
+      : noise_(noise), choice_(choice), is_moved_(is_moved), normals_(normals) {}
+
+  /// Zero where it is not known.
+  Eigen::RowVector3d operator()(int q) const {
+    if (noise_.noisy[q] == 0 || (choice_.window[q] < 1 && is_moved_[q] == 0)) return Eigen::RowVector3d::Zero();
+    return normals_.row(q);
+  }
+
+  bool areOfSeveralFaces(const Windows::Pool& pool) const {
+    Eigen::RowVector3d first = Eigen::RowVector3d::Zero();
+    return std::ranges::any_of(pool, [&](int q) {
+      const Eigen::RowVector3d normal = (*this)(q);
+      if (first.isZero(0)) first = normal;
+      return !normal.isZero(0) && !(std::abs(normal.dot(first)) > CreaseModel::same_face);
+    });
+  }
+
+ private:
+  const NoiseLevel& noise_;
+  const WindowChoice& choice_;
+  const Buffer<std::uint8_t>& is_moved_;
+  const PointBuffer& normals_;
 };
 
 }  // namespace
@@ -176,12 +227,34 @@ Buffer<std::uint8_t> moveNextToCreases(const PointsView& points, const NeighborS
     }
   });
 
-  const Buffer<int> moved = numbersWhere("noise", n, workers, [&](int p) { return is_moved[p] != 0; });
+  // Where faces meet, residuals grow from window to window as if there were no noise, and corners look like outliers:
+  // so points that are not noisy count as well.
+  const PointBuffer lent = normals;
+  const FaceNormals known(noise, choice, is_moved, lent);
+  const Buffer<int> near_several = numbersWhere("noise", n, workers, [&](int p) {
+    if (noise.noisy[p] != 0)
+      return choice.biased[p] != 0 && choice.window[p] <= widest_crossing && known.areOfSeveralFaces(windows.far[p]);
+    return noise.variance[p] > leastVariance(windows, p) &&
+           std::ranges::any_of(windows.near[p], [&](int q) { return noise.noisy[q] != 0; });
+  });
+  Buffer<std::uint8_t> is_on_faces(windows.base.size(), 0);
+  forEachListed(near_several, faces_within, [&](int p, CreaseScratch& scratch) {
+    if (!mover.findFaces(p, known, scratch)) return;
+    const auto [position, normal] = scratch.model.nearest();
+    if (!(position.squaredNorm() < most_way * most_way * noise.variance[p])) return;
+    move.row(p) = position.transpose();
+    normals.row(p) = normal.transpose();
+    is_on_faces[p] = 1;
+  });
+
+  const Buffer<int> others =
+      numbersWhere("noise", n, workers, [&](int p) { return is_moved[p] != 0 && is_on_faces[p] == 0; });
   for (int round = 0; round < rounds; ++round) {
-    const PointBuffer before = move;
-    forEachListed(moved, one_side,
-                  [&](int p, CreaseScratch& scratch) { move.row(p) += mover.stepOnSide(p, before, normals, scratch); });
+    const PointBuffer moved = move;
+    forEachListed(others, one_side,
+                  [&](int p, CreaseScratch& scratch) { move.row(p) += mover.stepOnSide(p, moved, normals, scratch); });
   }
+  for (int p = 0; p < n; ++p) is_moved[p] |= is_on_faces[p];
   return is_moved;
 }
 

@@ -6,8 +6,10 @@
 
 namespace tufted {
 
-/// Where no window around a point is free of a bend, as next to a crease: moves it onto the surface of windows around
-/// other points that hold it, and then onto a fit through those neighbours alone whose surface has its normal.
+/// Where no window around a point is free of a bend, as next to a crease: moves it onto the faces that meet there, each
+/// of which ends at the crease. Where no such faces explain the points, onto the surface of windows around other points
+/// that hold it, and then onto a fit through those neighbours alone whose surface has its normal. Outliers that belong
+/// to the faces around them move as well.
 /// @param move n x 3, of all points by their own windows; overwritten where a point moves so
 /// @returns n, 1 where a point moves so
 Buffer<std::uint8_t> moveNextToCreases(const PointsView& points, const NeighborSource& source, const Windows& windows,

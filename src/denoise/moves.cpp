@@ -76,6 +76,8 @@ SurfaceMoves surfaceMoves(const PointsView& points, const NeighborSource& source
     if (choice.window[p] >= 0) result.move.row(p) = windows.fits[p][choice.window[p]].height * windows.normal.row(p);
   const Buffer<std::uint8_t> next_to_crease =
       moveNextToCreases(points, source, windows, noise, choice, workers, result.move);
+  for (int p = 0; p < n; ++p)
+    if (next_to_crease[p] != 0) result.noise.outlier[p] = 0;  // it only looked like one next to a crease
   const Buffer<int> again =
       numbersWhere("noise", n, workers, [&](int p) { return choice.window[p] >= 1 && next_to_crease[p] == 0; });
   moveAgain(points, source, windows, noise, again, choice, workers, result.move);
