@@ -40,7 +40,7 @@ enum class Mass {
 /// What is done about clouds that are not exact samples of one surface. The defaults are those of Preset::scan. With
 /// the caller's neighborhoods nothing is grown, split or searched again and outliers stay. On rings outliers stay, no
 /// sheets are split, only lines are grown, and open stars are not searched again. In a depth image nothing is grown,
-/// split or searched, whatever these say: see ScanStructure.
+/// split or searched, whatever these say, and neither among rings that lie close together: see ScanStructure.
 struct CloudSteps {
   Growth growth = Growth::line;  ///< when neighbourhoods grow
   bool split_sheets = true;  ///< neighbours beyond a gap along the normal belong to another surface and are left out

@@ -69,7 +69,7 @@ void moveOntoSurface(const RankedCloud& cloud, const Workers& workers, DenoisedP
 }
 
 void moveAlongRays(const RankedScan& scan, const RankedCloud& cloud, const Workers& workers, DenoisedPoints& denoised) {
-  const SurfaceImage image = surfaceImage(scan, cloud.points, true, workers);
+  const SurfaceImage image = surfaceImage(pixelGrid(scan), cloud.points, true, workers);
   const auto noiseOf = [&](int p) { return image.noiseOf(p); };
   apply(image.windows.displacement, noiseOf, cloud, denoised);
   denoised.report.unplaced = image.unplaced;

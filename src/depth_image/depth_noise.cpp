@@ -19,6 +19,8 @@ constexpr double kept_at_first = 0.75, kept = 0.9;
 constexpr double spread_at_first = 0.37, spread = 0.62;  // mean square of the smallest, of normal numbers
 constexpr double sum_of_squares = 70;                    // of 1, 4, 6, 4, 1
 
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
 /// Inverse ranges of five pixels in a row.
 using Five = std::array<double, 5>;
 
@@ -26,20 +28,26 @@ using Five = std::array<double, 5>;
 RawBuffer<Five> takeFives(const PixelGrid& grid, const PointsView& points, const Workers& workers) {
   const auto inverseRange = [&](std::int64_t pixel) {
     const int p = grid.rank[pixel];
-    return p < 0 ? std::numeric_limits<double>::quiet_NaN() : 1 / (points.row(p) - grid.origin).norm();
+    return p < 0 ? unknown : 1 / (points.row(p) - grid.origin).norm();
   };
   const std::int64_t pixels = std::ssize(grid.rank), stride = std::max<std::int64_t>(1, pixels / samples) | 1;
   const std::int64_t first = 2 * std::int64_t{grid.columns},
                      count = std::max<std::int64_t>(0, (pixels - 2 * first + stride - 1) / stride);
+  // The rings of a scanner do not fire at the same azimuths, so that a column leads from side to side.
+  const auto isTold = [&grid](std::int64_t pixel, int direction) {
+    if (!grid.goes_round) return true;
+    return direction == 0 && grid.isHome(static_cast<int>(pixel % grid.columns));
+  };
   RawBuffer<Five> fives(static_cast<std::size_t>(2 * count));
   workers.forBlocks("windows", count, usual_block, [&](std::int64_t begin, std::int64_t end, int) {
     for (std::int64_t i = begin; i < end; ++i) {
       const std::int64_t pixel = first + i * stride;
       for (const int direction : {0, 1}) {
         const std::int64_t side = direction == 0 ? 1 : grid.columns;
+        const bool is_told = isTold(pixel, direction);
         Five& w = fives[2 * i + direction];
-        for (int k = 0; k < 5; ++k) w[k] = inverseRange(pixel + (k - 2) * side);
-        if (!std::isfinite(w[0] + w[1] + w[2] + w[3] + w[4])) w[0] = std::numeric_limits<double>::quiet_NaN();
+        for (int k = 0; k < 5; ++k) w[k] = is_told ? inverseRange(pixel + (k - 2) * side) : unknown;
+        if (!std::isfinite(w[0] + w[1] + w[2] + w[3] + w[4])) w[0] = unknown;
       }
     }
   });

@@ -41,10 +41,7 @@ class ImageBoundaryFinder {
   }
 
  private:
-  PixelStep stepTo(int p, int q) const {
-    const PixelGrid& grid = image_.grid;
-    return {grid.rowOf(q) - grid.rowOf(p), grid.columnOf(q) - grid.columnOf(p)};
-  }
+  PixelStep stepTo(int p, int q) const { return image_.grid.stepBetween(p, q); }
 
   static double directionOf(const PixelStep& step, bool is_mirrored) {
     return std::atan2(is_mirrored ? -step.row : step.row, step.column);
@@ -85,9 +82,11 @@ class ImageBoundaryFinder {
     const PixelGrid& grid = image_.grid;
     const int row = grid.rowOf(p), column = grid.columnOf(p);
     Boundary found = Boundary::rim;
+    const int first = grid.goes_round ? column - reach : std::max(0, column - reach);
+    const int last = grid.goes_round ? column + reach : std::min(grid.columns - 1, column + reach);
     for (int r = std::max(0, row - reach); r <= std::min(grid.rows - 1, row + reach); ++r) {
-      for (int c = std::max(0, column - reach); c <= std::min(grid.columns - 1, column + reach); ++c) {
-        const int q = grid.rank[std::int64_t{r} * grid.columns + c];
+      for (int c = first; c <= last; ++c) {
+        const int q = grid.rankAt(r, c);
         const PixelStep step{r - row, c - column};
         if (q < 0 || q == p || step.row * step.row + step.column * step.column > reach * reach) continue;
         if (!gap.holdsInTheMiddle(directionOf(step, is_mirrored)) || !hasTriangles(stars_, q)) continue;

@@ -40,7 +40,10 @@ class ImageStarBuilder {
         normals_(normals),
         wrapping_(options.delaunay),
         by_packets_(normals.rows() == 0 && options.delaunay == Delaunay::star),
-        most_rings_of_star_(image.windows.moved == 0 ? most_certain_rings : WindowPixels::reach),
+        is_exact_(image.windows.moved == 0),
+        is_stretched_(image.grid.goes_round && is_exact_),
+        rings_of_whole_(image.grid.goes_round && !is_exact_ ? WindowPixels::reach : first_rings),
+        most_rings_of_star_(is_exact_ && !image.grid.goes_round ? most_certain_rings : WindowPixels::reach),
         stars_(built.stars),
         support_(built.support) {
     for (int i = 0; i < pixels_around; ++i)
@@ -68,7 +71,7 @@ class ImageStarBuilder {
         takeCertain(p, lane, found, state.memory.star);
         store(p, frameOfLane(found, lane), 1, state.memory);
       } else if ((is_whole & found.is_found) >> lane & 1U) {
-        state.window.take(image_, p, first_rings);
+        state.window.take(image_, p, rings_of_whole_);
         buildOne(p, frameOfLane(found, lane), state);
       } else {
         buildOne(p, findFrame(p, state), state);
@@ -79,6 +82,7 @@ class ImageStarBuilder {
   /// Returns which lanes have a whole window.
   unsigned wrapWhole(int begin, int end, WorkerState& state) const {
     PixelsAround& around = state.around;
+    around.is_stretched = is_stretched_;
     unsigned is_whole = 0;
     for (int p = begin; p < end; ++p) {
       if ((image_.windows.around[p] & first_window) != first_window) continue;
@@ -175,9 +179,11 @@ class ImageStarBuilder {
   }
 
   /// Whether no pixel beyond the window lies in a circle of the star: on a smooth surface the next ring is one step
-  /// farther away.
-  static bool isCertain(const DelaunayStar& star, const PixelWindow& window, double unit) {
-    const double rings = window.rings(), next = (rings + 1) / rings * std::sqrt(window.nearestInLastRing()) * unit;
+  /// farther away. Where rows are far apart and exact, the points of a row are beside each other on a line, of which no
+  /// circle holds more than lies between two of them: so only what lies beyond the last row is looked at.
+  bool isCertain(const DelaunayStar& star, const PixelWindow& window, double unit) const {
+    const double nearest = is_stretched_ ? window.nearestInLastRows() : window.nearestInLastRing();
+    const double rings = window.rings(), next = (rings + 1) / rings * std::sqrt(nearest) * unit;
     return 2 * star.largestCircumradius() <= next;
   }
 
@@ -194,6 +200,9 @@ class ImageStarBuilder {
   const PointBuffer& normals_;
   StarWrapping wrapping_;
   bool by_packets_;                                    ///< whole windows, eight at once
+  bool is_exact_;                                      ///< no point moves
+  bool is_stretched_;                                  ///< rows alone tell how far the next ring is
+  int rings_of_whole_;                                 ///< of the window of a star that is more than the pixels beside
   int most_rings_of_star_;                             ///< of the window of a closed one
   std::array<std::ptrdiff_t, pixels_around> shift_{};  ///< in the image
   Stars& stars_;
@@ -210,9 +219,9 @@ double SurfaceImage::noiseOfMoved() const {
   return medianOf(std::move(values));
 }
 
-SurfaceImage surfaceImage(const RankedScan& scan, const PointsView& points, bool smooths, const Workers& workers) {
+SurfaceImage surfaceImage(PixelGrid grid, const PointsView& points, bool smooths, const Workers& workers) {
   SurfaceImage image;
-  image.grid = pixelGrid(scan);
+  image.grid = std::move(grid);
   image.unplaced = std::count(image.grid.pixel.begin(), image.grid.pixel.end(), -1);
   image.noise = inverseRangeNoise(image.grid, points, workers);
   image.windows = findSurfaceWindows(image.grid, points, image.noise, smooths, workers);

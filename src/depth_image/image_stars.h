@@ -36,7 +36,7 @@ struct SurfaceImage {
 
 /// Finds the surface in the windows of all pixels.
 /// @param smooths whether points are moved onto it
-SurfaceImage surfaceImage(const RankedScan& scan, const PointsView& points, bool smooths, const Workers& workers);
+SurfaceImage surfaceImage(PixelGrid grid, const PointsView& points, bool smooths, const Workers& workers);
 
 /// The Delaunay stars of all points among the points in the windows of their pixels. Counts grown,
 /// open and dropped ones; the caller books the cost.

@@ -1,12 +1,17 @@
 #include "depth_image/image_tile.h"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 
 #include "depth_image/surface_windows.h"
 
 namespace tufted {
 namespace {
+
+constexpr double steepest_slope = 0.25;  // of the inverse range with a row or column; more is no surface
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// How a step is reached: whether by a step down or by its inverse, and over which pixels one ring further in.
 struct Way {
@@ -22,7 +27,7 @@ struct Ways {
   std::array<Way, WindowPixels::count> way{};
   std::array<PixelStep, ImageTile::steps_down> down{};
   std::array<int, ImageTile::steps_down> down_shift{};
-  std::array<double, ImageTile::steps_down> most{};
+  std::array<double, ImageTile::steps_down> most{}, most_of_rings{};
   std::array<int, pixels_beside> beside_shift{};
 
   constexpr Ways() {
@@ -32,6 +37,7 @@ struct Ways {
     for (int i = 0; i < ImageTile::steps_down; ++i) {
       down_shift[i] = shiftOf(down[i]);
       most[i] = JumpTest::steepestOf(down[i]);
+      most_of_rings[i] = JumpTest::steepestOf(down[i], JumpTest::steepest_of_rings);
     }
     for (int i = 0; i < pixels_beside; ++i) beside_shift[i] = shiftOf(window_pixels.step[i]);
     for (int i = 0; i < WindowPixels::count; ++i) {
@@ -85,6 +91,8 @@ void transposeBits(std::array<std::uint64_t, 64>& words) {
 
 bool ImageTile::take(const PixelGrid& grid, const PointsView& points, int top, int left, double tolerance) {
   bool any = false;
+  const int own_columns = std::min(columns, grid.columns - PixelGrid::margin - halo - left);
+  own_ = ((std::uint64_t{1} << own_columns) - 1) << halo;
   for (int row = 0; row < all_rows; ++row) {
     is_filled_[row] = is_open_[row] = 0;
     for (int column = 0; column < pixels_in_word; ++column) {
@@ -93,7 +101,7 @@ bool ImageTile::take(const PixelGrid& grid, const PointsView& points, int top, i
       const int p = is_inside ? grid.rank[std::int64_t{top + row} * grid.columns + left + column] : -1;
       rank_[i] = p;
       if (p < 0) {
-        is_open_[row] |= std::uint64_t{grid.isInImage(top + row, left + column)} << column;
+        is_open_[row] |= std::uint64_t{is_inside && grid.isInImage(top + row, left + column)} << column;
         x_[i] = y_[i] = z_[i] = 0;
         continue;
       }
@@ -103,17 +111,61 @@ bool ImageTile::take(const PixelGrid& grid, const PointsView& points, int top, i
       y_[i] = point[1] - grid.origin[1];
       z_[i] = point[2] - grid.origin[2];
     }
-    any |= row >= halo && row < halo + rows && (is_filled_[row] & ownPixels()) != 0;
+    any |= row >= halo && row < halo + rows && (is_filled_[row] & own_) != 0;
   }
   if (!any) return false;
   using Row = Eigen::Map<Eigen::Array<double, all_pixels, 1>>;
   const auto inFull = [](Values& values) { return Row(values.data()); };
   inFull(range_) = (inFull(x_).square() + inFull(y_).square() + inFull(z_).square()).sqrt();
   inFull(inverse_) = inFull(range_).inverse();
-  const PixelSteps steps{steps_down, ways.down_shift.data(), ways.most.data()};
+  const PixelSteps steps{steps_down, ways.down_shift.data(), (grid.goes_round ? ways.most_of_rings : ways.most).data()};
   for (int row = 0; row < all_rows; ++row)
     kernels().joinPixels(pixelsAt(row * pixels_in_word), steps, tolerance, joined_[row].data());
+  if (grid.goes_round) {
+    findSlopes(grid, points, top, left);
+    for (int row = 0; row < all_rows; ++row) joinAlongSlopes(row, tolerance);
+  }
   return true;
+}
+
+void ImageTile::findSlopes(const PixelGrid& grid, const PointsView& points, int top, int left) {
+  const auto inverseBeyond = [&](int row, int column) {
+    if (row < 0 || row >= grid.rows || !grid.isInImage(row, grid.wrapped(column))) return unknown;
+    const int p = grid.rankAt(row, column);
+    return p < 0 ? unknown : 1 / (points.row(p) - grid.origin).norm();
+  };
+  const auto inverse = [&](int row, int column) {
+    if (row < 0 || row >= all_rows || column < 0 || column >= pixels_in_word)
+      return inverseBeyond(top + row, left + column);
+    const int i = row * pixels_in_word + column;
+    return rank_[i] < 0 ? unknown : inverse_[i];
+  };
+  for (int row = 0; row < all_rows; ++row) {
+    forEachPixel(is_filled_[row], [&](int column) {
+      const int i = row * pixels_in_word + column;
+      const double here = inverse_[i], most = steepest_slope * here;
+      slope_[i] = {commonSlope(here - inverse(row - 1, column), inverse(row + 1, column) - here, most),
+                   commonSlope(here - inverse(row, column - 1), inverse(row, column + 1) - here, most)};
+    });
+  }
+}
+
+void ImageTile::joinAlongSlopes(int row, double tolerance) {
+  const JumpTest test = JumpTest::withTolerance(tolerance);
+  for (int i = 0; i < steps_down; ++i) {
+    const PixelStep& step = ways.down[i];
+    if (row + step.row >= all_rows) continue;
+    const std::uint64_t both = is_filled_[row] & stepped(is_filled_[row + step.row], step.column);
+    std::uint64_t more = 0;
+    forEachPixel(both & ~joined_[row][i], [&](int column) {
+      const int a = row * pixels_in_word + column, b = a + ways.down_shift[i];
+      const double x = x_[a] - x_[b], y = y_[a] - y_[b], z = z_[a] - z_[b];
+      const Rise rise = riseBetween(slope_[a], slope_[b], step);
+      const bool joins = test.joins(x * x + y * y + z * z, range_[a], range_[b], ways.most_of_rings[i], rise);
+      more |= std::uint64_t{joins} << column;
+    });
+    joined_[row][i] |= more;
+  }
 }
 
 std::int64_t ImageTile::findWindows(int row, std::array<std::uint64_t, pixels_in_word>& windows) {
@@ -142,7 +194,7 @@ std::int64_t ImageTile::findWindows(int row, std::array<std::uint64_t, pixels_in
       reached[i] &= linked | (over & ~refused);
     }
     windows[i] = around_[i] = reached[i] & filled[i];
-    left_out += std::popcount(filled[i] & ~reached[i] & is_filled_[here] & ownPixels());
+    left_out += std::popcount(filled[i] & ~reached[i] & is_filled_[here] & own_);
   }
   for (int i = WindowPixels::count; i < pixels_in_word; ++i) windows[i] = 0;
   transposeBits(windows);

@@ -5,6 +5,7 @@
 
 #include "base/point_buffer.h"
 #include "depth_image/pixel_grid.h"
+#include "depth_image/surface_windows.h"
 #include "depth_image/window_pixels.h"
 #include "simd/kernels.h"
 
@@ -37,6 +38,8 @@ class ImageTile {
   /// Inverse ranges; what lies rowStep() on is one row below.
   const double* inverseAt(int row, int column) const { return inverse_.data() + at(row, column); }
   static constexpr int rowStep() { return pixels_in_word; }
+  /// For images that go round.
+  const InverseSlope& slopeAt(int row, int column) const { return slope_[at(row, column)]; }
   /// Squared spacings in inverse range between eight pixels and those beside them, for the row of the last
   /// findWindows().
   void spacings(int row, int column, double* squared) const;
@@ -47,15 +50,19 @@ class ImageTile {
   /// Steps from the last pixels read beyond them.
   using Values = std::array<double, all_pixels + halo*(pixels_in_word + 1) + kernel_packet>;
 
-  /// The pixels of a row that are not of the halo.
-  static constexpr std::uint64_t ownPixels() { return ((std::uint64_t{1} << columns) - 1) << halo; }
   static constexpr int at(int row, int column) { return (row + halo) * pixels_in_word + column + halo; }
   PixelPoints pixelsAt(int pixel) const {
     return {x_.data() + pixel, y_.data() + pixel, z_.data() + pixel, range_.data() + pixel};
   }
 
+  std::uint64_t own_ = 0;  ///< the pixels of a row that are of the image and not of the halo
+  void findSlopes(const PixelGrid& grid, const PointsView& points, int top, int left);
+  /// Joins pixels of a row with others as well where the step between them is steep and the slope goes on.
+  void joinAlongSlopes(int row, double tolerance);
+
   std::array<int, all_pixels> rank_{};
   Values x_{}, y_{}, z_{}, range_{}, inverse_{};
+  std::array<InverseSlope, all_pixels> slope_{};  ///< of an image that goes round
   // Sets of the pixels of each row.
   std::array<std::uint64_t, all_rows> is_filled_{};  ///< with a point
   std::array<std::uint64_t, all_rows> is_open_{};    ///< without, but in the image, so that it can be stepped over

@@ -37,9 +37,19 @@ class Lines {
   Buffer<int> number_;
 };
 
+/// Fills the margins left and right of an image that goes round.
+void repeatBeyondSeam(PixelGrid& grid) {
+  const int around = grid.columnsInImage();
+  for (int row = PixelGrid::margin; row < grid.rows - PixelGrid::margin; ++row) {
+    int* const rank = grid.rank.data() + std::int64_t{row} * grid.columns;
+    std::copy_n(rank + around, PixelGrid::margin, rank);
+    std::copy_n(rank + PixelGrid::margin, PixelGrid::margin, rank + PixelGrid::margin + around);
+  }
+}
+
 }  // namespace
 
-PixelGrid pixelGrid(const RankedScan& scan) {
+PixelGrid pixelGrid(const RankedScan& scan, int around) {
   const int n = static_cast<int>(scan.row.size());
   Lines rows, columns;
   const auto forEachPlace = [&](const auto& visit) {
@@ -50,6 +60,10 @@ PixelGrid pixelGrid(const RankedScan& scan) {
     rows.widen(row);
     columns.widen(column);
   });
+  if (around > 0) {
+    columns.widen(0);
+    columns.widen(around - 1);
+  }
   // By what the caller gave: how many of the points are usable must not decide.
   if (rows.extent() * columns.extent() > std::max(most_pixels, pixels_per_point * scan.entries)) {
     throw InvalidInput(std::string(scan.function) + ": structure has points in " + std::to_string(rows.extent()) +
@@ -64,7 +78,10 @@ PixelGrid pixelGrid(const RankedScan& scan) {
     columns.hold(column);
   });
 
+  for (int column = 0; column < around; ++column) columns.hold(column);
+
   PixelGrid grid;
+  grid.goes_round = around > 0;
   grid.origin = scan.origin.transpose();
   grid.rows = rows.count() + 2 * PixelGrid::margin;
   grid.columns = columns.count() + 2 * PixelGrid::margin;
@@ -77,6 +94,7 @@ PixelGrid pixelGrid(const RankedScan& scan) {
     grid.rank[pixel] = p;
     grid.pixel[p] = pixel;
   });
+  if (grid.goes_round) repeatBeyondSeam(grid);
   return grid;
 }
 

@@ -3,15 +3,18 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 
 #include "base/buffer.h"
 #include "base/stage_clock.h"
+#include "depth_image/window_pixels.h"
 #include "neighbors/scan/ranked_scan.h"
 
 namespace tufted {
 
 /// Which point is in which pixel of a depth image. Rows and columns without any point are left out, so that an image of
-/// which every fourth row and column was kept is as good as a whole one. A margin without points goes around.
+/// which every fourth row and column was kept is as good as a whole one. A margin goes around: without points, but to
+/// the left and right of an image that goes round it repeats what lies beyond the seam.
 struct PixelGrid {
   static constexpr int margin = 3;
 
@@ -19,10 +22,28 @@ struct PixelGrid {
   Buffer<int> rank;            ///< rows x columns, -1: no point
   Buffer<std::int64_t> pixel;  ///< n, -1: no pixel, or one that a point of a smaller rank has
   Eigen::RowVector3d origin;   ///< of the rays, in units of the cloud
+  bool goes_round = false;     ///< the last column is a neighbour of the first, as around a spinning scanner
 
-  /// Whether a pixel lies within the margins.
+  /// Whether a pixel lies within the margins, or in one that repeats the image.
   bool isInImage(int row, int column) const {
-    return row >= margin && column >= margin && row < rows - margin && column < columns - margin;
+    const int side = goes_round ? 0 : margin;
+    return row >= margin && column >= side && row < rows - margin && column < columns - side;
+  }
+  int columnsInImage() const { return columns - 2 * margin; }
+  /// The rank at a pixel any number of columns away from the image, which may go round.
+  int rankAt(int row, int column) const { return rank[std::int64_t{row} * columns + wrapped(column)]; }
+  /// Whether a column is not in the margins.
+  bool isHome(int column) const { return column >= margin && column < columns - margin; }
+  int wrapped(int column) const {
+    if (!goes_round || isHome(column)) return column;
+    const int around = columnsInImage(), past = (column - margin) % around;
+    return margin + (past < 0 ? past + around : past);
+  }
+  /// The short way round.
+  PixelStep stepBetween(int p, int q) const {
+    const int step = columnOf(q) - columnOf(p), around = columnsInImage();
+    const int turn = !goes_round || 2 * std::abs(step) <= around ? 0 : step < 0 ? around : -around;
+    return {rowOf(q) - rowOf(p), step + turn};
   }
   int rowOf(int p) const { return static_cast<int>(pixel[p] / columns); }
   int columnOf(int p) const { return static_cast<int>(pixel[p] % columns); }
@@ -30,6 +51,8 @@ struct PixelGrid {
 };
 
 /// @throws InvalidInput for rows and columns that are no image: more than 2^24 pixels and 64 per entry of the structure
-PixelGrid pixelGrid(const RankedScan& scan);
+/// @param around the columns of an image that goes round, none of which is left out, more than 2 x margin; 0: it ends
+/// at the sides
+PixelGrid pixelGrid(const RankedScan& scan, int around = 0);
 
 }  // namespace tufted

@@ -24,7 +24,7 @@ void PixelWindow::widen(const DepthImage& image, int p, int rings) {
   const PixelGrid& grid = image.grid;
   const int row = grid.rowOf(p), column = grid.columnOf(p);
   const int side = 2 * rings + 1;
-  const auto rankAt = [&](int r, int c) { return grid.rank[std::int64_t{r} * grid.columns + c]; };
+  const auto isInImage = [&](int r, int c) { return grid.isInImage(r, grid.wrapped(c)); };
   reached_.assign(static_cast<std::size_t>(side) * side, 0);
   const auto reached = [&](int i, int j) -> std::uint8_t& { return reached_[(i + rings) * side + j + rings]; };
   reached(0, 0) = 1;
@@ -33,18 +33,18 @@ void PixelWindow::widen(const DepthImage& image, int p, int rings) {
   rings_ = rings;
   const auto visit = [&](int ring, int i, int j) {
     const int r = row + i, c = column + j;
-    if (!grid.isInImage(r, c)) return;
-    const int q = rankAt(r, c);
-    if (q >= 0 && !image.isOneSurface(p, q, JumpTest::steepestOf({i, j}))) return;
+    if (!isInImage(r, c)) return;
+    const int q = grid.rankAt(r, c);
+    if (q >= 0 && !image.isOneSurface(p, q, {i, j})) return;
     bool is_linked = false, is_over = false, is_refused = false;
     for (int di = -1; di <= 1; ++di) {
       for (int dj = -1; dj <= 1; ++dj) {
         const int a = i + di, b = j + dj;
         if (PixelStep{a, b}.ring() != ring - 1 || reached(a, b) == 0) continue;
-        const int m = rankAt(row + a, column + b);
+        const int m = grid.rankAt(row + a, column + b);
         if (m < 0) {
           is_over = true;
-        } else if (q < 0 || image.isOneSurface(m, q, JumpTest::steepestOf({di, dj}))) {
+        } else if (q < 0 || image.isOneSurface(m, q, {di, dj})) {
           is_linked = true;
         } else {
           is_refused = true;
@@ -77,6 +77,13 @@ void PixelWindow::measure(const DepthImage& image, int p) {
 double PixelWindow::nearestInLastRing() const {
   double nearest = std::numeric_limits<double>::infinity();
   for (int i = last_ring_; i < count(); ++i) nearest = std::min(nearest, neighbors_[i].squared_distance);
+  return nearest;
+}
+
+double PixelWindow::nearestInLastRows() const {
+  double nearest = std::numeric_limits<double>::infinity();
+  for (int i = last_ring_; i < count(); ++i)
+    if (std::abs(steps_[i].row) == rings_) nearest = std::min(nearest, neighbors_[i].squared_distance);
   return nearest;
 }
 

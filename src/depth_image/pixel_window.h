@@ -21,10 +21,22 @@ struct DepthImage {
   const SurfaceWindows& windows;
   JumpTest test;
 
-  bool isOneSurface(int a, int b, double most = JumpTest::steepest) const {
+  bool isOneSurface(int a, int b) const { return isOneSurface(a, b, steepest()); }
+  bool isOneSurface(int a, int b, const PixelStep& step) const {
+    return isOneSurface(a, b, JumpTest::steepestOf(step, steepest()));
+  }
+
+ private:
+  double steepest() const { return grid.goes_round ? JumpTest::steepest_of_rings : JumpTest::steepest; }
+
+  bool isOneSurface(int a, int b, double most) const {
     const double *const p = points.data() + 3 * std::ptrdiff_t{a}, *const q = points.data() + 3 * std::ptrdiff_t{b};
     const double x = p[0] - q[0], y = p[1] - q[1], z = p[2] - q[2];
-    return test.joins(x * x + y * y + z * z, windows.range[a], windows.range[b], most);
+    const double squared_step = x * x + y * y + z * z, range_a = windows.range[a], range_b = windows.range[b];
+    if (test.joins(squared_step, range_a, range_b, most)) return true;
+    if (!grid.goes_round) return false;
+    const Rise rise = riseBetween(windows.slope[a], windows.slope[b], grid.stepBetween(a, b));
+    return test.joins(squared_step, range_a, range_b, most, rise);
   }
 };
 
@@ -45,6 +57,8 @@ class PixelWindow {
   Offsets offsets() const { return offsets_.view(); }
   /// Squared distance of the nearest point of the last ring; infinite where it holds none.
   double nearestInLastRing() const;
+  /// The same of the last rows above and below alone.
+  double nearestInLastRows() const;
 
  private:
   void measure(const DepthImage& image, int p);

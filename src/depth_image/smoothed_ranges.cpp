@@ -27,6 +27,19 @@ void forEachRow(const SmoothedRanges& image, const Workers& workers, const Work&
   });
 }
 
+/// Fills what lies left and right of an image that goes round, as far as windows reach.
+void repeatBeyondSeam(SmoothedRanges& image, const Workers& workers) {
+  const int first = PixelGrid::margin, around = image.columns - 2 * PixelGrid::margin;
+  forEachRow(image, workers, [&](int row, int) {
+    if (row < 0 || row >= image.rows) return;
+    double* const inverse = image.inverse.data() + image.at(row, 0);
+    for (int column = first - 1; column >= -SmoothedRanges::border; --column)
+      inverse[column] = inverse[column + around];
+    for (int column = first + around; column < image.columns + SmoothedRanges::border; ++column)
+      inverse[column] = inverse[column - around];
+  });
+}
+
 /// Smooths an image again by values that are some pixels apart: those around a pixel that differ from its own by no
 /// more than a slope and noise explain may be of one surface with it.
 class RangeSmoother {
@@ -94,6 +107,7 @@ class RangeSmoother {
 void SmoothedRanges::clear(const PixelGrid& grid, const Workers& workers) {
   rows = grid.rows;
   columns = grid.columns;
+  goes_round = grid.goes_round;
   row_step = columns + 2 * border;
   const auto size = static_cast<std::size_t>((rows + 2 * border) * row_step + kernel_packet);
   for (RawBuffer<double>* const values : {&inverse, &variance, &spacing_squared}) values->resize(size);
@@ -112,6 +126,7 @@ void smoothFurther(SmoothedRanges& smoothed, double noise, const Workers& worker
   RawBuffer<double> after(smoothed.inverse.size());
   std::fill_n(after.end() - kernel_packet, kernel_packet, 0);
   for (const int stride : strides) {
+    if (smoothed.goes_round) repeatBeyondSeam(smoothed, workers);
     const RangeSmoother smoother(noise, stride, smoothed, after);
     forEachRow(smoothed, workers, [&](int row, int) { smoother.smoothRow(row); });
     smoothed.inverse.swap(after);

@@ -17,6 +17,7 @@ struct SmoothedRanges {
   static constexpr int border = WindowPixels::reach * widest_stride;
 
   int rows = 0, columns = 0;          ///< of the grid
+  bool goes_round = false;            ///< as the grid
   std::ptrdiff_t row_step = 0;        ///< in these arrays
   RawBuffer<double> inverse;          ///< NaN where there is no point
   RawBuffer<double> variance;         ///< of it; 0: as measured, and where there is no point

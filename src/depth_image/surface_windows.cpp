@@ -1,5 +1,6 @@
 #include "depth_image/surface_windows.h"
 
+#include <algorithm>
 #include <array>
 #include <numeric>
 
@@ -24,17 +25,19 @@ class WindowFinder {
     const int top = number / in_row * ImageTile::rows, left = number % in_row * ImageTile::columns;
     if (!tile.take(grid_, points_, top, left, test_.tolerance)) return;
     std::array<std::uint64_t, pixels_in_word> windows;
+    const int columns = std::min(ImageTile::columns, grid_.columnsInImage() - left);
     for (int row = 0; row < ImageTile::rows; ++row) {
       cut += tile.findWindows(row, windows);
-      for (int column = 0; column < ImageTile::columns; ++column) {
+      for (int column = 0; column < columns; ++column) {
         const int p = tile.rankAt(row, column);
         if (p < 0) continue;
         windows_.around[p] = windows[column + ImageTile::halo];
         windows_.range[p] = *tile.rangeAt(row, column);
+        if (grid_.goes_round) windows_.slope[p] = tile.slopeAt(row, column);
       }
       if (smoothed_ == nullptr) continue;
       const std::ptrdiff_t first = smoothed_->at(top + ImageTile::halo + row, left + ImageTile::halo);
-      for (int column = 0; column < ImageTile::columns; column += kernel_packet)
+      for (int column = 0; column < columns; column += kernel_packet)
         smoothSome(tile, row, column, windows.data() + column + ImageTile::halo, first + column);
     }
   }
@@ -91,6 +94,7 @@ SurfaceWindows findSurfaceWindows(const PixelGrid& grid, const PointsView& point
   const auto n = static_cast<std::size_t>(points.rows());
   windows.around.assign(n, 0);
   windows.range.resize(n);
+  if (grid.goes_round) windows.slope.resize(n);
   SmoothedRanges smoothed;
   if (smooths) smoothed.clear(grid, workers);
   const WindowFinder finder(grid, points, noise, windows, smooths ? &smoothed : nullptr);

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 
 #include "base/buffer.h"
 #include "base/parallel.h"
 #include "base/point_buffer.h"
+#include "depth_image/inverse_slope.h"
 #include "depth_image/pixel_grid.h"
 #include "depth_image/window_pixels.h"
 
@@ -17,11 +19,12 @@ struct SurfaceWindows {
   /// from pixel to pixel lead to, farther from p each, none of which goes along the line of sight. Pixels without a
   /// point are stepped over, but where a pixel beside them knows better.
   Buffer<std::uint64_t> around;
-  RawBuffer<double> range;   ///< n, from the sensor; not set where a point has no pixel
-  PointBuffer displacement;  ///< n x 3, along the ray, onto the surface; 0 x 3 without smoothing
-  PointBuffer place;         ///< n x 3, where that leads to; 0 x 3 without smoothing
-  std::int64_t cut = 0;      ///< points in windows that a jump of the surface leaves out
-  std::int64_t moved = 0;    ///< points whose displacement is not 0
+  RawBuffer<double> range;        ///< n, from the sensor; not set where a point has no pixel
+  RawBuffer<InverseSlope> slope;  ///< n, as range; 0 entries where the image does not go round
+  PointBuffer displacement;       ///< n x 3, along the ray, onto the surface; 0 x 3 without smoothing
+  PointBuffer place;              ///< n x 3, where that leads to; 0 x 3 without smoothing
+  std::int64_t cut = 0;           ///< points in windows that a jump of the surface leaves out
+  std::int64_t moved = 0;         ///< points whose displacement is not 0
 };
 
 /// @param noise see inverseRangeNoise()
@@ -33,14 +36,22 @@ SurfaceWindows findSurfaceWindows(const PixelGrid& grid, const PointsView& point
 /// a row, or it would find a way around each corner of a jump.
 struct JumpTest {
   static constexpr double steepest = 143;  ///< squared tangent of 85 degrees: cameras see no steeper surface
+  /// The same from ring to ring of a spinning scanner, that is over so wide steps that a jump may look no steeper than
+  /// a surface: the square of 80 degrees. What is steeper is a surface where the slope goes on, see InverseSlope.
+  static constexpr double steepest_of_rings = 32;
   static constexpr double deviations = 5;  ///< of the noise are no jump
 
   explicit JumpTest(double noise) : tolerance(deviations * noise) {}
+  static JumpTest withTolerance(double tolerance) {
+    JumpTest test(0);
+    test.tolerance = tolerance;
+    return test;
+  }
 
   /// @param step in the image, not zero
-  static constexpr double steepestOf(const PixelStep& step) {
+  static constexpr double steepestOf(const PixelStep& step, double along_rows = steepest) {
     const double row = step.row, column = step.column, ring = step.ring();
-    return steepest * (ring * ring) / (row * row + column * column);
+    return along_rows * (ring * ring) / (row * row + column * column);
   }
 
   /// @param most the square of the tangent, see steepestOf()
@@ -49,6 +60,14 @@ struct JumpTest {
     const double more = along - tolerance * range_a * range_b;
     // Without branches, so that many are tested at once.
     return (static_cast<int>(more <= 0) | static_cast<int>(more * more <= most * (squared_step - along * along))) != 0;
+  }
+
+  /// The same where the inverse range may change by as much along the surface, from a to b.
+  bool joins(double squared_step, double range_a, double range_b, double most, const Rise& rise) const {
+    const double product = range_a * range_b, along = range_a - range_b;
+    const double beyond = std::max({0.0, along - rise.most * product, rise.least * product - along});
+    const double more = beyond - tolerance * product;
+    return more <= 0 || more * more <= most * (squared_step - along * along);
   }
 
   double tolerance;  ///< of inverse ranges

@@ -6,19 +6,19 @@
 #include "base/power_of_two.h"
 #include "depth_image/image_boundary.h"
 #include "depth_image/image_stars.h"
+#include "depth_image/ring_columns.h"
 #include "neighbors/neighbor_source.h"
 #include "stars/boundary.h"
 
 namespace tufted {
 namespace {
 
-CloudSurface imageSurface(const RankedCloud& cloud, const CloudOptions& options, const std::vector<PointStatus>& status,
-                          const std::vector<int>& representative, const Workers& workers, StageClock& clock,
-                          Report& report) {
+CloudSurface imageSurface(PixelGrid grid, const RankedCloud& cloud, const CloudOptions& options, const Workers& workers,
+                          StageClock& clock, Report& report) {
   const PointBuffer normals = rankedNormals(options.normals, cloud, report);
   report.neighbors = std::min(WindowPixels::count, std::max(0, cloud.size() - 1));
-  SurfaceImage surface = surfaceImage(rankScan(*options.structure, cloud, status, representative), cloud.points,
-                                      options.steps.lengths == Lengths::denoised, workers);
+  SurfaceImage surface =
+      surfaceImage(std::move(grid), cloud.points, options.steps.lengths == Lengths::denoised, workers);
   report.unplaced = surface.unplaced;
   report.cut_neighbors = surface.windows.cut;
   report.denoised = surface.windows.moved;
@@ -41,8 +41,12 @@ CloudSurface imageSurface(const RankedCloud& cloud, const CloudOptions& options,
 CloudSurface findSurface(const RankedCloud& cloud, const CloudOptions& options, const Eigen::Vector3d* viewpoint,
                          const std::vector<PointStatus>& status, const std::vector<int>& representative,
                          const Workers& workers, StageClock& clock, Report& report) {
-  if (options.structure != nullptr && !options.structure->has_rings)
-    return imageSurface(cloud, options, status, representative, workers, clock, report);
+  if (options.structure != nullptr) {
+    RankedScan scan = rankScan(*options.structure, cloud, status, representative);
+    if (!options.structure->has_rings) return imageSurface(pixelGrid(scan), cloud, options, workers, clock, report);
+    const auto image = columnsOfRings(std::move(scan), cloud.points, workers);
+    if (image) return imageSurface(pixelGrid(image->scan, image->columns), cloud, options, workers, clock, report);
+  }
   const NeighborSource source = neighborSource(options, cloud, status, representative, workers, report);
   clock.finish("tree", source.bytes());
   CloudSurface result{surfaceStars(cloud, source, options, workers, report), {}};

@@ -113,6 +113,7 @@ constexpr int around_column[pixels_around] = {0, 1, 1, 1, 0, -1, -1, -1, 0,  1, 
 struct PixelsAround {
   alignas(64) double x[pixels_around][kernel_packet], y[pixels_around][kernel_packet], z[pixels_around][kernel_packet];
   alignas(64) double sight_x[kernel_packet], sight_y[kernel_packet], sight_z[kernel_packet];  ///< from the sensor
+  bool is_stretched = false;  ///< rows are farther apart than columns: how far ring 3 is is told by its rows alone
 };
 
 /// Frames and stars of eight points of an image among PixelsAround; sets of lanes are bits.

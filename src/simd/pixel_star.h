@@ -83,12 +83,12 @@ TUFTED_INLINE PlaneOfPixels planeOfPixels(const VectorPart* offset) {
 /// The inverted points, and what else is found of the points in the plane.
 struct InvertedPixels {
   PlanarPart point[pixels_around];
-  Part nearest_of_ring;  ///< squared distance in space of the nearest of ring 2
+  Part nearest_of_ring;  ///< squared distance in space of the nearest of ring 2, or of its rows
   PartMask is_in_range;
 };
 
-TUFTED_INLINE InvertedPixels invertPixels(const VectorPart* offset, const PlaneOfPixels& plane, int part,
-                                          PixelStars& stars) {
+TUFTED_INLINE InvertedPixels invertPixels(const VectorPart* offset, const PlaneOfPixels& plane, bool is_stretched,
+                                          int part, PixelStars& stars) {
   const Part zero = broadcastPart(0), least = broadcastPart(least_square), most = broadcastPart(most_square);
   InvertedPixels inverted;
   Part nearest = most, furthest = least, h1 = zero, hh = zero, uu = zero, uv = zero, vv = zero;
@@ -103,7 +103,8 @@ TUFTED_INLINE InvertedPixels invertPixels(const VectorPart* offset, const PlaneO
     vv = vv + v * v;
     nearest = min(nearest, square);
     furthest = max(furthest, square);
-    if (i >= pixels_beside) inverted.nearest_of_ring = min(inverted.nearest_of_ring, square + h * h);
+    const bool is_next = i >= pixels_beside && (!is_stretched || around_row[i] == 2 || around_row[i] == -2);
+    if (is_next) inverted.nearest_of_ring = min(inverted.nearest_of_ring, square + h * h);
     const Part inverse = broadcastPart(1) / square;
     inverted.point[i] = {u * inverse, v * inverse};
   }
@@ -189,7 +190,7 @@ void wrapPixels(const PixelsAround& around, PixelStars& stars) {
     store(select(is_away, zero - plane.normal.x, plane.normal.x), stars.normal_x + part);
     store(select(is_away, zero - plane.normal.y, plane.normal.y), stars.normal_y + part);
     store(select(is_away, zero - plane.normal.z, plane.normal.z), stars.normal_z + part);
-    const InvertedPixels inverted = invertPixels(offset, plane, part, stars);
+    const InvertedPixels inverted = invertPixels(offset, plane, around.is_stretched, part, stars);
     const PartMask is_hull = hullOfPixels(inverted, part, stars);
     stars.is_found |= bitsOf(plane.is_found) << part;
     stars.is_mirrored |= bitsOf(is_away) << part;

@@ -133,6 +133,32 @@ TEST(PixelStar, OfTheShortCutIsThatOfTheExactWay) {
   EXPECT_GT(certain, 2400);
 }
 
+TEST(PixelStar, OfStretchedImagesMayReachBeyondTheColumns) {
+  // Rows lie six times as far apart as columns: the circles are wider than three columns.
+  const double bend = 0.1;  // no four points lie on a circle
+  Lane lane{Eigen::Vector3d(0, 0, 1), {}};
+  for (int i = 0; i < pixels_around; ++i) {
+    const double row = around_row[i], column = around_column[i];
+    lane.offset.col(i) << 0.01 * (column + bend * row), 0.06 * row, 0;
+  }
+  PixelsAround around{};
+  put(lane, 0, around);
+  PixelStars stars;
+  kernels().wrapPixels(around, stars);
+  EXPECT_EQ(stars.is_certain & 1U, 0U);
+  around.is_stretched = true;
+  for (const Kernels* some : {&kernels(), &portableKernels()}) {
+    some->wrapPixels(around, stars);
+    EXPECT_EQ(stars.is_certain & 1U, 1U);
+  }
+  // The row after the next one nearer than the circles reach.
+  for (int i = 0; i < pixels_around; ++i)
+    if (std::abs(around_row[i]) == 2) lane.offset(1, i) /= 3;
+  put(lane, 0, around);
+  kernels().wrapPixels(around, stars);
+  EXPECT_EQ(stars.is_certain & 1U, 0U);
+}
+
 TEST(PixelStar, OfEachLaneIsAsIfItWereAloneOnAnyProcessor) {
   shapes::Random random(2);
   const std::vector<Surface> all = surfaces(80);

@@ -1,0 +1,164 @@
+#include "depth_image/ring_columns.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <numbers>
+#include <tuple>
+#include <utility>
+
+#include "base/buffer.h"
+#include "base/median.h"
+
+namespace tufted {
+namespace {
+
+constexpr int least_rings = 16;    // fewer are hardly more than the margins of an image
+constexpr int most_rows = 4096;    // by the largest number of a ring; no scanner has so many
+constexpr int most_pixels = 16;    // per point: of a sixteenth of a turn the rest would be an empty image
+constexpr int least_columns = 64;  // more than the widest window has, so that none meets itself
+constexpr double most_ring_step = 0.75 * std::numbers::pi / 180;  // wider, windows reach around the corners of a room
+constexpr double most_stretch = 4.5;                              // steps between rings by those along a ring
+constexpr std::int64_t step_samples = 20000;
+constexpr int elevation_samples = 16;  // of a ring
+constexpr double same_step = 0.25;     // of the median step, between it and a step without a gap
+constexpr int most_shift = 3;          // columns from where its azimuth would put a point
+constexpr int longest_gap = 8;         // columns without points that may lie within a surface
+constexpr double most_gaps = 0.1;      // of the columns, in gaps of no more than that
+
+/// A point of a ring.
+struct Shot {
+  double azimuth;
+  int rank;
+};
+
+/// The points of all rings, ring by ring.
+class RingShots {
+ public:
+  RingShots(const RankedScan& scan, int rows) {
+    Buffer<int> end(static_cast<std::size_t>(rows) + 1, 0);
+    for (const int row : scan.row)
+      if (row >= 0) ++end[row + 1];
+    begin_.push_back(0);
+    for (int row = 0; row < rows; ++row) {
+      if (end[row + 1] > 0) begin_.push_back(begin_.back() + end[row + 1]);
+      end[row + 1] += end[row];
+    }
+    shots_.resize(static_cast<std::size_t>(end[rows]));
+    for (int p = 0; p < static_cast<int>(scan.row.size()); ++p)
+      if (scan.row[p] >= 0) shots_[end[scan.row[p]]++] = {scan.position[p], p};
+  }
+
+  void sortByAzimuth(const Workers& workers) {
+    workers.forBlocks("windows", rings(), 1, [this](std::int64_t from, std::int64_t to, int) {
+      for (std::int64_t ring = from; ring < to; ++ring)
+        std::sort(shots_.begin() + begin_[ring], shots_.begin() + begin_[ring + 1], [](const Shot& a, const Shot& b) {
+          return std::tie(a.azimuth, a.rank) < std::tie(b.azimuth, b.rank);
+        });
+    });
+  }
+
+  int rings() const { return static_cast<int>(begin_.size()) - 1; }
+  int size() const { return begin_.back(); }
+  int begin(int ring) const { return begin_[ring]; }
+  int end(int ring) const { return begin_[ring + 1]; }
+  const Shot& operator[](int i) const { return shots_[i]; }
+
+ private:
+  RawBuffer<Shot> shots_;
+  Buffer<int> begin_;  ///< of each ring that holds points, and the number of points
+};
+
+/// The mean step from point to point around a ring, of those that are no gap; 0 without any.
+/// @param shots by azimuth
+double azimuthStep(const RingShots& shots) {
+  Buffer<double> steps;
+  const int stride = static_cast<int>(std::max<std::int64_t>(1, shots.size() / step_samples)) | 1;
+  for (int ring = 0; ring < shots.rings(); ++ring)
+    for (int i = shots.begin(ring) + 1; i < shots.end(ring); i += stride)
+      steps.push_back(shots[i].azimuth - shots[i - 1].azimuth);
+  const double median = medianOf(steps);
+  double sum = 0;
+  std::int64_t count = 0;
+  for (const double step : steps) {
+    if (std::abs(step - median) > same_step * median) continue;
+    sum += step;
+    ++count;
+  }
+  return count > 0 ? sum / static_cast<double>(count) : 0;
+}
+
+/// The median angle between two rings that follow each other.
+double ringStep(const RankedScan& scan, const PointsView& points, const RingShots& shots) {
+  Buffer<double> steps;
+  double before = 0;
+  for (int ring = 0; ring < shots.rings(); ++ring) {
+    Buffer<double> elevations;
+    const int stride = std::max(1, (shots.end(ring) - shots.begin(ring)) / elevation_samples);
+    for (int i = shots.begin(ring); i < shots.end(ring); i += stride) {
+      const Eigen::RowVector3d ray = points.row(shots[i].rank) - scan.origin.transpose();
+      elevations.push_back(std::atan2(ray.z(), std::hypot(ray.x(), ray.y())));
+    }
+    const double here = medianOf(std::move(elevations));
+    if (ring > 0) steps.push_back(std::abs(here - before));
+    before = here;
+  }
+  return medianOf(std::move(steps));
+}
+
+/// What becomes of the points of a ring in an image.
+struct RingFit {
+  int first = INT32_MAX, end = 0;  ///< columns with points
+  int shift = 0;                   ///< the largest, in columns
+  int gaps = 0;                    ///< columns that are missing between points
+};
+
+/// Gives the points of a ring their columns. A point goes to the column after the one before it where its own is taken:
+/// so all points keep their order where azimuths lie halfway between two columns, whatever their rounding.
+/// @param shots by azimuth
+RingFit placeRing(const RingShots& shots, int ring, double step, RankedScan& scan) {
+  RingFit fit;
+  int last = -1;
+  for (int i = shots.begin(ring); i < shots.end(ring); ++i) {
+    const auto wanted = static_cast<int>(std::lround(shots[i].azimuth / step));
+    const int gap = wanted - last - 1;
+    if (i > shots.begin(ring) && gap > 0 && gap <= longest_gap) fit.gaps += gap;
+    last = std::max(last + 1, wanted);
+    fit.first = std::min(fit.first, last);
+    fit.shift = std::max(fit.shift, last - wanted);
+    scan.position[shots[i].rank] = last;
+  }
+  fit.end = last + 1;
+  return fit;
+}
+
+}  // namespace
+
+std::optional<RingImage> columnsOfRings(RankedScan scan, const PointsView& points, const Workers& workers) {
+  const int last_row = scan.row.empty() ? -1 : *std::max_element(scan.row.begin(), scan.row.end());
+  if (last_row >= most_rows) return std::nullopt;
+  const int rows = last_row + 1;
+  RingShots shots(scan, rows);
+  if (shots.rings() < least_rings) return std::nullopt;
+  const double ring_step = ringStep(scan, points, shots);
+  if (!(ring_step <= most_ring_step)) return std::nullopt;
+  shots.sortByAzimuth(workers);
+  const double step = azimuthStep(shots);
+  if (!(step > 0) || ring_step > most_stretch * step) return std::nullopt;
+  const double columns = 2 * std::numbers::pi / step;
+  if (columns < least_columns || columns * rows > most_pixels * static_cast<double>(shots.size())) return std::nullopt;
+  Buffer<RingFit> fits(static_cast<std::size_t>(shots.rings()));
+  workers.forBlocks("windows", shots.rings(), 1, [&](std::int64_t begin, std::int64_t end, int) {
+    for (int ring = static_cast<int>(begin); ring < end; ++ring) fits[ring] = placeRing(shots, ring, step, scan);
+  });
+  RingFit all;
+  for (const RingFit& fit : fits)
+    all = {std::min(all.first, fit.first), std::max(all.end, fit.end), std::max(all.shift, fit.shift),
+           all.gaps + fit.gaps};
+  if (all.shift > most_shift || all.gaps > most_gaps * (shots.size() + all.gaps)) return std::nullopt;
+  // Counted from the first one that holds a point, so that none is empty beside the seam where azimuths begin late.
+  for (int i = 0; i < shots.size(); ++i) scan.position[shots[i].rank] -= all.first;
+  return RingImage{std::move(scan), std::max(all.end - all.first, static_cast<int>(std::lround(columns)))};
+}
+
+}  // namespace tufted
