@@ -116,6 +116,8 @@ class BatchCandidates {
 ///   holds nearly always, and is certain for each point whose k nearest lie within the ball that was searched;
 /// - among all that can be among the k nearest of any point of the batch, by the k nearest of its centre;
 /// - where these are too many, in halves, and at last for one point alone.
+/// @tparam Ranks the points of a batch, ascending: Consecutive, or a span
+template <class Ranks>
 class BatchSearch {
  public:
   BatchSearch(const NeighborSearch& search, const PointsView& points, int k, const Kernels& kernels,
@@ -125,22 +127,24 @@ class BatchSearch {
     scratch_.known.clear();
   }
 
-  /// How many points from `first` on, of `count`, lie close enough together.
-  int batchAt(int first, int count, double radius) const {
-    Eigen::RowVector3d lowest = points_.row(first), highest = lowest;
+  /// How many points from the first on lie close enough together. All points between them are searched around, too.
+  int batchAt(const Ranks& ranks, double radius) const {
+    Eigen::RowVector3d lowest = points_.row(ranks[0]), highest = lowest;
+    const int most = std::min(static_cast<int>(ranks.size()), most_batch);
     int size = 1;
-    for (; size < std::min(count, most_batch); ++size) {
-      lowest = lowest.cwiseMin(points_.row(first + size));
-      highest = highest.cwiseMax(points_.row(first + size));
+    for (; size < most && ranks[size] - ranks[0] < std::max(most_batch, k_ / 2); ++size) {
+      lowest = lowest.cwiseMin(points_.row(ranks[size]));
+      highest = highest.cwiseMax(points_.row(ranks[size]));
       if (size >= least_batch && (highest - lowest).norm() > widest_batch * radius) break;
     }
     return size;
   }
 
   /// @param radius of a neighbourhood nearby, or infinity
-  void find(int first, int count, double radius, Neighbor* found) {
-    const int done = count > 1 && radius < nowhere ? findAround(first, count, radius, found) : 0;
-    if (done < count) findByCentre(first, done, count, found);
+  void find(const Ranks& ranks, double radius, Neighbor* found) {
+    const int count = static_cast<int>(ranks.size());
+    const int done = count > 1 && radius < nowhere ? findAround(ranks, radius, found) : 0;
+    if (done < count) findByCentre(ranks, done, found);
   }
 
   Neighbor* rowOf(Neighbor* found, int i) const { return found + static_cast<std::ptrdiff_t>(i) * k_; }
@@ -148,16 +152,18 @@ class BatchSearch {
 
  private:
   /// The first way. Returns how many points of the batch, from the first on, are done.
-  int findAround(int first, int count, double radius, Neighbor* found) {
+  int findAround(const Ranks& ranks, double radius, Neighbor* found) {
+    const int count = static_cast<int>(ranks.size());
     int done = 0;
     // NOLINTNEXTLINE(clang-analyzer-security.FloatLoopCounter): it grows by a factor, and need not end exactly
     for (double around = first_around; around < last_around; around *= next_around) {
-      SearchedBatch batch{first, count, {}, 0, 0};
-      if (!search_.candidatesWithin(first, count, around * radius, scratch_.searched, batch.ball)) break;
+      SearchedBatch batch = batchOf(ranks);
+      if (!search_.candidatesWithin(batch.first, batch.count, k_, around * radius, scratch_.searched, batch.ball))
+        break;
       keep(batch);
       for (; done < count; ++done) {
         const double before = done > 0 ? radiusOf(rowOf(found, done - 1)) : radius;
-        const int taken = candidates_.takeWithinBall(first + done, k_, likely * before * before, batch.ball);
+        const int taken = candidates_.takeWithinBall(ranks[done], k_, likely * before * before, batch.ball);
         if (taken == 0) break;
         candidates_.takeNearest(taken, k_, rowOf(found, done));
       }
@@ -168,21 +174,22 @@ class BatchSearch {
   }
 
   /// The second way, for the points of the batch from `done` on, or else the third.
-  void findByCentre(int first, int done, int count, Neighbor* found) {
-    SearchedBatch batch{first, count, {}, 0, 0};
-    if (count == 1) return findAlone(first, found);
-    if (!search_.candidates(first, count, k_, scratch_.searched, scratch_.bounds, batch.ball)) {
-      findByCentre(first, 0, count / 2, found);
-      return findByCentre(first + count / 2, 0, count - count / 2, rowOf(found, count / 2));
+  void findByCentre(const Ranks& ranks, int done, Neighbor* found) {
+    const int count = static_cast<int>(ranks.size());
+    SearchedBatch batch = batchOf(ranks);
+    if (count == 1) return findAlone(ranks[0], found);
+    if (!search_.candidates(batch.first, batch.count, k_, scratch_.searched, scratch_.bounds, batch.ball)) {
+      findByCentre(ranks.subspan(0, count / 2), 0, found);
+      return findByCentre(ranks.subspan(count / 2, count - count / 2), 0, rowOf(found, count / 2));
     }
     keep(batch);
     for (int i = done; i < count; ++i) {
-      const int p = first + i;
+      const int p = ranks[i];
       // Around p lie the k nearest of the centre, and most often nearer those of the point before.
       double bound = batch.ball.k_radius + (points_.row(p) - batch.ball.center).norm(), guess = nowhere;
       if (i > 0) {
         const double before = radiusOf(rowOf(found, i - 1));
-        bound = std::min(bound, before + (points_.row(p) - points_.row(p - 1)).norm());
+        bound = std::min(bound, before + (points_.row(p) - points_.row(ranks[i - 1])).norm());
         guess = likely * before * before;
       }
       const int taken = candidates_.takeWithin(p, k_, guess, widened(bound * bound));
@@ -191,6 +198,10 @@ class BatchSearch {
       else  // the squares of its distances underflow, and no bound on them holds
         findAlone(p, rowOf(found, i));
     }
+  }
+
+  static SearchedBatch batchOf(const Ranks& ranks) {
+    return {ranks[0], ranks[ranks.size() - 1] - ranks[0] + 1, {}, 0, 0};
   }
 
   void findAlone(int p, Neighbor* row) {
@@ -217,22 +228,44 @@ class BatchSearch {
   BatchScratch& scratch_;
 };
 
+/// All points from `first` on.
+struct Consecutive {
+  int first;
+  std::size_t count;
+
+  std::size_t size() const { return count; }
+  int operator[](std::size_t i) const { return first + static_cast<int>(i); }
+  Consecutive subspan(std::size_t from, std::size_t size) const { return {(*this)[from], size}; }
+};
+
+template <class Ranks>
+void nearestOfAll(const NeighborSearch& search, const PointsView& points, const Ranks& ranks, int k,
+                  const Kernels& kernels, BatchScratch& scratch, Buffer<Neighbor>& found, double radius) {
+  k = std::max(0, std::min(k, static_cast<int>(points.rows()) - 1));
+  if (k == 0) return found.clear();
+  found.resize(ranks.size() * static_cast<std::size_t>(k) +
+               static_cast<std::size_t>(NeighborSearch::mostCandidates(k)));
+  BatchSearch<Ranks> search_batch(search, points, k, kernels, scratch);
+  for (std::size_t i = 0; i < ranks.size();) {
+    Neighbor* rows = search_batch.rowOf(found.data(), static_cast<int>(i));
+    const int size = search_batch.batchAt(ranks.subspan(i, ranks.size() - i), radius);
+    search_batch.find(ranks.subspan(i, static_cast<std::size_t>(size)), radius, rows);
+    radius = search_batch.radiusOf(search_batch.rowOf(rows, size - 1));
+    i += static_cast<std::size_t>(size);
+  }
+  found.resize(found.size() - static_cast<std::size_t>(NeighborSearch::mostCandidates(k)));
+}
+
 }  // namespace
 
 void nearestOfEach(const NeighborSearch& search, const PointsView& points, int first, int count, int k,
                    const Kernels& kernels, BatchScratch& scratch, Buffer<Neighbor>& found, double radius) {
-  k = std::max(0, std::min(k, static_cast<int>(points.rows()) - 1));
-  if (k == 0) return found.clear();
-  found.resize(static_cast<std::size_t>(count) * static_cast<std::size_t>(k) + NeighborSearch::most_candidates);
-  BatchSearch search_batch(search, points, k, kernels, scratch);
-  for (int i = 0; i < count;) {
-    Neighbor* rows = search_batch.rowOf(found.data(), i);
-    const int size = search_batch.batchAt(first + i, count - i, radius);
-    search_batch.find(first + i, size, radius, rows);
-    radius = search_batch.radiusOf(search_batch.rowOf(rows, size - 1));
-    i += size;
-  }
-  found.resize(found.size() - NeighborSearch::most_candidates);
+  nearestOfAll(search, points, Consecutive{first, static_cast<std::size_t>(count)}, k, kernels, scratch, found, radius);
+}
+
+void nearestOfListed(const NeighborSearch& search, const PointsView& points, std::span<const int> ranks, int k,
+                     const Kernels& kernels, BatchScratch& scratch, Buffer<Neighbor>& found, double radius) {
+  nearestOfAll(search, points, ranks, k, kernels, scratch, found, radius);
 }
 
 bool nearestOfKnown(const NeighborSearch& search, const PointsView& points, int p, int k, double likely_square,
@@ -249,7 +282,8 @@ bool nearestOfKnown(const NeighborSearch& search, const PointsView& points, int 
     const double radius = std::sqrt(likely_square);
     SearchedBall ball;
     if (roomAround(points.row(p), batch.ball) > radius) return false;
-    if (!search.candidatesWithin(batch.first, batch.count, spare_around * radius, scratch.searched, ball)) return false;
+    if (!search.candidatesWithin(batch.first, batch.count, k, spare_around * radius, scratch.searched, ball))
+      return false;
     batch.ball = ball;
     keepSearched(batch, scratch);
     candidates.gather(batch);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <limits>
+#include <span>
 
 #include "base/buffer.h"
 #include "base/point_buffer.h"
@@ -44,6 +45,12 @@ struct BatchScratch {
 void nearestOfEach(const NeighborSearch& search, const PointsView& points, int first, int count, int k,
                    const Kernels& kernels, BatchScratch& scratch, Buffer<Neighbor>& found,
                    double radius = std::numeric_limits<double>::infinity());
+
+/// As nearestOfEach(), for listed points, best such that lie close together.
+/// @param ranks ascending
+void nearestOfListed(const NeighborSearch& search, const PointsView& points, std::span<const int> ranks, int k,
+                     const Kernels& kernels, BatchScratch& scratch, Buffer<Neighbor>& found,
+                     double radius = std::numeric_limits<double>::infinity());
 
 /// The k nearest of p, one of the points that nearestOfEach() was called for last, among the candidates of its batch;
 /// these become more where that helps, for others of the batch as well. False, and nothing of use, where it does not.

@@ -109,17 +109,17 @@ class NearestTies final : public RankSet {
   double worst_ = std::numeric_limits<double>::infinity();
 };
 
-/// All points in a ball, at most most_candidates.
+/// All points in a ball, up to one more than `most`.
 class WholeBall : public RankSet {
  public:
-  WholeBall(double radius, Buffer<int>& found) : found_(found) {
+  WholeBall(double radius, int most, Buffer<int>& found) : most_(static_cast<std::size_t>(most)), found_(found) {
     found_.clear();
     setRadius(radius);
   }
 
   bool full() const override { return true; }
   double worstDist() const override { return worst_; }
-  bool isTooFull() const { return found_.size() > NeighborSearch::most_candidates; }
+  bool isTooFull() const { return found_.size() > most_; }
 
   void addPoint(double, size_t index) override {
     found_.push_back(rankOf(index));
@@ -130,6 +130,7 @@ class WholeBall : public RankSet {
   void setRadius(double radius) { worst_ = widened(radius * radius); }
 
  private:
+  std::size_t most_;
   Buffer<int>& found_;
   double worst_ = 0;
 };
@@ -138,8 +139,8 @@ class WholeBall : public RankSet {
 class ShrinkingBall final : public WholeBall {
  public:
   /// @param nearest k squared distances of points from the centre, a heap with the largest in front
-  ShrinkingBall(double margin, Buffer<double>& nearest, Buffer<int>& found)
-      : WholeBall(std::sqrt(nearest.front()) + margin, found), margin_(margin), nearest_(nearest) {
+  ShrinkingBall(double margin, int most, Buffer<double>& nearest, Buffer<int>& found)
+      : WholeBall(std::sqrt(nearest.front()) + margin, most, found), margin_(margin), nearest_(nearest) {
     std::fill(nearest_.begin(), nearest_.end(), nearest_.front());  // a bound; the points come again
   }
 
@@ -235,17 +236,17 @@ bool NeighborSearch::candidates(int first, int count, int k, Buffer<int>& found,
   std::swap(bounds.front(), bounds[wanted - 1]);
   bounds.resize(static_cast<std::size_t>(wanted));
 
-  ShrinkingBall set(2 * spread, bounds, found);
+  ShrinkingBall set(2 * spread, mostCandidates(k), bounds, found);
   forest_->search(ball.center.data(), first, set);
   ball.k_radius = std::sqrt(bounds.front());
   ball.radius = ball.k_radius + 2 * spread;
   return !set.isTooFull() && bounds.front() > least_square;
 }
 
-bool NeighborSearch::candidatesWithin(int first, int count, double around, Buffer<int>& found,
+bool NeighborSearch::candidatesWithin(int first, int count, int k, double around, Buffer<int>& found,
                                       SearchedBall& ball) const {
   ball.radius = findCenter(points_, first, count, ball) + around;
-  WholeBall set(ball.radius, found);
+  WholeBall set(ball.radius, mostCandidates(k), found);
   forest_->search(ball.center.data(), first, set);
   return !set.isTooFull() && around * around > least_square;
 }

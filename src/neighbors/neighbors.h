@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <limits>
 #include <memory>
@@ -50,7 +51,8 @@ struct SearchedBall {
 /// Exact nearest neighbours among all points.
 class NeighborSearch : public InWorkspace {
  public:
-  static constexpr int most_candidates = 1024;
+  /// How many candidates there may be of k nearest: what stays in cache, but more where a few points have as many.
+  static constexpr int mostCandidates(int k) { return std::max(1024, 8 * k); }
 
   /// @param points n x 3, distinct, finite, in Morton order; borrowed for the life of the search
   NeighborSearch(const PointsView& points, const Workers& workers);
@@ -72,7 +74,7 @@ class NeighborSearch : public InWorkspace {
   void nearestTo(const Eigen::RowVector3d& position, Buffer<Neighbor>& found) const;
 
   /// All points that any of the points [first, first + count) has among its min(k, n - 1) nearest, and others near
-  /// them. False, and nothing of use, where these are more than most_candidates, or so close that squares of
+  /// them. False, and nothing of use, where these are more than mostCandidates(k), or so close that squares of
   /// their distances underflow.
   /// @param[out] found ranks
   /// @param bounds scratch
@@ -80,9 +82,9 @@ class NeighborSearch : public InWorkspace {
   bool candidates(int first, int count, int k, Buffer<int>& found, Buffer<double>& bounds, SearchedBall& ball) const;
 
   /// All points within `around` of any of the points [first, first + count), and others near them. False,
-  /// and nothing of use, where these are too many or too close, as for candidates().
+  /// and nothing of use, where these are too many for k nearest or too close, as for candidates().
   /// @param[out] ball its k_radius is not known
-  bool candidatesWithin(int first, int count, double around, Buffer<int>& found, SearchedBall& ball) const;
+  bool candidatesWithin(int first, int count, int k, double around, Buffer<int>& found, SearchedBall& ball) const;
 
   std::size_t bytes() const;
 
