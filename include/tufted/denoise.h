@@ -43,12 +43,13 @@ struct DenoisedPoints {
 
 /// Moves the points of a noisy scan onto the surface, without a radius to choose.
 ///
-/// Around each point quadratics are fitted to the heights of 16, 32, 64 and 128 neighbours over its tangent plane
-/// (twice to eight times as many where the noise exceeds the spacing). The residuals of the smaller two say whether
-/// there is noise, and how much; a point moves onto the quadratic of the widest window whose bend the noise still
-/// hides, which is found as in Lepski ("On a problem of adaptive estimation in Gaussian white noise", 1991). Next to
-/// creases windows of points beside it serve, on one side of the crease. Neighbours of other surfaces that pass by are
-/// left out.
+/// Quadratics are fitted to the heights of 16, 32, 64 and 128 neighbours over tangent planes (twice to eight times as
+/// many where the noise exceeds the spacing). The residuals of the smaller two say whether there is noise, and how
+/// much; the widest window whose bend the noise still hides counts, which is found as in Lepski ("On a problem of
+/// adaptive estimation in Gaussian white noise", 1991). Where that is a wide one, windows around every eighth point
+/// serve all points near them, which move onto the weighted mean of their surfaces; other points have windows of their
+/// own. Next to creases points move onto the faces that meet there. Neighbours of other surfaces that pass by are left
+/// out.
 ///
 /// Noise of a depth image lies along the line of sight, however strong it is, and pixels that are noise lie beside
 /// those of the same surface. So with `structure` ranges are smoothed over pixels, as in a build (Lengths::denoised):
@@ -56,7 +57,8 @@ struct DenoisedPoints {
 ///
 /// Points of exact data, outliers, points in volumes, and whatever cannot be told from the shape of the surface stay
 /// exactly where they are. A permuted cloud (with its structure) gives the permuted result; moved or turned clouds that
-/// moved or turned, up to rounding; any number of threads the same bits.
+/// moved or turned, up to rounding below 1,000 points, else up to a tenth of the noise, since other points are every
+/// eighth then; any number of threads the same bits.
 /// @param points N x 3; NaN and infinite rows stay as they are
 /// @throws InvalidInput for a negative number of threads, more than 2^31 points, and a structure that has rings,
 /// another size than the points, no finite origin, columns that are not whole, or more pixels than ScanStructure says

@@ -8,6 +8,7 @@
 #include "denoise/crease_model.h"
 #include "denoise/listed_search.h"
 #include "denoise/pooling.h"
+#include "denoise/window_surface.h"
 #include "stars/displacements.h"
 #include "stars/tangent_frame.h"
 
@@ -30,29 +31,10 @@ constexpr int faces_within = 4;      // times the base window; half of it where 
 constexpr int widest_crossing = 2;   // the widest window that may lie across a crease and take it for a bend
 constexpr double most_way = 5;       // sigmas; of normal noise one point in a million is farther from its face
 
-/// The surface of a window at one position.
-struct LentSurface {
-  double height;           ///< of the position over it
-  Eigen::Vector3d normal;  ///< of the surface there
-};
-
-/// @param d the position relative to point q, whose window it is
-LentSurface surfaceAt(const Windows& windows, int q, int window, const Eigen::Vector3d& d) {
-  const auto& c = windows.fits[q][window].coefficient;
-  const Eigen::Vector3d normal = windows.normal.row(q).transpose(), first = tangentOf(normal);
-  const Eigen::Vector3d second = normal.cross(first);
-  const double unit = windows.radius[q], u = d.dot(first) / unit, v = d.dot(second) / unit;
-  const double height = unit * (c[0] + c[1] * u + c[2] * v + c[3] * u * u + c[4] * u * v + c[5] * v * v);
-  const double along_u = c[1] + 2 * c[3] * u + c[4] * v, along_v = c[2] + c[4] * u + 2 * c[5] * v;
-  const Eigen::Vector3d across = normal - along_u * first - along_v * second;
-  const double length = across.norm();
-  return {(d.dot(normal) - height) / length, across / length};
-}
-
 /// A window that holds p, and how much it counts.
 struct Lender {
   double weight;
-  LentSurface surface;
+  WindowSurface surface;
 };
 
 /// Memory of one worker.
@@ -84,7 +66,7 @@ class CreaseMover {
       const WindowFit& fit = windows_.fits[q][window];
       const Eigen::Vector3d d = (points_.row(p) - points_.row(q)).transpose();
       if (!std::isfinite(fit.variance) || !(d.squaredNorm() <= widened_radius * fit.radius * fit.radius)) continue;
-      const LentSurface surface = surfaceAt(windows_, q, window, d);
+      const WindowSurface surface = surfaceAt(windows_, q, window, d);
       const double misfit = std::max(fit.variance / variance - 1, 0.0) / fade;
       const double distance = surface.height * surface.height / (2 * height_fade * height_fade * variance);
       scratch.lenders.push_back({std::exp(-misfit - distance), surface});
@@ -195,27 +177,28 @@ class FaceNormals {
 }  // namespace
 
 Buffer<std::uint8_t> moveNextToCreases(const PointsView& points, const NeighborSource& source, const Windows& windows,
-                                       const NoiseLevel& noise, const WindowChoice& choice, const Workers& workers,
-                                       PointBuffer& move) {
-  const int n = windows.size();
+                                       const NoiseLevel& noise, const WindowChoice& choice, std::span<const int> which,
+                                       std::span<const int> fitted, const Workers& workers, PointBuffer& move) {
   const CreaseMover mover(points, windows, noise);
   Buffer<std::uint8_t> is_moved(windows.base.size(), 0);
-  PointBuffer normals(n);
-  forEachPoint(windows, workers,
-               [&](int p) { normals.row(p) = mover.normalOf(p, std::max<int>(choice.window[p], 1)); });
-  const auto forEachListed = [&](std::span<const int> which, int times, const auto& visit) {
-    workers.forBlocks("noise", std::ssize(which), costly_block, [&](std::int64_t begin, std::int64_t end, int) {
+  PointBuffer normals(windows.size());
+  workers.forBlocks("noise", std::ssize(fitted), star_block, [&](std::int64_t begin, std::int64_t end, int) {
+    for (const int p : fitted.subspan(begin, end - begin))
+      normals.row(p) = mover.normalOf(p, std::max<int>(choice.window[p], 1));
+  });
+  const auto forEachListed = [&](std::span<const int> list, int times, const auto& visit) {
+    workers.forBlocks("noise", std::ssize(list), costly_block, [&](std::int64_t begin, std::int64_t end, int) {
       CreaseScratch scratch;
       ListedSearch search(points, *source.search, windows);
       const auto count = [&](int p) { return times * windows.base[p]; };
-      search.forEach(which.subspan(begin, end - begin), count, [&](int p, std::span<const Neighbor> neighbors) {
+      search.forEach(list.subspan(begin, end - begin), count, [&](int p, std::span<const Neighbor> neighbors) {
         scratch.around.take(points, windows, p, neighbors, noise.outlier);
         visit(p, scratch);
       });
     });
   };
   const Buffer<int> biased =
-      numbersWhere("noise", n, workers, [&](int p) { return choice.biased[p] != 0 && choice.window[p] <= 1; });
+      listedWhere(which, workers, [&](int p) { return choice.biased[p] != 0 && choice.window[p] <= 1; });
   forEachListed(biased, widest_lender, [&](int p, CreaseScratch& scratch) {
     for (const int wider : {2, 1}) {
       Eigen::RowVector3d to, normal;
@@ -231,7 +214,7 @@ Buffer<std::uint8_t> moveNextToCreases(const PointsView& points, const NeighborS
   // so points that are not noisy count as well.
   const PointBuffer lent = normals;
   const FaceNormals known(noise, choice, is_moved, lent);
-  const Buffer<int> near_several = numbersWhere("noise", n, workers, [&](int p) {
+  const Buffer<int> near_several = listedWhere(which, workers, [&](int p) {
     if (noise.noisy[p] != 0)
       return choice.biased[p] != 0 && choice.window[p] <= widest_crossing && known.areOfSeveralFaces(windows.far[p]);
     return noise.variance[p] > leastVariance(windows, p) &&
@@ -248,13 +231,13 @@ Buffer<std::uint8_t> moveNextToCreases(const PointsView& points, const NeighborS
   });
 
   const Buffer<int> others =
-      numbersWhere("noise", n, workers, [&](int p) { return is_moved[p] != 0 && is_on_faces[p] == 0; });
+      listedWhere(which, workers, [&](int p) { return is_moved[p] != 0 && is_on_faces[p] == 0; });
   for (int round = 0; round < rounds; ++round) {
     const PointBuffer moved = move;
     forEachListed(others, one_side,
                   [&](int p, CreaseScratch& scratch) { move.row(p) += mover.stepOnSide(p, moved, normals, scratch); });
   }
-  for (int p = 0; p < n; ++p) is_moved[p] |= is_on_faces[p];
+  for (const int p : which) is_moved[p] |= is_on_faces[p];
   return is_moved;
 }
 

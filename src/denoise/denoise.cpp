@@ -58,14 +58,11 @@ void apply(const PointBuffer& moves, const Deviation& deviation, const RankedClo
 }
 
 void moveOntoSurface(const RankedCloud& cloud, const Workers& workers, DenoisedPoints& denoised) {
-  NeighborSource source;
-  source.k = std::min(Windows::first_base, std::max(0, cloud.size() - 1));
-  source.search = std::make_unique<NeighborSearch>(cloud.points, workers);
+  const NeighborSource source = windowSource(std::make_unique<NeighborSearch>(cloud.points, workers), cloud.size());
   const SurfaceMoves moves = surfaceMoves(cloud.points, source, workers);
-  const auto noiseOf = [&](int p) { return std::sqrt(moves.noise.variance[p]); };
-  apply(moves.move, noiseOf, cloud, denoised);
-  const Buffer<std::uint8_t>& outlier = moves.noise.outlier;
-  denoised.report.outliers = std::count(outlier.begin(), outlier.end(), 1);
+  apply(
+      moves.move, [&](int p) { return std::sqrt(moves.variance[p]); }, cloud, denoised);
+  denoised.report.outliers = std::count(moves.outlier.begin(), moves.outlier.end(), 1);
 }
 
 void moveAlongRays(const RankedScan& scan, const RankedCloud& cloud, const Workers& workers, DenoisedPoints& denoised) {

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <limits>
 #include <span>
 
 #include "base/buffer.h"
@@ -11,37 +13,40 @@
 
 namespace tufted {
 
-/// Searches for neighbours of listed points; memory of one worker.
+/// Searches for neighbours of the middles of listed windows; memory of one worker.
 class ListedSearch {
  public:
   /// All arguments are borrowed.
   ListedSearch(const PointsView& points, const NeighborSearch& search, const Windows& windows)
       : points_(points), search_(search), windows_(windows) {}
 
-  /// Calls visit(p, neighbors) for each point p of a list, with its `count(p)` nearest as by NeighborSearch::nearest.
-  /// Points that follow each other are searched for together.
+  /// Calls visit(w, neighbors) for each window w of a list, with the `count(w)` nearest of its middle as by
+  /// NeighborSearch::nearest. Windows that follow each other are searched for together.
   /// @param which ascending
   template <class Count, class Visit>
   void forEach(std::span<const int> which, const Count& count, const Visit& visit) {
+    std::array<int, most_together> ranks;
     for (std::size_t begin = 0, end = 0; begin < which.size(); begin = end) {
-      const int first = which[begin], k = count(first);
-      // Others between them are searched for as well, where these are not too many.
-      while (++end < which.size() && which[end] - first < most_together && count(which[end]) == k)
-        if (which[end] - first >= 2 * static_cast<int>(end - begin + 1)) break;
-      find(first, which[end - 1] - first + 1, k);
+      const int k = count(which[begin]);
+      for (; end < which.size() && end - begin < most_together && count(which[end]) == k; ++end)
+        ranks[end - begin] = windows_.pointOf(which[end]);
+      find(std::span(ranks).first(end - begin), k);
       for (std::size_t i = begin; i < end; ++i)
-        visit(which[i],
-              std::span<const Neighbor>(found_).subspan(static_cast<std::size_t>(which[i] - first) * row_, row_));
+        visit(which[i], std::span<const Neighbor>(found_).subspan((i - begin) * row_, row_));
     }
   }
 
  private:
-  static constexpr int most_together = 32;
+  static constexpr std::size_t most_together = 32;
 
-  void find(int first, int count, int k) {
-    row_ = static_cast<std::size_t>(std::min(k, windows_.size() - 1));
-    const double radius = windows_.radius[first] * std::sqrt(static_cast<double>(k) / windows_.base[first]);
-    nearestOfEach(search_, points_, first, count, k, kernels(), scratch_, found_, radius);
+  void find(std::span<const int> ranks, int k) {
+    row_ = static_cast<std::size_t>(std::min(k, static_cast<int>(points_.rows()) - 1));
+    // About as far as the search before had to look, which was near by.
+    const double radius = last_count_ > 0 ? last_radius_ * std::sqrt(static_cast<double>(k) / last_count_)
+                                          : std::numeric_limits<double>::infinity();
+    nearestOfListed(search_, points_, ranks, k, kernels(), scratch_, found_, radius);
+    last_count_ = k;
+    last_radius_ = row_ > 0 ? std::sqrt(found_[row_ - 1].squared_distance) : 0;
   }
 
   PointsView points_;
@@ -50,6 +55,8 @@ class ListedSearch {
   BatchScratch scratch_;
   Buffer<Neighbor> found_;
   std::size_t row_ = 0;  ///< neighbours of each point
+  int last_count_ = 0;   ///< neighbours that were asked for last
+  double last_radius_ = 0;
 };
 
 }  // namespace tufted

@@ -1,9 +1,15 @@
 #include "denoise/moves.h"
 
 #include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
 
+#include "base/median.h"
 #include "denoise/crease_moves.h"
 #include "denoise/listed_search.h"
+#include "denoise/pooling.h"
+#include "denoise/shared_surfaces.h"
 #include "denoise/window_choice.h"
 #include "stars/displacements.h"
 #include "stars/tangent_frame.h"
@@ -11,18 +17,18 @@
 namespace tufted {
 namespace {
 
-/// Fits in all windows of the noisy points, and of those that their decisions are averaged over.
-void fitNoisy(const WindowFitter& fitter, const NoiseLevel& noise, const Workers& workers, Windows& windows) {
-  const int n = windows.size();
-  const Buffer<int> noisy = numbersWhere("noise", n, workers, [&](int p) { return noise.noisy[p] != 0; });
-  fitter.fitAll(noisy, noise.outlier, windows);
-  Buffer<std::uint8_t> asked(windows.base.size(), 0);
-  for (const int p : noisy)
-    for (const Windows::Pool* const pool : {&windows.near[p], &windows.middle[p], &windows.far[p]})
-      for (const int q : *pool) asked[q] = 1;
-  const Buffer<int> others =
-      numbersWhere("noise", n, workers, [&](int p) { return asked[p] != 0 && noise.noisy[p] == 0; });
-  fitter.fitAll(others, noise.outlier, windows);
+constexpr std::int8_t base_window = 1;  // of Windows::fits
+constexpr int widest_stride = 8;        // of 64 neighbours, the smallest window that is shared, eight are middles
+constexpr int points_per_stride = 500;  // of small clouds every point has windows
+constexpr int sample_stride = 64, least_samples = 64, most_samples = 1000;  // of a first look at the noise
+constexpr double sample_growth =
+    2;  // of the residuals' variance from 16 to 64 neighbours: noise 1, a crease 4, a bend more
+constexpr double least_share = 0.05;  // of the samples
+
+Buffer<int> allOf(const Windows& windows) {
+  Buffer<int> all(windows.base.size());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
 }
 
 /// Moves points once more, by their windows as before, onto the surface through where their neighbours are by now.
@@ -57,31 +63,106 @@ void moveAgain(const PointsView& points, const NeighborSource& source, const Win
   });
 }
 
+/// Moves the points that the shared surfaces have not settled, each by windows of its own.
+void moveAlone(const PointsView& points, const NeighborSource& source, const WindowFitter& fitter,
+               const Windows& around_some, const NoiseLevel& noise_of_some, const SharedSurfaces& shared,
+               const Workers& workers, SurfaceMoves& result) {
+  const auto n = static_cast<int>(points.rows());
+  const Buffer<int> alone = numbersWhere("noise", n, workers, [&](int p) { return shared.settled[p] == 0; });
+  if (alone.empty()) return;
+  Windows windows;
+  windows.resize(n, 1);
+  NoiseLevel noise;
+  noise.variance = std::move(result.variance);
+  noise.outlier = std::move(result.outlier);
+  noise.noisy.resize(shared.settled.size());
+  for (int p = 0; p < n; ++p) {
+    windows.base[p] = around_some.base[shared.nearest[p]];
+    noise.noisy[p] = noise_of_some.noisy[shared.nearest[p]];
+  }
+  Buffer<std::uint8_t> reached(shared.settled.size(), 0);
+  fitter.take(alone, windows, reached.data());
+  const Buffer<int> others =
+      numbersWhere("noise", n, workers, [&](int p) { return reached[p] != 0 && shared.settled[p] != 0; });
+  fitter.take(others, windows);
+  const Buffer<int> asked =
+      numbersWhere("noise", n, workers, [&](int p) { return reached[p] != 0 || shared.settled[p] == 0; });
+  findOutliers(fitter, asked, workers, windows, noise);
+
+  WindowChoice choice = chooseWindows(windows, noise, alone, workers);
+  for (const int p : others) choice.window[p] = noise.noisy[p] != 0 ? base_window : -1;  // the surface is smooth there
+  for (const int p : alone)
+    if (choice.window[p] >= 0) result.move.row(p) = windows.fits[p][choice.window[p]].height * windows.normal.row(p);
+  const Buffer<std::uint8_t> next_to_crease =
+      moveNextToCreases(points, source, windows, noise, choice, alone, asked, workers, result.move);
+  for (const int p : alone)
+    if (next_to_crease[p] != 0) noise.outlier[p] = 0;  // it only looked like one next to a crease
+  const Buffer<int> again = listedWhere(alone, workers, [&](int p) {
+    return choice.window[p] >= base_window && choice.biased[p] == 0 && next_to_crease[p] == 0;
+  });
+  moveAgain(points, source, windows, noise, again, choice, workers, result.move);
+  result.variance = std::move(noise.variance);
+  result.outlier = std::move(noise.outlier);
+}
+
 }  // namespace
+
+NeighborSource windowSource(std::unique_ptr<NeighborSearch> search, int n) {
+  NeighborSource source;
+  source.k = std::min(Windows::first_base, std::max(0, n - 1));
+  source.search = std::move(search);
+  return source;
+}
 
 SurfaceMoves surfaceMoves(const PointsView& points, const NeighborSource& source, const Workers& workers) {
   SurfaceMoves result;
   const auto n = static_cast<int>(points.rows());
   result.move.setZero(n);
+  result.variance.resize(static_cast<std::size_t>(n));
+  result.outlier.assign(static_cast<std::size_t>(n), 0);
   if (n <= Windows::first_base) return result;
   const WindowFitter fitter(points, source, workers);
   Windows windows;
-  result.noise = findNoise(fitter, workers, windows);
-  const NoiseLevel& noise = result.noise;
+  windows.resize(n, std::clamp(n / points_per_stride, 1, widest_stride));
+  const NoiseLevel noise = findNoise(fitter, workers, windows);
   if (std::ranges::find(noise.noisy, 1) == noise.noisy.end()) return result;
 
-  fitNoisy(fitter, noise, workers, windows);
-  const WindowChoice choice = chooseWindows(windows, noise, workers);
-  for (int p = 0; p < n; ++p)
-    if (choice.window[p] >= 0) result.move.row(p) = windows.fits[p][choice.window[p]].height * windows.normal.row(p);
-  const Buffer<std::uint8_t> next_to_crease =
-      moveNextToCreases(points, source, windows, noise, choice, workers, result.move);
-  for (int p = 0; p < n; ++p)
-    if (next_to_crease[p] != 0) result.noise.outlier[p] = 0;  // it only looked like one next to a crease
-  const Buffer<int> again =
-      numbersWhere("noise", n, workers, [&](int p) { return choice.window[p] >= 1 && next_to_crease[p] == 0; });
-  moveAgain(points, source, windows, noise, again, choice, workers, result.move);
+  const WindowChoice choice = chooseWindows(windows, noise, allOf(windows), workers);
+  const SharedSurfaces shared =
+      shareSurfaces(points, source, windows, noise, choice, workers, result.move, result.variance);
+  moveAlone(points, source, fitter, windows, noise, shared, workers, result);
   return result;
+}
+
+bool mayBeNoisy(const PointsView& points, const NeighborSource& source, const Workers& workers) {
+  const auto n = static_cast<int>(points.rows());
+  if (n <= Windows::first_base) return false;
+  Windows windows;
+  windows.resize(n, std::max(n / most_samples, std::clamp(n / least_samples, 1, sample_stride)));
+  WindowFitter(points, source, workers).take(allOf(windows), windows);
+  int like_noise = 0;
+  for (int w = 0; w < windows.size(); ++w) {
+    const auto& fits = windows.fits[w];
+    const double least = least_noise * windows.spacing(w);
+    like_noise += fits[0].variance > least * least && fits[2].variance < sample_growth * fits[0].variance ? 1 : 0;
+  }
+  return like_noise > least_share * windows.size();
+}
+
+MoveFigures figuresOf(const SurfaceMoves& moves) {
+  MoveFigures figures;
+  Buffer<double> noise;
+  for (int p = 0; p < moves.move.rows(); ++p) {
+    const double way = moves.move.row(p).norm();
+    if (moves.move.row(p).isZero(0)) continue;
+    noise.push_back(std::sqrt(moves.variance[p]));
+    figures.mean += way;
+    figures.farthest = std::max(figures.farthest, way);
+  }
+  figures.moved = std::ssize(noise);
+  if (figures.moved > 0) figures.mean /= static_cast<double>(figures.moved);
+  figures.noise = medianOf(std::move(noise));
+  return figures;
 }
 
 }  // namespace tufted

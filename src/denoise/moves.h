@@ -1,5 +1,8 @@
 #pragma once
 
+#include <cstdint>
+#include <memory>
+
 #include "base/parallel.h"
 #include "base/point_buffer.h"
 #include "denoise/noise_level.h"
@@ -9,12 +12,30 @@ namespace tufted {
 
 /// How the points of a cloud move onto the surface.
 struct SurfaceMoves {
-  PointBuffer move;  ///< n x 3, exactly 0 where a point stays
-  NoiseLevel noise;  ///< empty with too few points
+  PointBuffer move;              ///< n x 3, exactly 0 where a point stays
+  RawBuffer<double> variance;    ///< n, of the noise around each point that moves, in length^2; else of no meaning
+  Buffer<std::uint8_t> outlier;  ///< n, 1 at points that stay because they lie far off the surface of their neighbours
 };
 
+/// Where windows find their neighbours.
+/// @param search among n points
+NeighborSource windowSource(std::unique_ptr<NeighborSearch> search, int n);
+
 /// Finds the surface within the noise, and how each point gets onto it.
-/// @param source by search in `points`, for Windows::first_base neighbours
+/// @param source see windowSource()
 SurfaceMoves surfaceMoves(const PointsView& points, const NeighborSource& source, const Workers& workers);
+
+/// Whether a few windows spread over the cloud have residuals like those of noise. Where hardly any have, there is none
+/// to speak of; this takes next to no time.
+/// @param source see windowSource()
+bool mayBeNoisy(const PointsView& points, const NeighborSource& source, const Workers& workers);
+
+/// How far points have moved.
+struct MoveFigures {
+  std::int64_t moved = 0;         ///< points that have
+  double noise = 0;               ///< median over these of the noise's standard deviation
+  double mean = 0, farthest = 0;  ///< ways of these
+};
+MoveFigures figuresOf(const SurfaceMoves& moves);
 
 }  // namespace tufted

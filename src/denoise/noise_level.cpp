@@ -29,9 +29,33 @@ constexpr double sure_share = 0.15;   // of the points around
 RawBuffer<double> thicknessAround(const Windows& windows, const Workers& workers) {
   RawBuffer<double> around(windows.base.size());
   forEachPoint(windows, workers, [&](int p) {
-    around[p] = pooledMedian(p, windows.near[p], [&](int q) { return windows.thickness[q]; });
+    const Windows::Pool& pool = windows.stride > 1 ? windows.far[p] : windows.near[p];
+    around[p] = pooledMedian(p, pool, [&](int q) { return windows.thickness[q]; });
   });
   return around;
+}
+
+/// Doubles the base windows of some. Of windows around every so many points each stands for more of them then: it takes
+/// the place of those beside it.
+/// @param step how often they were doubled before
+/// @param waits those that may be doubled; overwritten
+/// @returns how many points are concerned
+int widenOnce(const WindowFitter& fitter, int step, const RawBuffer<double>& around, Buffer<std::uint8_t>& waits,
+              Windows& windows) {
+  const int apart = windows.stride > 1 ? 2 << step : 1, n = windows.size();
+  Buffer<int> which;
+  for (int w = 0; w < n; w += apart) {
+    const bool is_wider =
+        waits[w] != 0 && (windows.line[w] != 0 || around[w] > thick) && 8 * windows.base[w] <= windows.pointOf(n) - 1;
+    std::fill(waits.begin() + w, waits.begin() + std::min(w + apart, n), is_wider ? 1 : 0);
+    if (is_wider) which.push_back(w);
+  }
+  if (static_cast<double>(which.size()) * apart < share_to_widen * n) return 0;
+  for (const int w : which) windows.base[w] *= 2;
+  fitter.take(which, windows);
+  for (const int w : which)
+    for (int other = w + 1; other < std::min(w + apart, n); ++other) windows.copy(w, other);
+  return static_cast<int>(which.size());
 }
 
 /// Doubles base windows while the points in them are as thick as wide, or a line.
@@ -41,30 +65,27 @@ Buffer<std::uint8_t> widen(const WindowFitter& fitter, const Workers& workers, W
   RawBuffer<double> around = thicknessAround(windows, workers);
   const RawBuffer<double> first = around;
   Buffer<std::uint8_t> waits(windows.base.size(), 1), was_line(windows.base.size(), 0);
-  for (int p = 0; p < n; ++p) {
-    was_line[p] = windows.line[p];
-    if (windows.split[p] != 0) waits[p] = 0;  // sheets would be taken for one that is thick
+  for (int w = 0; w < n; ++w) {
+    was_line[w] = windows.line[w];
+    if (windows.split[w] != 0) waits[w] = 0;  // sheets would be taken for one that is thick
   }
   for (int step = 0; step < most_widenings; ++step) {
-    Buffer<int> which;
-    for (int p = 0; p < n; ++p) {
-      if (waits[p] == 0) continue;
-      waits[p] = (windows.line[p] != 0 || around[p] > thick) && 8 * windows.base[p] <= n - 1 ? 1 : 0;
-      if (waits[p] != 0) which.push_back(p);
-    }
-    if (static_cast<double>(which.size()) < share_to_widen * n) break;
-    fitter.widen(which, windows);
+    if (widenOnce(fitter, step, around, waits, windows) == 0) break;
     around = thicknessAround(windows, workers);
   }
   Buffer<int> back;
-  for (int p = 0; p < n; ++p)
-    if (windows.base[p] > Windows::first_base && around[p] > thick && around[p] > still_thick * first[p] &&
-        was_line[p] == 0)
-      back.push_back(p);
-  fitter.reset(back, windows);
+  for (int w = 0; w < n; ++w)
+    if (windows.base[w] > Windows::first_base && around[w] > thick && around[w] > still_thick * first[w] &&
+        was_line[w] == 0)
+      back.push_back(w);
+  for (const int w : back) {
+    windows.base[w] = Windows::first_base;
+    windows.is_copy[w] = 0;
+  }
+  fitter.take(back, windows);
   around = thicknessAround(windows, workers);
   Buffer<std::uint8_t> is_thick(windows.base.size());
-  for (int p = 0; p < n; ++p) is_thick[p] = around[p] > 2 * thick ? 1 : 0;
+  for (int w = 0; w < n; ++w) is_thick[w] = around[w] > 2 * thick ? 1 : 0;
   return is_thick;
 }
 
@@ -89,23 +110,6 @@ bool isOutlier(const Windows& windows, int p, double variance) {
   if (!std::isfinite(fit.variance) || !(fit.variance > outlier_growth * variance)) return false;
   const double sigma = std::sqrt(variance * (1 - fit.leverage));
   return std::abs(fit.height) > std::max(outlier_sigmas * sigma, outlier_spacings * windows.spacing(p));
-}
-
-/// Finds outliers, leaves them out of the fits around them, and looks again for those that had hidden behind them.
-void findOutliers(const WindowFitter& fitter, const Workers& workers, Windows& windows, NoiseLevel& noise) {
-  const int n = windows.size();
-  noise.outlier.assign(windows.base.size(), 0);
-  for (int round = 0; round < outlier_rounds; ++round) {
-    const Buffer<int> found = numbersWhere(
-        "noise", n, workers, [&](int p) { return noise.outlier[p] == 0 && isOutlier(windows, p, noise.variance[p]); });
-    if (found.empty()) return;
-    for (const int p : found) noise.outlier[p] = 1;
-    const Buffer<int> near_outlier = numbersWhere("noise", n, workers, [&](int p) {
-      return std::ranges::any_of(windows.near[p], [&](int q) { return noise.outlier[q] != 0; });
-    });
-    fitter.fitNear(near_outlier, noise.outlier, windows);
-    noise.variance = noiseVariance(windows, workers);
-  }
 }
 
 /// Where there is noise that can be told from the shape of the surface: the residuals of the two windows are alike, and
@@ -139,22 +143,36 @@ void findNoisy(const Windows& windows, const Buffer<std::uint8_t>& is_thick, con
 
 }  // namespace
 
-double leastVariance(const Windows& windows, int p) {
-  const double least = least_noise * windows.spacing(p);
+double leastVariance(const Windows& windows, int w) {
+  const double least = least_noise * windows.spacing(w);
   return least * least;
 }
 
 NoiseLevel findNoise(const WindowFitter& fitter, const Workers& workers, Windows& windows) {
   NoiseLevel noise;
-  fitter.start(windows);
-  const Buffer<std::uint8_t> is_thick = widen(fitter, workers, windows);
   Buffer<int> all(windows.base.size());
   std::iota(all.begin(), all.end(), 0);
-  fitter.fitNear(all, {}, windows);
+  fitter.take(all, windows);
+  const Buffer<std::uint8_t> is_thick = widen(fitter, workers, windows);
   noise.variance = noiseVariance(windows, workers);
-  findOutliers(fitter, workers, windows, noise);
+  noise.outlier.resize(windows.base.size());
+  for (int w = 0; w < windows.size(); ++w) noise.outlier[w] = isOutlier(windows, w, noise.variance[w]) ? 1 : 0;
   findNoisy(windows, is_thick, workers, noise);
   return noise;
+}
+
+void findOutliers(const WindowFitter& fitter, std::span<const int> which, const Workers& workers, Windows& windows,
+                  NoiseLevel& noise) {
+  Buffer<std::uint8_t> has_window(windows.base.size(), 0);
+  for (const int p : which) has_window[p] = 1;
+  for (int round = 0; round < outlier_rounds; ++round) {
+    const Buffer<int> found = listedWhere(
+        which, workers, [&](int p) { return noise.outlier[p] == 0 && isOutlier(windows, p, noise.variance[p]); });
+    if (found.empty()) return;
+    for (const int p : found) noise.outlier[p] = 1;
+    const Buffer<std::uint8_t> holds = fitter.holding(found, has_window, windows);
+    fitter.refit(listedWhere(which, workers, [&](int p) { return holds[p] != 0; }), noise.outlier, windows);
+  }
 }
 
 }  // namespace tufted

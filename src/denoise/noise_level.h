@@ -1,15 +1,17 @@
 #pragma once
 
+#include <span>
+
 #include "base/parallel.h"
 #include "denoise/windows.h"
 
 namespace tufted {
 
-/// What the two smaller windows say about noise.
+/// What windows say about noise.
 struct NoiseLevel {
-  RawBuffer<double> variance;    ///< n, of the noise around a point, in length^2
-  Buffer<std::uint8_t> outlier;  ///< n, far off the surface of its neighbours
-  Buffer<std::uint8_t> noisy;    ///< n, whether there is noise that can be told from the shape of the surface
+  RawBuffer<double> variance;    ///< of the noise around the middle of each, in length^2
+  Buffer<std::uint8_t> outlier;  ///< whether the middle lies far off the surface of its neighbours
+  Buffer<std::uint8_t> noisy;    ///< whether there is noise that can be told from the shape of the surface
 };
 
 /// Below this part of the spacing noise does nothing to a Laplacian.
@@ -19,11 +21,18 @@ constexpr double least_noise = 0.01;
 /// leverage is about .2, at a corner .7.
 constexpr double most_leverage = 0.9;
 
-/// The least variance of noise that matters around a point.
-double leastVariance(const Windows& windows, int p);
+/// The least variance of noise that matters around a window.
+double leastVariance(const Windows& windows, int w);
 
-/// Makes base windows, wider where the points are as thick as wide, fits the two smaller windows, and decides where
-/// there is noise.
+/// Makes windows, wider ones where the points are as thick as wide, and decides where there is noise.
+/// @param windows with room
 NoiseLevel findNoise(const WindowFitter& fitter, const Workers& workers, Windows& windows);
+
+/// Finds outliers, leaves them out of the fits around them, and looks again for those that had hidden behind them.
+/// @param which windows that are looked at, ascending
+/// @param windows around every point
+/// @param noise whose outliers are found
+void findOutliers(const WindowFitter& fitter, std::span<const int> which, const Workers& workers, Windows& windows,
+                  NoiseLevel& noise);
 
 }  // namespace tufted

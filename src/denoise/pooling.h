@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <span>
 
 #include "base/parallel.h"
 #include "denoise/windows.h"
@@ -16,6 +17,15 @@ void forEachPoint(const Windows& windows, const Workers& workers, const Visit& v
   workers.forBlocks("noise", windows.size(), star_block, [&](std::int64_t begin, std::int64_t end, int) {
     for (int p = static_cast<int>(begin); p < end; ++p) visit(p);
   });
+}
+
+/// Those listed that pass the test.
+template <class Test>
+Buffer<int> listedWhere(std::span<const int> list, const Workers& workers, const Test& test) {
+  Buffer<int> found =
+      numbersWhere("noise", static_cast<int>(list.size()), workers, [&](int i) { return test(list[i]); });
+  for (int& i : found) i = list[i];
+  return found;
 }
 
 /// The variance of a fit's residuals, 0 where there is no fit.

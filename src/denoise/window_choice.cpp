@@ -17,7 +17,8 @@ constexpr double relative = 1.6;  // of the residuals' variance by that of the s
 constexpr std::array<double, Windows::sizes> enough = {0, 0, 0.02, 0.05};
 
 const Windows::Pool& poolOf(const Windows& windows, int p, int window) {
-  return window < 2 ? windows.near[p] : window == 2 ? windows.middle[p] : windows.far[p];
+  if (window > 2 || windows.stride > 1) return windows.far[p];  // else there are few
+  return window < 2 ? windows.near[p] : windows.middle[p];
 }
 
 /// What speaks for a window around one point, and against it.
@@ -63,19 +64,23 @@ class Choice {
 
 }  // namespace
 
-WindowChoice chooseWindows(const Windows& windows, const NoiseLevel& noise, const Workers& workers) {
+WindowChoice chooseWindows(const Windows& windows, const NoiseLevel& noise, std::span<const int> which,
+                           const Workers& workers) {
   WindowChoice choice;
   choice.window.assign(windows.base.size(), -1);
   choice.biased.assign(windows.base.size(), 0);
-  forEachPoint(windows, workers, [&](int p) {
-    if (noise.noisy[p] == 0 || windows.fits[p][1].leverage > most_leverage) return;
-    const Choice of_p(windows, noise, p);
-    for (int k = 0; k < Windows::sizes && !of_p.isEnough(k); ++k) {
-      if (!of_p.isFlat(k)) {
-        choice.biased[p] = 1;
-        break;
+  const bool is_own = windows.stride == 1;  // windows that points share cost no more when they are wide
+  workers.forBlocks("noise", std::ssize(which), star_block, [&](std::int64_t begin, std::int64_t end, int) {
+    for (const int w : which.subspan(begin, end - begin)) {
+      if (noise.noisy[w] == 0 || windows.fits[w][1].leverage > most_leverage) continue;
+      const Choice of_w(windows, noise, w);
+      for (int k = 0; k < Windows::sizes && !(is_own && of_w.isEnough(k)); ++k) {
+        if (!of_w.isFlat(k)) {
+          choice.biased[w] = 1;
+          break;
+        }
+        choice.window[w] = static_cast<std::int8_t>(k);
       }
-      choice.window[p] = static_cast<std::int8_t>(k);
     }
   });
   return choice;

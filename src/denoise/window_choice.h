@@ -1,5 +1,7 @@
 #pragma once
 
+#include <span>
+
 #include "base/parallel.h"
 #include "denoise/noise_level.h"
 #include "denoise/windows.h"
@@ -14,6 +16,8 @@ struct WindowChoice {
 
 /// As wide as needed, and only as wide as the surface is a quadratic: up while the estimate stays within its variance
 /// (Lepski's rule), pooled over the points around.
-WindowChoice chooseWindows(const Windows& windows, const NoiseLevel& noise, const Workers& workers);
+/// @param which whose window is chosen; others have none
+WindowChoice chooseWindows(const Windows& windows, const NoiseLevel& noise, std::span<const int> which,
+                           const Workers& workers);
 
 }  // namespace tufted

@@ -1,6 +1,7 @@
 #include "denoise/windows.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <numbers>
 
@@ -13,17 +14,25 @@
 namespace tufted {
 namespace {
 
-/// @param p stands in where there are no neighbours
-void spread(int p, std::span<const Neighbor> neighbors, Windows::Pool& pool) {
-  const std::size_t count = neighbors.size();
-  if (count == 0) return pool.fill(p);
-  for (std::size_t i = 0; i < pool.size(); ++i) pool[i] = neighbors[i * count / pool.size()].index;
+constexpr double widened_radius = 1 + 1e-9;  // squared; or rounding would decide about a window's last neighbour
+
+/// Windows spread over some of the neighbours, of which those count that are the middle of a window.
+/// @param own the window that stands in where there is no other
+/// @param is_kept(i) whether the i-th neighbour counts
+template <class Test>
+void spread(const Windows& windows, int own, std::span<const Neighbor> neighbors, const Test& is_kept,
+            Buffer<int>& found, Windows::Pool& pool) {
+  found.clear();
+  for (std::size_t i = 0; i < neighbors.size(); ++i)
+    if (neighbors[i].index % windows.stride == 0 && is_kept(i)) found.push_back(neighbors[i].index / windows.stride);
+  if (found.empty()) return pool.fill(own);
+  for (std::size_t i = 0; i < pool.size(); ++i) pool[i] = found[i * found.size() / pool.size()];
 }
 
-void takePlane(int p, const PrincipalAxes& axes, Windows& windows) {
-  windows.normal.row(p) = axes.normal.transpose();
-  windows.thickness[p] = axes.variance[1] > 0 ? std::min(1.0, std::max(0.0, axes.variance[0]) / axes.variance[1]) : 1;
-  windows.line[p] = liesOnOneLine(axes) ? 1 : 0;
+void takePlane(int w, const PrincipalAxes& axes, Windows& windows) {
+  windows.normal.row(w) = axes.normal.transpose();
+  windows.thickness[w] = axes.variance[1] > 0 ? std::min(1.0, std::max(0.0, axes.variance[0]) / axes.variance[1]) : 1;
+  windows.line[w] = liesOnOneLine(axes) ? 1 : 0;
 }
 
 /// Fits that wait until there are enough to be solved together.
@@ -31,8 +40,8 @@ class FitQueue {
  public:
   explicit FitQueue(Windows& windows) : windows_(windows) {}
 
-  void add(int p, int size, const HeightMoments& moments) {
-    slots_.push_back({p, size});
+  void add(int window, int size, const HeightMoments& moments) {
+    slots_.push_back({window, size});
     moments_.push_back(moments);
     if (std::ssize(moments_) == at_once) solve();
   }
@@ -41,16 +50,15 @@ class FitQueue {
     fits_.resize(moments_.size());
     fitHeights(moments_, fits_);
     for (std::size_t i = 0; i < fits_.size(); ++i)
-      static_cast<HeightFit&>(windows_.fits[slots_[i].p][slots_[i].size]) = fits_[i];
+      static_cast<HeightFit&>(windows_.fits[slots_[i].window][slots_[i].size]) = fits_[i];
     slots_.clear();
     moments_.clear();
   }
 
  private:
   static constexpr int at_once = 8 * kernel_packet;
-  /// Whose fit it is, in the window of which size.
   struct Slot {
-    int p, size;
+    int window, size;
   };
 
   Windows& windows_;
@@ -59,21 +67,159 @@ class FitQueue {
   Buffer<HeightFit> fits_;
 };
 
+/// Makes planes and fits for the windows of one block; memory of one worker.
+class BlockFitter {
+ public:
+  BlockFitter(const PointsView& points, const NeighborSource& source, Windows& windows)
+      : points_(points),
+        windows_(windows),
+        finder_(points, source, options_),
+        search_(points, *source.search, windows),
+        queue_(windows) {}
+
+  void take(std::span<const int> which, std::uint8_t* reached) {
+    again_.clear();
+    search_.forEach(
+        which, [&](int w) { return widest(w); },
+        [&](int w, std::span<const Neighbor> neighbors) {
+          const int searched = widest(w);
+          fitPlane(w, neighbors);
+          if (widest(w) != searched) return again_.push_back(w);  // it has grown along a line
+          fit(w, neighbors, {}, reached);
+        });
+    refit(again_, {}, reached);
+  }
+
+  void refit(std::span<const int> which, const Buffer<std::uint8_t>& left_out, std::uint8_t* reached) {
+    search_.forEach(
+        which, [&](int w) { return widest(w); },
+        [&](int w, std::span<const Neighbor> neighbors) { fit(w, neighbors, left_out, reached); });
+    queue_.solve();
+  }
+
+ private:
+  int widest(int w) const { return windows_.base[w] / 2 << (Windows::sizes - 1); }
+
+  void fitPlane(int w, std::span<const Neighbor> neighbors) {
+    const int p = windows_.pointOf(w), base = windows_.base[w];
+    const auto inside = neighbors.first(std::min(neighbors.size(), static_cast<std::size_t>(base)));
+    if (base > Windows::first_base) {
+      windows_.radius[w] = std::sqrt(inside.back().squared_distance);
+      windows_.split[w] = 0;
+      plane_offsets_.take(points_, p, inside);
+      const Covariance covariance = covarianceOf(plane_offsets_.view(), windows_.radius[w]);
+      PrincipalAxes axes;
+      principalAxes({&covariance, 1}, {&axes, 1});
+      return takePlane(w, axes, windows_);
+    }
+    around_plane_.neighbors.assign(inside.begin(), inside.end());
+    around_plane_.k = static_cast<int>(inside.size());
+    around_plane_.radius = inside.empty() ? 0 : std::sqrt(inside.back().squared_distance);
+    around_plane_.grown = around_plane_.split = around_plane_.restored = around_plane_.isolated = false;
+    finder_.fitPlanes(p, {&around_plane_, 1}, {&plane_offsets_, 1});
+    finder_.refine(p, around_plane_, plane_offsets_, plane_scratch_);
+    while (2 * windows_.base[w] <= around_plane_.k) windows_.base[w] *= 2;
+    windows_.radius[w] = around_plane_.radius;
+    windows_.split[w] = around_plane_.split ? 1 : 0;
+    takePlane(w, around_plane_.axes, windows_);
+  }
+
+  void fit(int w, std::span<const Neighbor> neighbors, const Buffer<std::uint8_t>& left_out, std::uint8_t* reached) {
+    const int half = windows_.base[w] / 2, most = static_cast<int>(neighbors.size());
+    if (reached != nullptr)
+      for (const Neighbor& q : neighbors) std::atomic_ref(reached[q.index]).store(1, std::memory_order_relaxed);
+    around_.take(points_, windows_, w, neighbors, left_out);
+    const Offsets all = around_.offsets.view();
+    HeightMoments total = {{}, 1, windows_.radius[w]};
+    int from = 0;
+    for (int size = 0; size < Windows::sizes; ++size) {
+      windows_.fits[w][size] = {};
+      const int to = half << size;
+      if (to > most) continue;
+      const HeightMoments part = heightMoments({to - from, all.x + from, all.y + from, all.z + from},
+                                               windows_.normal.row(w).transpose(), windows_.radius[w]);
+      for (int i = 0; i < HeightSystems::numbers; ++i) (&total.sums.u)[i] += (&part.sums.u)[i];
+      for (; from < to; ++from) total.count += around_.skipped[from] == 0 ? 1 : 0;
+      windows_.fits[w][size].radius = std::sqrt(neighbors[to - 1].squared_distance);
+      windows_.fits[w][size].count = total.count;
+      queue_.add(w, size, total);
+    }
+    const auto pool = [&](int count, Windows::Pool& to) {
+      const auto some = neighbors.first(static_cast<std::size_t>(std::min(count, most)));
+      spread(
+          windows_, w, some, [&](std::size_t i) { return around_.skipped[i] == 0; }, listed_, to);
+    };
+    // Of windows around every eighth point few lie in a base window.
+    pool(windows_.stride == 1 ? 2 * half : 4 * half, windows_.near[w]);
+    pool(4 * half, windows_.middle[w]);
+    pool(8 * half, windows_.far[w]);
+  }
+
+  PointsView points_;
+  Windows& windows_;
+  CloudOptions options_;
+  NeighborhoodFinder finder_;
+  ListedSearch search_;
+  FitQueue queue_;
+  Neighborhood around_plane_;
+  NeighborhoodScratch plane_scratch_;
+  OffsetBuffer plane_offsets_;
+  WindowNeighbors around_;
+  Buffer<int> again_, listed_;
+};
+
 }  // namespace
 
-double Windows::spacing(int p) const {
-  return radius[p] * std::sqrt(std::numbers::pi / base[p]);
+void Windows::resize(Eigen::Index n, int by) {
+  stride = by;
+  const auto size = static_cast<std::size_t>((n + by - 1) / by);
+  base.assign(size, first_base);
+  is_copy.assign(size, 0);
+  normal.resize(static_cast<Eigen::Index>(size));
+  radius.resize(size);
+  thickness.resize(size);
+  line.resize(size);
+  split.resize(size);
+  fits.resize(size);
+  near.resize(size);
+  middle.resize(size);
+  far.resize(size);
 }
 
-void WindowNeighbors::take(const PointsView& points, const Windows& windows, int p, std::span<const Neighbor> neighbors,
+void Windows::copy(int other, int w) {
+  is_copy[w] = 1;
+  base[w] = base[other];
+  normal.row(w) = normal.row(other);
+  radius[w] = radius[other];
+  thickness[w] = thickness[other];
+  line[w] = line[other];
+  split[w] = split[other];
+  fits[w] = fits[other];
+  near[w] = near[other];
+  middle[w] = middle[other];
+  far[w] = far[other];
+}
+
+double Windows::spacing(int w) const {
+  return radius[w] * std::sqrt(std::numbers::pi / base[w]);
+}
+
+double Windows::reach(int w) const {
+  double reach = 0;  // of small clouds the wider windows hold nothing
+  for (const WindowFit& fit : fits[w]) reach = std::max(reach, fit.radius);
+  return reach;
+}
+
+void WindowNeighbors::take(const PointsView& points, const Windows& windows, int w, std::span<const Neighbor> neighbors,
                            const Buffer<std::uint8_t>& left_out) {
   all = neighbors;
+  const int p = windows.pointOf(w);
   offsets.take(points, p, all);
   const int count = static_cast<int>(all.size());
   heights.resize(static_cast<std::size_t>(toPackets(count)));
-  const Eigen::Vector3d normal = windows.normal.row(p).transpose();
+  const Eigen::Vector3d normal = windows.normal.row(w).transpose();
   const HeightRange range =
-      kernels().connectedHeights(offsets.view(), normal.data(), sheet_gap * windows.radius[p], heights.data());
+      kernels().connectedHeights(offsets.view(), normal.data(), sheet_gap * windows.radius[w], heights.data());
   bool any = false;
   skipped.resize(all.size());
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -88,119 +234,39 @@ void WindowNeighbors::take(const PointsView& points, const Windows& windows, int
   });
 }
 
-void WindowFitter::start(Windows& windows) const {
-  const Eigen::Index n = points_.rows();
-  const auto size = static_cast<std::size_t>(n);
-  windows.base.assign(size, Windows::first_base);
-  windows.normal.resize(n);
-  windows.radius.resize(size);
-  windows.thickness.resize(size);
-  windows.line.resize(size);
-  windows.split.resize(size);
-  windows.fits.resize(size);
-  windows.near.resize(size);
-  windows.middle.resize(size);
-  windows.far.resize(size);
-  CloudOptions options;
-  const NeighborhoodFinder finder(points_, source_, options);
-  workers_.forBlocks("noise", n, costly_block, [&](std::int64_t begin, std::int64_t end, int) {
-    const int first = static_cast<int>(begin), count = static_cast<int>(end - begin);
-    Buffer<Neighborhood> neighborhoods(static_cast<std::size_t>(count));
-    NeighborhoodScratch scratch;
-    std::array<OffsetBuffer, NeighborhoodFinder::most_planes> offsets;
-    finder.find(first, count, scratch, neighborhoods.data());
-    for (int group = 0; group < count; group += NeighborhoodFinder::most_planes) {
-      const int group_size = std::min(count - group, NeighborhoodFinder::most_planes);
-      const std::span some(neighborhoods.data() + group, static_cast<std::size_t>(group_size));
-      finder.fitPlanes(first + group, some, offsets);
-      for (int i = 0; i < group_size; ++i) {
-        const int p = first + group + i;
-        Neighborhood& around = some[i];
-        finder.refine(p, around, offsets[i], scratch);
-        while (2 * windows.base[p] <= around.k) windows.base[p] *= 2;  // it has grown on a line
-        windows.radius[p] = around.radius;
-        windows.split[p] = around.split ? 1 : 0;
-        takePlane(p, around.axes, windows);
-        spread(p, around.neighbors, windows.near[p]);
+void WindowFitter::take(std::span<const int> which, Windows& windows, std::uint8_t* reached) const {
+  workers_.forBlocks("noise", std::ssize(which), costly_block, [&](std::int64_t begin, std::int64_t end, int) {
+    BlockFitter(points_, source_, windows).take(which.subspan(begin, end - begin), reached);
+  });
+}
+
+Buffer<std::uint8_t> WindowFitter::holding(std::span<const int> which, const Buffer<std::uint8_t>& has_window,
+                                           const Windows& windows) const {
+  Buffer<std::uint8_t> holds(has_window.size(), 0);
+  const int most = static_cast<int>(points_.rows()) - 1;
+  workers_.forBlocks("noise", std::ssize(which), costly_block, [&](std::int64_t begin, std::int64_t end, int) {
+    Buffer<Neighbor> near;
+    for (const int p : which.subspan(begin, end - begin)) {
+      bool any = true;
+      for (int k = std::min(8 * windows.base[p], most); any; k = std::min(2 * k, most)) {
+        source_.search->nearest(p, k, near);
+        any = false;  // among the farther half
+        for (int i = 0; i < k; ++i) {
+          const int q = near[i].index;
+          const double radius = has_window[q] != 0 ? windows.reach(q) : 0;
+          if (!(near[i].squared_distance <= radius * radius * widened_radius)) continue;
+          std::atomic_ref(holds[q]).store(1, std::memory_order_relaxed);
+          any |= 2 * i >= k && k < most;
+        }
       }
     }
   });
+  return holds;
 }
 
-void WindowFitter::widen(std::span<const int> which, Windows& windows) const {
-  for (const int p : which) windows.base[p] *= 2;
-  takePlanes(which, windows);
-}
-
-void WindowFitter::reset(std::span<const int> which, Windows& windows) const {
-  for (const int p : which) windows.base[p] = Windows::first_base;
-  takePlanes(which, windows);
-}
-
-void WindowFitter::takePlanes(std::span<const int> which, Windows& windows) const {
+void WindowFitter::refit(std::span<const int> which, const Buffer<std::uint8_t>& left_out, Windows& windows) const {
   workers_.forBlocks("noise", std::ssize(which), costly_block, [&](std::int64_t begin, std::int64_t end, int) {
-    ListedSearch search(points_, *source_.search, windows);
-    OffsetBuffer offsets;
-    std::array<Covariance, costly_block> covariances;
-    std::array<PrincipalAxes, costly_block> axes;
-    const auto block = which.subspan(begin, end - begin);
-    std::size_t i = 0;
-    search.forEach(
-        block, [&](int p) { return windows.base[p]; },
-        [&](int p, std::span<const Neighbor> neighbors) {
-          offsets.take(points_, p, neighbors);
-          windows.radius[p] = std::sqrt(neighbors.back().squared_distance);
-          spread(p, neighbors, windows.near[p]);
-          covariances[i++] = covarianceOf(offsets.view(), windows.radius[p]);
-        });
-    principalAxes(std::span(covariances).first(block.size()), axes);
-    for (i = 0; i < block.size(); ++i) takePlane(block[i], axes[i], windows);
-  });
-}
-
-void WindowFitter::fitNear(std::span<const int> which, const Buffer<std::uint8_t>& left_out, Windows& windows) const {
-  fit(which, 2, left_out, windows);
-}
-
-void WindowFitter::fitAll(std::span<const int> which, const Buffer<std::uint8_t>& left_out, Windows& windows) const {
-  fit(which, Windows::sizes, left_out, windows);
-}
-
-void WindowFitter::fit(std::span<const int> which, int sizes, const Buffer<std::uint8_t>& left_out,
-                       Windows& windows) const {
-  workers_.forBlocks("noise", std::ssize(which), costly_block, [&](std::int64_t begin, std::int64_t end, int) {
-    WindowNeighbors around;
-    FitQueue queue(windows);
-    Buffer<Neighbor> kept;
-    ListedSearch search(points_, *source_.search, windows);
-    const auto widest = [&](int p) { return windows.base[p] / 2 << (sizes - 1); };
-    search.forEach(which.subspan(begin, end - begin), widest, [&](int p, std::span<const Neighbor> neighbors) {
-      const int half = windows.base[p] / 2, most = static_cast<int>(neighbors.size());
-      around.take(points_, windows, p, neighbors, left_out);
-      const Offsets all = around.offsets.view();
-      HeightMoments total = {{}, 1, windows.radius[p]};
-      int from = 0;
-      for (int size = 0; size < Windows::sizes; ++size) {
-        windows.fits[p][size] = {};
-        const int to = half << size;
-        if (size >= sizes || to > most) continue;
-        const HeightMoments part = heightMoments({to - from, all.x + from, all.y + from, all.z + from},
-                                                 windows.normal.row(p).transpose(), windows.radius[p]);
-        for (int i = 0; i < HeightSystems::numbers; ++i) (&total.sums.u)[i] += (&part.sums.u)[i];
-        for (; from < to; ++from) total.count += around.skipped[from] == 0 ? 1 : 0;
-        windows.fits[p][size].radius = std::sqrt(around.all[to - 1].squared_distance);
-        windows.fits[p][size].count = total.count;
-        queue.add(p, size, total);
-        if (size < 2) continue;
-        kept.clear();
-        for (int i = 0; i < to; ++i)
-          if (around.skipped[i] == 0) kept.push_back(around.all[i]);
-        spread(p, kept, size == 2 ? windows.middle[p] : windows.far[p]);
-      }
-      if (sizes == Windows::sizes && most < 2 * (half << 1)) windows.middle[p] = windows.near[p];
-      if (sizes == Windows::sizes && most < 4 * (half << 1)) windows.far[p] = windows.middle[p];
-    });
-    queue.solve();
+    BlockFitter(points_, source_, windows).refit(which.subspan(begin, end - begin), left_out, nullptr);
   });
 }
 

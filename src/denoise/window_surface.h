@@ -1,0 +1,30 @@
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "denoise/windows.h"
+#include "stars/tangent_frame.h"
+
+namespace tufted {
+
+/// The surface of a window at one position.
+struct WindowSurface {
+  double height;           ///< of the position over it
+  Eigen::Vector3d normal;  ///< of the surface there
+};
+
+/// @param size of Windows::fits
+/// @param d the position relative to the middle of window w
+inline WindowSurface surfaceAt(const Windows& windows, int w, int size, const Eigen::Vector3d& d) {
+  const auto& c = windows.fits[w][size].coefficient;
+  const Eigen::Vector3d normal = windows.normal.row(w).transpose(), first = tangentOf(normal);
+  const Eigen::Vector3d second = normal.cross(first);
+  const double unit = windows.radius[w], u = d.dot(first) / unit, v = d.dot(second) / unit;
+  const double height = unit * (c[0] + c[1] * u + c[2] * v + c[3] * u * u + c[4] * u * v + c[5] * v * v);
+  const double along_u = c[1] + 2 * c[3] * u + c[4] * v, along_v = c[2] + c[4] * u + 2 * c[5] * v;
+  const Eigen::Vector3d across = normal - along_u * first - along_v * second;
+  const double length = across.norm();
+  return {(d.dot(normal) - height) / length, across / length};
+}
+
+}  // namespace tufted

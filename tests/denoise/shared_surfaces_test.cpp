@@ -1,0 +1,114 @@
+#include "denoise/shared_surfaces.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <memory>
+#include <numeric>
+
+#include "denoise/moves.h"
+#include "shapes/shapes.h"
+#include "support/ranked.h"
+
+namespace tufted::shared_surfaces_test {
+namespace {
+
+using shapes::Sampling;
+
+const Progress silent;
+
+/// Windows around every eighth point of a cloud, which count as noisy and smooth.
+struct SharedCloud {
+  RankedCloud ranked;
+  Workers workers = Workers(1, silent);
+  NeighborSource source;
+  Windows windows;
+  NoiseLevel noise;
+  WindowChoice choice;
+  PointBuffer move;
+  RawBuffer<double> variance;
+  SharedSurfaces shared;
+
+  SharedCloud(const Points& points, double sigma)
+      : ranked(support::ranked(points)),
+        source(windowSource(std::make_unique<NeighborSearch>(ranked.points), ranked.size())) {
+    windows.resize(ranked.size(), 8);
+    Buffer<int> all(windows.base.size());
+    std::iota(all.begin(), all.end(), 0);
+    WindowFitter(ranked.points, source, workers).take(all, windows);
+    noise.variance.resize(all.size());
+    for (double& variance_of_window : noise.variance) variance_of_window = sigma * sigma;
+    noise.outlier.assign(all.size(), 0);
+    noise.noisy.assign(all.size(), 1);
+    choice.window.assign(all.size(), 3);
+    choice.biased.assign(all.size(), 0);
+  }
+
+  void share() { shared = shareSurfaces(ranked.points, source, windows, noise, choice, workers, move, variance); }
+};
+
+/// Points of z = (x^2 - y^2) / 8, on which every fit is exact.
+Points quadric() {
+  Points points = shapes::square(4000).points;
+  for (Eigen::Index i = 0; i < points.rows(); ++i)
+    points(i, 2) = (points(i, 0) * points(i, 0) - points(i, 1) * points(i, 1)) / 8;
+  return points;
+}
+
+TEST(SharedSurfaces, OfAPlaneLeaveItsPointsWhereTheyAre) {
+  SharedCloud cloud(shapes::square(4000).points, 0.01);
+  cloud.share();
+  EXPECT_EQ(std::count(cloud.shared.settled.begin(), cloud.shared.settled.end(), 1), 4000);
+  EXPECT_LT(cloud.move.all().cwiseAbs().maxCoeff(), 1e-14);
+}
+
+TEST(SharedSurfaces, BringAPointBackThatAloneIsOff) {
+  Points points = quadric();
+  points(1234, 2) += 0.002;
+  SharedCloud cloud(points, 0.01);
+  cloud.share();
+  for (int p = 0; p < cloud.ranked.size(); ++p) {
+    const double way = cloud.move.row(p).norm();
+    if (cloud.ranked.input_index[p] == 1234)
+      EXPECT_NEAR(way, std::ldexp(0.002, -cloud.ranked.exponent), std::ldexp(3e-4, -cloud.ranked.exponent));
+    else
+      EXPECT_LT(way, std::ldexp(3e-4, -cloud.ranked.exponent)) << p;
+  }
+}
+
+TEST(SharedSurfaces, SettleNoPointThatIsFarOff) {
+  Points points = quadric();
+  points(1234, 2) += 0.5;
+  SharedCloud cloud(points, 0.01);
+  cloud.share();
+  for (int p = 0; p < cloud.ranked.size(); ++p)
+    if (cloud.ranked.input_index[p] == 1234) EXPECT_EQ(cloud.shared.settled[p], 0);
+}
+
+TEST(SharedSurfaces, OfBiasedWindowsSettleNothingAndOfQuietOnesLetAllStay) {
+  SharedCloud cloud(quadric(), 0.01);
+  cloud.choice.biased.assign(cloud.choice.biased.size(), 1);
+  cloud.share();
+  EXPECT_EQ(std::count(cloud.shared.settled.begin(), cloud.shared.settled.end(), 1), 0);
+  cloud.noise.noisy.assign(cloud.noise.noisy.size(), 0);
+  cloud.share();
+  EXPECT_EQ(std::count(cloud.shared.settled.begin(), cloud.shared.settled.end(), 1), 4000);
+  EXPECT_TRUE(cloud.move.all().isZero(0));
+}
+
+TEST(MayBeNoisy, IsTrueOfNoiseAndFalseOfExactPoints) {
+  const auto asks = [](const shapes::Cloud& cloud) {
+    const RankedCloud ranked = support::ranked(cloud.points);
+    const NeighborSource source = windowSource(std::make_unique<NeighborSearch>(ranked.points), ranked.size());
+    return mayBeNoisy(ranked.points, source, Workers(1, silent));
+  };
+  for (const auto& cloud :
+       {shapes::sphere(8000), shapes::torus(8000), shapes::cylinderPatch(8000), shapes::saddle(8000),
+        shapes::squareLattice(), shapes::sphere(8000, Sampling::densityStep(16))}) {
+    EXPECT_FALSE(asks(cloud)) << cloud.name;
+    for (const double sigma : {0.001, 0.01, 0.03}) EXPECT_TRUE(asks(withNoise(cloud, sigma, 7))) << cloud.name << sigma;
+  }
+}
+
+}  // namespace
+}  // namespace tufted::shared_surfaces_test
