@@ -25,7 +25,8 @@ enum class Filter {
 /// Positions from which the lengths of edges are measured.
 enum class Lengths {
   points,    ///< the points themselves
-  denoised,  ///< points moved onto the surface where a neighbourhood is noise around a curved surface
+  denoised,  ///< points moved onto the surface where a neighbourhood is noise around a curved surface; not once more
+             ///< those that CloudSteps::denoise has moved
 };
 
 /// What M holds.
@@ -38,15 +39,19 @@ enum class Mass {
 };
 
 /// What is done about clouds that are not exact samples of one surface. The defaults are those of Preset::scan. With
-/// the caller's neighborhoods nothing is grown, split or searched again and outliers stay. On rings outliers stay, no
-/// sheets are split, only lines are grown, and open stars are not searched again. In a depth image nothing is grown,
-/// split or searched, whatever these say, and neither among rings that lie close together: see ScanStructure.
+/// the caller's neighborhoods nothing is grown, split, moved or searched again and outliers stay. On rings outliers
+/// stay, no sheets are split, no points moved, only lines are grown, and open stars are not searched again. In a depth
+/// image nothing is grown, split or searched, whatever these say, and neither among rings that lie close together: see
+/// ScanStructure.
 struct CloudSteps {
   Growth growth = Growth::line;  ///< when neighbourhoods grow
   bool split_sheets = true;  ///< neighbours beyond a gap along the normal belong to another surface and are left out
   StarSearch star_search = StarSearch::thorough;  ///< when stars are wrapped again
   bool isolate_outliers = true;   ///< points that hover over a surface that does not reach to them lose their stars
   Filter filter = Filter::votes;  ///< which triangles are dropped
+  /// Where there is noise, points are moved onto the surface first, as by denoise(), and everything is built from
+  /// there.
+  bool denoise = true;
   Lengths lengths = Lengths::denoised;  ///< between which positions lengths are measured
   Mass mass = Mass::star;               ///< what M holds
 };

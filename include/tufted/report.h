@@ -39,9 +39,9 @@ struct Report {
   std::int64_t split_neighborhoods = 0;  ///< neighbours of another sheet left out
   std::int64_t isolated_by_sheets = 0;   ///< points without a star: nearly all neighbours belong to other sheets
   std::int64_t outliers = 0;             ///< points without a star: they hover over a surface, see CloudSteps
-  std::int64_t denoised = 0;             ///< points moved onto a surface for the lengths, see Lengths
-  /// The noise of a depth image is a standard deviation along the ray of each point that was moved: this is the median
-  /// over these points, in the caller's unit. It is 0 where no point was moved, and of all other clouds.
+  std::int64_t denoised = 0;             ///< points moved onto the surface, see CloudSteps::denoise and Lengths
+  /// The noise around each point that CloudSteps::denoise moved, or the smoothing of a depth image, is a standard
+  /// deviation along the normal, or the ray: this is the median over these points, in the caller's unit; 0 without any.
   double noise = 0;
   std::int64_t grown_stars = 0;            ///< times k was doubled because a closed star was not certified
   std::int64_t closed_stars = 0;           ///< open stars that closed with two or four times the neighbours

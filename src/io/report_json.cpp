@@ -120,6 +120,7 @@ Json optionsObject(const CloudOptions& options) {
                {"isolate_outliers", options.steps.isolate_outliers},
                {"star_search", options.steps.star_search == StarSearch::once ? "once" : "thorough"},
                {"filter", options.steps.filter == Filter::radius ? "radius" : "votes"},
+               {"denoise", options.steps.denoise},
                {"lengths", options.steps.lengths == Lengths::points ? "points" : "denoised"},
                {"mass", options.steps.mass == Mass::cover ? "cover" : "star"},
                {"structure", name(options.structure)},

@@ -45,11 +45,13 @@ CloudSteps cloudSteps(Preset preset) {
              .star_search = StarSearch::once,
              .isolate_outliers = false,
              .filter = Filter::radius,
+             .denoise = false,
              .lengths = Lengths::points,
              .mass = Mass::cover};
   } else if (preset == Preset::lidar) {
     steps.growth = Growth::uneven;
     steps.split_sheets = false;
+    steps.denoise = false;
   }
   return steps;
 }

@@ -1,9 +1,11 @@
 #include "pipeline/cloud_surface.h"
 
 #include <algorithm>
+#include <memory>
 #include <utility>
 
 #include "base/power_of_two.h"
+#include "denoise/moves.h"
 #include "depth_image/image_boundary.h"
 #include "depth_image/image_stars.h"
 #include "depth_image/ring_columns.h"
@@ -36,9 +38,29 @@ CloudSurface imageSurface(PixelGrid grid, const RankedCloud& cloud, const CloudO
   return result;
 }
 
+constexpr double least_moved = 0.05;  // of the points; fewer do not pay for a second search
+
+/// Moves the points of the cloud onto the surface within its noise, and searches among them from then on.
+void moveOntoSurface(RankedCloud& cloud, NeighborSource& source, const Workers& workers, Report& report) {
+  if (source.search == nullptr || source.isWholeCloud(cloud.size())) return;
+  NeighborSource of_windows = windowSource(std::move(source.search), cloud.size());
+  SurfaceMoves moves;
+  if (mayBeNoisy(cloud.points, of_windows, workers)) moves = surfaceMoves(cloud.points, of_windows, workers);
+  source.search = std::move(of_windows.search);
+  const MoveFigures figures = figuresOf(moves);
+  if (static_cast<double>(figures.moved) < least_moved * cloud.size()) return;
+  report.denoised = figures.moved;
+  report.noise = PowerOfTwo(cloud.exponent).times(figures.noise);
+  workers.forBlocks("noise", cloud.size(), usual_block, [&](std::int64_t begin, std::int64_t end, int) {
+    for (std::int64_t p = begin; p < end; ++p) cloud.points.row(p) += moves.move.row(p);
+  });
+  source.search = std::make_unique<NeighborSearch>(cloud.points, workers);
+  cloud.move = std::move(moves.move);
+}
+
 }  // namespace
 
-CloudSurface findSurface(const RankedCloud& cloud, const CloudOptions& options, const Eigen::Vector3d* viewpoint,
+CloudSurface findSurface(RankedCloud& cloud, const CloudOptions& options, const Eigen::Vector3d* viewpoint,
                          const std::vector<PointStatus>& status, const std::vector<int>& representative,
                          const Workers& workers, StageClock& clock, Report& report) {
   if (options.structure != nullptr) {
@@ -47,8 +69,10 @@ CloudSurface findSurface(const RankedCloud& cloud, const CloudOptions& options, 
     const auto image = columnsOfRings(std::move(scan), cloud.points, workers);
     if (image) return imageSurface(pixelGrid(image->scan, image->columns), cloud, options, workers, clock, report);
   }
-  const NeighborSource source = neighborSource(options, cloud, status, representative, workers, report);
+  NeighborSource source = neighborSource(options, cloud, status, representative, workers, report);
   clock.finish("tree", source.bytes());
+  if (options.steps.denoise) moveOntoSurface(cloud, source, workers, report);
+  clock.finish("noise", cloud.move.bytes());
   CloudSurface result{surfaceStars(cloud, source, options, workers, report), {}};
   clock.restart();
   result.boundary = findBoundary(result.built, cloud, source, viewpoint, workers);

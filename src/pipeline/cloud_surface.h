@@ -21,8 +21,9 @@ struct CloudSurface {
 /// The stars of all points, without outliers and triangles that the neighbours refuse, and where the surface ends: by
 /// the pixels of a depth image, or by the neighbours that a tree, the rings of a scanner or the caller know. Books
 /// every stage but that of the boundary, which it leaves running.
+/// @param cloud whose points are moved onto the surface where there is noise, if the options say so
 /// @param viewpoint where the sensor stood, in the caller's unit, or null
-CloudSurface findSurface(const RankedCloud& cloud, const CloudOptions& options, const Eigen::Vector3d* viewpoint,
+CloudSurface findSurface(RankedCloud& cloud, const CloudOptions& options, const Eigen::Vector3d* viewpoint,
                          const std::vector<PointStatus>& status, const std::vector<int>& representative,
                          const Workers& workers, StageClock& clock, Report& report);
 

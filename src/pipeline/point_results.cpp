@@ -33,14 +33,17 @@ void setPositions(const PointsRef& points, const PointBuffer& displacement, cons
   workers.forBlocks("boundary", points.rows(), usual_block, [&](std::int64_t begin, std::int64_t end, int) {
     result.positions.middleRows(begin, end - begin) = points.middleRows(begin, end - begin);
   });
-  if (displacement.rows() == 0) return;
+  if (cloud.move.rows() == 0 && displacement.rows() == 0) return;
   const PowerOfTwo unit(cloud.exponent);
-  workers.forBlocks("boundary", cloud.size(), usual_block, [&](std::int64_t begin, std::int64_t end, int) {
-    for (std::int64_t p = begin; p < end; ++p) {
-      auto position = result.positions.row(cloud.input_index[p]);
-      for (int axis = 0; axis < 3; ++axis) unit.addTo(position[axis], displacement.row(p)[axis]);
-    }
-  });
+  for (const PointBuffer* const way : {&cloud.move, &displacement}) {
+    if (way->rows() == 0) continue;
+    workers.forBlocks("boundary", cloud.size(), usual_block, [&](std::int64_t begin, std::int64_t end, int) {
+      for (std::int64_t p = begin; p < end; ++p) {
+        auto position = result.positions.row(cloud.input_index[p]);
+        for (int axis = 0; axis < 3; ++axis) unit.addTo(position[axis], way->row(p)[axis]);
+      }
+    });
+  }
   for (Eigen::Index i = 0; i < points.rows(); ++i)
     if (result.status[i] == PointStatus::coincident)
       result.positions.row(i) = result.positions.row(result.representative[i]);

@@ -18,7 +18,7 @@ void setBoundaryAndNormals(const Buffer<Boundary>& boundary, const PointsView& n
                            const Workers& workers, Laplacian& result);
 
 /// Sets where lengths are measured: the caller's points, of which noisy ones are displaced.
-/// @param displacement n x 3, by rank, in units of 2^exponent of the caller's; 0 x 3: nothing moves
+/// @param displacement n x 3, by rank, in units of 2^exponent of the caller's, beside RankedCloud::move; 0 x 3: none
 void setPositions(const PointsRef& points, const PointBuffer& displacement, const RankedCloud& cloud,
                   const Workers& workers, Laplacian& result);
 

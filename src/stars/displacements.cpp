@@ -13,14 +13,16 @@ void takeMoved(const PointsView& points, const PointBuffer& moved, int p, std::s
   });
 }
 
-void displaceNoisyPoints(int first, std::span<const Neighborhood> neighborhoods, std::span<const OffsetBuffer> offsets,
-                         FitScratch& scratch, PointBuffer& displacement, NoisyPoints& noisy) {
+void displaceNoisyPoints(const PointBuffer& moved, int first, std::span<const Neighborhood> neighborhoods,
+                         std::span<const OffsetBuffer> offsets, FitScratch& scratch, PointBuffer& displacement,
+                         NoisyPoints& noisy) {
   for (std::size_t i = 0; i < neighborhoods.size(); ++i)
     scratch.moments[i] = heightMoments(offsets[i].view(), neighborhoods[i].axes.normal, neighborhoods[i].fit_radius);
   fitHeights(std::span(scratch.moments).first(neighborhoods.size()), scratch.fits);
   for (std::size_t i = 0; i < neighborhoods.size(); ++i) {
     const PrincipalAxes& axes = neighborhoods[i].axes;
     const int p = first + static_cast<int>(i);
+    if (moved.rows() > 0 && !moved.row(p).isZero(0)) continue;
     if (!isNoisy(scratch.fits[i], axes.variance[0] * axes.extent * axes.extent, neighborhoods[i].fit_radius)) continue;
     displacement.row(p) = scratch.fits[i].height * axes.normal.transpose();
     noisy.rank.push_back(p);

@@ -34,11 +34,13 @@ void takeMoved(const PointsView& points, const PointBuffer& moved, int p, std::s
 
 /// Moves points onto the surface through their neighbours if these are noise around one, and keeps them for a second
 /// look.
+/// @param moved RankedCloud::move; points that have moved stay where they are
 /// @param first at most FitScratch::most points from here on
 /// @param offsets of their neighbours
 /// @param displacement n x 3, of which theirs are set
-void displaceNoisyPoints(int first, std::span<const Neighborhood> neighborhoods, std::span<const OffsetBuffer> offsets,
-                         FitScratch& scratch, PointBuffer& displacement, NoisyPoints& noisy);
+void displaceNoisyPoints(const PointBuffer& moved, int first, std::span<const Neighborhood> neighborhoods,
+                         std::span<const OffsetBuffer> offsets, FitScratch& scratch, PointBuffer& displacement,
+                         NoisyPoints& noisy);
 
 /// Moves noisy points once more, onto the surface through the places that their neighbours have by now.
 /// @param moved of all points, before any is moved once more

@@ -42,7 +42,8 @@ struct WorkerState {
 class StarBuilder {
  public:
   StarBuilder(const RankedCloud& cloud, const NeighborSource& source, const CloudOptions& options, BuiltStars& built)
-      : source_(source),
+      : moved_(cloud.move),
+        source_(source),
         options_(options),
         finder_(cloud.points, source, options),
         wrapping_(options.delaunay),
@@ -68,7 +69,8 @@ class StarBuilder {
       for (int i = group; i < group_end; ++i)
         takeFrame(first + i, state.neighborhoods[i], state.offsets[i - group], state);
       if (denoises_)
-        displaceNoisyPoints(first + group, neighborhoods, state.offsets, state.fits, stars_.displacement, noisy);
+        displaceNoisyPoints(moved_, first + group, neighborhoods, state.offsets, state.fits, stars_.displacement,
+                            noisy);
       state.seconds[1] += watch.restart();
       for (int i = group; i < group_end; ++i)
         wrapStar(first + i, state.neighborhoods[i], state.offsets[i - group], state);
@@ -169,6 +171,7 @@ class StarBuilder {
     storeStar(p, unit, anyTriangle, state.memory, stars_);
   }
 
+  const PointBuffer& moved_;
   const NeighborSource& source_;
   const CloudOptions& options_;
   NeighborhoodFinder finder_;
@@ -214,8 +217,10 @@ BuiltStars buildStars(const RankedCloud& cloud, const NeighborSource& source, co
   });
   finishOffsets(stars);
 
-  for (const NoisyPoints& points : noisy) report.denoised += std::ssize(points.rank);
-  if (report.denoised > 0) {
+  std::ptrdiff_t displaced = 0;
+  for (const NoisyPoints& points : noisy) displaced += std::ssize(points.rank);
+  report.denoised += displaced;
+  if (displaced > 0) {
     const PointBuffer moved = stars.displacement;
     workers.forBlocks("surface", blocks, 1, [&](std::int64_t begin, std::int64_t end, int worker) {
       WorkerState& state = states[worker];

@@ -22,7 +22,7 @@ ROOMS = {
     "direct": ["base", "simd", "cover", "neighbors", "stars"],
     "depth_image": ["base", "simd", "neighbors", "stars"],
     "denoise": ["base", "simd", "neighbors", "stars", "depth_image"],
-    "pipeline": ["base", "cover", "neighbors", "stars", "depth_image", "direct"],
+    "pipeline": ["base", "cover", "neighbors", "stars", "depth_image", "denoise", "direct"],
     "operators": ["base", "cover", "stars"],
     "algorithms": ["base", "cover", "neighbors", "operators"],
     "view": [],

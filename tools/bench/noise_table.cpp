@@ -73,14 +73,16 @@ double eigenvalueError(const Laplacian& laplacian, const Cloud& cloud, int count
 void printNoise() {
   std::printf(
       "\n| shape, noise | rms off the surface, spacings | after denoise | MLS, best radius | estimated / true noise | "
-      "eigenvalue error | after denoise |\n|---|---|---|---|---|---|---|\n");
+      "eigenvalue error, points as measured | by default | area | by default "
+      "|\n|---|---|---|---|---|---|---|---|---|\n");
 #ifdef TUFTED_BENCH_PCL
   const std::vector<double> radii = {3, 4, 6, 8, 10};  // in spacings
 #else
   const std::vector<double> radii;
 #endif
   for (const NoisyShape& shape : noisyShapes()) {
-    double before = 0, after = 0, noise = 0, error_before = 0, error_after = 0, spacing = 0;
+    double before = 0, after = 0, noise = 0, error_before = 0, error_after = 0, area_before = 0, area_after = 0,
+           spacing = 0;
     std::vector<double> others(radii.size(), 0);
     for (std::uint64_t seed = first_seed; seed <= last_seed; ++seed) {
       const Cloud cloud = withNoise(shape.make(seed), shape.sigma, seed + 100);
@@ -89,8 +91,14 @@ void printNoise() {
       before += rmsDistance(cloud.points, shape.distance) / spacing;
       after += rmsDistance(done.positions, shape.distance) / spacing;
       noise += done.report.noise / shape.sigma;
-      error_before += eigenvalueError(pointCloudLaplacian(cloud.points), cloud, shape.eigenvalues);
-      error_after += eigenvalueError(pointCloudLaplacian(done.positions), cloud, shape.eigenvalues);
+      CloudOptions as_measured;
+      as_measured.steps.denoise = false;
+      const Laplacian before_moving = pointCloudLaplacian(cloud.points, as_measured);
+      const Laplacian after_moving = pointCloudLaplacian(cloud.points);
+      error_before += eigenvalueError(before_moving, cloud, shape.eigenvalues);
+      error_after += eigenvalueError(after_moving, cloud, shape.eigenvalues);
+      area_before += before_moving.report.area / cloud.area - 1;
+      area_after += after_moving.report.area / cloud.area - 1;
 #ifdef TUFTED_BENCH_PCL
       for (std::size_t r = 0; r < radii.size(); ++r)
         others[r] += rmsDistance(movedByLeastSquares(cloud.points, radii[r] * spacing, 2), shape.distance) / spacing;
@@ -100,7 +108,8 @@ void printNoise() {
     std::printf("| %s | %.3f | %.3f | ", shape.name.c_str(), before / seeds, after / seeds);
     if (const auto best = std::min_element(others.begin(), others.end()); best != others.end())
       std::printf("%.3f (%g)", *best / seeds, radii[static_cast<std::size_t>(best - others.begin())]);
-    std::printf(" | %.2f | %.1e | %.1e |\n", noise / seeds, error_before / seeds, error_after / seeds);
+    std::printf(" | %.2f | %.1e | %.1e | %+.1f %% | %+.1f %% |\n", noise / seeds, error_before / seeds,
+                error_after / seeds, 100 * area_before / seeds, 100 * area_after / seeds);
     std::fflush(stdout);
   }
 }

@@ -15,7 +15,7 @@ Triangles unionOfStars(const Points& points, const CloudOptions& options, const 
   std::vector<PointStatus> status;
   std::vector<int> representative;
   Report report;
-  const RankedCloud cloud = rankPoints(points, status, representative);
+  RankedCloud cloud = rankPoints(points, status, representative);
   StageClock clock(report);
   const Stars stars =
       findSurface(cloud, options, options.viewpoint, status, representative, workers, clock, report).built.stars;

@@ -43,7 +43,7 @@ void addBuildOptions(CLI::App& command, Build& build) {
        command.add_flag("--normals", build.normals,
                         "Use the file's normals for the tangent planes, not those of the PCA; clouds only"),
        command.add_flag("--denoise", build.denoise,
-                        "Move noisy points onto the surface first, as `tufted denoise` does; clouds only"),
+                        "Move noisy points onto the surface with any preset, and start from there; clouds only"),
        command
            .add_option("--viewpoint", build.given_viewpoint,
                        "Where the sensor stood, clouds only (the file's, or the origin of a depth image)")
@@ -79,8 +79,10 @@ tufted::Laplacian buildLaplacian(const tufted::Geometry& geometry, const Input& 
   if (build.scan) build.cloud.structure = &*build.scan;
   build.cloud.steps = tufted::cloudSteps(build.preset);
   const bool is_image = build.structure == Structure::image;
-  // A build moves the points of an image by itself, with all presets but `clean`.
-  if (build.denoise && is_image) build.cloud.steps.lengths = tufted::Lengths::denoised;
+  if (build.denoise) {
+    build.cloud.steps.denoise = true;
+    if (is_image) build.cloud.steps.lengths = tufted::Lengths::denoised;
+  }
   // The position is at hand where a file states one, and where an image of depths leaves it at the origin.
   build.viewpoint = {geometry.viewpoint[0], geometry.viewpoint[1], geometry.viewpoint[2]};
   const bool is_given = !build.given_viewpoint.empty();
@@ -95,16 +97,9 @@ tufted::Laplacian buildLaplacian(const tufted::Geometry& geometry, const Input& 
   build.mesh.keep_cover = keep_cover;
   if (build.mollify) build.cloud.mollify = build.mesh.mollify = *build.mollify;
   if (geometry.is_mesh) return tufted::meshLaplacian(geometry.points, geometry.triangles, build.mesh);
-  if (!build.denoise || is_image) {
-    tufted::Laplacian laplacian = tufted::pointCloudLaplacian(geometry.points, build.cloud);
-    if (build.denoise) build.moved = laplacian.positions;
-    return laplacian;
-  }
-  tufted::DenoisedPoints denoised =
-      tufted::denoise(geometry.points, {.threads = build.cloud.threads, .progress = progress});
-  build.denoised = denoised.report;
-  build.moved = std::move(denoised.positions);
-  return tufted::pointCloudLaplacian(build.moved, build.cloud);
+  tufted::Laplacian laplacian = tufted::pointCloudLaplacian(geometry.points, build.cloud);
+  if (build.denoise) build.moved = laplacian.positions;
+  return laplacian;
 }
 
 void addBuild(const tufted::Report& report, const Build& build, Summary& summary) {
@@ -114,10 +109,9 @@ void addBuild(const tufted::Report& report, const Build& build, Summary& summary
     else
       summary.add("structure", "depth image, %lld points moved along their rays, noise %.3g",
                   static_cast<long long>(report.denoised), report.noise);
-  }
-  if (build.denoised)
-    summary.add("denoised", "%lld points, noise %.4g", static_cast<long long>(build.denoised->moved),
-                build.denoised->noise);
+  } else if (report.noise > 0)
+    summary.add("noise", "%.3g, %lld points moved onto the surface", report.noise,
+                static_cast<long long>(report.denoised));
   if (report.neighbors_clamped)
     summary.add("neighbors", "%d and not %d: all other points", report.neighbors, build.cloud.neighbors);
 }

@@ -9,7 +9,6 @@
 #include "input.h"
 #include "structure.h"
 #include "summary.h"
-#include "tufted/denoise.h"
 #include "tufted/io/read.h"
 #include "tufted/laplacian.h"
 
@@ -18,8 +17,8 @@ struct Build {
   bool normals = false;  ///< whether to use the normals of the file
   tufted::Preset preset = tufted::Preset::scan;
   Structure structure = Structure::automatic;  ///< that which was used, in the end
-  bool denoise = false;                        ///< whether the points are moved onto the surface first
-  std::optional<double> mollify;               ///< if empty, the default of clouds or of meshes
+  bool denoise = false;           ///< whether noisy points are moved with any preset, and commands start there
+  std::optional<double> mollify;  ///< if empty, the default of clouds or of meshes
 
   /// The options that were used in the end; they borrow from the members below and from the geometry.
   tufted::CloudOptions cloud;
@@ -27,8 +26,7 @@ struct Build {
   std::string given_viewpoint;  ///< X,Y,Z; empty: that of the file, if it has one
   std::optional<tufted::ScanStructure> scan;
   Eigen::Vector3d viewpoint = Eigen::Vector3d::Zero();
-  std::optional<tufted::DenoiseReport> denoised;  ///< what was done, if it was; not of images, whose build does it
-  tufted::Points moved;                           ///< where --denoise has moved the points; 0 x 3 without it
+  tufted::Points moved;  ///< where --denoise has moved the points; 0 x 3 without it
 
   const CLI::Option* neighbors = nullptr;      ///< --neighbors
   std::vector<const CLI::Option*> cloud_only;  ///< options that have no meaning for a mesh
@@ -46,6 +44,6 @@ void addRareBuildOptions(CLI::App& command, Build& build);
 tufted::Laplacian buildLaplacian(const tufted::Geometry& geometry, const Input& input, Build& build, bool keep_cover,
                                  const tufted::Progress& progress);
 
-/// Tells that the points are a depth image, if the build made use of it; how many points were moved onto the surface,
-/// if any; and how many neighbours were used, if the cloud has fewer than were asked for.
+/// Tells that the points are a depth image, if the build made use of it; how strong the noise is that points were moved
+/// out of, if any; and how many neighbours were used, if the cloud has fewer than were asked for.
 void addBuild(const tufted::Report& report, const Build& build, Summary& summary);

@@ -33,7 +33,7 @@ There is no radius to choose: how wide a surface is fitted follows from the nois
 surface. Exact points, outliers, and whatever cannot be told from the shape of the surface stay as they are, bit for bit.
 An organized cloud that a pinhole camera saw from the file's viewpoint is a depth image, as any is with --structure
 image: its points move along the camera's rays, however strong the noise is. --structure none takes it as any cloud.
-To build L and M from the points where they are now, give --denoise to any subcommand, or points.ply as its FILE.
+Every build does the same by itself, unless the preset is clean or lidar; --denoise asks for it with these, too.
 
 Writes into DIR, renamed one after the other when all are complete:
   positions.npy  N x 3, float64, in the order of the file

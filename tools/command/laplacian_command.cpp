@@ -51,9 +51,9 @@ Sign and scale:
 
 Presets of clouds:
   clean  exact samples: the paper's steps and no others
-  scan   depth images, laser scans, photogrammetry: noise, jumps, outliers, near sheets. Lengths are measured between
-         points moved onto the surface, and M is the Voronoi area in each point's own star.
-  lidar  the same from a spinning scanner, whose rings would be taken for sheets
+  scan   depth images, laser scans, photogrammetry: noise, jumps, outliers, near sheets. Noisy points are moved onto the
+         surface first, and M is the Voronoi area in each point's own star.
+  lidar  the same from a spinning scanner, whose rings would be taken for sheets; noise is smoothed for lengths alone
 
 Structures of scans:
   automatic  image for an organized cloud that a pinhole camera saw from the file's viewpoint, unless --neighbors or
@@ -192,7 +192,6 @@ int runLaplacian(Settings& settings) {
   bar.setPoints(0);
   write.source = settings.input.name();
   write.progress = progress;
-  if (settings.build.denoised) write.denoised = &*settings.build.denoised;
   if (geometry.is_mesh)
     write.mesh = &settings.build.mesh;
   else

@@ -106,7 +106,6 @@ void write(const OperatorSettings& settings, const Operator& source, const Resul
                      {"structure", nameOf(settings.build.structure)},
                      {"denoised", built.denoised},
                      {"noise", built.noise}};
-  if (settings.build.denoised) json["denoised"] = nlohmann::ordered_json::parse(toJson(*settings.build.denoised));
   tufted::ResultOptions options = {.copies = settings.copies, .progress = source.progress};
   // A path need not be UTF-8.
   options.report = json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";

@@ -1,0 +1,93 @@
+// Clouds with noise are built from where their points lie on the surface.
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "shapes/distances.h"
+#include "shapes/shapes.h"
+#include "support/compare.h"
+#include "tufted/denoise.h"
+#include "tufted/tufted.h"
+
+namespace tufted::noise_test {
+namespace {
+
+using shapes::Cloud;
+using shapes::Sampling;
+using support::sameBits;
+
+CloudOptions withoutDenoise() {
+  CloudOptions options;
+  options.steps.denoise = false;
+  return options;
+}
+
+Cloud noisySphere(double sigma, std::uint64_t seed = 1) {
+  return withNoise(shapes::sphere(8000, Sampling::uniform, seed), sigma, seed + 100);
+}
+
+TEST(Noise, ExactCloudsHaveTheSameBitsWithAndWithoutLookingForIt) {
+  for (const Cloud& cloud : {shapes::sphere(8000), shapes::cubeSurface(8000), shapes::crossingPlanes(8000),
+                             shapes::sphere(8000, Sampling::scanLines(20)), shapes::lidar({})}) {
+    const Laplacian looked = pointCloudLaplacian(cloud.points),
+                    plain = pointCloudLaplacian(cloud.points, withoutDenoise());
+    EXPECT_TRUE(sameBits(looked.L, plain.L)) << cloud.name;
+    EXPECT_TRUE(sameBits(looked.M, plain.M)) << cloud.name;
+    EXPECT_EQ(looked.report.noise, 0) << cloud.name;
+  }
+}
+
+TEST(Noise, PointsAreMeasuredWhereDenoisePutsThem) {
+  const Cloud cloud = noisySphere(0.01);
+  const Laplacian laplacian = pointCloudLaplacian(cloud.points);
+  const DenoisedPoints denoised = denoise(cloud.points);
+  ASSERT_EQ(denoised.report.moved, 8000);
+  EXPECT_TRUE(laplacian.positions == denoised.positions);
+  EXPECT_EQ(laplacian.report.denoised, 8000);
+  EXPECT_EQ(laplacian.report.noise, denoised.report.noise);
+  EXPECT_NEAR(laplacian.report.noise, 0.01, 0.0015);
+}
+
+TEST(Noise, StarsAgreeAsOnAnExactCloud) {
+  for (const double sigma : {0.01, 0.02}) {
+    const Cloud cloud = noisySphere(sigma);
+    const Report moved = pointCloudLaplacian(cloud.points).report;
+    const Report plain = pointCloudLaplacian(cloud.points, withoutDenoise()).report;
+    EXPECT_LT(moved.votes[0] + moved.votes[1], moved.votes[2] / 50) << sigma;
+    EXPECT_LT(moved.flips, plain.flips / 20) << sigma;
+    EXPECT_NEAR(moved.area, 4 * M_PI, 0.02) << sigma;
+  }
+}
+
+TEST(Noise, OfFewPointsMovesNone) {
+  Cloud cloud = shapes::sphere(8000);
+  const Cloud noisy = noisySphere(0.01);
+  for (Eigen::Index i = 0; i < 8000; ++i)
+    if (cloud.points(i, 2) > 0.96) cloud.points.row(i) = noisy.points.row(i);  // 2 % of the sphere
+  EXPECT_TRUE(sameBits(pointCloudLaplacian(cloud.points).L, pointCloudLaplacian(cloud.points, withoutDenoise()).L));
+}
+
+TEST(Noise, AnyNumberOfThreadsGivesTheSameBits) {
+  const Points points = withNoise(shapes::cubeSurface(8000), 0.01, 7).points;
+  CloudOptions options;
+  options.threads = 1;
+  const Laplacian one = pointCloudLaplacian(points, options);
+  EXPECT_GT(one.report.noise, 0);
+  for (const int threads : {2, 3}) {
+    options.threads = threads;
+    const Laplacian many = pointCloudLaplacian(points, options);
+    EXPECT_TRUE(sameBits(many.L, one.L)) << threads;
+    EXPECT_TRUE(sameBits(many.M, one.M)) << threads;
+  }
+}
+
+TEST(Noise, EdgesOfACubeStaySharp) {
+  const Cloud cloud = withNoise(shapes::cubeSurface(16000, 2), 0.01, 102);
+  const Laplacian laplacian = pointCloudLaplacian(cloud.points);
+  EXPECT_NEAR(laplacian.report.area, 6, 0.06);
+  EXPECT_LT(shapes::rmsDistance(laplacian.positions, shapes::toCube),
+            0.25 * shapes::rmsDistance(cloud.points, shapes::toCube));
+}
+
+}  // namespace
+}  // namespace tufted::noise_test
