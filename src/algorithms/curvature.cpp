@@ -38,7 +38,6 @@ constexpr double noisy_below = 4;
 constexpr double confidence = 1;
 /// The same for noise, whose errors are not independent: what is left of it after denoising spans some spacings.
 constexpr double noisy_confidence = 10;
-
 /// A fit, with lengths in the caller's unit.
 struct Window {
   SurfaceFit fit;
@@ -55,7 +54,7 @@ struct Residuals {
 class Fitter {
  public:
   Fitter(const Laplacian& laplacian, const Frames& frames)
-      : positions_(laplacian.positions), frames_(frames), rings_(laplacian.L) {}
+      : positions_(laplacian.positions), frames_(frames), noise_(noiseOf(laplacian.report)), rings_(laplacian.L) {}
 
   /// What fits leave over around one point.
   Residuals residuals(int p) {
@@ -102,7 +101,12 @@ class Fitter {
     double interval;  ///< half the width of the confidence interval of a height, in the caller's unit
   };
 
+  /// Of points that were moved out of noise; 0 where fewer were than not. What is left of it is smooth, so that
+  /// residuals do not show it, but over wide windows it is as strong as before, and independent.
+  static double noiseOf(const Report& report) { return 2 * report.denoised > report.active ? report.noise : 0; }
+
   Errors errorsAround(const std::vector<Residuals>& residuals) {
+    if (noise_ > 0) return {first_noisy_rings, confidence * noise_};
     while (rings_.count() < first_noisy_rings && rings_.grow()) {
     }
     Residuals sum;
@@ -137,6 +141,7 @@ class Fitter {
 
   const Points& positions_;
   const Frames& frames_;
+  double noise_;
   Rings rings_;
   std::vector<HeightSample> samples_;
 };
