@@ -50,7 +50,7 @@ void CreaseModel::add(const Eigen::RowVector3d& position, const Eigen::RowVector
 void CreaseModel::group() {
   struct Group {
     Eigen::Vector3d normal, sum = Eigen::Vector3d::Zero();
-    int count = 0;
+    int count = 0, number = 0;
   };
   std::array<Group, most_groups> groups;
   int n = 0;
@@ -70,12 +70,18 @@ void CreaseModel::group() {
     if (normal.isZero(0)) continue;
     int g = closest(normal);
     if (g < 0 && n == most_groups) continue;
-    if (g < 0) groups[g = n++].normal = normal;
+    if (g < 0) {
+      g = n++;
+      groups[g].normal = normal;
+      groups[g].number = g;
+    }
     groups[g].sum += std::copysign(1, groups[g].normal.dot(normal)) * normal;
     ++groups[g].count;
   }
-  std::stable_sort(groups.begin(), groups.begin() + n,
-                   [](const Group& a, const Group& b) { return a.count > b.count; });
+  // The largest first, in their order; std::stable_sort would take memory.
+  std::sort(groups.begin(), groups.begin() + n, [](const Group& a, const Group& b) {
+    return a.count != b.count ? a.count > b.count : a.number < b.number;
+  });
   count_ = 0;
   for (; count_ < std::min(n, most_faces) && groups[count_].count >= least_members; ++count_) {
     groups[count_].normal = groups[count_].sum.normalized();
