@@ -21,8 +21,7 @@ constexpr std::int8_t base_window = 1;  // of Windows::fits
 constexpr int widest_stride = 8;        // of 64 neighbours, the smallest window that is shared, eight are middles
 constexpr int points_per_stride = 500;  // of small clouds every point has windows
 constexpr int sample_stride = 64, least_samples = 64, most_samples = 1000;  // of a first look at the noise
-constexpr double sample_growth =
-    2;  // of the residuals' variance from 16 to 64 neighbours: noise 1, a crease 4, a bend more
+constexpr double sample_growth = 2;   // of residuals' variance from 16 to 64 neighbours: noise 1, a crease 4
 constexpr double least_share = 0.05;  // of the samples
 
 Buffer<int> allOf(const Windows& windows) {
@@ -150,19 +149,11 @@ bool mayBeNoisy(const PointsView& points, const NeighborSource& source, const Wo
 }
 
 MoveFigures figuresOf(const SurfaceMoves& moves) {
-  MoveFigures figures;
   Buffer<double> noise;
-  for (int p = 0; p < moves.move.rows(); ++p) {
-    const double way = moves.move.row(p).norm();
-    if (moves.move.row(p).isZero(0)) continue;
-    noise.push_back(std::sqrt(moves.variance[p]));
-    figures.mean += way;
-    figures.farthest = std::max(figures.farthest, way);
-  }
-  figures.moved = std::ssize(noise);
-  if (figures.moved > 0) figures.mean /= static_cast<double>(figures.moved);
-  figures.noise = medianOf(std::move(noise));
-  return figures;
+  for (int p = 0; p < moves.move.rows(); ++p)
+    if (!moves.move.row(p).isZero(0)) noise.push_back(std::sqrt(moves.variance[p]));
+  const std::ptrdiff_t moved = std::ssize(noise);
+  return {moved, medianOf(std::move(noise))};
 }
 
 }  // namespace tufted

@@ -30,11 +30,9 @@ SurfaceMoves surfaceMoves(const PointsView& points, const NeighborSource& source
 /// @param source see windowSource()
 bool mayBeNoisy(const PointsView& points, const NeighborSource& source, const Workers& workers);
 
-/// How far points have moved.
 struct MoveFigures {
-  std::int64_t moved = 0;         ///< points that have
-  double noise = 0;               ///< median over these of the noise's standard deviation
-  double mean = 0, farthest = 0;  ///< ways of these
+  std::int64_t moved = 0;  ///< points that move
+  double noise = 0;        ///< median over these of the noise's standard deviation
 };
 MoveFigures figuresOf(const SurfaceMoves& moves);
 
