@@ -190,7 +190,7 @@ TEST_F(ConsoleOutput, FormatsAreListsInAllSubcommands) {
 }
 
 TEST_F(ConsoleOutput, OnATerminalProgressShowsStagesAndTheirPaceAndQuietShowsNone) {
-  const std::string file = dir_.write("sphere.xyz", sphere(60000));
+  const std::string file = dir_.write("sphere.xyz", sphere(300000));
   const std::string shown = watchTufted({"laplacian", file, "--out", in("out"), "--threads", "1"}).err;
   for (const char* part : {"read", "points/s", "%"}) EXPECT_TRUE(contains(shown, part)) << part;
   EXPECT_TRUE(shown.ends_with("\033[K")) << "the bar is left behind";
