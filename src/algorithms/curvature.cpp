@@ -38,6 +38,7 @@ constexpr double noisy_below = 4;
 constexpr double confidence = 1;
 /// The same for noise, whose errors are not independent: what is left of it after denoising spans some spacings.
 constexpr double noisy_confidence = 10;
+
 /// A fit, with lengths in the caller's unit.
 struct Window {
   SurfaceFit fit;
@@ -101,8 +102,9 @@ class Fitter {
     double interval;  ///< half the width of the confidence interval of a height, in the caller's unit
   };
 
-  /// Of points that were moved out of noise; 0 where fewer were than not. What is left of it is smooth, so that
-  /// residuals do not show it, but over wide windows it is as strong as before, and independent.
+  /// The noise that points were moved out of, as a standard deviation; 0 where fewer points were moved than not. What
+  /// is left of this noise is smooth, so that residuals do not show it, but over wide windows it is as strong as
+  /// before, and independent.
   static double noiseOf(const Report& report) { return 2 * report.denoised > report.active ? report.noise : 0; }
 
   Errors errorsAround(const std::vector<Residuals>& residuals) {

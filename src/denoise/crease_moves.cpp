@@ -15,8 +15,7 @@
 namespace tufted {
 namespace {
 
-constexpr double explained = 1.3;            // of the noise's variance, that of the residuals: a window without a bend
-constexpr double widened_radius = 1 + 1e-9;  // squared; or rounding would decide about a window's last neighbour
+constexpr double explained = 1.3;    // of the noise's variance, that of the residuals: a window without a bend
 constexpr double fade = 0.05;        // of the noise's variance, by which windows with larger residuals count less
 constexpr double height_fade = 1.5;  // sigmas, by which windows whose surface is farther away count less
 constexpr double most_height = 3;    // sigmas from the best window's surface

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 #include <utility>
 
 #include "base/median.h"
@@ -20,16 +19,6 @@ namespace {
 constexpr std::int8_t base_window = 1;  // of Windows::fits
 constexpr int widest_stride = 8;        // of 64 neighbours, the smallest window that is shared, eight are middles
 constexpr int points_per_stride = 500;  // of small clouds every point has windows
-constexpr int sample_stride = 64, least_samples = 64, most_samples = 1000;  // of a first look at the noise
-constexpr double sample_growth = 2;   // of residuals' variance from 16 to 64 neighbours: noise 1, a crease 4
-constexpr double least_share = 0.05;  // of the samples
-constexpr double exact_sample = 0.2, most_exact = 0.5;  // of the least noise's variance, and of the samples
-
-Buffer<int> allOf(const Windows& windows) {
-  Buffer<int> all(windows.base.size());
-  std::iota(all.begin(), all.end(), 0);
-  return all;
-}
 
 /// Moves points once more, by their windows as before, onto the surface through where their neighbours are by now.
 void moveAgain(const PointsView& points, const NeighborSource& source, const Windows& windows, const NoiseLevel& noise,
@@ -132,22 +121,6 @@ SurfaceMoves surfaceMoves(const PointsView& points, const NeighborSource& source
       shareSurfaces(points, source, windows, noise, choice, workers, result.move, result.variance);
   moveAlone(points, source, fitter, windows, noise, shared, workers, result);
   return result;
-}
-
-bool mayBeNoisy(const PointsView& points, const NeighborSource& source, const Workers& workers) {
-  const auto n = static_cast<int>(points.rows());
-  if (n <= Windows::first_base) return false;
-  Windows windows;
-  windows.resize(n, std::max(n / most_samples, std::clamp(n / least_samples, 1, sample_stride)));
-  WindowFitter(points, source, workers).take(allOf(windows), windows);
-  int like_noise = 0, exact = 0;
-  for (int w = 0; w < windows.size(); ++w) {
-    const auto& fits = windows.fits[w];
-    const double least = least_noise * windows.spacing(w);
-    like_noise += fits[0].variance > least * least && fits[2].variance < sample_growth * fits[0].variance ? 1 : 0;
-    exact += fits[0].variance < exact_sample * least * least ? 1 : 0;
-  }
-  return like_noise > least_share * windows.size() && exact < most_exact * windows.size();
 }
 
 MoveFigures figuresOf(const SurfaceMoves& moves) {

@@ -25,11 +25,6 @@ NeighborSource windowSource(std::unique_ptr<NeighborSearch> search, int n);
 /// @param source see windowSource()
 SurfaceMoves surfaceMoves(const PointsView& points, const NeighborSource& source, const Workers& workers);
 
-/// Whether a few windows spread over the cloud have residuals like those of noise. Where hardly any have, there is none
-/// to speak of; this takes next to no time.
-/// @param source see windowSource()
-bool mayBeNoisy(const PointsView& points, const NeighborSource& source, const Workers& workers);
-
 struct MoveFigures {
   std::int64_t moved = 0;  ///< points that move
   double noise = 0;        ///< median over these of the noise's standard deviation

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 #include "denoise/pooling.h"
 
@@ -16,7 +15,6 @@ constexpr double share_to_widen = 0.002;  // of the points; fewer are left
 constexpr double chi_median = 0.94;       // median of chi squared by its degrees of freedom, of which there are 11
 constexpr int low_rank = 3;               // of 33: a tenth
 constexpr double low_correction = 1.12;   // of that low quantile of medians, to the variance
-constexpr double outlier_sigmas = 5, outlier_spacings = 1;
 constexpr double alone = 1. / 3;  // of the neighbours, which are left where those of other surfaces are left out
 constexpr int outlier_rounds = 4;
 constexpr double outlier_growth = 2;  // of the residuals' variance by the noise's, around an outlier
@@ -24,6 +22,11 @@ constexpr double exact = 0.2;         // of the least noise's variance: residual
 constexpr double exact_share = 0.1;   // of the points around
 constexpr double noise_growth = 1.4;  // of the residuals' variance from window to window: noise 1, a crease 2 to 3
 constexpr double sure_share = 0.15;   // of the points around
+
+// Of a first look at the noise.
+constexpr int sample_stride = 64, least_samples = 64, most_samples = 1000;
+constexpr double sample_growth = 2;  // of residuals' variance from 16 to 64 neighbours: noise 1, a crease 4
+constexpr double least_share = 0.05, most_exact = 0.5;  // of the samples: like noise, and exact
 
 /// The median thickness around each point.
 RawBuffer<double> thicknessAround(const Windows& windows, const Workers& workers) {
@@ -148,11 +151,25 @@ double leastVariance(const Windows& windows, int w) {
   return least * least;
 }
 
+bool mayBeNoisy(const PointsView& points, const NeighborSource& source, const Workers& workers) {
+  const auto n = static_cast<int>(points.rows());
+  if (n <= Windows::first_base) return false;
+  Windows windows;
+  windows.resize(n, std::max(n / most_samples, std::clamp(n / least_samples, 1, sample_stride)));
+  WindowFitter(points, source, workers).take(allOf(windows), windows);
+  int like_noise = 0, exact_windows = 0;
+  for (int w = 0; w < windows.size(); ++w) {
+    const auto& fits = windows.fits[w];
+    const double least = leastVariance(windows, w);
+    like_noise += fits[0].variance > least && fits[2].variance < sample_growth * fits[0].variance ? 1 : 0;
+    exact_windows += fits[0].variance < exact * least ? 1 : 0;
+  }
+  return like_noise > least_share * windows.size() && exact_windows < most_exact * windows.size();
+}
+
 NoiseLevel findNoise(const WindowFitter& fitter, const Workers& workers, Windows& windows) {
   NoiseLevel noise;
-  Buffer<int> all(windows.base.size());
-  std::iota(all.begin(), all.end(), 0);
-  fitter.take(all, windows);
+  fitter.take(allOf(windows), windows);
   const Buffer<std::uint8_t> is_thick = widen(fitter, workers, windows);
   noise.variance = noiseVariance(windows, workers);
   noise.outlier.resize(windows.base.size());

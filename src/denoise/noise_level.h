@@ -21,8 +21,17 @@ constexpr double least_noise = 0.01;
 /// leverage is about .2, at a corner .7.
 constexpr double most_leverage = 0.9;
 
+/// An outlier lies so many sigmas and spacings off the surface of its neighbours. Of normal noise one point in a
+/// million is that many sigmas off; nearer ones than a spacing do little harm.
+constexpr double outlier_sigmas = 5, outlier_spacings = 1;
+
 /// The least variance of noise that matters around a window.
 double leastVariance(const Windows& windows, int w);
+
+/// Whether a few windows spread over the cloud have residuals like those of noise. Where hardly any have, there is none
+/// to speak of; this takes next to no time.
+/// @param source by search, for Windows::first_base neighbours
+bool mayBeNoisy(const PointsView& points, const NeighborSource& source, const Workers& workers);
 
 /// Makes windows, wider ones where the points are as thick as wide, and decides where there is noise.
 /// @param windows with room

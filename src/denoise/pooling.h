@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <span>
 
 #include "base/parallel.h"
@@ -19,7 +20,14 @@ void forEachPoint(const Windows& windows, const Workers& workers, const Visit& v
   });
 }
 
-/// Those listed that pass the test.
+/// The numbers of all windows.
+inline Buffer<int> allOf(const Windows& windows) {
+  Buffer<int> all(windows.base.size());
+  std::iota(all.begin(), all.end(), 0);
+  return all;
+}
+
+/// Takes from a list the numbers that pass the test, in their order.
 template <class Test>
 Buffer<int> listedWhere(std::span<const int> list, const Workers& workers, const Test& test) {
   Buffer<int> found =

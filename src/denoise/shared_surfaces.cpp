@@ -11,8 +11,6 @@ namespace tufted {
 namespace {
 
 constexpr int least_shared = 2;        // of Windows::fits: smaller windows hold too few points to be shared
-constexpr double most_sigmas = 5;      // of a point from the surface of its neighbours, and
-constexpr double most_spacings = 1;    // spacings: farther ones are outliers, or of another surface
 constexpr double least_weight = 0.02;  // of all windows together; 1 is that of a window in its middle
 constexpr std::int64_t at_once = 64 * costly_block;  // windows whose surfaces are kept until they are added up
 
@@ -46,12 +44,13 @@ class SharingWindows {
     const WindowSurface surface = surfaceAt(windows_, w, choice_.window[w], d);
     move = -surface.height * surface.normal;
     return surface.height * surface.height <=
-           std::max(most_sigmas * most_sigmas * noise_.variance[w],
-                    most_spacings * most_spacings * windows_.spacing(w) * windows_.spacing(w));
+           std::max(outlier_sigmas * outlier_sigmas * noise_.variance[w],
+                    outlier_spacings * outlier_spacings * windows_.spacing(w) * windows_.spacing(w));
   }
 
-  /// The same for a point that no window shares, where it lies in window w.
-  bool moveAlone(int w, int p, Eigen::Vector3d& move) const {
+  /// The way onto its surface, as moveOnto(), of a point that no window shares. False where it lies outside of window w
+  /// or that is not smooth.
+  bool moveInside(int w, int p, Eigen::Vector3d& move) const {
     if (!isSmooth(w)) return false;
     const double radius = windows_.fits[w][choice_.window[w]].radius;
     return (points_.row(p) - points_.row(windows_.pointOf(w))).squaredNorm() <= radius * radius && moveOnto(w, p, move);
@@ -152,7 +151,7 @@ SharedSurfaces shareSurfaces(const PointsView& points, const NeighborSource& sou
       }
       variance[p] = noise.variance[w];
       Eigen::Vector3d alone;
-      if (sharing.moveAlone(w, static_cast<int>(p), alone)) {
+      if (sharing.moveInside(w, static_cast<int>(p), alone)) {
         shared.settled[p] = 1;
         move.row(p) = alone.transpose();
       } else {

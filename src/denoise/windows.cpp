@@ -14,8 +14,6 @@
 namespace tufted {
 namespace {
 
-constexpr double widened_radius = 1 + 1e-9;  // squared; or rounding would decide about a window's last neighbour
-
 /// Windows spread over some of the neighbours, of which those count that are the middle of a window.
 /// @param own the window that stands in where there is no other
 /// @param is_kept(i) whether the i-th neighbour counts
@@ -149,7 +147,7 @@ class BlockFitter {
       spread(
           windows_, w, some, [&](std::size_t i) { return around_.skipped[i] == 0; }, listed_, to);
     };
-    // Of windows around every eighth point few lie in a base window.
+    // A base window holds few middles of windows that lie around every eighth point.
     pool(windows_.stride == 1 ? 2 * half : 4 * half, windows_.near[w]);
     pool(4 * half, windows_.middle[w]);
     pool(8 * half, windows_.far[w]);

@@ -14,6 +14,9 @@
 
 namespace tufted {
 
+/// Squared radii grow by this, or rounding would decide whether a window holds its last neighbour.
+constexpr double widened_radius = 1 + 1e-9;
+
 /// The quadratic through the heights in one window; its fit radius is the radius of the base window.
 struct WindowFit : HeightFit {
   double radius = 0;  ///< distance to the last neighbour of the window

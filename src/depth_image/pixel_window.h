@@ -57,7 +57,7 @@ class PixelWindow {
   Offsets offsets() const { return offsets_.view(); }
   /// Squared distance of the nearest point of the last ring; infinite where it holds none.
   double nearestInLastRing() const;
-  /// The same of the last rows above and below alone.
+  /// Squared distance of the nearest point in the last rows, above and below; infinite where they hold none.
   double nearestInLastRows() const;
 
  private:

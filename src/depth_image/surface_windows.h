@@ -36,8 +36,8 @@ SurfaceWindows findSurfaceWindows(const PixelGrid& grid, const PointsView& point
 /// a row, or it would find a way around each corner of a jump.
 struct JumpTest {
   static constexpr double steepest = 143;  ///< squared tangent of 85 degrees: cameras see no steeper surface
-  /// The same from ring to ring of a spinning scanner, that is over so wide steps that a jump may look no steeper than
-  /// a surface: the square of 80 degrees. What is steeper is a surface where the slope goes on, see InverseSlope.
+  /// The squared tangent of 80 degrees. Rings of a spinning scanner lie so far apart that a jump between two may look
+  /// no steeper than a surface; a steeper step is one of a surface where the slope goes on, see InverseSlope.
   static constexpr double steepest_of_rings = 32;
   static constexpr double deviations = 5;  ///< of the noise are no jump
 
@@ -62,7 +62,8 @@ struct JumpTest {
     return (static_cast<int>(more <= 0) | static_cast<int>(more * more <= most * (squared_step - along * along))) != 0;
   }
 
-  /// The same where the inverse range may change by as much along the surface, from a to b.
+  /// Whether two pixels are joined as above, where along the surface the inverse range may change by `rise` from a to
+  /// b.
   bool joins(double squared_step, double range_a, double range_b, double most, const Rise& rise) const {
     const double product = range_a * range_b, along = range_a - range_b;
     const double beyond = std::max({0.0, along - rise.most * product, rise.least * product - along});

@@ -46,7 +46,8 @@ void nearestOfEach(const NeighborSearch& search, const PointsView& points, int f
                    const Kernels& kernels, BatchScratch& scratch, Buffer<Neighbor>& found,
                    double radius = std::numeric_limits<double>::infinity());
 
-/// As nearestOfEach(), for listed points, best such that lie close together.
+/// The k nearest of every listed point, as by nearestOfEach(). One search serves several points that lie close together
+/// and follow each other in the list.
 /// @param ranks ascending
 void nearestOfListed(const NeighborSearch& search, const PointsView& points, std::span<const int> ranks, int k,
                      const Kernels& kernels, BatchScratch& scratch, Buffer<Neighbor>& found,

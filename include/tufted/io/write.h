@@ -36,11 +36,10 @@ struct WriteOptions {
   /// Gives every point that is not active 1 (-1 with Sign::igl) on the diagonal of L and a thousandth of the smallest
   /// positive mass in M (1 if there is none), for programs that expect full rank. The paper's program writes the same.
   bool dummy = false;
-  std::string source = {};                  ///< the file the points are from, recorded in report.json
-  const CloudOptions* cloud = nullptr;      ///< the options of the build, recorded in report.json; borrowed
-  const MeshOptions* mesh = nullptr;        ///< the options of a mesh's build, recorded in report.json; borrowed
-  const DenoiseReport* denoised = nullptr;  ///< what was done to a cloud before its build, recorded; borrowed
-  Progress progress = {};                   ///< called between files; returning false leaves no file
+  std::string source = {};              ///< the file the points are from, recorded in report.json
+  const CloudOptions* cloud = nullptr;  ///< the options of the build, recorded in report.json; borrowed
+  const MeshOptions* mesh = nullptr;    ///< the options of a mesh's build, recorded in report.json; borrowed
+  Progress progress = {};               ///< called between files; returning false leaves no file
 };
 
 /// The names of the files that writeLaplacian writes for these formats.
