@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "denoise/crease_model.h"
-#include "denoise/listed_search.h"
 #include "denoise/pooling.h"
 #include "denoise/window_surface.h"
 #include "stars/displacements.h"
@@ -15,7 +14,6 @@
 namespace tufted {
 namespace {
 
-constexpr double explained = 1.3;    // of the noise's variance, that of the residuals: a window without a bend
 constexpr double fade = 0.05;        // of the noise's variance, by which windows with larger residuals count less
 constexpr double height_fade = 1.5;  // sigmas, by which windows whose surface is farther away count less
 constexpr double most_height = 3;    // sigmas from the best window's surface
@@ -153,7 +151,8 @@ class FaceNormals {
 
   /// Zero where it is not known.
   Eigen::RowVector3d operator()(int q) const {
-    if (noise_.noisy[q] == 0 || (choice_.window[q] < 1 && is_moved_[q] == 0)) return Eigen::RowVector3d::Zero();
+    if (noise_.noisy[q] == 0 || (choice_.window[q] < Windows::base_size && is_moved_[q] == 0))
+      return Eigen::RowVector3d::Zero();
     return normals_.row(q);
   }
 
@@ -175,7 +174,7 @@ class FaceNormals {
 
 }  // namespace
 
-Buffer<std::uint8_t> moveNextToCreases(const PointsView& points, const NeighborSource& source, const Windows& windows,
+Buffer<std::uint8_t> moveNextToCreases(const PointsView& points, const NeighborLists& lists, const Windows& windows,
                                        const NoiseLevel& noise, const WindowChoice& choice, std::span<const int> which,
                                        std::span<const int> fitted, const Workers& workers, PointBuffer& move) {
   const CreaseMover mover(points, windows, noise);
@@ -183,23 +182,23 @@ Buffer<std::uint8_t> moveNextToCreases(const PointsView& points, const NeighborS
   PointBuffer normals(windows.size());
   workers.forBlocks("noise", std::ssize(fitted), star_block, [&](std::int64_t begin, std::int64_t end, int) {
     for (const int p : fitted.subspan(begin, end - begin))
-      normals.row(p) = mover.normalOf(p, std::max<int>(choice.window[p], 1));
+      normals.row(p) = mover.normalOf(p, std::max<int>(choice.window[p], Windows::base_size));
   });
   const auto forEachListed = [&](std::span<const int> list, int times, const auto& visit) {
     workers.forBlocks("noise", std::ssize(list), costly_block, [&](std::int64_t begin, std::int64_t end, int) {
       CreaseScratch scratch;
-      ListedSearch search(points, *source.search, windows);
       const auto count = [&](int p) { return times * windows.base[p]; };
-      search.forEach(list.subspan(begin, end - begin), count, [&](int p, std::span<const Neighbor> neighbors) {
+      const auto take = [&](int p, std::span<const Neighbor> neighbors) {
         scratch.around.take(points, windows, p, neighbors, noise.outlier);
         visit(p, scratch);
-      });
+      };
+      lists.forEach(points, windows, list.subspan(begin, end - begin), count, take);
     });
   };
-  const Buffer<int> biased =
-      listedWhere(which, workers, [&](int p) { return choice.biased[p] != 0 && choice.window[p] <= 1; });
+  const Buffer<int> biased = listedWhere(
+      which, workers, [&](int p) { return choice.biased[p] != 0 && choice.window[p] <= Windows::base_size; });
   forEachListed(biased, widest_lender, [&](int p, CreaseScratch& scratch) {
-    for (const int wider : {2, 1}) {
+    for (int wider = Windows::base_size + 1; wider >= Windows::base_size; --wider) {
       Eigen::RowVector3d to, normal;
       if (wider <= choice.window[p] || !mover.borrow(p, wider, scratch, to, normal)) continue;
       move.row(p) = to;

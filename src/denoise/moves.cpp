@@ -1,12 +1,13 @@
 #include "denoise/moves.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <utility>
 
 #include "base/median.h"
 #include "denoise/crease_moves.h"
-#include "denoise/listed_search.h"
+#include "denoise/neighbor_lists.h"
 #include "denoise/pooling.h"
 #include "denoise/shared_surfaces.h"
 #include "denoise/window_choice.h"
@@ -16,12 +17,11 @@
 namespace tufted {
 namespace {
 
-constexpr std::int8_t base_window = 1;  // of Windows::fits
 constexpr int widest_stride = 8;        // of 64 neighbours, the smallest window that is shared, eight are middles
 constexpr int points_per_stride = 500;  // of small clouds every point has windows
 
 /// Moves points once more, by their windows as before, onto the surface through where their neighbours are by now.
-void moveAgain(const PointsView& points, const NeighborSource& source, const Windows& windows, const NoiseLevel& noise,
+void moveAgain(const PointsView& points, const NeighborLists& lists, const Windows& windows, const NoiseLevel& noise,
                std::span<const int> which, const WindowChoice& choice, const Workers& workers, PointBuffer& move) {
   const PointBuffer before = move;
   workers.forBlocks("noise", std::ssize(which), costly_block, [&](std::int64_t begin, std::int64_t end, int) {
@@ -30,8 +30,7 @@ void moveAgain(const PointsView& points, const NeighborSource& source, const Win
     OffsetBuffer offsets;
     const auto windowOf = [&](int p) { return windows.base[p] / 2 << choice.window[p]; };
     const auto count = [&](int p) { return std::max(windows.base[p], windowOf(p)); };
-    ListedSearch search(points, *source.search, windows);
-    search.forEach(which.subspan(begin, end - begin), count, [&](int p, std::span<const Neighbor> neighbors) {
+    lists.forEach(points, windows, which.subspan(begin, end - begin), count, [&](int p, auto neighbors) {
       const int base = windows.base[p], window = windowOf(p);
       around.take(points, windows, p, neighbors, noise.outlier);
       kept.clear();
@@ -53,9 +52,9 @@ void moveAgain(const PointsView& points, const NeighborSource& source, const Win
 }
 
 /// Moves the points that the shared surfaces have not settled, each by windows of its own.
-void moveAlone(const PointsView& points, const NeighborSource& source, const WindowFitter& fitter,
-               const Windows& around_some, const NoiseLevel& noise_of_some, const SharedSurfaces& shared,
-               const Workers& workers, SurfaceMoves& result) {
+void moveAlone(const PointsView& points, const WindowFitter& fitter, const Windows& around_some,
+               const NoiseLevel& noise_of_some, const SharedSurfaces& shared, const Workers& workers,
+               SurfaceMoves& result) {
   const auto n = static_cast<int>(points.rows());
   const Buffer<int> alone = numbersWhere("noise", n, workers, [&](int p) { return shared.settled[p] == 0; });
   if (alone.empty()) return;
@@ -69,27 +68,33 @@ void moveAlone(const PointsView& points, const NeighborSource& source, const Win
     windows.base[p] = around_some.base[shared.nearest[p]];
     noise.noisy[p] = noise_of_some.noisy[shared.nearest[p]];
   }
+  NeighborLists lists(n);
+  fitter.take(alone, windows, &lists);
   Buffer<std::uint8_t> reached(shared.settled.size(), 0);
-  fitter.take(alone, windows, reached.data());
+  workers.forBlocks("noise", std::ssize(alone), usual_block, [&](std::int64_t begin, std::int64_t end, int) {
+    for (const int p : std::span(alone).subspan(begin, end - begin))
+      for (const int q : lists.of(p)) std::atomic_ref(reached[q]).store(1, std::memory_order_relaxed);
+  });
   const Buffer<int> others =
       numbersWhere("noise", n, workers, [&](int p) { return reached[p] != 0 && shared.settled[p] != 0; });
-  fitter.take(others, windows);
+  fitter.take(others, windows, &lists);
   const Buffer<int> asked =
       numbersWhere("noise", n, workers, [&](int p) { return reached[p] != 0 || shared.settled[p] == 0; });
-  findOutliers(fitter, asked, workers, windows, noise);
+  findOutliers(fitter, asked, lists, workers, windows, noise);
 
   WindowChoice choice = chooseWindows(windows, noise, alone, workers);
-  for (const int p : others) choice.window[p] = noise.noisy[p] != 0 ? base_window : -1;  // the surface is smooth there
+  for (const int p : others)
+    choice.window[p] = noise.noisy[p] != 0 ? Windows::base_size : -1;  // the surface is smooth there
   for (const int p : alone)
     if (choice.window[p] >= 0) result.move.row(p) = windows.fits[p][choice.window[p]].height * windows.normal.row(p);
   const Buffer<std::uint8_t> next_to_crease =
-      moveNextToCreases(points, source, windows, noise, choice, alone, asked, workers, result.move);
+      moveNextToCreases(points, lists, windows, noise, choice, alone, asked, workers, result.move);
   for (const int p : alone)
     if (next_to_crease[p] != 0) noise.outlier[p] = 0;  // it only looked like one next to a crease
   const Buffer<int> again = listedWhere(alone, workers, [&](int p) {
-    return choice.window[p] >= base_window && choice.biased[p] == 0 && next_to_crease[p] == 0;
+    return choice.window[p] >= Windows::base_size && choice.biased[p] == 0 && next_to_crease[p] == 0;
   });
-  moveAgain(points, source, windows, noise, again, choice, workers, result.move);
+  moveAgain(points, lists, windows, noise, again, choice, workers, result.move);
   result.variance = std::move(noise.variance);
   result.outlier = std::move(noise.outlier);
 }
@@ -118,8 +123,8 @@ SurfaceMoves surfaceMoves(const PointsView& points, const NeighborSource& source
 
   const WindowChoice choice = chooseWindows(windows, noise, allOf(windows), workers);
   const SharedSurfaces shared =
-      shareSurfaces(points, source, windows, noise, choice, workers, result.move, result.variance);
-  moveAlone(points, source, fitter, windows, noise, shared, workers, result);
+      shareSurfaces(points, source, fitter, windows, noise, choice, workers, result.move, result.variance);
+  moveAlone(points, fitter, windows, noise, shared, workers, result);
   return result;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "denoise/neighbor_lists.h"
 #include "denoise/pooling.h"
 
 namespace tufted {
@@ -178,17 +179,18 @@ NoiseLevel findNoise(const WindowFitter& fitter, const Workers& workers, Windows
   return noise;
 }
 
-void findOutliers(const WindowFitter& fitter, std::span<const int> which, const Workers& workers, Windows& windows,
-                  NoiseLevel& noise) {
-  Buffer<std::uint8_t> has_window(windows.base.size(), 0);
-  for (const int p : which) has_window[p] = 1;
+void findOutliers(const WindowFitter& fitter, std::span<const int> which, const NeighborLists& lists,
+                  const Workers& workers, Windows& windows, NoiseLevel& noise) {
+  Buffer<std::uint8_t> is_new(windows.base.size(), 0);
   for (int round = 0; round < outlier_rounds; ++round) {
     const Buffer<int> found = listedWhere(
         which, workers, [&](int p) { return noise.outlier[p] == 0 && isOutlier(windows, p, noise.variance[p]); });
     if (found.empty()) return;
-    for (const int p : found) noise.outlier[p] = 1;
-    const Buffer<std::uint8_t> holds = fitter.holding(found, has_window, windows);
-    fitter.refit(listedWhere(which, workers, [&](int p) { return holds[p] != 0; }), noise.outlier, windows);
+    for (const int p : found) noise.outlier[p] = is_new[p] = 1;
+    const Buffer<int> holding = listedWhere(
+        which, workers, [&](int p) { return std::ranges::any_of(lists.of(p), [&](int q) { return is_new[q] != 0; }); });
+    fitter.refit(holding, lists, noise.outlier, windows);
+    for (const int p : found) is_new[p] = 0;
   }
 }
 

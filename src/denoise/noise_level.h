@@ -25,6 +25,10 @@ constexpr double most_leverage = 0.9;
 /// million is that many sigmas off; nearer ones than a spacing do little harm.
 constexpr double outlier_sigmas = 5, outlier_spacings = 1;
 
+/// The variance of residuals in a window without a bend, by that of the noise, is less; across a crease it is 2 and
+/// more.
+constexpr double explained = 1.3;
+
 /// The least variance of noise that matters around a window.
 double leastVariance(const Windows& windows, int w);
 
@@ -39,9 +43,10 @@ NoiseLevel findNoise(const WindowFitter& fitter, const Workers& workers, Windows
 
 /// Finds outliers, leaves them out of the fits around them, and looks again for those that had hidden behind them.
 /// @param which windows that are looked at, ascending
+/// @param lists their neighbours
 /// @param windows around every point
 /// @param noise whose outliers are found
-void findOutliers(const WindowFitter& fitter, std::span<const int> which, const Workers& workers, Windows& windows,
-                  NoiseLevel& noise);
+void findOutliers(const WindowFitter& fitter, std::span<const int> which, const NeighborLists& lists,
+                  const Workers& workers, Windows& windows, NoiseLevel& noise);
 
 }  // namespace tufted

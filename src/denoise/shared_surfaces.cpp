@@ -4,15 +4,19 @@
 #include <cmath>
 #include <limits>
 
+#include "denoise/crease_model.h"
 #include "denoise/listed_search.h"
+#include "denoise/pooling.h"
 #include "denoise/window_surface.h"
 
 namespace tufted {
 namespace {
 
-constexpr int least_shared = 2;        // of Windows::fits: smaller windows hold too few points to be shared
-constexpr double least_weight = 0.02;  // of all windows together; 1 is that of a window in its middle
+constexpr std::int8_t least_shared = 2;  // of Windows::fits: smaller windows hold too few points to be shared
+constexpr double least_weight = 0.02;    // of all windows together; 1 is that of a window in its middle
 constexpr std::int64_t at_once = 64 * costly_block;  // windows whose surfaces are kept until they are added up
+constexpr double grown = 1.1;       // of the residuals' variance from the base window to the next: noise 1
+constexpr int more_where_bent = 2;  // times as many base windows as others: they hold half as many points
 
 /// What one window says about one point.
 struct Vote {
@@ -28,66 +32,59 @@ struct Sum {
   double weight = 0, variance = 0;
 };
 
+/// Windows whose surfaces are shared, all or some.
 class SharingWindows {
  public:
+  /// All arguments are borrowed.
+  /// @param variance of the noise, by window
+  /// @param shared of Windows::fits, that which is shared, by window; -1: none
   SharingWindows(const PointsView& points, const NeighborSource& source, const Windows& windows,
-                 const NoiseLevel& noise, const WindowChoice& choice)
-      : points_(points), source_(source), windows_(windows), noise_(noise), choice_(choice) {}
+                 const RawBuffer<double>& variance, const Buffer<std::int8_t>& shared)
+      : points_(points), source_(source), windows_(windows), variance_(variance), shared_(shared) {}
 
-  bool isSmooth(int w) const {
-    return choice_.biased[w] == 0 && choice_.window[w] >= least_shared && windows_.split[w] == 0;
-  }
+  double variance(int w) const { return variance_[w]; }
 
-  /// The way of p onto the surface of the smooth window w. False where it is too far off.
-  bool moveOnto(int w, int p, Eigen::Vector3d& move) const {
-    const Eigen::Vector3d d = (points_.row(p) - points_.row(windows_.pointOf(w))).transpose();
-    const WindowSurface surface = surfaceAt(windows_, w, choice_.window[w], d);
-    move = -surface.height * surface.normal;
-    return surface.height * surface.height <=
-           std::max(outlier_sigmas * outlier_sigmas * noise_.variance[w],
-                    outlier_spacings * outlier_spacings * windows_.spacing(w) * windows_.spacing(w));
-  }
-
-  /// The way onto its surface, as moveOnto(), of a point that no window shares. False where it lies outside of window w
-  /// or that is not smooth.
+  /// The way onto its surface of a point that no window shares. False where it lies outside of window w or that is not
+  /// shared.
   bool moveInside(int w, int p, Eigen::Vector3d& move) const {
-    if (!isSmooth(w)) return false;
-    const double radius = windows_.fits[w][choice_.window[w]].radius;
+    if (shared_[w] < 0) return false;
+    const double radius = windows_.fits[w][shared_[w]].radius;
     return (points_.row(p) - points_.row(windows_.pointOf(w))).squaredNorm() <= radius * radius && moveOnto(w, p, move);
   }
 
-  /// Whether there is no noise in the window, nor in others around.
-  bool isQuiet(int w) const {
-    return noise_.noisy[w] == 0 && noise_.outlier[w] == 0 &&
-           std::ranges::none_of(windows_.near[w], [&](int other) { return noise_.noisy[other] != 0; });
-  }
-
-  /// The votes of the windows [begin, end).
-  void vote(int begin, int end, Buffer<Vote>& votes) const {
-    Buffer<int> which;
-    for (int w = begin; w < end; ++w)
-      if (windows_.is_copy[w] == 0) which.push_back(w);
+  /// The votes of some windows.
+  void vote(std::span<const int> which, Buffer<Vote>& votes) const {
     WindowNeighbors around;
     ListedSearch search(points_, *source_.search, windows_);
     // Three quarters of the window's points.
     const auto count = [&](int w) {
-      return isSmooth(w) ? 3 * (windows_.base[w] / 2 << choice_.window[w]) / 4 : windows_.base[w] / 2;
+      return shared_[w] >= 0 ? 3 * (windows_.base[w] / 2 << shared_[w]) / 4 : windows_.base[w] / 2;
     };
     search.forEach(which, count, [&](int w, std::span<const Neighbor> neighbors) {
-      const bool is_smooth = isSmooth(w);
+      const bool is_shared = shared_[w] >= 0;
       const int p = windows_.pointOf(w);
-      if (is_smooth) around.take(points_, windows_, w, neighbors, {});
+      if (is_shared) around.take(points_, windows_, w, neighbors, {});
       const double farthest = neighbors.back().squared_distance;
-      add(w, p, 0, is_smooth ? 1 : 0, votes);
+      add(w, p, 0, is_shared ? 1 : 0, votes);
       for (std::size_t i = 0; i < neighbors.size(); ++i) {
         const double share = 1 - neighbors[i].squared_distance / farthest;
         add(w, neighbors[i].index, neighbors[i].squared_distance,
-            is_smooth && around.skipped[i] == 0 ? share * share : 0, votes);
+            is_shared && around.skipped[i] == 0 ? share * share : 0, votes);
       }
     });
   }
 
  private:
+  /// The way of p onto the surface of the shared window w. False where it is too far off.
+  bool moveOnto(int w, int p, Eigen::Vector3d& move) const {
+    const Eigen::Vector3d d = (points_.row(p) - points_.row(windows_.pointOf(w))).transpose();
+    const WindowSurface surface = surfaceAt(windows_, w, shared_[w], d);
+    move = -surface.height * surface.normal;
+    return surface.height * surface.height <=
+           std::max(outlier_sigmas * outlier_sigmas * variance_[w],
+                    outlier_spacings * outlier_spacings * windows_.spacing(w) * windows_.spacing(w));
+  }
+
   void add(int w, int p, double squared_distance, double weight, Buffer<Vote>& votes) const {
     Vote vote{p, w, static_cast<float>(squared_distance), weight, {}};
     if (weight > 0 && !moveOnto(w, p, vote.move)) vote.weight = 0;
@@ -97,15 +94,96 @@ class SharingWindows {
   PointsView points_;
   const NeighborSource& source_;
   const Windows& windows_;
-  const NoiseLevel& noise_;
-  const WindowChoice& choice_;
+  const RawBuffer<double>& variance_;
+  const Buffer<std::int8_t>& shared_;
 };
+
+/// Visits the votes of some windows, one after the other, so that sums are the same for any number of threads.
+template <class Visit>
+void forEachVote(const SharingWindows& sharing, const Buffer<int>& which, const Workers& workers, const Visit& visit) {
+  Buffer<Buffer<Vote>> votes(at_once / costly_block);
+  for (std::int64_t first = 0; first < std::ssize(which); first += at_once) {
+    const std::int64_t count = std::min<std::int64_t>(at_once, std::ssize(which) - first);
+    workers.forBlocks("noise", count, costly_block, [&](std::int64_t begin, std::int64_t end, int) {
+      Buffer<Vote>& block = votes[begin / costly_block];
+      block.clear();
+      sharing.vote(std::span(which).subspan(first + begin, end - begin), block);
+    });
+    for (std::int64_t begin = 0; begin < count; begin += costly_block)
+      for (const Vote& vote : votes[begin / costly_block]) visit(vote);
+  }
+}
+
+/// Whether a crease lies in the widest window around w, or near it.
+bool isNearCrease(const Windows& windows, const NoiseLevel& noise, int w) {
+  return std::ranges::any_of(windows.far[w], [&](int q) {
+    const double cosine = std::abs(windows.normal.row(q).dot(windows.normal.row(w)));
+    return noise.outlier[q] == 0 && !(cosine > CreaseModel::same_face);
+  });
+}
+
+/// Whether the residuals grow from the base window to the next.
+bool isGrowing(const Windows& windows, int w) {
+  const auto mean = [&](int size) {
+    return pooledMean(w, windows.near[w], [&](int q) { return residualOf(windows.fits[q][size]); });
+  };
+  return !(mean(least_shared) < grown * mean(Windows::base_size));
+}
+
+/// Of Windows::fits, that whose surface counts for the points around; -1: none. The base window is too small for that,
+/// unless there are more of them.
+std::int8_t sharedWindow(const Windows& windows, const NoiseLevel& noise, const WindowChoice& choice, int w) {
+  if (windows.split[w] != 0 || choice.window[w] < Windows::base_size) return -1;
+  if (choice.biased[w] == 0) return choice.window[w] < least_shared ? -1 : choice.window[w];
+  if (windows.base[w] > Windows::first_base || isNearCrease(windows, noise, w)) return -1;
+  return choice.window[w] < least_shared || isGrowing(windows, w) ? Windows::base_size : least_shared;
+}
+
+/// Base windows around every few points where the surface bends.
+struct BentWindows {
+  Windows windows;
+  RawBuffer<double> variance;
+  Buffer<std::int8_t> shared;
+  Buffer<int> which;
+
+  /// @param coarse windows around every so many points
+  /// @param bent those where the surface bends
+  BentWindows(int n, const WindowFitter& fitter, const Windows& coarse, const NoiseLevel& noise,
+              std::span<const int> bent) {
+    if (bent.empty()) return;
+    windows.resize(n, (coarse.stride + more_where_bent - 1) / more_where_bent);
+    windows.fitted = Windows::base_size + 1;
+    variance.resize(windows.base.size());
+    shared.assign(windows.base.size(), -1);
+    Buffer<int> fitted;
+    const auto firstFrom = [&](int p) { return (p + windows.stride - 1) / windows.stride; };
+    for (const int w : bent)
+      for (int fine = firstFrom(coarse.pointOf(w)); fine < std::min(firstFrom(coarse.pointOf(w + 1)), windows.size());
+           ++fine) {
+        variance[fine] = noise.variance[w];
+        fitted.push_back(fine);
+      }
+    fitter.take(fitted, windows);
+    for (const int fine : fitted) {
+      if (!(windows.fits[fine][Windows::base_size].variance < explained * variance[fine]) || windows.split[fine] != 0)
+        continue;
+      shared[fine] = Windows::base_size;
+      which.push_back(fine);
+    }
+  }
+};
+
+/// Whether there is no noise in a window, nor in others around.
+bool isQuiet(const Windows& windows, const NoiseLevel& noise, int w) {
+  return noise.noisy[w] == 0 && noise.outlier[w] == 0 &&
+         std::ranges::none_of(windows.near[w], [&](int other) { return noise.noisy[other] != 0; });
+}
 
 }  // namespace
 
-SharedSurfaces shareSurfaces(const PointsView& points, const NeighborSource& source, const Windows& windows,
-                             const NoiseLevel& noise, const WindowChoice& choice, const Workers& workers,
-                             PointBuffer& move, RawBuffer<double>& variance) {
+SharedSurfaces shareSurfaces(const PointsView& points, const NeighborSource& source, const WindowFitter& fitter,
+                             const Windows& windows, const NoiseLevel& noise, const WindowChoice& choice,
+                             const Workers& workers, PointBuffer& move, RawBuffer<double>& variance) {
   const auto n = static_cast<std::size_t>(points.rows());
   SharedSurfaces shared;
   shared.settled.assign(n, 0);
@@ -113,30 +191,36 @@ SharedSurfaces shareSurfaces(const PointsView& points, const NeighborSource& sou
   for (std::size_t p = 0; p < n; ++p) shared.nearest[p] = static_cast<int>(p) / windows.stride;
   Buffer<float> nearest(n, std::numeric_limits<float>::infinity());
   Buffer<Sum> sums(n);
-  const SharingWindows sharing(points, source, windows, noise, choice);
-  Buffer<Buffer<Vote>> votes(at_once / costly_block);
-  for (std::int64_t first = 0; first < windows.size(); first += at_once) {
-    const std::int64_t count = std::min(at_once, windows.size() - first);
-    workers.forBlocks("noise", count, costly_block, [&](std::int64_t begin, std::int64_t end, int) {
-      Buffer<Vote>& block = votes[begin / costly_block];
-      block.clear();
-      sharing.vote(static_cast<int>(first + begin), static_cast<int>(first + end), block);
-    });
-    // One after the other, so that sums are the same for any number of threads.
-    for (std::int64_t begin = 0; begin < count; begin += costly_block) {
-      for (const Vote& vote : votes[begin / costly_block]) {
-        if (vote.squared_distance < nearest[vote.point]) {
-          nearest[vote.point] = vote.squared_distance;
-          shared.nearest[vote.point] = vote.window;
-        }
-        if (!(vote.weight > 0)) continue;
-        Sum& sum = sums[vote.point];
-        sum.move += vote.weight * vote.move;
-        sum.weight += vote.weight;
-        sum.variance += vote.weight * noise.variance[vote.window];
-      }
-    }
+  const auto addTo = [&](const SharingWindows& sharing, const Vote& vote) {
+    if (!(vote.weight > 0)) return;
+    Sum& sum = sums[vote.point];
+    sum.move += vote.weight * vote.move;
+    sum.weight += vote.weight;
+    sum.variance += vote.weight * sharing.variance(vote.window);
+  };
+
+  Buffer<std::int8_t> smooth(windows.base.size());
+  forEachPoint(windows, workers, [&](int w) { smooth[w] = sharedWindow(windows, noise, choice, w); });
+  Buffer<int> bends;
+  for (int w = 0; w < windows.size(); ++w) {
+    if (smooth[w] != Windows::base_size) continue;
+    bends.push_back(w);
+    smooth[w] = -1;
   }
+  const SharingWindows sharing(points, source, windows, noise.variance, smooth);
+  const Buffer<int> voters =
+      numbersWhere("noise", windows.size(), workers, [&](int w) { return windows.is_copy[w] == 0; });
+  forEachVote(sharing, voters, workers, [&](const Vote& vote) {
+    if (vote.squared_distance < nearest[vote.point]) {
+      nearest[vote.point] = vote.squared_distance;
+      shared.nearest[vote.point] = vote.window;
+    }
+    addTo(sharing, vote);
+  });
+  const BentWindows bent(static_cast<int>(n), fitter, windows, noise, bends);
+  const SharingWindows sharing_bent(points, source, bent.windows, bent.variance, bent.shared);
+  forEachVote(sharing_bent, bent.which, workers, [&](const Vote& vote) { addTo(sharing_bent, vote); });
+
   move.setZero(points.rows());
   variance.resize(n);
   workers.forBlocks("noise", points.rows(), usual_block, [&](std::int64_t begin, std::int64_t end, int) {
@@ -155,7 +239,7 @@ SharedSurfaces shareSurfaces(const PointsView& points, const NeighborSource& sou
         shared.settled[p] = 1;
         move.row(p) = alone.transpose();
       } else {
-        shared.settled[p] = sharing.isQuiet(w) ? 1 : 0;
+        shared.settled[p] = isQuiet(windows, noise, w) ? 1 : 0;
       }
     }
   });

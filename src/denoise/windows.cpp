@@ -1,11 +1,11 @@
 #include "denoise/windows.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <numbers>
 
 #include "denoise/listed_search.h"
+#include "denoise/neighbor_lists.h"
 #include "simd/kernels.h"
 #include "stars/neighborhood.h"
 #include "stars/sheets.h"
@@ -75,7 +75,11 @@ class BlockFitter {
         search_(points, *source.search, windows),
         queue_(windows) {}
 
-  void take(std::span<const int> which, std::uint8_t* reached) {
+  /// @param lists null, or where block `block` gets the neighbours
+  void take(std::span<const int> which, NeighborLists* lists, int block) {
+    const auto keep = [&](int w, std::span<const Neighbor> neighbors) {
+      if (lists != nullptr) lists->put(block, w, neighbors);
+    };
     again_.clear();
     search_.forEach(
         which, [&](int w) { return widest(w); },
@@ -83,20 +87,27 @@ class BlockFitter {
           const int searched = widest(w);
           fitPlane(w, neighbors);
           if (widest(w) != searched) return again_.push_back(w);  // it has grown along a line
-          fit(w, neighbors, {}, reached);
+          keep(w, neighbors);
+          fit(w, neighbors, {});
         });
-    refit(again_, {}, reached);
+    search_.forEach(
+        again_, [&](int w) { return widest(w); },
+        [&](int w, std::span<const Neighbor> neighbors) {
+          keep(w, neighbors);
+          fit(w, neighbors, {});
+        });
+    queue_.solve();
   }
 
-  void refit(std::span<const int> which, const Buffer<std::uint8_t>& left_out, std::uint8_t* reached) {
-    search_.forEach(
-        which, [&](int w) { return widest(w); },
-        [&](int w, std::span<const Neighbor> neighbors) { fit(w, neighbors, left_out, reached); });
+  void refit(std::span<const int> which, const NeighborLists& lists, const Buffer<std::uint8_t>& left_out) {
+    lists.forEach(
+        points_, windows_, which, [&](int w) { return widest(w); },
+        [&](int w, std::span<const Neighbor> neighbors) { fit(w, neighbors, left_out); });
     queue_.solve();
   }
 
  private:
-  int widest(int w) const { return windows_.base[w] / 2 << (Windows::sizes - 1); }
+  int widest(int w) const { return windows_.base[w] / 2 << (windows_.fitted - 1); }
 
   void fitPlane(int w, std::span<const Neighbor> neighbors) {
     const int p = windows_.pointOf(w), base = windows_.base[w];
@@ -122,10 +133,8 @@ class BlockFitter {
     takePlane(w, around_plane_.axes, windows_);
   }
 
-  void fit(int w, std::span<const Neighbor> neighbors, const Buffer<std::uint8_t>& left_out, std::uint8_t* reached) {
+  void fit(int w, std::span<const Neighbor> neighbors, const Buffer<std::uint8_t>& left_out) {
     const int half = windows_.base[w] / 2, most = static_cast<int>(neighbors.size());
-    if (reached != nullptr)
-      for (const Neighbor& q : neighbors) std::atomic_ref(reached[q.index]).store(1, std::memory_order_relaxed);
     around_.take(points_, windows_, w, neighbors, left_out);
     const Offsets all = around_.offsets.view();
     HeightMoments total = {{}, 1, windows_.radius[w]};
@@ -232,39 +241,18 @@ void WindowNeighbors::take(const PointsView& points, const Windows& windows, int
   });
 }
 
-void WindowFitter::take(std::span<const int> which, Windows& windows, std::uint8_t* reached) const {
+void WindowFitter::take(std::span<const int> which, Windows& windows, NeighborLists* lists) const {
+  const int first = lists == nullptr ? 0 : lists->addBlocks((std::ssize(which) + costly_block - 1) / costly_block);
   workers_.forBlocks("noise", std::ssize(which), costly_block, [&](std::int64_t begin, std::int64_t end, int) {
-    BlockFitter(points_, source_, windows).take(which.subspan(begin, end - begin), reached);
+    BlockFitter(points_, source_, windows)
+        .take(which.subspan(begin, end - begin), lists, first + static_cast<int>(begin / costly_block));
   });
 }
 
-Buffer<std::uint8_t> WindowFitter::holding(std::span<const int> which, const Buffer<std::uint8_t>& has_window,
-                                           const Windows& windows) const {
-  Buffer<std::uint8_t> holds(has_window.size(), 0);
-  const int most = static_cast<int>(points_.rows()) - 1;
+void WindowFitter::refit(std::span<const int> which, const NeighborLists& lists, const Buffer<std::uint8_t>& left_out,
+                         Windows& windows) const {
   workers_.forBlocks("noise", std::ssize(which), costly_block, [&](std::int64_t begin, std::int64_t end, int) {
-    Buffer<Neighbor> near;
-    for (const int p : which.subspan(begin, end - begin)) {
-      bool any = true;
-      for (int k = std::min(8 * windows.base[p], most); any; k = std::min(2 * k, most)) {
-        source_.search->nearest(p, k, near);
-        any = false;  // among the farther half
-        for (int i = 0; i < k; ++i) {
-          const int q = near[i].index;
-          const double radius = has_window[q] != 0 ? windows.reach(q) : 0;
-          if (!(near[i].squared_distance <= radius * radius * widened_radius)) continue;
-          std::atomic_ref(holds[q]).store(1, std::memory_order_relaxed);
-          any |= 2 * i >= k && k < most;
-        }
-      }
-    }
-  });
-  return holds;
-}
-
-void WindowFitter::refit(std::span<const int> which, const Buffer<std::uint8_t>& left_out, Windows& windows) const {
-  workers_.forBlocks("noise", std::ssize(which), costly_block, [&](std::int64_t begin, std::int64_t end, int) {
-    BlockFitter(points_, source_, windows).refit(which.subspan(begin, end - begin), left_out, nullptr);
+    BlockFitter(points_, source_, windows).refit(which.subspan(begin, end - begin), lists, left_out);
   });
 }
 

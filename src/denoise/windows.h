@@ -27,12 +27,14 @@ struct WindowFit : HeightFit {
 /// and four times as many neighbours. The tangent plane of all four is that of the base window.
 struct Windows {
   static constexpr int sizes = 4;
-  static constexpr int first_base = 32;  ///< neighbours in the base window, but where the noise is stronger
+  static constexpr std::int8_t base_size = 1;  ///< of the four, the base window
+  static constexpr int first_base = 32;        ///< neighbours in the base window, but where the noise is stronger
   static constexpr int pooled = 32;
   /// Windows spread over a window, by whose values its own are averaged.
   using Pool = std::array<int, pooled>;
 
   int stride = 1;                 ///< window w is that around the point of rank w * stride
+  int fitted = sizes;             ///< of the four windows, the smallest ones; there is no fit in the others
   Buffer<int> base;               ///< neighbours in the base window of each: 32, 64, 128 or 256
   PointBuffer normal;             ///< of the base window
   RawBuffer<double> radius;       ///< of the base window
@@ -69,6 +71,8 @@ struct WindowNeighbors {
             const Buffer<std::uint8_t>& left_out);
 };
 
+class NeighborLists;
+
 /// Makes windows and fits quadratics in them.
 class WindowFitter {
  public:
@@ -78,15 +82,13 @@ class WindowFitter {
       : points_(points), source_(source), workers_(workers) {}
 
   /// Planes of the base windows of some points, and quadratics in all four windows.
-  /// @param reached n, set to 1 for every point in one of the windows; null: not asked
-  void take(std::span<const int> which, Windows& windows, std::uint8_t* reached = nullptr) const;
+  /// @param[out] lists gets the neighbours of each; null: they are not kept
+  void take(std::span<const int> which, Windows& windows, NeighborLists* lists = nullptr) const;
   /// Fits the quadratics of some windows again.
+  /// @param lists with the neighbours of each
   /// @param left_out n; points with an entry other than 0 are in no fit but their own
-  void refit(std::span<const int> which, const Buffer<std::uint8_t>& left_out, Windows& windows) const;
-  /// Which windows, of those around every point, hold one of these points.
-  /// @param has_window n, 1 where there is one
-  Buffer<std::uint8_t> holding(std::span<const int> which, const Buffer<std::uint8_t>& has_window,
-                               const Windows& windows) const;
+  void refit(std::span<const int> which, const NeighborLists& lists, const Buffer<std::uint8_t>& left_out,
+             Windows& windows) const;
 
  private:
   PointsView points_;

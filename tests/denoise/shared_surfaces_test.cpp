@@ -44,7 +44,10 @@ struct SharedCloud {
     choice.biased.assign(all.size(), 0);
   }
 
-  void share() { shared = shareSurfaces(ranked.points, source, windows, noise, choice, workers, move, variance); }
+  void share() {
+    const WindowFitter fitter(ranked.points, source, workers);
+    shared = shareSurfaces(ranked.points, source, fitter, windows, noise, choice, workers, move, variance);
+  }
 };
 
 /// Points of z = (x^2 - y^2) / 8, on which every fit is exact.
@@ -83,15 +86,30 @@ TEST(SharedSurfaces, SettleNoPointThatIsFarOff) {
     EXPECT_TRUE(cloud.ranked.input_index[p] != 1234 || cloud.shared.settled[p] == 0);
 }
 
-TEST(SharedSurfaces, OfBiasedWindowsSettleNothingAndOfQuietOnesLetAllStay) {
+TEST(SharedSurfaces, OfWindowsBiasedFromTheBaseOnSettleNothingAndOfQuietOnesLetAllStay) {
   SharedCloud cloud(quadric(), 0.01);
   cloud.choice.biased.assign(cloud.choice.biased.size(), 1);
+  cloud.choice.window.assign(cloud.choice.window.size(), 0);
   cloud.share();
   EXPECT_EQ(std::count(cloud.shared.settled.begin(), cloud.shared.settled.end(), 1), 0);
   cloud.noise.noisy.assign(cloud.noise.noisy.size(), 0);
   cloud.share();
   EXPECT_EQ(std::count(cloud.shared.settled.begin(), cloud.shared.settled.end(), 1), 4000);
   EXPECT_TRUE(cloud.move.all().isZero(0));
+}
+
+// Which are around more points than those of 64 neighbours, so that every point is in some.
+TEST(SharedSurfaces, OfBaseWindowsSettleAllPointsWhereWiderOnesBend) {
+  Points points = quadric();
+  points(1234, 2) += 0.002;
+  SharedCloud cloud(points, 0.01);
+  cloud.choice.biased.assign(cloud.choice.biased.size(), 1);
+  cloud.choice.window.assign(cloud.choice.window.size(), 1);
+  cloud.share();
+  EXPECT_GT(std::count(cloud.shared.settled.begin(), cloud.shared.settled.end(), 1), 3990);
+  const double unit = std::ldexp(1, -cloud.ranked.exponent);
+  for (int p = 0; p < cloud.ranked.size(); ++p)
+    EXPECT_NEAR(cloud.move.row(p).norm(), cloud.ranked.input_index[p] == 1234 ? 0.002 * unit : 0, 6e-4 * unit) << p;
 }
 
 TEST(MayBeNoisy, IsTrueOfNoiseAndFalseOfExactPoints) {
