@@ -9,6 +9,7 @@
 #include "denoise/crease_moves.h"
 #include "denoise/neighbor_lists.h"
 #include "denoise/pooling.h"
+#include "denoise/rim_moves.h"
 #include "denoise/shared_surfaces.h"
 #include "denoise/window_choice.h"
 #include "stars/displacements.h"
@@ -125,6 +126,7 @@ SurfaceMoves surfaceMoves(const PointsView& points, const NeighborSource& source
   const SharedSurfaces shared =
       shareSurfaces(points, source, fitter, windows, noise, choice, workers, result.move, result.variance);
   moveAlone(points, fitter, windows, noise, shared, workers, result);
+  moveOntoRims(points, source, windows, noise, choice, workers, result.move);
   return result;
 }
 

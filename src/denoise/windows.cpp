@@ -138,6 +138,7 @@ class BlockFitter {
     around_.take(points_, windows_, w, neighbors, left_out);
     const Offsets all = around_.offsets.view();
     HeightMoments total = {{}, 1, windows_.radius[w]};
+    windows_.one_sided[w] = 0;
     int from = 0;
     for (int size = 0; size < Windows::sizes; ++size) {
       windows_.fits[w][size] = {};
@@ -149,6 +150,9 @@ class BlockFitter {
       for (; from < to; ++from) total.count += around_.skipped[from] == 0 ? 1 : 0;
       windows_.fits[w][size].radius = std::sqrt(neighbors[to - 1].squared_distance);
       windows_.fits[w][size].count = total.count;
+      if (size == 2)
+        windows_.one_sided[w] =
+            std::hypot(total.sums.u, total.sums.v) / total.count * windows_.radius[w] / windows_.fits[w][size].radius;
       queue_.add(w, size, total);
     }
     const auto pool = [&](int count, Windows::Pool& to) {
@@ -187,6 +191,7 @@ void Windows::resize(Eigen::Index n, int by) {
   thickness.resize(size);
   line.resize(size);
   split.resize(size);
+  one_sided.resize(size);
   fits.resize(size);
   near.resize(size);
   middle.resize(size);
@@ -201,6 +206,7 @@ void Windows::copy(int other, int w) {
   thickness[w] = thickness[other];
   line[w] = line[other];
   split[w] = split[other];
+  one_sided[w] = one_sided[other];
   fits[w] = fits[other];
   near[w] = near[other];
   middle[w] = middle[other];

@@ -95,6 +95,30 @@ TEST(Denoise, BringsPointsToSurfacesThatBend) {
   EXPECT_GT(along, 0.5 * all);
 }
 
+/// The root of the mean squared distance from the unit square in its plane.
+double rmsBeyondSquare(const Points& points) {
+  const auto plane = points.leftCols(2).array();
+  return std::sqrt((plane - plane.max(0).min(1)).square().sum() / static_cast<double>(points.rows()));
+}
+
+TEST(Denoise, PutsPointsBackOntoTheRim) {
+  const double sigma = 0.5 / std::sqrt(n);  // half a spacing
+  for (const shapes::Rim rim : {shapes::Rim::included, shapes::Rim::none}) {
+    const Points square = withNoise(shapes::square(n, Sampling::uniform, rim), sigma, 7).points;
+    EXPECT_LT(rmsBeyondSquare(denoise(square).positions), 0.6 * rmsBeyondSquare(square));
+  }
+}
+
+TEST(Denoise, LeavesARimThatIsInItsPlace) {
+  for (const shapes::Rim rim : {shapes::Rim::included, shapes::Rim::none}) {
+    Points square = shapes::square(n, Sampling::uniform, rim).points;
+    square.col(2) = withNoise(shapes::square(n, Sampling::uniform, rim), 0.5 / std::sqrt(n), 7).points.col(2);
+    const DenoisedPoints done = denoise(square);
+    EXPECT_GT(done.report.moved, n * 9 / 10);
+    EXPECT_LT((done.positions - square).leftCols(2).norm() / std::sqrt(n), 0.05 / std::sqrt(n));
+  }
+}
+
 TEST(Denoise, SaysHowStrongTheNoiseIs) {
   for (const double sigma : {0.002, 0.005, 0.01, 0.02}) {
     const DenoisedPoints done = denoise(noisySphere(sigma));
@@ -163,8 +187,9 @@ TEST(Denoise, MovesAsTheCloudDoes) {
 }
 
 TEST(Denoise, HasTheSameBitsForAnyNumberOfThreads) {
-  for (const Points& points : {withNoise(shapes::cubeSurface(4000), 0.01, 7).points,  // many blocks
-                               noisyWaves(0.36 / std::sqrt(n))}) {
+  const Points cube = withNoise(shapes::cubeSurface(4000), 0.01, 7).points;  // many blocks
+  const Points open = withNoise(shapes::square(8000, Sampling::uniform, shapes::Rim::included), 0.006, 7).points;
+  for (const Points& points : {cube, open, noisyWaves(0.36 / std::sqrt(n))}) {
     const Points one = denoise(points, {.threads = 1}).positions;
     for (const int threads : {2, 3, 7}) EXPECT_TRUE(denoise(points, {.threads = threads}).positions == one) << threads;
   }
