@@ -14,7 +14,8 @@ constexpr double rounding = 1e-10;  // of an inverse range; less is no noise, as
 constexpr double most_misfit = 3;   // variance of residuals, in variances of the noise
 // The same for values that were smoothed before, in variances of what noise they still have.
 constexpr double most_misfit_apart = 16;          // of a quadratic over 7 x 7 values
-constexpr double most_misfit_apart_nearer = 8;    // of one over 5 x 5, and of planes
+constexpr double most_misfit_apart_nearer = 8;    // of one over 5 x 5
+constexpr double most_misfit_of_planes = 4;       // of planes over a part of either
 constexpr double further_share = 1.0 / 8;         // of the variance that a fit to values apart leaves
 constexpr double further_share_nearer = 1.0 / 4;  // over 5 x 5
 constexpr int least_of_wide = 20;                 // pixels of a plane over 7 x 7, that of p included
@@ -101,7 +102,7 @@ std::optional<SmoothedRange> smoothedNearer(const SquareFit& narrow, const Smoot
 
 std::optional<SmoothedRange> smoothedFurther(const PixelRows& ranges, std::uint64_t around, const SmoothedRange& before,
                                              double noise_variance) {
-  const double most_variance = most_misfit_apart_nearer * noise_variance;
+  const double most_variance = most_misfit_of_planes * noise_variance;
   if (const auto plane = fitPlane(ranges, around, least_of_wide, most_variance))
     return SmoothedRange{plane->inverse, before.variance * further_share};
   if (const auto plane = fitPlane(ranges, around & WindowPixels::rings(2), least_of_narrow, most_variance))

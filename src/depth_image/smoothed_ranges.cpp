@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <optional>
@@ -14,14 +15,14 @@ namespace tufted {
 namespace {
 
 constexpr std::array<int, 3> strides = {3, SmoothedRanges::widest_stride, 4};
-constexpr double tolerance = 2;         // standard deviations of noise between two smoothed values
-constexpr double harmless = 0.01;       // of the squared spacing: a tenth of it in noise
-constexpr double steepest = 4;          // pixels along the line of sight for one across
-constexpr std::int64_t samples = 2000;  // packets of pixels, to see what noise smoothed values have
-constexpr double quiet = 0.25;          // of the windows have nothing but noise
-constexpr double usual = 0.75;          // of the windows are of one surface
-constexpr double most_to_usual = 3;     // times the variance that noise leaves, in these
-constexpr double left_at_first = 0.5;   // of the variance of the noise, at most, once it was smoothed
+constexpr double tolerance = 2;        // standard deviations of noise between two smoothed values
+constexpr double harmless = 0.01;      // of the squared spacing: a tenth of it in noise
+constexpr double steepest = 4;         // pixels along the line of sight for one across
+constexpr std::int64_t samples = 500;  // packets of pixels, to see what noise smoothed values have
+constexpr double quiet = 0.25;         // of the windows have nothing but noise
+constexpr double usual = 0.75;         // of the windows are of one surface
+constexpr double most_to_usual = 3;    // times the variance that noise leaves, in these
+constexpr double left_at_first = 0.5;  // of the variance of the noise, at most, once it was smoothed
 
 /// Calls work(row, worker) for all rows, those of the border too.
 template <class Work>
@@ -183,7 +184,10 @@ void smoothFurther(SmoothedRanges& smoothed, double noise, const Workers& worker
   RawBuffer<double> after(smoothed.inverse.size());
   std::fill_n(after.end() - kernel_packet, kernel_packet, 0);
   double variance = left_at_first * noise * noise;
-  for (const int stride : strides) {
+  // The rings of a scanner are few rows: a third pass has little that is new to it.
+  const std::ptrdiff_t passes = std::ssize(strides) - (smoothed.goes_round ? 1 : 0);
+  for (std::ptrdiff_t i = 0; i < passes; ++i) {
+    const int stride = strides[i];
     if (smoothed.goes_round) repeatBeyondSeam(smoothed, workers);
     RangeSmoother smoother(noise, variance, stride, smoothed, after);
     variance = smoother.findVariance();
