@@ -19,6 +19,11 @@ constexpr double kept_at_first = 0.75, kept = 0.9;
 constexpr double spread_at_first = 0.37, spread = 0.62;  // mean square of the smallest, of normal numbers
 constexpr double sum_of_squares = 70;                    // of 1, 4, 6, 4, 1
 
+// A coarse depth whose steps are farther apart than five pixels.
+constexpr double same = 0.1;          // of a step: the others of a row change alike
+constexpr double least_steps = 0.01;  // of the rows of five pixels
+constexpr double most_spread = 0.25;  // of the middle half of the steps, by their median
+
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// Inverse ranges of five pixels in a row.
@@ -73,12 +78,41 @@ double noiseOf(const RawBuffer<Five>& fives, double least, double share, double 
   return std::sqrt(sum / static_cast<double>(count) / mean_square / sum_of_squares);
 }
 
+/// The step that a row of five pixels takes in the middle, where all else changes alike on both sides; 0 where there is
+/// none. At a crease the sides differ.
+double stepOf(const Five& w) {
+  const double before = w[1] - w[0], after = w[4] - w[3], first = w[2] - w[1], second = w[3] - w[2];
+  const double slope = (before + after) / 2, a = first - slope, b = second - slope;
+  const double step = std::max(std::abs(a), std::abs(b)), rest = std::min(std::abs(a), std::abs(b));
+  return std::abs(before - after) <= same * step && rest <= same * step ? step : 0;
+}
+
+/// The standard deviation of the rounding to steps of one size, if there are such steps; 0 if not. Steps that are far
+/// apart are too few for noiseOf(): the smallest differences lie all between them.
+double roundingOf(const RawBuffer<Five>& fives, double noise) {
+  Buffer<double> steps;
+  double count = 0;
+  for (const Five& w : fives) {
+    if (std::isnan(w[0])) continue;
+    ++count;
+    const double step = stepOf(w);
+    if (step > likely_jump * noise && step <= jump * w[2]) steps.push_back(step);
+  }
+  const std::ptrdiff_t size = std::ssize(steps);
+  if (size == 0 || static_cast<double>(size) < least_steps * count) return 0;
+  std::sort(steps.begin(), steps.end());
+  const double median = steps[size / 2];
+  if (steps[3 * size / 4] - steps[size / 4] > most_spread * median) return 0;
+  return median / std::sqrt(12.0);
+}
+
 }  // namespace
 
 double inverseRangeNoise(const PixelGrid& grid, const PointsView& points, const Workers& workers) {
   const RawBuffer<Five> fives = takeFives(grid, points, workers);
   const double at_first = noiseOf(fives, std::numeric_limits<double>::infinity(), kept_at_first, spread_at_first);
-  return noiseOf(fives, likely_jump * at_first, kept, spread);
+  const double noise = noiseOf(fives, likely_jump * at_first, kept, spread);
+  return std::max(noise, roundingOf(fives, noise));
 }
 
 }  // namespace tufted

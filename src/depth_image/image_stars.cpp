@@ -173,7 +173,7 @@ class ImageStarBuilder {
     for (int rings = window.rings();; ++state.grown_stars) {
       wrapping_.wrap(p, frame.normal, unit, window.offsets(), window.neighbors(), state.memory);
       if (star.closed && isCertain(star, window, unit)) break;
-      if (widened(rings) > (star.closed ? most_rings_of_star_ : WindowPixels::reach)) break;
+      if (widened(rings) > most_rings_of_star_) break;
       widen(p, rings, window);
     }
   }
@@ -203,7 +203,7 @@ class ImageStarBuilder {
   bool is_exact_;                                      ///< no point moves
   bool is_stretched_;                                  ///< rows alone tell how far the next ring is
   int rings_of_whole_;                                 ///< of the window of a star that is more than the pixels beside
-  int most_rings_of_star_;                             ///< of the window of a closed one
+  int most_rings_of_star_;                             ///< of its window
   std::array<std::ptrdiff_t, pixels_around> shift_{};  ///< in the image
   Stars& stars_;
   StarSupport& support_;

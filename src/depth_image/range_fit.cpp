@@ -9,13 +9,17 @@
 namespace tufted {
 namespace {
 
-constexpr double harmless = 1e-4;          // of the squared spacing; a hundredth of it does not matter for L
-constexpr double rounding = 1e-10;         // of an inverse range; less is no noise, as from a sensor that is far away
-constexpr double most_misfit = 3;          // variance of residuals, in variances of the noise
-constexpr double most_misfit_apart = 4;    // the same for values that were smoothed before, whose noise is correlated
-constexpr double further_share = 1.0 / 8;  // of the variance that a fit to values apart leaves
-constexpr int least_of_wide = 20;          // pixels of a plane over 7 x 7, that of p included
-constexpr int least_of_narrow = 12;        // over 5 x 5
+constexpr double harmless = 1e-4;   // of the squared spacing; a hundredth of it does not matter for L
+constexpr double rounding = 1e-10;  // of an inverse range; less is no noise, as from a sensor that is far away
+constexpr double most_misfit = 3;   // variance of residuals, in variances of the noise
+// The same for values that were smoothed before, in variances of what noise they still have.
+constexpr double most_misfit_apart = 16;          // of a quadratic over 7 x 7 values
+constexpr double most_misfit_apart_nearer = 8;    // of one over 5 x 5
+constexpr double most_misfit_of_planes = 4;       // of planes over a part of either
+constexpr double further_share = 1.0 / 8;         // of the variance that a fit to values apart leaves
+constexpr double further_share_nearer = 1.0 / 4;  // over 5 x 5
+constexpr int least_of_wide = 20;                 // pixels of a plane over 7 x 7, that of p included
+constexpr int least_of_narrow = 12;               // over 5 x 5
 
 /// Variance of the value in the middle, by that of each pixel.
 template <int Reach>
@@ -84,15 +88,26 @@ std::optional<SmoothedRange> smoothedInverseRange(const PixelRows& ranges, std::
   return SmoothedRange{narrow.value, quadraticLeverage<2>() * variance};
 }
 
-SmoothedRange smoothedFurther(const SquareFit& wide, const SmoothedRange& before, double noise) {
-  const bool fits = wide.variance <= most_misfit_apart * noise * noise;
-  return fits ? SmoothedRange{wide.value, before.variance * further_share} : before;
+std::optional<SmoothedRange> smoothedFurther(const SquareFit& wide, const SmoothedRange& before,
+                                             double noise_variance) {
+  if (!(wide.variance <= most_misfit_apart * noise_variance)) return std::nullopt;
+  return SmoothedRange{wide.value, before.variance * further_share};
 }
 
-SmoothedRange smoothedFurther(const PixelRows& ranges, std::uint64_t around, const SmoothedRange& before,
-                              double noise) {
-  const auto plane = fitPlane(ranges, around, least_of_wide, most_misfit_apart * noise * noise);
-  return plane ? SmoothedRange{plane->inverse, before.variance * further_share} : before;
+std::optional<SmoothedRange> smoothedNearer(const SquareFit& narrow, const SmoothedRange& before,
+                                            double noise_variance) {
+  if (!(narrow.variance <= most_misfit_apart_nearer * noise_variance)) return std::nullopt;
+  return SmoothedRange{narrow.value, before.variance * further_share_nearer};
+}
+
+std::optional<SmoothedRange> smoothedFurther(const PixelRows& ranges, std::uint64_t around, const SmoothedRange& before,
+                                             double noise_variance) {
+  const double most_variance = most_misfit_of_planes * noise_variance;
+  if (const auto plane = fitPlane(ranges, around, least_of_wide, most_variance))
+    return SmoothedRange{plane->inverse, before.variance * further_share};
+  if (const auto plane = fitPlane(ranges, around & WindowPixels::rings(2), least_of_narrow, most_variance))
+    return SmoothedRange{plane->inverse, before.variance * further_share_nearer};
+  return std::nullopt;
 }
 
 }  // namespace tufted

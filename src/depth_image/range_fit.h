@@ -36,10 +36,14 @@ std::optional<SmoothedRange> smoothedInverseRange(const PixelRows& ranges, std::
                                                   const SquareFit& narrow, const SquareFit& wide, double noise);
 
 /// Smooths a range again, by a fit to values that were smoothed before, of pixels some distance apart: a quadratic over
-/// a whole window, or a plane over a part of it.
+/// a whole window of 7 x 7, or of 5 x 5, or a plane over a part of it.
 /// @param around which of the pixels are of one surface with the middle one
-/// @returns `before` where they do not fit as well as noise allows
-SmoothedRange smoothedFurther(const SquareFit& wide, const SmoothedRange& before, double noise);
-SmoothedRange smoothedFurther(const PixelRows& ranges, std::uint64_t around, const SmoothedRange& before, double noise);
+/// @param noise_variance of what noise these values have
+/// @returns nothing where they do not fit as well as noise allows
+std::optional<SmoothedRange> smoothedFurther(const SquareFit& wide, const SmoothedRange& before, double noise_variance);
+std::optional<SmoothedRange> smoothedNearer(const SquareFit& narrow, const SmoothedRange& before,
+                                            double noise_variance);
+std::optional<SmoothedRange> smoothedFurther(const PixelRows& ranges, std::uint64_t around, const SmoothedRange& before,
+                                             double noise_variance);
 
 }  // namespace tufted

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
+#include <optional>
 
 #include "depth_image/window_pixels.h"
 #include "simd/kernels.h"
@@ -12,10 +14,15 @@
 namespace tufted {
 namespace {
 
-constexpr std::array<int, 2> strides = {3, SmoothedRanges::widest_stride};
-constexpr double tolerance = 2;    // standard deviations of noise between two smoothed values
-constexpr double harmless = 0.01;  // of the squared spacing: a tenth of it in noise
-constexpr double steepest = 4;     // pixels along the line of sight for one across
+constexpr std::array<int, 3> strides = {3, SmoothedRanges::widest_stride, 4};
+constexpr double tolerance = 2;        // standard deviations of noise between two smoothed values
+constexpr double harmless = 0.01;      // of the squared spacing: a tenth of it in noise
+constexpr double steepest = 4;         // pixels along the line of sight for one across
+constexpr std::int64_t samples = 500;  // packets of pixels, to see what noise smoothed values have
+constexpr double quiet = 0.25;         // of the windows have nothing but noise
+constexpr double usual = 0.75;         // of the windows are of one surface
+constexpr double most_to_usual = 3;    // times the variance that noise leaves, in these
+constexpr double left_at_first = 0.5;  // of the variance of the noise, at most, once it was smoothed
 
 /// Calls work(row, worker) for all rows, those of the border too.
 template <class Work>
@@ -44,13 +51,41 @@ void repeatBeyondSeam(SmoothedRanges& image, const Workers& workers) {
 /// more than a slope and noise explain may be of one surface with it.
 class RangeSmoother {
  public:
+  /// @param variance of the noise before
   /// @param[out] after inverse ranges
-  RangeSmoother(double noise, int stride, SmoothedRanges& smoothed, RawBuffer<double>& after)
-      : noise_(noise), stride_(stride), smoothed_(smoothed), after_(after) {
+  RangeSmoother(double noise, double variance, int stride, SmoothedRanges& smoothed, RawBuffer<double>& after)
+      : noise_(noise), variance_(variance), stride_(stride), smoothed_(smoothed), after_(after) {
     for (int i = 0; i < WindowPixels::count; ++i) {
       const PixelStep& step = window_pixels.step[i];
       shift_[i] = stride * (step.row * smoothed.row_step + step.column);
     }
+  }
+
+  /// The variance of the noise that values still have, by what fits leave in windows all over the image. Noise of real
+  /// cameras is alike in neighbouring pixels and survives smoothing, white noise does not. Steps of a coarse depth
+  /// are in some windows and not in others.
+  double findVariance() {
+    const int in_row = (smoothed_.columns - 2 * PixelGrid::margin + kernel_packet - 1) / kernel_packet;
+    const std::int64_t packets = std::int64_t{in_row} * (smoothed_.rows - 2 * PixelGrid::margin);
+    const std::int64_t step = std::max<std::int64_t>(1, packets / samples) | 1;
+    Buffer<double> left;
+    left.reserve(static_cast<std::size_t>((packets / step + 1) * kernel_packet));
+    for (std::int64_t i = 0; i < packets; i += step) {
+      const int row = PixelGrid::margin + static_cast<int>(i / in_row);
+      const int column = PixelGrid::margin + static_cast<int>(i % in_row) * kernel_packet;
+      const Packet packet = fit(smoothed_.at(row, column));
+      for (int lane = 0; lane < kernel_packet; ++lane)
+        if (((packet.is_wanted & packet.is_whole) >> lane & 1U) != 0) left.push_back(packet.wide.variance[lane]);
+    }
+    if (left.empty()) return variance_;
+    const auto quantile = [&left](double share) {
+      const auto at = left.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(left.size()));
+      std::nth_element(left.begin(), at, left.end());
+      return *at;
+    };
+    const double found = std::max(quantile(quiet), quantile(usual) / most_to_usual);
+    variance_ = std::min(variance_, found);
+    return variance_;
   }
 
   void smoothRow(int row) const {
@@ -62,40 +97,63 @@ class RangeSmoother {
   }
 
  private:
-  void smoothSome(std::ptrdiff_t at) const {
+  /// The windows of a packet of pixels.
+  struct Packet {
+    unsigned is_wanted = 0, is_whole = 0;
+    std::array<unsigned char, WindowPixels::count> within;
+    SquareFits wide{};
+  };
+
+  PixelRows rowsAt(std::ptrdiff_t at) const {
+    return {smoothed_.inverse.data() + at, stride_ * smoothed_.row_step, stride_};
+  }
+
+  Packet fit(std::ptrdiff_t at) const {
+    Packet packet;
     std::array<double, kernel_packet> slope;
-    unsigned is_wanted = 0;
     for (int lane = 0; lane < kernel_packet; ++lane) {
       const double spacing_squared = smoothed_.spacing_squared[at + lane];
-      is_wanted |= static_cast<unsigned>(smoothed_.variance[at + lane] > harmless * spacing_squared) << lane;
+      packet.is_wanted |= static_cast<unsigned>(smoothed_.variance[at + lane] > harmless * spacing_squared) << lane;
     }
-    if (is_wanted == 0) return;
+    if (packet.is_wanted == 0) return packet;
     for (int lane = 0; lane < kernel_packet; ++lane)
       slope[lane] = steepest * std::sqrt(smoothed_.spacing_squared[at + lane]) * stride_;
-    const double* const values = smoothed_.inverse.data() + at;
-    const PixelRows rows{values, stride_ * smoothed_.row_step, stride_};
-    std::array<unsigned char, WindowPixels::count> within;
-    const unsigned is_whole =
-        kernels().squaresWithin(values, shift_.data(), slope.data(), tolerance * noise_, is_wanted, within.data());
-    SquareFits fits{};
-    if ((is_wanted & is_whole) != 0) kernels().fitSquares7(rows, fits);
+    packet.is_whole = kernels().squaresWithin(smoothed_.inverse.data() + at, shift_.data(), slope.data(),
+                                              tolerance * noise_, packet.is_wanted, packet.within.data());
+    if ((packet.is_wanted & packet.is_whole) != 0) kernels().fitSquares7(rowsAt(at), packet.wide);
+    return packet;
+  }
+
+  void smoothSome(std::ptrdiff_t at) const {
+    const Packet packet = fit(at);
+    if (packet.is_wanted == 0) return;
+    const PixelRows rows = rowsAt(at);
+    SquareFits narrow;
+    bool has_narrow = false;
     for (int lane = 0; lane < kernel_packet; ++lane) {
-      if ((is_wanted >> lane & 1U) == 0) continue;
-      const SmoothedRange before{values[lane], smoothed_.variance[at + lane]};
-      SmoothedRange range;
-      if ((is_whole >> lane & 1U) != 0) {
-        range = smoothedFurther({fits.value[lane], fits.variance[lane]}, before, noise_);
+      if ((packet.is_wanted >> lane & 1U) == 0) continue;
+      const SmoothedRange before{rows.at[lane], smoothed_.variance[at + lane]};
+      std::optional<SmoothedRange> range;
+      if ((packet.is_whole >> lane & 1U) != 0) {
+        range = smoothedFurther({packet.wide.value[lane], packet.wide.variance[lane]}, before, variance_);
+        if (!range) {
+          if (!has_narrow) kernels().fitSquares5(rows, narrow);
+          has_narrow = true;
+          range = smoothedNearer({narrow.value[lane], narrow.variance[lane]}, before, variance_);
+        }
       } else {
         std::uint64_t around = 0;
-        for (int i = 0; i < WindowPixels::count; ++i) around |= std::uint64_t{within[i] >> lane & 1U} << i;
-        range = smoothedFurther({rows.at + lane, rows.row_step, rows.column_step}, around, before, noise_);
+        for (int i = 0; i < WindowPixels::count; ++i) around |= std::uint64_t{packet.within[i] >> lane & 1U} << i;
+        range = smoothedFurther({rows.at + lane, rows.row_step, rows.column_step}, around, before, variance_);
       }
-      after_[at + lane] = range.inverse;
-      smoothed_.variance[at + lane] = range.variance;
+      if (!range) continue;
+      after_[at + lane] = range->inverse;
+      smoothed_.variance[at + lane] = range->variance;
     }
   }
 
   double noise_;
+  double variance_;  ///< of the noise of the values
   int stride_;
   SmoothedRanges& smoothed_;
   RawBuffer<double>& after_;
@@ -125,9 +183,14 @@ void SmoothedRanges::clear(const PixelGrid& grid, const Workers& workers) {
 void smoothFurther(SmoothedRanges& smoothed, double noise, const Workers& workers) {
   RawBuffer<double> after(smoothed.inverse.size());
   std::fill_n(after.end() - kernel_packet, kernel_packet, 0);
-  for (const int stride : strides) {
+  double variance = left_at_first * noise * noise;
+  // The rings of a scanner are few rows: a third pass has little that is new to it.
+  const std::ptrdiff_t passes = std::ssize(strides) - (smoothed.goes_round ? 1 : 0);
+  for (std::ptrdiff_t i = 0; i < passes; ++i) {
+    const int stride = strides[i];
     if (smoothed.goes_round) repeatBeyondSeam(smoothed, workers);
-    const RangeSmoother smoother(noise, stride, smoothed, after);
+    RangeSmoother smoother(noise, variance, stride, smoothed, after);
+    variance = smoother.findVariance();
     forEachRow(smoothed, workers, [&](int row, int) { smoother.smoothRow(row); });
     smoothed.inverse.swap(after);
   }

@@ -59,6 +59,22 @@ TEST(DenoisedImage, OfExactPointsIsTheSameBitForBit) {
   EXPECT_EQ(done.report.noise, 0);
 }
 
+double rootMeanSquare(const Points& a, const Points& b) {
+  return std::sqrt((a - b).squaredNorm() / static_cast<double>(a.rows()));
+}
+
+TEST(DenoisedImage, OfACoarseDepthWithoutNoiseLiesOnTheSurface) {
+  // Steps are 16 columns apart, so that most rows of five pixels are exact.
+  const ScanStructure structure = imageStructure(width, height);
+  const double step = 0.016;
+  const auto depth = [](int column, int row) { return image_tests::planeDepth(column, row, 0.1, -0.05); };
+  const Points surface = image_tests::imageOf(depth);
+  const Points coarse =
+      image_tests::imageOf([&](int column, int row) { return 1 / (step * std::round(1 / depth(column, row) / step)); });
+  const DenoisedPoints done = denoise(coarse, {.structure = &structure});
+  EXPECT_LT(rootMeanSquare(done.positions, surface), 0.5 * rootMeanSquare(coarse, surface));
+}
+
 TEST(DenoisedImage, HasTheSameBitsForAnyNumberOfThreads) {
   const ScanStructure structure = imageStructure(width, height);
   const Points points = noisyPlane(2e-3);

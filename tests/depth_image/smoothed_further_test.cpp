@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/QR>
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -40,10 +41,12 @@ struct Case {
   }
 };
 
-/// What one pass does to one pixel.
-double smoothedAt(const SmoothedRanges& image, const RawBuffer<double>& before, int row, int column, int stride) {
+/// A pixel of a window: its step, and the value there.
+using Joined = std::vector<std::array<double, 3>>;
+
+Joined windowOf(const SmoothedRanges& image, const RawBuffer<double>& before, int row, int column, int stride) {
   const std::ptrdiff_t at = image.at(row, column);
-  std::vector<std::array<double, 3>> joined = {{0, 0, before[at]}};
+  Joined joined = {{0, 0, before[at]}};
   for (const PixelStep& step : window_pixels.step) {
     const int r = row + stride * step.row, c = column + stride * step.column;
     if (r < 0 || c < 0 || r >= image.rows || c >= image.columns) continue;
@@ -52,9 +55,16 @@ double smoothedAt(const SmoothedRanges& image, const RawBuffer<double>& before, 
     if (std::abs(value - before[at]) <= most)
       joined.push_back({static_cast<double>(step.row), static_cast<double>(step.column), value});
   }
+  return joined;
+}
+
+/// A fit to the pixels of a window up to a ring.
+SquareFit fitOf(const Joined& window, int terms, int rings) {
+  Joined joined;
+  for (const auto& pixel : window)
+    if (std::abs(pixel[0]) <= rings && std::abs(pixel[1]) <= rings) joined.push_back(pixel);
   const auto count = static_cast<Eigen::Index>(joined.size());
-  if (count < 20) return before[at];
-  const int terms = count == 49 ? 6 : 3;
+  if (count < (rings == 3 ? 20 : 12)) return {0, INFINITY};
   Eigen::MatrixXd base(count, terms);
   Eigen::VectorXd values(count);
   for (Eigen::Index k = 0; k < count; ++k) {
@@ -64,8 +74,18 @@ double smoothedAt(const SmoothedRanges& image, const RawBuffer<double>& before, 
     values[k] = value;
   }
   const Eigen::VectorXd fit = base.householderQr().solve(values);
-  const double variance = (base * fit - values).squaredNorm() / static_cast<double>(count - terms);
-  return variance <= 4 * noise * noise ? fit[0] : before[at];
+  return {fit[0], (base * fit - values).squaredNorm() / static_cast<double>(count - terms)};
+}
+
+/// What one pass does to one pixel.
+/// @param variance of the noise
+SmoothedRange smoothedRange(const Joined& window, const SmoothedRange& before, double variance) {
+  const bool is_whole = window.size() == 49;
+  const int terms = is_whole ? 6 : 3;
+  const SquareFit wide = fitOf(window, terms, 3), narrow = fitOf(window, terms, 2);
+  if (wide.variance <= (is_whole ? 16 : 4) * variance) return {wide.value, before.variance / 8};
+  if (narrow.variance <= (is_whole ? 8 : 4) * variance) return {narrow.value, before.variance / 4};
+  return before;
 }
 
 TEST(SmoothedFurther, IsThatOfALoopOverPixelsForImagesOfAnySize) {
@@ -80,14 +100,29 @@ TEST(SmoothedFurther, IsThatOfALoopOverPixelsForImagesOfAnySize) {
         for (int column = 0; column < image.grid.columns; ++column) visit(row, column, expected.at(row, column));
     };
     int changed = 0;
-    for (const int stride : {3, 9}) {
+    double variance = noise * noise / 2;
+    for (const int stride : {3, 9, 4}) {
       const RawBuffer<double> before = expected.inverse;
+      const auto isWanted = [&](std::ptrdiff_t at) {
+        return expected.variance[at] > 0.01 * expected.spacing_squared[at];
+      };
+      std::vector<double> left;
       forEachPixelOfImage([&](int row, int column, std::ptrdiff_t at) {
-        if (!(expected.variance[at] > 0.01 * expected.spacing_squared[at])) return;
-        expected.inverse[at] = smoothedAt(expected, before, row, column, stride);
-        if (expected.inverse[at] == before[at]) return;
-        expected.variance[at] /= 8;
-        ++changed;
+        if (!isWanted(at)) return;
+        const Joined window = windowOf(expected, before, row, column, stride);
+        if (window.size() == 49) left.push_back(fitOf(window, 6, 3).variance);
+      });
+      if (!left.empty()) {
+        std::sort(left.begin(), left.end());
+        variance = std::min(variance, std::max(left[left.size() / 4], left[3 * left.size() / 4] / 3));
+      }
+      forEachPixelOfImage([&](int row, int column, std::ptrdiff_t at) {
+        if (!isWanted(at)) return;
+        const Joined window = windowOf(expected, before, row, column, stride);
+        const SmoothedRange after = smoothedRange(window, {before[at], expected.variance[at]}, variance);
+        if (after.inverse != before[at]) ++changed;
+        expected.inverse[at] = after.inverse;
+        expected.variance[at] = after.variance;
       });
     }
     smoothFurther(image.smoothed, noise, workers);
