@@ -20,7 +20,9 @@ constexpr double spread_at_first = 0.37, spread = 0.62;  // mean square of the s
 constexpr double sum_of_squares = 70;                    // of 1, 4, 6, 4, 1
 
 // A coarse depth whose steps are farther apart than five pixels.
-constexpr double same = 0.1;          // of a step: the others of a row change alike
+constexpr double alike = 0.3;         // of a step: the others of a row change as much as each other
+constexpr double same = 0.02;         // the same, where there is no noise between steps
+constexpr double least_same = 0.7;    // of these rows; slats that a sensor sees have noise
 constexpr double least_steps = 0.01;  // of the rows of five pixels
 constexpr double most_spread = 0.25;  // of the middle half of the steps, by their median
 
@@ -78,28 +80,34 @@ double noiseOf(const RawBuffer<Five>& fives, double least, double share, double 
   return std::sqrt(sum / static_cast<double>(count) / mean_square / sum_of_squares);
 }
 
-/// The step that a row of five pixels takes in the middle, where all else changes alike on both sides; 0 where there is
-/// none. At a crease the sides differ.
-double stepOf(const Five& w) {
+/// The step that a row of five pixels takes in the middle.
+struct MiddleStep {
+  double size;
+  double unlike;  ///< how much the others differ from each other: small but at creases, and noise where that is small
+};
+
+MiddleStep middleStep(const Five& w) {
   const double before = w[1] - w[0], after = w[4] - w[3], first = w[2] - w[1], second = w[3] - w[2];
-  const double slope = (before + after) / 2, a = first - slope, b = second - slope;
-  const double step = std::max(std::abs(a), std::abs(b)), rest = std::min(std::abs(a), std::abs(b));
-  return std::abs(before - after) <= same * step && rest <= same * step ? step : 0;
+  const double slope = (before + after) / 2, a = std::abs(first - slope), b = std::abs(second - slope);
+  return {std::max(a, b), std::max(std::abs(before - after), std::min(a, b))};
 }
 
 /// The standard deviation of the rounding to steps of one size, if there are such steps; 0 if not. Steps that are far
 /// apart are too few for noiseOf(): the smallest differences lie all between them.
 double roundingOf(const RawBuffer<Five>& fives, double noise) {
   Buffer<double> steps;
-  double count = 0;
+  double count = 0, same_count = 0;
   for (const Five& w : fives) {
     if (std::isnan(w[0])) continue;
     ++count;
-    const double step = stepOf(w);
-    if (step > likely_jump * noise && step <= jump * w[2]) steps.push_back(step);
+    const MiddleStep step = middleStep(w);
+    if (!(step.size > likely_jump * noise && step.size <= jump * w[2] && step.unlike <= alike * step.size)) continue;
+    steps.push_back(step.size);
+    same_count += step.unlike <= same * step.size ? 1 : 0;
   }
   const std::ptrdiff_t size = std::ssize(steps);
   if (size == 0 || static_cast<double>(size) < least_steps * count) return 0;
+  if (same_count < least_same * static_cast<double>(size)) return 0;
   std::sort(steps.begin(), steps.end());
   const double median = steps[size / 2];
   if (steps[3 * size / 4] - steps[size / 4] > most_spread * median) return 0;
