@@ -51,7 +51,14 @@ struct Stretch {
   double half = 0, blur = 0;
   RimProfile sharp, blurred, with_line;
   std::array<double, 2> unevenness;  ///< across the rim and along it
-  Buffer<Place> places;
+  Buffer<Place> places;              ///< near the rim
+};
+
+/// Memory of one worker.
+struct RimScratch {
+  WindowNeighbors around;
+  RimStrip strip;
+  Buffer<Place> places;  ///< all neighbours of a window
 };
 
 /// What one stretch says about one point.
@@ -111,9 +118,9 @@ class RimFinder {
            windows_.split[w] == 0 && windows_.one_sided[w] > one_sided && noise_.variance[w] > least * least;
   }
 
-  /// @param strip scratch
-  void look(int w, const WindowNeighbors& around, RimStrip& strip, Stretch& stretch) const {
-    if (!takeStrip(w, around, strip, stretch)) return;
+  void look(int w, RimScratch& scratch, Stretch& stretch) const {
+    if (!takeStrip(w, scratch, stretch)) return;
+    const RimStrip& strip = scratch.strip;
     const double blur = stretch.blur;
     RimProfile from = firstProfile(strip);
     stretch.blurred = fitRimProfile(strip, blur, RimLine::none, from);
@@ -130,16 +137,18 @@ class RimFinder {
       if (farther_out.likelihood > stretch.sharp.likelihood) stretch.sharp = farther_out;
     }
     measureStripes(strip, stretch);
-    std::erase_if(stretch.places, [&](const Place& place) {
-      return std::abs(place.at.y()) > stretch.half ||
-             std::min(stretch.blurred.curve.insideOf(stretch.half, place.at),
-                      stretch.with_line.curve.insideOf(stretch.half, place.at)) > 2 * reach * blur;
-    });
+    for (const Place& place : scratch.places) {
+      const double inside = std::min(stretch.blurred.curve.insideOf(stretch.half, place.at),
+                                     stretch.with_line.curve.insideOf(stretch.half, place.at));
+      if (std::abs(place.at.y()) <= stretch.half && inside <= 2 * reach * blur) stretch.places.push_back(place);
+    }
   }
 
  private:
   /// Puts the neighbours, where they have moved to, into the tangent plane of the window.
-  bool takeStrip(int w, const WindowNeighbors& around, RimStrip& strip, Stretch& stretch) const {
+  bool takeStrip(int w, RimScratch& scratch, Stretch& stretch) const {
+    const WindowNeighbors& around = scratch.around;
+    RimStrip& strip = scratch.strip;
     const int p = windows_.pointOf(w);
     const std::size_t n = around.all.size();
     const Eigen::Vector3d normal = surfaceAt(windows_, w, 2, Eigen::Vector3d::Zero()).normal;
@@ -158,15 +167,15 @@ class RimFinder {
     strip.half = stretch.half = half_length * radius;
     strip.depth = depth * radius;
     strip.points.clear();
-    stretch.places.clear();
-    stretch.places.push_back({p, Eigen::Vector2d::Zero()});
+    scratch.places.clear();
+    scratch.places.push_back({p, Eigen::Vector2d::Zero()});
     for (std::size_t i = 0; i < n; ++i) {
       if (around.skipped[i] != 0) continue;
       const int q = around.all[i].index;
       const Eigen::Vector3d d = offset(q);
-      stretch.places.push_back({q, {d.dot(stretch.inward), d.dot(stretch.along)}});
+      scratch.places.push_back({q, {d.dot(stretch.inward), d.dot(stretch.along)}});
     }
-    for (const Place& place : stretch.places)
+    for (const Place& place : scratch.places)
       if (std::abs(place.at.y()) < strip.half && place.at.x() < strip.depth) strip.points.push_back(place.at);
     return std::ranges::count_if(strip.points, [&](const auto& at) { return at.x() > strip.depth / 2; }) > least_deep;
   }
@@ -266,15 +275,14 @@ void moveOntoRims(const PointsView& points, const NeighborSource& source, const 
   Buffer<Stretch> stretches(which.size());
   for (std::size_t i = 0; i < stretches.size(); i += judged) stretches[i].is_judged = true;
   workers.forBlocks("noise", std::ssize(which), costly_block, [&](std::int64_t begin, std::int64_t end, int) {
-    WindowNeighbors around;
-    RimStrip strip;
+    RimScratch scratch;
     ListedSearch search(points, *source.search, windows);
     Stretch* stretch = &stretches[begin];
     const auto count = [&](int w) { return seen * windows.base[w]; };
     search.forEach(std::span<const int>(which).subspan(begin, end - begin), count,
                    [&](int w, std::span<const Neighbor> neighbors) {
-                     around.take(points, windows, w, neighbors, {});
-                     finder.look(w, around, strip, *stretch++);
+                     scratch.around.take(points, windows, w, neighbors, {});
+                     finder.look(w, scratch, *stretch++);
                    });
   });
   RimProfile Stretch::*const profile = profileOf(stretches);
