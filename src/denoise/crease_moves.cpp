@@ -26,7 +26,9 @@ constexpr int least_on_side = 12;    // twice as many points as coefficients
 constexpr double most_step = 2;      // sigmas in one round
 constexpr int faces_within = 4;      // times the base window; half of it where that holds more than one crease
 constexpr int widest_crossing = 2;   // the widest window that may lie across a crease and take it for a bend
-constexpr double most_way = 5;       // sigmas; of normal noise one point in a million is farther from its face
+/// Squared radii grow by this, or rounding would decide whether a window holds its last neighbour.
+constexpr double widened_radius = 1 + 1e-9;
+constexpr double most_way = 5;  // sigmas; of normal noise one point in a million is farther from its face
 
 /// A window that holds p, and how much it counts.
 struct Lender {

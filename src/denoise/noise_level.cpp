@@ -107,7 +107,7 @@ RawBuffer<double> noiseVariance(const Windows& windows, const Workers& workers) 
 }
 
 bool isOutlier(const Windows& windows, int p, double variance) {
-  const WindowFit& fit = windows.fits[p][1];
+  const WindowFit& fit = windows.fits[p][Windows::base_size];
   if (!(variance > leastVariance(windows, p))) return false;  // exact points, of which none moves
   // Its neighbours belong to a surface that does not reach it, or lie so far away that the fit goes through it.
   if (fit.count < alone * windows.base[p] || (std::isfinite(fit.variance) && fit.leverage > most_leverage)) return true;
@@ -132,7 +132,7 @@ void findNoisy(const Windows& windows, const Buffer<std::uint8_t>& is_thick, con
   forEachPoint(windows, workers, [&](int p) {
     const auto mean = [&](const auto& value) { return pooledMean(p, windows.near[p], value); };
     const double small = mean([&](int q) { return residualOf(windows.fits[q][0]); });
-    const double base = mean([&](int q) { return residualOf(windows.fits[q][1]); });
+    const double base = mean([&](int q) { return residualOf(windows.fits[q][Windows::base_size]); });
     const double exact_points = mean([&](int q) { return exact_around[q]; });
     const bool is_sure = is_strong(p) && exact_points < exact_share && base < noise_growth * small;
     sure[p] = is_sure ? 1 : 0;

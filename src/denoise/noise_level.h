@@ -25,8 +25,8 @@ constexpr double most_leverage = 0.9;
 /// million is that many sigmas off; nearer ones than a spacing do little harm.
 constexpr double outlier_sigmas = 5, outlier_spacings = 1;
 
-/// The variance of residuals in a window without a bend, by that of the noise, is less; across a crease it is 2 and
-/// more.
+/// Residuals of a window without a bend have a variance below this, in variances of the noise; those of a window across
+/// a crease have 2 and more.
 constexpr double explained = 1.3;
 
 /// The least variance of noise that matters around a window.

@@ -14,21 +14,21 @@
 namespace tufted {
 namespace {
 
-constexpr double least_blur = 0.2;      // of the spacing: less noise hardly widens a surface
-constexpr double one_sided = 0.2;       // of the radius of 64 neighbours, their centroid: .42 on a straight rim
-constexpr int judged = 2;               // windows next to a rim by those that say whether it is blurred
-constexpr int seen = 8;                 // times the base window: the neighbours that make a strip
-constexpr double half_length = 0.7;     // of their radius, that of a strip
-constexpr double depth = 0.55;          // of their radius
-constexpr int least_deep = 12;          // points in the deeper half of a strip
-constexpr double first_line = 0.3;      // points on the rim by those a spacing apart, where the search for more starts
-constexpr double left_in_place = 0.25;  // of the noise: the blur of a rim that has no noise along the surface
-constexpr double most_slope = 0.5;      // of a rim in its strip
-constexpr double most_beyond = 4;       // sigmas: a point farther outside says that the surface goes on there
-constexpr double from_inside = 2;       // sigmas: from there on inwards the surface is whole
-constexpr int parts = 6;                // of a strip along the rim
-constexpr double least_share = 0.35;    // of the mean, of the points in each part: less is a corner or a hole
-constexpr int least_strips = 8;         // judged ones
+constexpr double least_blur = 0.2;       // of the spacing: less noise hardly widens a surface
+constexpr double least_one_sided = 0.2;  // of the radius of 64 neighbours, their centroid: .42 on a straight rim
+constexpr int judged = 2;                // windows next to a rim by those that say whether it is blurred
+constexpr int seen = 8;                  // times the base window: the neighbours that make a strip
+constexpr double half_length = 0.7;      // of their radius, that of a strip
+constexpr double depth = 0.55;           // of their radius
+constexpr int least_deep = 12;           // points in the deeper half of a strip
+constexpr double first_line = 0.3;       // points on the rim by those a spacing apart, where the search for more starts
+constexpr double left_in_place = 0.25;   // of the noise: the blur of a rim that has no noise along the surface
+constexpr double most_slope = 0.5;       // of a rim in its strip
+constexpr double most_beyond = 4;        // sigmas: a point farther outside says that the surface goes on there
+constexpr double from_inside = 2;        // sigmas: from there on inwards the surface is whole
+constexpr int parts = 6;                 // of a strip along the rim
+constexpr double least_share = 0.35;     // of the mean, of the points in each part: less is a corner or a hole
+constexpr int least_strips = 8;          // judged ones
 // Of the logarithm of the likelihood of a strip, on average.
 constexpr double least_blurred = -1.2;       // gain by a rim that is blurred
 constexpr double least_line = 0.7;           // gain by points on the rim
@@ -39,7 +39,7 @@ constexpr double reach = 1.5;                // sigmas inside of the rim, up to 
 constexpr double same_rim = 0.77;            // cosine of 40 degrees
 
 /// A point next to a rim, in the plane of its strip.
-struct Place {
+struct PlaceInStrip {
   int point;
   Eigen::Vector2d at;
 };
@@ -51,24 +51,24 @@ struct Stretch {
   double half = 0, blur = 0;
   RimProfile sharp, blurred, with_line;
   std::array<double, 2> unevenness;  ///< across the rim and along it
-  Buffer<Place> places;              ///< near the rim
+  Buffer<PlaceInStrip> places;       ///< near the rim
 };
 
 /// Memory of one worker.
 struct RimScratch {
   WindowNeighbors around;
   RimStrip strip;
-  Buffer<Place> places;  ///< all neighbours of a window
+  Buffer<PlaceInStrip> places;  ///< all neighbours of a window
 };
 
 /// What one stretch says about one point.
-struct Vote {
+struct RimVote {
   int point;
   double weight, inside;
   Eigen::Vector3d inward;
 };
 
-/// The variance of counts by their mean, 1 where points are thrown at random.
+/// Counts points in stripes.
 class Stripes {
  public:
   Stripes(double begin, double end, double width)
@@ -77,6 +77,7 @@ class Stripes {
     const double i = std::floor((x - begin_) / width_);
     if (i >= 0 && i < static_cast<double>(counts_.size())) ++counts_[static_cast<std::size_t>(i)];
   }
+  /// The variance of the counts by their mean, 1 where points are thrown at random.
   double unevenness() const {
     double sum = 0, squares = 0;
     for (const int count : counts_) sum += count;
@@ -109,15 +110,19 @@ bool isRim(const RimStrip& strip, double blur, const RimCurve& curve) {
 
 class RimFinder {
  public:
-  RimFinder(const PointsView& points, const Windows& windows, const NoiseLevel& noise, const PointBuffer& move)
-      : points_(points), windows_(windows), noise_(noise), move_(move) {}
+  /// All arguments are borrowed.
+  RimFinder(const PointsView& points, const Windows& windows, const NoiseLevel& noise, const WindowChoice& choice,
+            const PointBuffer& move)
+      : points_(points), windows_(windows), noise_(noise), choice_(choice), move_(move) {}
 
-  bool maySeeRim(int w, const WindowChoice& choice) const {
+  bool maySeeRim(int w) const {
     const double least = least_blur * windows_.spacing(w);
-    return windows_.is_copy[w] == 0 && noise_.noisy[w] != 0 && choice.window[w] >= Windows::base_size &&
-           windows_.split[w] == 0 && windows_.one_sided[w] > one_sided && noise_.variance[w] > least * least;
+    return windows_.is_copy[w] == 0 && noise_.noisy[w] != 0 && choice_.window[w] >= Windows::base_size &&
+           windows_.split[w] == 0 && windows_.one_sided[w] > least_one_sided && noise_.variance[w] > least * least;
   }
 
+  /// Looks for a rim near window w.
+  /// @param scratch with the neighbours
   void look(int w, RimScratch& scratch, Stretch& stretch) const {
     if (!takeStrip(w, scratch, stretch)) return;
     const RimStrip& strip = scratch.strip;
@@ -137,7 +142,7 @@ class RimFinder {
       if (farther_out.likelihood > stretch.sharp.likelihood) stretch.sharp = farther_out;
     }
     measureStripes(strip, stretch);
-    for (const Place& place : scratch.places) {
+    for (const PlaceInStrip& place : scratch.places) {
       const double inside = std::min(stretch.blurred.curve.insideOf(stretch.half, place.at),
                                      stretch.with_line.curve.insideOf(stretch.half, place.at));
       if (std::abs(place.at.y()) <= stretch.half && inside <= 2 * reach * blur) stretch.places.push_back(place);
@@ -151,7 +156,7 @@ class RimFinder {
     RimStrip& strip = scratch.strip;
     const int p = windows_.pointOf(w);
     const std::size_t n = around.all.size();
-    const Eigen::Vector3d normal = surfaceAt(windows_, w, 2, Eigen::Vector3d::Zero()).normal;
+    const Eigen::Vector3d normal = surfaceAt(windows_, w, choice_.window[w], Eigen::Vector3d::Zero()).normal;
     const auto offset = [&](int q) -> Eigen::Vector3d {
       return (points_.row(q) - points_.row(p) + move_.row(q) - move_.row(p)).transpose();
     };
@@ -175,7 +180,7 @@ class RimFinder {
       const Eigen::Vector3d d = offset(q);
       scratch.places.push_back({q, {d.dot(stretch.inward), d.dot(stretch.along)}});
     }
-    for (const Place& place : scratch.places)
+    for (const PlaceInStrip& place : scratch.places)
       if (std::abs(place.at.y()) < strip.half && place.at.x() < strip.depth) strip.points.push_back(place.at);
     return std::ranges::count_if(strip.points, [&](const auto& at) { return at.x() > strip.depth / 2; }) > least_deep;
   }
@@ -206,6 +211,7 @@ class RimFinder {
   PointsView points_;
   const Windows& windows_;
   const NoiseLevel& noise_;
+  const WindowChoice& choice_;
   const PointBuffer& move_;
 };
 
@@ -233,8 +239,8 @@ RimProfile Stretch::*profileOf(const Buffer<Stretch>& stretches) {
   return blur > least_without_line ? &Stretch::blurred : nullptr;
 }
 
-void vote(const Stretch& stretch, const RimCurve& curve, Buffer<Vote>& votes) {
-  for (const Place& place : stretch.places) {
+void vote(const Stretch& stretch, const RimCurve& curve, Buffer<RimVote>& votes) {
+  for (const PlaceInStrip& place : stretch.places) {
     const double y = place.at.y() / stretch.half, slope = curve.slopeAt(stretch.half, place.at.y());
     const double length = std::sqrt(1 + slope * slope), inside = curve.insideOf(stretch.half, place.at) / length;
     if (inside > reach * stretch.blur) continue;
@@ -245,14 +251,14 @@ void vote(const Stretch& stretch, const RimCurve& curve, Buffer<Vote>& votes) {
 
 /// The way of a point onto the rim, and where two meet onto both.
 /// @param votes about one point; those that were taken get a weight of 0
-Eigen::Vector3d wayOntoRims(std::span<Vote> votes) {
+Eigen::Vector3d wayOntoRims(std::span<RimVote> votes) {
   Eigen::Vector3d way = Eigen::Vector3d::Zero();
-  for (const Vote& first : votes) {
+  for (const RimVote& first : votes) {
     if (!(first.weight > 0)) continue;
     const Eigen::Vector3d direction = first.inward;
     double weight = 0, inside = 0;
     Eigen::Vector3d inward = Eigen::Vector3d::Zero();
-    for (Vote& other : votes) {
+    for (RimVote& other : votes) {
       if (!(other.weight > 0 && other.inward.dot(direction) > same_rim)) continue;
       weight += other.weight;
       inside += other.weight * other.inside;
@@ -268,10 +274,10 @@ Eigen::Vector3d wayOntoRims(std::span<Vote> votes) {
 
 void moveOntoRims(const PointsView& points, const NeighborSource& source, const Windows& windows,
                   const NoiseLevel& noise, const WindowChoice& choice, const Workers& workers, PointBuffer& move) {
-  const RimFinder finder(points, windows, noise, move);
+  const RimFinder finder(points, windows, noise, choice, move);
   Buffer<int> which;
   for (int w = 0; w < windows.size(); ++w)
-    if (finder.maySeeRim(w, choice)) which.push_back(w);
+    if (finder.maySeeRim(w)) which.push_back(w);
   Buffer<Stretch> stretches(which.size());
   for (std::size_t i = 0; i < stretches.size(); i += judged) stretches[i].is_judged = true;
   workers.forBlocks("noise", std::ssize(which), costly_block, [&](std::int64_t begin, std::int64_t end, int) {
@@ -287,10 +293,10 @@ void moveOntoRims(const PointsView& points, const NeighborSource& source, const 
   });
   RimProfile Stretch::*const profile = profileOf(stretches);
   if (profile == nullptr) return;
-  Buffer<Vote> votes;
+  Buffer<RimVote> votes;
   for (const Stretch& stretch : stretches)
     if (stretch.is_rim) vote(stretch, (stretch.*profile).curve, votes);
-  std::ranges::sort(votes, [](const Vote& a, const Vote& b) {
+  std::ranges::sort(votes, [](const RimVote& a, const RimVote& b) {
     return std::tie(a.point, b.weight, a.inside) < std::tie(b.point, a.weight, b.inside);
   });
   for (std::size_t begin = 0, end = 0; begin < votes.size(); begin = end) {

@@ -72,7 +72,7 @@ WindowChoice chooseWindows(const Windows& windows, const NoiseLevel& noise, std:
   const bool is_own = windows.stride == 1;  // windows that points share cost no more when they are wide
   workers.forBlocks("noise", std::ssize(which), star_block, [&](std::int64_t begin, std::int64_t end, int) {
     for (const int w : which.subspan(begin, end - begin)) {
-      if (noise.noisy[w] == 0 || windows.fits[w][1].leverage > most_leverage) continue;
+      if (noise.noisy[w] == 0 || windows.fits[w][Windows::base_size].leverage > most_leverage) continue;
       const Choice of_w(windows, noise, w);
       for (int k = 0; k < Windows::sizes && !(is_own && of_w.isEnough(k)); ++k) {
         if (!of_w.isFlat(k)) {

@@ -150,11 +150,12 @@ class BlockFitter {
       for (; from < to; ++from) total.count += around_.skipped[from] == 0 ? 1 : 0;
       windows_.fits[w][size].radius = std::sqrt(neighbors[to - 1].squared_distance);
       windows_.fits[w][size].count = total.count;
-      if (size == 2)
+      if (size == Windows::base_size + 1)
         windows_.one_sided[w] =
             std::hypot(total.sums.u, total.sums.v) / total.count * windows_.radius[w] / windows_.fits[w][size].radius;
       queue_.add(w, size, total);
     }
+    if (windows_.fitted < Windows::sizes) return;  // nobody averages over them
     const auto pool = [&](int count, Windows::Pool& to) {
       const auto some = neighbors.first(static_cast<std::size_t>(std::min(count, most)));
       spread(
@@ -215,12 +216,6 @@ void Windows::copy(int other, int w) {
 
 double Windows::spacing(int w) const {
   return radius[w] * std::sqrt(std::numbers::pi / base[w]);
-}
-
-double Windows::reach(int w) const {
-  double reach = 0;  // of small clouds the wider windows hold nothing
-  for (const WindowFit& fit : fits[w]) reach = std::max(reach, fit.radius);
-  return reach;
 }
 
 void WindowNeighbors::take(const PointsView& points, const Windows& windows, int w, std::span<const Neighbor> neighbors,

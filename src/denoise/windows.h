@@ -14,9 +14,6 @@
 
 namespace tufted {
 
-/// Squared radii grow by this, or rounding would decide whether a window holds its last neighbour.
-constexpr double widened_radius = 1 + 1e-9;
-
 /// The quadratic through the heights in one window; its fit radius is the radius of the base window.
 struct WindowFit : HeightFit {
   double radius = 0;  ///< distance to the last neighbour of the window
@@ -34,14 +31,14 @@ struct Windows {
   using Pool = std::array<int, pooled>;
 
   int stride = 1;                 ///< window w is that around the point of rank w * stride
-  int fitted = sizes;             ///< of the four windows, the smallest ones; there is no fit in the others
+  int fitted = sizes;             ///< how many of the four windows have fits, the smallest first
   Buffer<int> base;               ///< neighbours in the base window of each: 32, 64, 128 or 256
   PointBuffer normal;             ///< of the base window
   RawBuffer<double> radius;       ///< of the base window
   RawBuffer<double> thickness;    ///< the smallest variance of the base window by the middle one
   RawBuffer<std::uint8_t> line;   ///< whether the base window is one scan line
   RawBuffer<std::uint8_t> split;  ///< whether neighbours of another sheet were left out of the base window
-  RawBuffer<double> one_sided;    ///< the way from the middle to the centroid of 64 neighbours, by their radius
+  RawBuffer<double> one_sided;    ///< from the middle to the centroid of twice the base window, by its radius
   Buffer<std::uint8_t> is_copy;   ///< whether it is the same as a window beside it, see copy()
   RawBuffer<std::array<WindowFit, sizes>> fits;
   RawBuffer<Pool> near;         ///< windows spread over the base window
@@ -53,8 +50,6 @@ struct Windows {
   int pointOf(int w) const { return w * stride; }
   /// The distance of points from each other, were they spread evenly.
   double spacing(int w) const;
-  /// The distance from the middle to the last neighbour that any of the four holds.
-  double reach(int w) const;
   /// Makes window w the same as window `other`.
   void copy(int other, int w);
 };
@@ -82,7 +77,7 @@ class WindowFitter {
   WindowFitter(const PointsView& points, const NeighborSource& source, const Workers& workers)
       : points_(points), source_(source), workers_(workers) {}
 
-  /// Planes of the base windows of some points, and quadratics in all four windows.
+  /// Planes of the base windows of some points, and quadratics in the first `fitted` ones.
   /// @param[out] lists gets the neighbours of each; null: they are not kept
   void take(std::span<const int> which, Windows& windows, NeighborLists* lists = nullptr) const;
   /// Fits the quadratics of some windows again.

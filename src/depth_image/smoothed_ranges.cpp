@@ -14,6 +14,7 @@
 namespace tufted {
 namespace {
 
+// Pixels apart, pass by pass; the last is left out for rings.
 constexpr std::array<int, 3> strides = {3, SmoothedRanges::widest_stride, 4};
 constexpr double tolerance = 2;        // standard deviations of noise between two smoothed values
 constexpr double harmless = 0.01;      // of the squared spacing: a tenth of it in noise
@@ -51,7 +52,7 @@ void repeatBeyondSeam(SmoothedRanges& image, const Workers& workers) {
 /// more than a slope and noise explain may be of one surface with it.
 class RangeSmoother {
  public:
-  /// @param variance of the noise before
+  /// @param variance of the noise that values have before, at most
   /// @param[out] after inverse ranges
   RangeSmoother(double noise, double variance, int stride, SmoothedRanges& smoothed, RawBuffer<double>& after)
       : noise_(noise), variance_(variance), stride_(stride), smoothed_(smoothed), after_(after) {
@@ -67,7 +68,8 @@ class RangeSmoother {
   double findVariance() {
     const int in_row = (smoothed_.columns - 2 * PixelGrid::margin + kernel_packet - 1) / kernel_packet;
     const std::int64_t packets = std::int64_t{in_row} * (smoothed_.rows - 2 * PixelGrid::margin);
-    const std::int64_t step = std::max<std::int64_t>(1, packets / samples) | 1;
+    std::int64_t step = std::max<std::int64_t>(1, packets / samples);
+    while (std::gcd(step, in_row) > 1) ++step;  // or samples would lie in a few columns
     Buffer<double> left;
     left.reserve(static_cast<std::size_t>((packets / step + 1) * kernel_packet));
     for (std::int64_t i = 0; i < packets; i += step) {

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "shapes/distances.h"
+#include "shapes/random.h"
 #include "shapes/shapes.h"
 #include "tufted/errors.h"
 
@@ -75,9 +76,8 @@ double waves(const Eigen::RowVector3d& x) {
 Points noisyWaves(double sigma) {
   Points points = shapes::square(n, Sampling::uniform, shapes::Rim::included).points;
   for (int i = 0; i < n; ++i) points(i, 2) = waves(points.row(i));
-  std::mt19937_64 random(7);
-  std::normal_distribution<double> noise(0, sigma);
-  for (double& z : points.col(2)) z += noise(random);
+  shapes::Random random(7);
+  for (double& z : points.col(2)) z += sigma * random.normal();
   return points;
 }
 

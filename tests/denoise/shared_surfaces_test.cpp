@@ -98,7 +98,7 @@ TEST(SharedSurfaces, OfWindowsBiasedFromTheBaseOnSettleNothingAndOfQuietOnesLetA
   EXPECT_TRUE(cloud.move.all().isZero(0));
 }
 
-// Which are around more points than those of 64 neighbours, so that every point is in some.
+// There are more base windows than others, so that every point is in some.
 TEST(SharedSurfaces, OfBaseWindowsSettleAllPointsWhereWiderOnesBend) {
   Points points = quadric();
   points(1234, 2) += 0.002;

@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
 #include "depth_image/image.h"
 #include "shapes/random.h"
@@ -79,11 +78,10 @@ TEST(DenoisedImage, OfACoarseDepthWithoutNoiseLiesOnTheSurface) {
 // Steps of one size are not those of a coarse depth where there is noise between them.
 TEST(DenoisedImage, OfSlatsIsNoCoarseDepth) {
   const ScanStructure structure = imageStructure(width, height);
-  std::mt19937_64 random(1);
-  std::normal_distribution<double> noise(0, 2e-4);
+  shapes::Random random(1);
   const auto depth = [](int column, int) { return column / 16 % 2 == 0 ? 1 : 1.01; };
   const Points slats =
-      image_tests::imageOf([&](int column, int row) { return 1 / (1 / depth(column, row) + noise(random)); });
+      image_tests::imageOf([&](int column, int row) { return 1 / (1 / depth(column, row) + 2e-4 * random.normal()); });
   EXPECT_LT(denoise(slats, {.structure = &structure}).report.noise, 4e-4);  // with the steps it would be 3e-3
 }
 
