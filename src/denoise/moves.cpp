@@ -124,7 +124,7 @@ SurfaceMoves surfaceMoves(const PointsView& points, const NeighborSource& source
 
   const WindowChoice choice = chooseWindows(windows, noise, allOf(windows), workers);
   const SharedSurfaces shared =
-      shareSurfaces(points, source, fitter, windows, noise, choice, workers, result.move, result.variance);
+      shareSurfaces(points, source, windows, noise, choice, workers, result.move, result.variance);
   moveAlone(points, fitter, windows, noise, shared, workers, result);
   moveOntoRims(points, source, windows, noise, choice, workers, result.move);
   return result;

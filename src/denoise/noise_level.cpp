@@ -24,7 +24,7 @@ constexpr double exact_share = 0.1;   // of the points around
 constexpr double noise_growth = 1.4;  // of the residuals' variance from window to window: noise 1, a crease 2 to 3
 constexpr double sure_share = 0.15;   // of the points around
 
-// Of a first look at the noise.
+// A first look at the noise takes samples, which are windows around some points.
 constexpr int sample_stride = 64, least_samples = 64, most_samples = 1000;
 constexpr double sample_growth = 2;  // of residuals' variance from 16 to 64 neighbours: noise 1, a crease 4
 constexpr double least_share = 0.05, most_exact = 0.5;  // of the samples: like noise, and exact

@@ -15,7 +15,7 @@ namespace tufted {
 namespace {
 
 constexpr double least_blur = 0.2;       // of the spacing: less noise hardly widens a surface
-constexpr double least_one_sided = 0.2;  // of the radius of 64 neighbours, their centroid: .42 on a straight rim
+constexpr double least_one_sided = 0.2;  // of Windows::one_sided: it is .42 on a straight rim
 constexpr int judged = 2;                // windows next to a rim by those that say whether it is blurred
 constexpr int seen = 8;                  // times the base window: the neighbours that make a strip
 constexpr double half_length = 0.7;      // of their radius, that of a strip
@@ -29,7 +29,7 @@ constexpr double from_inside = 2;        // sigmas: from there on inwards the su
 constexpr int parts = 6;                 // of a strip along the rim
 constexpr double least_share = 0.35;     // of the mean, of the points in each part: less is a corner or a hole
 constexpr int least_strips = 8;          // judged ones
-// Of the logarithm of the likelihood of a strip, on average.
+// The gains are those of the logarithm of the likelihood, in the mean over all strips.
 constexpr double least_blurred = -1.2;       // gain by a rim that is blurred
 constexpr double least_line = 0.7;           // gain by points on the rim
 constexpr double line_by_blur = 0.6;         // the same, times the blur in spacings
@@ -182,19 +182,23 @@ class RimFinder {
     }
     for (const PlaceInStrip& place : scratch.places)
       if (std::abs(place.at.y()) < strip.half && place.at.x() < strip.depth) strip.points.push_back(place.at);
-    return std::ranges::count_if(strip.points, [&](const auto& at) { return at.x() > strip.depth / 2; }) > least_deep;
+    return deepPoints(strip) > least_deep;
+  }
+
+  /// How many points lie in the deeper half of a strip.
+  static std::ptrdiff_t deepPoints(const RimStrip& strip) {
+    return std::ranges::count_if(strip.points, [&](const auto& at) { return at.x() > strip.depth / 2; });
   }
 
   static RimProfile firstProfile(const RimStrip& strip) {
-    const auto deep = std::ranges::count_if(strip.points, [&](const auto& at) { return at.x() > strip.depth / 2; });
     RimProfile first;
-    first.density = static_cast<double>(deep) / (strip.half * strip.depth);
+    first.density = static_cast<double>(deepPoints(strip)) / (strip.half * strip.depth);
     first.line = first_line * std::sqrt(first.density);
     first.curve.edge = strip.depth - static_cast<double>(strip.points.size()) / (first.density * 2 * strip.half);
     return first;
   }
 
-  /// Of stripes that are a spacing wide.
+  /// Measures how unevenly points lie in stripes across the rim and along it. The stripes are a spacing wide.
   static void measureStripes(const RimStrip& strip, Stretch& stretch) {
     const RimCurve& curve = stretch.blurred.curve;
     const double width = 1 / std::sqrt(stretch.blurred.density), begin = from_inside * stretch.blur;
@@ -275,9 +279,7 @@ Eigen::Vector3d wayOntoRims(std::span<RimVote> votes) {
 void moveOntoRims(const PointsView& points, const NeighborSource& source, const Windows& windows,
                   const NoiseLevel& noise, const WindowChoice& choice, const Workers& workers, PointBuffer& move) {
   const RimFinder finder(points, windows, noise, choice, move);
-  Buffer<int> which;
-  for (int w = 0; w < windows.size(); ++w)
-    if (finder.maySeeRim(w)) which.push_back(w);
+  const Buffer<int> which = numbersWhere("noise", windows.size(), workers, [&](int w) { return finder.maySeeRim(w); });
   Buffer<Stretch> stretches(which.size());
   for (std::size_t i = 0; i < stretches.size(); i += judged) stretches[i].is_judged = true;
   workers.forBlocks("noise", std::ssize(which), costly_block, [&](std::int64_t begin, std::int64_t end, int) {

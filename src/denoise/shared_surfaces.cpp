@@ -37,7 +37,7 @@ class SharingWindows {
  public:
   /// All arguments are borrowed.
   /// @param variance of the noise, by window
-  /// @param shared of Windows::fits, that which is shared, by window; -1: none
+  /// @param shared which of Windows::fits is shared, by window; -1 where none is
   SharingWindows(const PointsView& points, const NeighborSource& source, const Windows& windows,
                  const RawBuffer<double>& variance, const Buffer<std::int8_t>& shared)
       : points_(points), source_(source), windows_(windows), variance_(variance), shared_(shared) {}
@@ -130,8 +130,8 @@ bool isGrowing(const Windows& windows, int w) {
   return !(mean(least_shared) < grown * mean(Windows::base_size));
 }
 
-/// Of Windows::fits, that whose surface counts for the points around; -1: none. The base window is too small for that,
-/// unless there are more of them.
+/// Which of Windows::fits has the surface that counts for the points around window w; -1 where none has. The base
+/// window counts only where more of them are made, since it is small.
 std::int8_t sharedWindow(const Windows& windows, const NoiseLevel& noise, const WindowChoice& choice, int w) {
   if (windows.split[w] != 0 || choice.window[w] < Windows::base_size) return -1;
   if (choice.biased[w] == 0) return choice.window[w] < least_shared ? -1 : choice.window[w];
@@ -181,9 +181,9 @@ bool isQuiet(const Windows& windows, const NoiseLevel& noise, int w) {
 
 }  // namespace
 
-SharedSurfaces shareSurfaces(const PointsView& points, const NeighborSource& source, const WindowFitter& fitter,
-                             const Windows& windows, const NoiseLevel& noise, const WindowChoice& choice,
-                             const Workers& workers, PointBuffer& move, RawBuffer<double>& variance) {
+SharedSurfaces shareSurfaces(const PointsView& points, const NeighborSource& source, const Windows& windows,
+                             const NoiseLevel& noise, const WindowChoice& choice, const Workers& workers,
+                             PointBuffer& move, RawBuffer<double>& variance) {
   const auto n = static_cast<std::size_t>(points.rows());
   SharedSurfaces shared;
   shared.settled.assign(n, 0);
@@ -217,7 +217,7 @@ SharedSurfaces shareSurfaces(const PointsView& points, const NeighborSource& sou
     }
     addTo(sharing, vote);
   });
-  const BentWindows bent(static_cast<int>(n), fitter, windows, noise, bends);
+  const BentWindows bent(static_cast<int>(n), WindowFitter(points, source, workers), windows, noise, bends);
   const SharingWindows sharing_bent(points, source, bent.windows, bent.variance, bent.shared);
   forEachVote(sharing_bent, bent.which, workers, [&](const Vote& vote) { addTo(sharing_bent, vote); });
 

@@ -12,7 +12,7 @@ namespace {
 constexpr double harmless = 1e-4;   // of the squared spacing; a hundredth of it does not matter for L
 constexpr double rounding = 1e-10;  // of an inverse range; less is no noise, as from a sensor that is far away
 constexpr double most_misfit = 3;   // variance of residuals, in variances of the noise
-// The same for values that were smoothed before, in variances of what noise they still have.
+// Values that were smoothed before have bounds of their own, in variances of what noise they still have.
 constexpr double most_misfit_apart = 16;          // of a quadratic over 7 x 7 values
 constexpr double most_misfit_apart_nearer = 8;    // of one over 5 x 5
 constexpr double most_misfit_of_planes = 4;       // of planes over a part of either

@@ -44,10 +44,7 @@ struct SharedCloud {
     choice.biased.assign(all.size(), 0);
   }
 
-  void share() {
-    const WindowFitter fitter(ranked.points, source, workers);
-    shared = shareSurfaces(ranked.points, source, fitter, windows, noise, choice, workers, move, variance);
-  }
+  void share() { shared = shareSurfaces(ranked.points, source, windows, noise, choice, workers, move, variance); }
 };
 
 /// Points of z = (x^2 - y^2) / 8, on which every fit is exact.
