@@ -15,7 +15,6 @@
 namespace tufted {
 namespace {
 
-constexpr int most_groups = 8;         // bevels between faces, which few points are on, are groups as well
 constexpr int least_members = 12;      // four times as many points as a plane has coefficients
 constexpr int least_curved = 24;       // four times as many as a quadratic has
 constexpr double bend = 4;             // chi squared that the quadratic's three further coefficients have to explain
@@ -31,69 +30,98 @@ bool holdsFace(unsigned faces, int f) {
   return (faces >> f & 1U) != 0;
 }
 
+/// The unit normals of some points.
+struct KnownNormals {
+  const double *x, *y, *z;
+
+  explicit KnownNormals(const std::array<Buffer<double>, 3>& axes)
+      : x(axes[0].data()), y(axes[1].data()), z(axes[2].data()) {}
+  Eigen::Vector3d operator[](int i) const { return {x[i], y[i], z[i]}; }
+};
+
 }  // namespace
 
 void CreaseModel::start(double variance, double unit) {
   variance_ = variance;
   unit_ = unit;
+  points_ = 0;
   for (Buffer<double>& coordinate : coordinates_) coordinate.clear();
-  normals_.clear();
+  for (Buffer<double>& coordinate : normals_) coordinate.clear();
+  known_.clear();
 }
 
 void CreaseModel::add(const Eigen::RowVector3d& position, const Eigen::RowVector3d& normal) {
   for (int axis = 0; axis < 3; ++axis) coordinates_[axis].push_back(position[axis]);
-  normals_.push_back(normal.transpose());
+  const int i = points_++;
+  if (normal.isZero(0)) return;
+  for (int axis = 0; axis < 3; ++axis) normals_[axis].push_back(normal[axis]);
+  known_.push_back(i);
 }
 
-/// Groups the points by their normals: each in turn joins the group whose normal is most like its own, or founds one.
-/// Then once more by the mean normals. The largest groups become faces.
+/// Points whose normals are more like this one than like that of their group join this group.
+void CreaseModel::joinClosest(const Eigen::Vector3d& normal, int group, int from, int to) {
+  const KnownNormals normals(normals_);
+  const double x = normal[0], y = normal[1], z = normal[2];
+  double* const closest = closest_.data();
+  double* const joined = joined_.data();  // numbers as wide as the cosines, which are chosen along with them
+  const double number = group;
+  for (int i = from; i < to; ++i) {
+    const double cosine = std::abs(normals.x[i] * x + (normals.y[i] * y + normals.z[i] * z));
+    const bool is_closer = cosine > closest[i];
+    closest[i] = is_closer ? cosine : closest[i];
+    joined[i] = is_closer ? number : joined[i];
+  }
+}
+
 void CreaseModel::group() {
-  struct Group {
-    Eigen::Vector3d normal, sum = Eigen::Vector3d::Zero();
-    int count = 0, number = 0;
-  };
-  std::array<Group, most_groups> groups;
-  int n = 0;
-  const auto closest = [&](const Eigen::Vector3d& normal) {
-    int best = -1;
-    double most = same_face;
-    for (int g = 0; g < n; ++g) {
-      const double cosine = std::abs(groups[g].normal.dot(normal));
-      if (cosine > most) {
-        most = cosine;
-        best = g;
-      }
-    }
-    return best;
-  };
-  for (const Eigen::Vector3d& normal : std::span(normals_).first(size())) {
-    if (normal.isZero(0)) continue;
-    int g = closest(normal);
-    if (g < 0 && n == most_groups) continue;
-    if (g < 0) {
-      g = n++;
-      groups[g].normal = normal;
-      groups[g].number = g;
-    }
-    groups[g].sum += std::copysign(1, groups[g].normal.dot(normal)) * normal;
-    ++groups[g].count;
+  const auto n = static_cast<int>(known_.size());
+  joined_.assign(known_.size(), -1);
+  closest_.assign(known_.size(), same_face);
+  groups_ = 0;
+  for (int founder = 0; founder < n && groups_ < most_groups; ++founder) {
+    if (joined_[founder] >= 0) continue;
+    joinClosest(KnownNormals(normals_)[founder], groups_, founder, n);
+    joined_[founder] = groups_;  // also where rounding would not have it
+    founders_[groups_++] = founder;
   }
-  // The largest first, in their order; std::stable_sort would take memory.
-  std::sort(groups.begin(), groups.begin() + n, [](const Group& a, const Group& b) {
-    return a.count != b.count ? a.count > b.count : a.number < b.number;
-  });
+  group_.assign(joined_.begin(), joined_.end());
+}
+
+bool CreaseModel::startFaces() {
+  const KnownNormals normals(normals_);
+  const auto end = static_cast<int>(std::lower_bound(known_.begin(), known_.end(), size()) - known_.begin());
+  std::array<int, most_groups + 1> counts{};  // the first is of those of no group
+  for (int i = 0; i < end; ++i) ++counts[group_[i] + 1];
+  std::array<int, most_groups> largest{};
   count_ = 0;
-  for (; count_ < std::min(n, most_faces) && groups[count_].count >= least_members; ++count_) {
-    groups[count_].normal = groups[count_].sum.normalized();
-    faces_[count_].normal = groups[count_].normal;
-    faces_[count_].members.clear();
+  for (int g = 0; g < groups_; ++g)
+    if (counts[g + 1] >= least_members) largest[count_++] = g;
+  if (count_ < 2) return false;
+  // The largest first, in their order; std::stable_sort would take memory.
+  std::sort(largest.begin(), largest.begin() + count_, [&](int a, int b) {
+    return counts[a + 1] != counts[b + 1] ? counts[a + 1] > counts[b + 1] : a < b;
+  });
+  count_ = std::min(count_, most_faces);
+  std::array<Eigen::Vector3d, most_groups + 1> sums;
+  sums.fill(Eigen::Vector3d::Zero());
+  std::array<Eigen::Vector3d, most_groups + 1> first;
+  first[0].setZero();
+  for (int g = 0; g < groups_; ++g) first[g + 1] = normals[founders_[g]];
+  for (int i = 0; i < end; ++i) {
+    const int g = group_[i] + 1;
+    const Eigen::Vector3d normal = normals[i];
+    sums[g] += std::copysign(1, first[g].dot(normal)) * normal;
   }
-  n = count_;
-  for (int i = 0; i < size(); ++i) {
-    if (normals_[i].isZero(0)) continue;
-    const int g = closest(normals_[i]);
-    if (g >= 0) faces_[g].members.push_back(i);
+  std::fill_n(joined_.begin(), end, -1);
+  std::fill_n(closest_.begin(), end, same_face);
+  for (int f = 0; f < count_; ++f) {
+    faces_[f].normal = sums[largest[f] + 1].normalized();
+    faces_[f].members.clear();
+    joinClosest(faces_[f].normal, f, 0, end);
   }
+  for (int i = 0; i < end; ++i)
+    if (joined_[i] >= 0) faces_[static_cast<int>(joined_[i])].members.push_back(known_[i]);
+  return true;
 }
 
 /// A plane through the members, which is far steadier at its rim than a quadratic, or where they bend, a mean of both.
@@ -138,28 +166,38 @@ void CreaseModel::fitFaces() {
     if (!fitFace(faces_[f])) drop(f);
 }
 
-/// Takes the heights of all points over the faces, and the tangent planes.
-void CreaseModel::measure() {
+/// Finds the tangent planes next to the origin.
+void CreaseModel::findTangents() {
   for (Face& face : std::span(faces_).first(count_)) {
     const auto& c = face.coefficient;
-    face.heights.resize(static_cast<std::size_t>(size()));
-    const double *const x = coordinates_[0].data(), *const y = coordinates_[1].data(),
-                        *const z = coordinates_[2].data();
-    double* const heights = face.heights.data();
-    const double to_x = face.normal[0], to_y = face.normal[1], to_z = face.normal[2], at = unit_ * c[0];
-    for (int i = 0, n = size(); i < n; ++i) heights[i] = x[i] * to_x + y[i] * to_y + z[i] * to_z - at;
     face.tangent = face.normal;
     face.height = -unit_ * c[0];
     if (face.is_plane) continue;
-    for (int i = 0; i < size(); ++i) {
-      const Eigen::Vector3d position = positionOf(i) / unit_;
-      const double u = position.dot(face.first), v = position.dot(face.second);
-      heights[i] -= unit_ * (c[1] * u + c[2] * v + c[3] * u * u + c[4] * u * v + c[5] * v * v);
-    }
     const Eigen::Vector3d across = face.normal - c[1] * face.first - c[2] * face.second;
     const double length = across.norm();
     face.tangent = across / length;
     face.height /= length;
+  }
+}
+
+/// Takes the heights of all points over the faces.
+void CreaseModel::measure() {
+  const double *const x = coordinates_[0].data(), *const y = coordinates_[1].data(), *const z = coordinates_[2].data();
+  const int n = size();
+  const double unit = unit_;
+  for (Face& face : std::span(faces_).first(count_)) {
+    face.heights.resize(static_cast<std::size_t>(n));
+    double* const heights = face.heights.data();
+    const std::array<double, 6> c = face.coefficient;
+    const Eigen::Vector3d normal = face.normal, first = face.first, second = face.second;
+    for (int i = 0; i < n; ++i) heights[i] = x[i] * normal[0] + y[i] * normal[1] + z[i] * normal[2] - unit * c[0];
+    if (face.is_plane) continue;
+    for (int i = 0; i < n; ++i) {
+      const double px = x[i] / unit, py = y[i] / unit, pz = z[i] / unit;
+      const double u = px * first[0] + (py * first[1] + pz * first[2]);
+      const double v = px * second[0] + (py * second[1] + pz * second[2]);
+      heights[i] -= unit * (c[1] * u + c[2] * v + c[3] * u * u + c[4] * u * v + c[5] * v * v);
+    }
   }
 }
 
@@ -269,22 +307,19 @@ bool CreaseModel::isExplained() const {
 }
 
 bool CreaseModel::fit(int count) {
-  size_ = std::min<int>(count, static_cast<int>(normals_.size()));
-  group();
-  if (count_ < 2) return false;
+  size_ = std::min(count, points_);
+  if (!startFaces()) return false;
   fitFaces();
-  for (int round = 0; round < member_rounds; ++round) {
-    measure();
+  for (int round = 0;; ++round) {
+    findTangents();
     dropAlike();
     if (count_ < 2) return false;
+    measure();
     findSides();
+    if (round == member_rounds) break;
     for (int f = 0; f < count_; ++f) chooseMembers(f);
     fitFaces();
   }
-  measure();
-  dropAlike();
-  if (count_ < 2) return false;
-  findSides();
   return isExplained() && !isRounded();
 }
 

@@ -29,6 +29,9 @@ class CreaseModel {
   /// Points are added in ascending distance.
   /// @param normal of the surface there, zero where it is not known; its sign does not matter
   void add(const Eigen::RowVector3d& position, const Eigen::RowVector3d& normal);
+  /// Groups the points by their normals, after all are added: each in turn joins the group whose normal is most like
+  /// its own, or founds one.
+  void group();
   /// Finds the faces. False where fewer than two of them explain the points by noise alone.
   /// @param count of the points that are looked at, the first ones
   bool fit(int count);
@@ -37,6 +40,7 @@ class CreaseModel {
 
  private:
   static constexpr int most_faces = 4;
+  static constexpr int most_groups = 8;  ///< bevels between faces, which few points are on, are groups as well
 
   /// A quadratic over a plane, or a plane.
   struct Face {
@@ -50,9 +54,12 @@ class CreaseModel {
     Buffer<double> heights;            ///< of all points over it
   };
 
-  void group();
+  /// Of the groups that the first points make, the largest become faces. False where fewer than two do.
+  bool startFaces();
+  void joinClosest(const Eigen::Vector3d& normal, int group, int from, int to);
   bool fitFace(Face& face);
   void fitFaces();
+  void findTangents();
   void measure();
   void drop(int f);
   void dropAlike();
@@ -68,9 +75,17 @@ class CreaseModel {
 
   double variance_ = 0, unit_ = 1;
   std::array<Buffer<double>, 3> coordinates_;
-  Buffer<Eigen::Vector3d> normals_;
-  int size_ = 0;   ///< points that are looked at
-  int count_ = 0;  ///< faces
+  /// Of the points whose normals are known: these, and which they are.
+  std::array<Buffer<double>, 3> normals_;
+  Buffer<int> known_;
+  std::array<int, most_groups> founders_;  ///< of the groups, among these points
+  int groups_ = 0;
+  Buffer<int> group_;       ///< of each of these points, its group, or -1
+  Buffer<double> closest_;  ///< the cosine between its normal and that of the group
+  Buffer<double> joined_;   ///< as group_, of those that are being made
+  int points_ = 0;  ///< that were added
+  int size_ = 0;    ///< points that are looked at
+  int count_ = 0;   ///< faces
   std::array<Face, most_faces> faces_;
   OffsetBuffer offsets_;
   Buffer<std::uint8_t> is_member_;

@@ -82,6 +82,7 @@ void moveAlone(const PointsView& points, const WindowFitter& fitter, const Windo
   const Buffer<int> asked =
       numbersWhere("noise", n, workers, [&](int p) { return reached[p] != 0 || shared.settled[p] == 0; });
   findOutliers(fitter, asked, lists, workers, windows, noise);
+  fitter.spreadPools(alone, lists, windows);
 
   WindowChoice choice = chooseWindows(windows, noise, alone, workers);
   for (const int p : others)

@@ -28,16 +28,30 @@ class NeighborLists {
 
   /// @param neighbors ascending
   void put(int block, int w, std::span<const Neighbor> neighbors) {
-    Buffer<int>& ranks = blocks_[block];
+    auto& [ranks, skipped] = blocks_[block];
     places_[w] = {block, static_cast<int>(ranks.size()), static_cast<int>(neighbors.size())};
     for (const Neighbor& q : neighbors) ranks.push_back(q.index);
+    skipped.resize(ranks.size(), 0);
+  }
+
+  /// Keeps which neighbours of a window are left out, as WindowNeighbors has it.
+  void skip(int w, std::span<const std::uint8_t> skipped) {
+    const Place& place = places_[w];
+    std::copy(skipped.begin(), skipped.end(), blocks_[place.block].skipped.begin() + place.start);
   }
 
   /// Ranks of the neighbours, ascending in distance; none of windows that were not put in.
   std::span<const int> of(int w) const {
     const Place& place = places_[w];
     if (place.count == 0) return {};
-    return std::span<const int>(blocks_[place.block]).subspan(place.start, place.count);
+    return std::span<const int>(blocks_[place.block].ranks).subspan(place.start, place.count);
+  }
+
+  /// Of each of them, whether it is left out.
+  std::span<const std::uint8_t> skippedOf(int w) const {
+    const Place& place = places_[w];
+    if (place.count == 0) return {};
+    return std::span<const std::uint8_t>(blocks_[place.block].skipped).subspan(place.start, place.count);
   }
 
   /// Calls visit(w, neighbors) for each window w of a list, with the `count(w)` nearest of its middle.
@@ -60,8 +74,13 @@ class NeighborLists {
     int block = 0, start = 0, count = 0;
   };
 
+  struct Block {
+    Buffer<int> ranks;
+    Buffer<std::uint8_t> skipped;
+  };
+
   Buffer<Place> places_;
-  Buffer<Buffer<int>> blocks_;
+  Buffer<Block> blocks_;
 };
 
 }  // namespace tufted

@@ -14,17 +14,32 @@
 namespace tufted {
 namespace {
 
-/// Windows spread over some of the neighbours, of which those count that are the middle of a window.
+/// Windows spread over some of the neighbours.
 /// @param own the window that stands in where there is no other
-/// @param is_kept(i) whether the i-th neighbour counts
-template <class Test>
-void spread(const Windows& windows, int own, std::span<const Neighbor> neighbors, const Test& is_kept,
-            Buffer<int>& found, Windows::Pool& pool) {
-  found.clear();
-  for (std::size_t i = 0; i < neighbors.size(); ++i)
-    if (neighbors[i].index % windows.stride == 0 && is_kept(i)) found.push_back(neighbors[i].index / windows.stride);
-  if (found.empty()) return pool.fill(own);
-  for (std::size_t i = 0; i < pool.size(); ++i) pool[i] = found[i * found.size() / pool.size()];
+/// @param kept neighbours that are the middle of a window and not left out: those windows
+void spread(int own, std::span<const int> kept, Windows::Pool& pool) {
+  if (kept.empty()) return pool.fill(own);
+  for (std::size_t i = 0; i < pool.size(); ++i) pool[i] = kept[i * kept.size() / pool.size()];
+}
+
+/// Spreads all pools of a window.
+/// @param rank(i) of the i-th neighbour
+/// @param kept memory
+template <class Rank>
+void spreadAll(int w, const Rank& rank, std::span<const std::uint8_t> skipped, Buffer<int>& kept, Windows& windows) {
+  kept.clear();
+  // A base window holds few middles of windows that lie around every eighth point.
+  const int near = windows.stride == 1 ? windows.base[w] : 2 * windows.base[w];
+  const auto most = static_cast<int>(skipped.size());
+  int from = 0;
+  const auto pool = [&](int count, Windows::Pool& to) {
+    for (; from < std::min(count, most); ++from)
+      if (skipped[from] == 0 && rank(from) % windows.stride == 0) kept.push_back(rank(from) / windows.stride);
+    spread(w, kept, to);
+  };
+  pool(near, windows.near[w]);
+  pool(2 * windows.base[w], windows.middle[w]);
+  pool(4 * windows.base[w], windows.far[w]);
 }
 
 void takePlane(int w, const PrincipalAxes& axes, Windows& windows) {
@@ -77,8 +92,14 @@ class BlockFitter {
 
   /// @param lists null, or where block `block` gets the neighbours
   void take(std::span<const int> which, NeighborLists* lists, int block) {
-    const auto keep = [&](int w, std::span<const Neighbor> neighbors) {
-      if (lists != nullptr) lists->put(block, w, neighbors);
+    const auto fitAndKeep = [&](int w, std::span<const Neighbor> neighbors) {
+      fit(w, neighbors, {});
+      if (lists != nullptr) {
+        lists->put(block, w, neighbors);
+        return lists->skip(w, around_.skipped);
+      }
+      if (windows_.fitted < Windows::sizes) return;  // nobody averages over them
+      spreadAll(w, [&](int i) { return neighbors[i].index; }, around_.skipped, listed_, windows_);
     };
     again_.clear();
     search_.forEach(
@@ -87,22 +108,19 @@ class BlockFitter {
           const int searched = widest(w);
           fitPlane(w, neighbors);
           if (widest(w) != searched) return again_.push_back(w);  // it has grown along a line
-          keep(w, neighbors);
-          fit(w, neighbors, {});
+          fitAndKeep(w, neighbors);
         });
-    search_.forEach(
-        again_, [&](int w) { return widest(w); },
-        [&](int w, std::span<const Neighbor> neighbors) {
-          keep(w, neighbors);
-          fit(w, neighbors, {});
-        });
+    search_.forEach(again_, [&](int w) { return widest(w); }, fitAndKeep);
     queue_.solve();
   }
 
-  void refit(std::span<const int> which, const NeighborLists& lists, const Buffer<std::uint8_t>& left_out) {
+  void refit(std::span<const int> which, NeighborLists& lists, const Buffer<std::uint8_t>& left_out) {
     lists.forEach(
         points_, windows_, which, [&](int w) { return widest(w); },
-        [&](int w, std::span<const Neighbor> neighbors) { fit(w, neighbors, left_out); });
+        [&](int w, std::span<const Neighbor> neighbors) {
+          fit(w, neighbors, left_out);
+          lists.skip(w, around_.skipped);
+        });
     queue_.solve();
   }
 
@@ -155,16 +173,6 @@ class BlockFitter {
             std::hypot(total.sums.u, total.sums.v) / total.count * windows_.radius[w] / windows_.fits[w][size].radius;
       queue_.add(w, size, total);
     }
-    if (windows_.fitted < Windows::sizes) return;  // nobody averages over them
-    const auto pool = [&](int count, Windows::Pool& to) {
-      const auto some = neighbors.first(static_cast<std::size_t>(std::min(count, most)));
-      spread(
-          windows_, w, some, [&](std::size_t i) { return around_.skipped[i] == 0; }, listed_, to);
-    };
-    // A base window holds few middles of windows that lie around every eighth point.
-    pool(windows_.stride == 1 ? 2 * half : 4 * half, windows_.near[w]);
-    pool(4 * half, windows_.middle[w]);
-    pool(8 * half, windows_.far[w]);
   }
 
   PointsView points_;
@@ -250,10 +258,20 @@ void WindowFitter::take(std::span<const int> which, Windows& windows, NeighborLi
   });
 }
 
-void WindowFitter::refit(std::span<const int> which, const NeighborLists& lists, const Buffer<std::uint8_t>& left_out,
+void WindowFitter::refit(std::span<const int> which, NeighborLists& lists, const Buffer<std::uint8_t>& left_out,
                          Windows& windows) const {
   workers_.forBlocks("noise", std::ssize(which), costly_block, [&](std::int64_t begin, std::int64_t end, int) {
     BlockFitter(points_, source_, windows).refit(which.subspan(begin, end - begin), lists, left_out);
+  });
+}
+
+void WindowFitter::spreadPools(std::span<const int> which, const NeighborLists& lists, Windows& windows) const {
+  workers_.forBlocks("noise", std::ssize(which), costly_block, [&](std::int64_t begin, std::int64_t end, int) {
+    Buffer<int> kept;
+    for (const int w : which.subspan(begin, end - begin)) {
+      const std::span<const int> ranks = lists.of(w);
+      spreadAll(w, [&](int i) { return ranks[i]; }, lists.skippedOf(w), kept, windows);
+    }
   });
 }
 

@@ -78,13 +78,15 @@ class WindowFitter {
       : points_(points), source_(source), workers_(workers) {}
 
   /// Planes of the base windows of some points, and quadratics in the first `fitted` ones.
-  /// @param[out] lists gets the neighbours of each; null: they are not kept
+  /// @param[out] lists gets the neighbours of each, and there are no pools yet; null: they are not kept
   void take(std::span<const int> which, Windows& windows, NeighborLists* lists = nullptr) const;
   /// Fits the quadratics of some windows again.
   /// @param lists with the neighbours of each
   /// @param left_out n; points with an entry other than 0 are in no fit but their own
-  void refit(std::span<const int> which, const NeighborLists& lists, const Buffer<std::uint8_t>& left_out,
+  void refit(std::span<const int> which, NeighborLists& lists, const Buffer<std::uint8_t>& left_out,
              Windows& windows) const;
+  /// Spreads the pools of some windows around every point over the neighbours that their fits are through.
+  void spreadPools(std::span<const int> which, const NeighborLists& lists, Windows& windows) const;
 
  private:
   PointsView points_;
