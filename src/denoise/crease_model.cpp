@@ -67,9 +67,9 @@ void CreaseModel::joinClosest(const Eigen::Vector3d& normal, int group, int from
   const double number = group;
   for (int i = from; i < to; ++i) {
     const double cosine = std::abs(normals.x[i] * x + (normals.y[i] * y + normals.z[i] * z));
-    const bool is_closer = cosine > closest[i];
-    closest[i] = is_closer ? cosine : closest[i];
-    joined[i] = is_closer ? number : joined[i];
+    const double is_closer = cosine > closest[i] ? 1 : 0;  // a factor and no branch, so that packets are computed
+    closest[i] = cosine > closest[i] ? cosine : closest[i];
+    joined[i] += is_closer * (number - joined[i]);
   }
 }
 
@@ -98,9 +98,8 @@ bool CreaseModel::startFaces() {
     if (counts[g + 1] >= least_members) largest[count_++] = g;
   if (count_ < 2) return false;
   // The largest first, in their order; std::stable_sort would take memory.
-  std::sort(largest.begin(), largest.begin() + count_, [&](int a, int b) {
-    return counts[a + 1] != counts[b + 1] ? counts[a + 1] > counts[b + 1] : a < b;
-  });
+  std::sort(largest.begin(), largest.begin() + count_,
+            [&](int a, int b) { return counts[a + 1] != counts[b + 1] ? counts[a + 1] > counts[b + 1] : a < b; });
   count_ = std::min(count_, most_faces);
   std::array<Eigen::Vector3d, most_groups + 1> sums;
   sums.fill(Eigen::Vector3d::Zero());

@@ -83,9 +83,9 @@ class CreaseModel {
   Buffer<int> group_;       ///< of each of these points, its group, or -1
   Buffer<double> closest_;  ///< the cosine between its normal and that of the group
   Buffer<double> joined_;   ///< as group_, of those that are being made
-  int points_ = 0;  ///< that were added
-  int size_ = 0;    ///< points that are looked at
-  int count_ = 0;   ///< faces
+  int points_ = 0;          ///< that were added
+  int size_ = 0;            ///< points that are looked at
+  int count_ = 0;           ///< faces
   std::array<Face, most_faces> faces_;
   OffsetBuffer offsets_;
   Buffer<std::uint8_t> is_member_;

@@ -152,10 +152,6 @@ class CreaseMover {
     return model.fit(all) || model.fit(all / 2);  // all may be around more than one crease
   }
 
-  Eigen::RowVector3d normalOf(int p, int window) const {
-    return surfaceAt(windows_, p, window, Eigen::Vector3d::Zero()).normal.transpose();
-  }
-
  private:
   PointsView points_;
   const NeighborLists& lists_;
@@ -204,14 +200,10 @@ bool areOfSeveralFaces(const Windows::Pool& pool, const PointBuffer& normals) {
 
 Buffer<std::uint8_t> moveNextToCreases(const PointsView& points, const NeighborLists& lists, const Windows& windows,
                                        const NoiseLevel& noise, const WindowChoice& choice, std::span<const int> which,
-                                       std::span<const int> fitted, const Workers& workers, PointBuffer& move) {
+                                       std::span<const int> around, const Workers& workers, PointBuffer& normals,
+                                       PointBuffer& move) {
   const CreaseMover mover(points, lists, windows, noise);
   Buffer<std::uint8_t> is_moved(windows.base.size(), 0);
-  PointBuffer normals(windows.size());
-  workers.forBlocks("noise", std::ssize(fitted), star_block, [&](std::int64_t begin, std::int64_t end, int) {
-    for (const int p : fitted.subspan(begin, end - begin))
-      normals.row(p) = mover.normalOf(p, std::max<int>(choice.window[p], Windows::base_size));
-  });
   const auto forEachListed = [&](std::span<const int> list, const auto& visit) {
     workers.forBlocks("noise", std::ssize(list), costly_block, [&](std::int64_t begin, std::int64_t end, int) {
       CreaseScratch scratch;
@@ -234,8 +226,8 @@ Buffer<std::uint8_t> moveNextToCreases(const PointsView& points, const NeighborL
   // Where faces meet, residuals grow from window to window as if there were no noise, and corners look like outliers:
   // so points that are not noisy count as well.
   PointBuffer known(windows.size());  // the normals around points whose windows lie within one face, else zero
-  workers.forBlocks("noise", std::ssize(fitted), star_block, [&](std::int64_t begin, std::int64_t end, int) {
-    for (const int p : fitted.subspan(begin, end - begin)) {
+  workers.forBlocks("noise", std::ssize(around), star_block, [&](std::int64_t begin, std::int64_t end, int) {
+    for (const int p : around.subspan(begin, end - begin)) {
       const bool is_known = noise.noisy[p] != 0 && (choice.window[p] >= Windows::base_size || is_moved[p] != 0);
       known.row(p) = is_known ? Eigen::RowVector3d(normals.row(p)) : Eigen::RowVector3d::Zero();
     }

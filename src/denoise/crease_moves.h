@@ -16,11 +16,13 @@ namespace tufted {
 /// @param lists the neighbours of all points that may be moved
 /// @param windows around every point
 /// @param which points that may be moved
-/// @param fitted those that have windows: these, and all others in windows of these
+/// @param around these, and all others in windows of these
+/// @param normals n x 3, of the surface around each of these; overwritten where a point moves so
 /// @param move n x 3, of all points by their own windows; overwritten where a point moves so
 /// @returns n, 1 where a point moves so
 Buffer<std::uint8_t> moveNextToCreases(const PointsView& points, const NeighborLists& lists, const Windows& windows,
                                        const NoiseLevel& noise, const WindowChoice& choice, std::span<const int> which,
-                                       std::span<const int> fitted, const Workers& workers, PointBuffer& move);
+                                       std::span<const int> around, const Workers& workers, PointBuffer& normals,
+                                       PointBuffer& move);
 
 }  // namespace tufted

@@ -12,6 +12,7 @@
 #include "denoise/rim_moves.h"
 #include "denoise/shared_surfaces.h"
 #include "denoise/window_choice.h"
+#include "denoise/window_surface.h"
 #include "stars/displacements.h"
 #include "stars/tangent_frame.h"
 
@@ -20,6 +21,8 @@ namespace {
 
 constexpr int widest_stride = 8;        // of 64 neighbours, the smallest window that is shared, eight are middles
 constexpr int points_per_stride = 500;  // of small clouds every point has windows
+constexpr int fitted_near = 3;          // windows of a settled point next to others; it is in no wider window of theirs
+constexpr std::uint8_t reached_near = 1, reached_far = 2;
 
 /// Moves points once more, by their windows as before, onto the surface through where their neighbours are by now.
 void moveAgain(const PointsView& points, const NeighborLists& lists, const Windows& windows, const NoiseLevel& noise,
@@ -52,6 +55,36 @@ void moveAgain(const PointsView& points, const NeighborLists& lists, const Windo
   });
 }
 
+/// Marks the neighbours of some points.
+/// @returns n, reached_near or reached_far, or 0
+Buffer<std::uint8_t> reachedFrom(std::span<const int> from, const NeighborLists& lists, const Windows& windows,
+                                 const Workers& workers) {
+  Buffer<std::uint8_t> reached(windows.base.size(), 0);
+  workers.forBlocks("noise", std::ssize(from), usual_block, [&](std::int64_t begin, std::int64_t end, int) {
+    for (const int p : from.subspan(begin, end - begin)) {
+      const std::span<const int> all = lists.of(p);
+      const auto near = std::min<std::size_t>(all.size(), windows.base[p] / 2 << (fitted_near - 1));
+      for (const int q : all.first(near)) std::atomic_ref(reached[q]).fetch_or(reached_near, std::memory_order_relaxed);
+      for (const int q : all.subspan(near))
+        std::atomic_ref(reached[q]).fetch_or(reached_far, std::memory_order_relaxed);
+    }
+  });
+  for (std::uint8_t& how : reached)
+    if ((how & reached_near) != 0) how = reached_near;
+  return reached;
+}
+
+/// The normals of the surface around points, of the windows that were chosen.
+void findNormals(std::span<const int> which, const Windows& windows, const WindowChoice& choice, const Workers& workers,
+                 PointBuffer& normals) {
+  workers.forBlocks("noise", std::ssize(which), star_block, [&](std::int64_t begin, std::int64_t end, int) {
+    for (const int p : which.subspan(begin, end - begin)) {
+      const int window = std::max(choice.window[p], Windows::base_size);
+      normals.row(p) = surfaceAt(windows, p, window, Eigen::Vector3d::Zero()).normal.transpose();
+    }
+  });
+}
+
 /// Moves the points that the shared surfaces have not settled, each by windows of its own.
 void moveAlone(const PointsView& points, const WindowFitter& fitter, const Windows& around_some,
                const NoiseLevel& noise_of_some, const SharedSurfaces& shared, const Workers& workers,
@@ -71,26 +104,39 @@ void moveAlone(const PointsView& points, const WindowFitter& fitter, const Windo
   }
   NeighborLists lists(n);
   fitter.take(alone, windows, &lists);
-  Buffer<std::uint8_t> reached(shared.settled.size(), 0);
-  workers.forBlocks("noise", std::ssize(alone), usual_block, [&](std::int64_t begin, std::int64_t end, int) {
-    for (const int p : std::span(alone).subspan(begin, end - begin))
-      for (const int q : lists.of(p)) std::atomic_ref(reached[q]).store(1, std::memory_order_relaxed);
-  });
-  const Buffer<int> others =
-      numbersWhere("noise", n, workers, [&](int p) { return reached[p] != 0 && shared.settled[p] != 0; });
-  fitter.take(others, windows, &lists);
+  const Buffer<std::uint8_t> reached = reachedFrom(alone, lists, windows, workers);
+  const auto settledWhere = [&](std::uint8_t how) {
+    return numbersWhere("noise", n, workers, [&](int p) { return reached[p] == how && shared.settled[p] != 0; });
+  };
+  const Buffer<int> near = settledWhere(reached_near), far = settledWhere(reached_far);
+  for (const int p : far) windows.fits[p] = {};
+  windows.fitted = fitted_near;
+  fitter.take(near, windows, &lists);
+  windows.fitted = Windows::sizes;
   const Buffer<int> asked =
-      numbersWhere("noise", n, workers, [&](int p) { return reached[p] != 0 || shared.settled[p] == 0; });
+      numbersWhere("noise", n, workers, [&](int p) { return reached[p] == reached_near || shared.settled[p] == 0; });
   findOutliers(fitter, asked, lists, workers, windows, noise);
   fitter.spreadPools(alone, lists, windows);
 
   WindowChoice choice = chooseWindows(windows, noise, alone, workers);
-  for (const int p : others)
-    choice.window[p] = noise.noisy[p] != 0 ? Windows::base_size : -1;  // the surface is smooth there
+  for (const Buffer<int>* const others : {&near, &far})
+    for (const int p : *others)
+      choice.window[p] = noise.noisy[p] != 0 ? Windows::base_size : -1;  // the surface is smooth there
   for (const int p : alone)
     if (choice.window[p] >= 0) result.move.row(p) = windows.fits[p][choice.window[p]].height * windows.normal.row(p);
+  PointBuffer normals(n);
+  findNormals(asked, windows, choice, workers, normals);
+  workers.forBlocks("noise", std::ssize(far), star_block, [&](std::int64_t begin, std::int64_t end, int) {
+    for (const int p : std::span(far).subspan(begin, end - begin)) {
+      const int w = shared.nearest[p];
+      const Eigen::Vector3d d = (points.row(p) - points.row(around_some.pointOf(w))).transpose();
+      normals.row(p) = surfaceAt(around_some, w, Windows::base_size, d).normal.transpose();
+    }
+  });
+  const Buffer<int> all =
+      numbersWhere("noise", n, workers, [&](int p) { return reached[p] != 0 || shared.settled[p] == 0; });
   const Buffer<std::uint8_t> next_to_crease =
-      moveNextToCreases(points, lists, windows, noise, choice, alone, asked, workers, result.move);
+      moveNextToCreases(points, lists, windows, noise, choice, alone, all, workers, normals, result.move);
   for (const int p : alone)
     if (next_to_crease[p] != 0) noise.outlier[p] = 0;  // it only looked like one next to a crease
   const Buffer<int> again = listedWhere(alone, workers, [&](int p) {

@@ -179,8 +179,8 @@ NoiseLevel findNoise(const WindowFitter& fitter, const Workers& workers, Windows
   return noise;
 }
 
-void findOutliers(const WindowFitter& fitter, std::span<const int> which, NeighborLists& lists,
-                  const Workers& workers, Windows& windows, NoiseLevel& noise) {
+void findOutliers(const WindowFitter& fitter, std::span<const int> which, NeighborLists& lists, const Workers& workers,
+                  Windows& windows, NoiseLevel& noise) {
   Buffer<std::uint8_t> is_new(windows.base.size(), 0);
   for (int round = 0; round < outlier_rounds; ++round) {
     const Buffer<int> found = listedWhere(

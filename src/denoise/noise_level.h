@@ -46,7 +46,7 @@ NoiseLevel findNoise(const WindowFitter& fitter, const Workers& workers, Windows
 /// @param lists their neighbours
 /// @param windows around every point
 /// @param noise whose outliers are found
-void findOutliers(const WindowFitter& fitter, std::span<const int> which, NeighborLists& lists,
-                  const Workers& workers, Windows& windows, NoiseLevel& noise);
+void findOutliers(const WindowFitter& fitter, std::span<const int> which, NeighborLists& lists, const Workers& workers,
+                  Windows& windows, NoiseLevel& noise);
 
 }  // namespace tufted

@@ -16,9 +16,18 @@ constexpr double relative = 1.6;  // of the residuals' variance by that of the s
 /// Of the spacing: no wider window once the remaining error is that small, by window.
 constexpr std::array<double, Windows::sizes> enough = {0, 0, 0.02, 0.05};
 
-const Windows::Pool& poolOf(const Windows& windows, int p, int window) {
-  if (window > 2 || windows.stride > 1) return windows.far[p];  // else there are few
-  return window < 2 ? windows.near[p] : windows.middle[p];
+/// The windows whose fits are averaged to judge a window. Around points alone, settled ones have no fits in the widest
+/// windows: the surface is smooth there.
+Windows::Pool poolOf(const Windows& windows, int p, int window) {
+  if (windows.stride > 1) return windows.far[p];  // else there are few
+  if (window < Windows::sizes - 1) return window < 2 ? windows.near[p] : windows.middle[p];
+  Windows::Pool found, pool;
+  const auto end =
+      std::ranges::copy_if(windows.far[p], found.begin(), [&](int q) { return windows.fits[q][window].count > 0; }).out;
+  const auto count = static_cast<std::size_t>(end - found.begin());
+  if (count == 0) found[0] = p;
+  for (std::size_t i = 0; i < pool.size(); ++i) pool[i] = found[i * count / pool.size()];
+  return pool;
 }
 
 /// What speaks for a window around one point, and against it.
@@ -37,7 +46,8 @@ class Choice {
 
   /// Whether the surface is a quadratic there, as far as the noise lets one see.
   bool isFlat(int window) const {
-    const auto mean = [&](const auto& value) { return pooledMean(p_, poolOf(windows_, p_, window), value); };
+    const Windows::Pool pool = poolOf(windows_, p_, window);
+    const auto mean = [&](const auto& value) { return pooledMean(p_, pool, value); };
     const double shifted = mean([&](int q) {
       const double d = noise_.outlier[q] != 0 ? 0 : height(q, window) - height(q, window - 1);
       return d * d;

@@ -99,7 +99,8 @@ class BlockFitter {
         return lists->skip(w, around_.skipped);
       }
       if (windows_.fitted < Windows::sizes) return;  // nobody averages over them
-      spreadAll(w, [&](int i) { return neighbors[i].index; }, around_.skipped, listed_, windows_);
+      spreadAll(
+          w, [&](int i) { return neighbors[i].index; }, around_.skipped, listed_, windows_);
     };
     again_.clear();
     search_.forEach(
@@ -110,7 +111,8 @@ class BlockFitter {
           if (widest(w) != searched) return again_.push_back(w);  // it has grown along a line
           fitAndKeep(w, neighbors);
         });
-    search_.forEach(again_, [&](int w) { return widest(w); }, fitAndKeep);
+    search_.forEach(
+        again_, [&](int w) { return widest(w); }, fitAndKeep);
     queue_.solve();
   }
 
@@ -270,7 +272,8 @@ void WindowFitter::spreadPools(std::span<const int> which, const NeighborLists& 
     Buffer<int> kept;
     for (const int w : which.subspan(begin, end - begin)) {
       const std::span<const int> ranks = lists.of(w);
-      spreadAll(w, [&](int i) { return ranks[i]; }, lists.skippedOf(w), kept, windows);
+      spreadAll(
+          w, [&](int i) { return ranks[i]; }, lists.skippedOf(w), kept, windows);
     }
   });
 }
