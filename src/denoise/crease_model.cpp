@@ -41,21 +41,23 @@ struct KnownNormals {
 
 }  // namespace
 
-void CreaseModel::start(double variance, double unit) {
+void CreaseModel::start(int most, double variance, double unit) {
   variance_ = variance;
   unit_ = unit;
-  points_ = 0;
-  for (Buffer<double>& coordinate : coordinates_) coordinate.clear();
-  for (Buffer<double>& coordinate : normals_) coordinate.clear();
-  known_.clear();
+  points_ = normals_known_ = 0;
+  const auto room = static_cast<std::size_t>(most);
+  if (known_.size() >= room) return;
+  for (Buffer<double>& coordinate : coordinates_) coordinate.resize(room);
+  for (Buffer<double>& coordinate : normals_) coordinate.resize(room);
+  known_.resize(room);
 }
 
 void CreaseModel::add(const Eigen::RowVector3d& position, const Eigen::RowVector3d& normal) {
-  for (int axis = 0; axis < 3; ++axis) coordinates_[axis].push_back(position[axis]);
+  for (int axis = 0; axis < 3; ++axis) coordinates_[axis][points_] = position[axis];
   const int i = points_++;
   if (normal.isZero(0)) return;
-  for (int axis = 0; axis < 3; ++axis) normals_[axis].push_back(normal[axis]);
-  known_.push_back(i);
+  for (int axis = 0; axis < 3; ++axis) normals_[axis][normals_known_] = normal[axis];
+  known_[normals_known_++] = i;
 }
 
 /// Points whose normals are more like this one than like that of their group join this group.
@@ -74,9 +76,9 @@ void CreaseModel::joinClosest(const Eigen::Vector3d& normal, int group, int from
 }
 
 void CreaseModel::group() {
-  const auto n = static_cast<int>(known_.size());
-  joined_.assign(known_.size(), -1);
-  closest_.assign(known_.size(), same_face);
+  const int n = normals_known_;
+  joined_.assign(static_cast<std::size_t>(n), -1);
+  closest_.assign(static_cast<std::size_t>(n), same_face);
   groups_ = 0;
   for (int founder = 0; founder < n && groups_ < most_groups; ++founder) {
     if (joined_[founder] >= 0) continue;
@@ -89,7 +91,8 @@ void CreaseModel::group() {
 
 bool CreaseModel::startFaces() {
   const KnownNormals normals(normals_);
-  const auto end = static_cast<int>(std::lower_bound(known_.begin(), known_.end(), size()) - known_.begin());
+  const auto end =
+      static_cast<int>(std::lower_bound(known_.begin(), known_.begin() + normals_known_, size()) - known_.begin());
   std::array<int, most_groups + 1> counts{};  // the first is of those of no group
   for (int i = 0; i < end; ++i) ++counts[group_[i] + 1];
   std::array<int, most_groups> largest{};

@@ -23,9 +23,10 @@ class CreaseModel {
   static constexpr double same_face = 0.77;
 
   /// Forgets all points.
+  /// @param most of the points that will be added
   /// @param variance of the noise
   /// @param unit of lengths, about the extent of the points
-  void start(double variance, double unit);
+  void start(int most, double variance, double unit);
   /// Points are added in ascending distance.
   /// @param normal of the surface there, zero where it is not known; its sign does not matter
   void add(const Eigen::RowVector3d& position, const Eigen::RowVector3d& normal);
@@ -84,6 +85,7 @@ class CreaseModel {
   Buffer<double> closest_;  ///< the cosine between its normal and that of the group
   Buffer<double> joined_;   ///< as group_, of those that are being made
   int points_ = 0;          ///< that were added
+  int normals_known_ = 0;   ///< points whose normals are known
   int size_ = 0;            ///< points that are looked at
   int count_ = 0;           ///< faces
   std::array<Face, most_faces> faces_;

@@ -143,7 +143,7 @@ class CreaseMover {
   bool findFaces(int p, const PointBuffer& known, CreaseModel& model) const {
     const std::span<const int> around = lists_.of(p);
     const std::span<const std::uint8_t> skipped = lists_.skippedOf(p);
-    model.start(noise_.variance[p], windows_.radius[p]);
+    model.start(static_cast<int>(around.size()) + 1, noise_.variance[p], windows_.radius[p]);
     model.add(Eigen::RowVector3d::Zero(), known.row(p));
     for (std::size_t i = 0; i < around.size(); ++i)
       if (skipped[i] == 0) model.add(points_.row(around[i]) - points_.row(p), known.row(around[i]));

@@ -238,18 +238,12 @@ void WindowNeighbors::take(const PointsView& points, const Windows& windows, int
   const Eigen::Vector3d normal = windows.normal.row(w).transpose();
   const HeightRange range =
       kernels().connectedHeights(offsets.view(), normal.data(), sheet_gap * windows.radius[w], heights.data());
-  bool any = false;
   skipped.resize(all.size());
-  for (std::size_t i = 0; i < all.size(); ++i) {
+  for (int i = 0; i < count; ++i) {
     const bool is_out = !left_out.empty() && left_out[all[i].index] != 0;
     skipped[i] = is_out || heights[i] < range.lowest || heights[i] > range.highest ? 1 : 0;
-    any |= skipped[i] != 0;
+    if (skipped[i] != 0) offsets.clear(i);
   }
-  if (!any) return;
-  offsets.fill(count, [&](int i) -> Eigen::RowVector3d {
-    if (skipped[i] != 0) return Eigen::RowVector3d::Zero();
-    return points.row(all[i].index) - points.row(p);
-  });
 }
 
 void WindowFitter::take(std::span<const int> which, Windows& windows, NeighborLists* lists) const {

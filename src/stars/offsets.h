@@ -37,6 +37,9 @@ class OffsetBuffer {
     for (int i = count; i < toPackets(count); ++i) x[i] = y[i] = z[i] = 0;
   }
 
+  /// Makes the i-th offset 0, which adds nothing to sums.
+  void clear(int i) { axis(0)[i] = axis(1)[i] = axis(2)[i] = 0; }
+
   /// Takes those of the others whose heights are in the range; `others` may be this buffer.
   void takeConnected(const OffsetBuffer& others, const double* heights, const HeightRange& range) {
     const Offsets given = others.view();
