@@ -17,7 +17,7 @@ namespace {
 constexpr std::array<int, 3> strides = {3, SmoothedRanges::widest_stride, 4};  // pixels apart, pass by pass
 constexpr std::ptrdiff_t passes_of_rings = 1;
 constexpr double tolerance = 2;        // standard deviations of noise between two smoothed values
-constexpr double harmless = 0.01;      // of the squared spacing: a tenth of it in noise
+constexpr double harmless = 0.0025;    // of the squared spacing: a twentieth of it in noise
 constexpr double steepest = 4;         // pixels along the line of sight for one across
 constexpr std::int64_t samples = 500;  // packets of pixels, to see what noise smoothed values have
 constexpr double quiet = 0.25;         // of the windows have nothing but noise
