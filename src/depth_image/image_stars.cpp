@@ -21,6 +21,7 @@ constexpr int first_rings = 2;  // of the window that the plane is fitted to and
 constexpr int enough = 12;      // points in a window; where there are fewer it is widened
 constexpr int most_rings = 24;
 constexpr int most_certain_rings = 12;
+constexpr double low_angle = 0.15;  // cosine between sight and normal, 8.6 degrees above the surface
 
 constexpr std::uint64_t first_window = WindowPixels::rings(first_rings);
 static_assert(WindowPixels::inRings(first_rings) == pixels_around && WindowPixels::inRings(1) == pixels_beside);
@@ -43,7 +44,6 @@ class ImageStarBuilder {
         is_exact_(image.windows.moved == 0),
         is_stretched_(image.grid.goes_round && is_exact_),
         rings_of_whole_(image.grid.goes_round && !is_exact_ ? WindowPixels::reach : first_rings),
-        most_rings_of_star_(is_exact_ && !image.grid.goes_round ? most_certain_rings : WindowPixels::reach),
         stars_(built.stars),
         support_(built.support) {
     for (int i = 0; i < pixels_around; ++i)
@@ -165,17 +165,28 @@ class ImageStarBuilder {
     }
   }
 
-  /// The star among the points of the window, and of wider ones until no point beyond can change it. Where the ranges
-  /// of an image are noise, so are points far away, and the window of SurfaceWindows is the widest.
+  /// The star among the points of the window, and of wider ones until no point beyond can change it.
   void findStar(int p, const PixelFrame& frame, double unit, WorkerState& state) const {
     PixelWindow& window = state.window;
     const DelaunayStar& star = state.memory.star;
     for (int rings = window.rings();; ++state.grown_stars) {
       wrapping_.wrap(p, frame.normal, unit, window.offsets(), window.neighbors(), state.memory);
       if (star.closed && isCertain(star, window, unit)) break;
-      if (widened(rings) > most_rings_of_star_) break;
+      if (widened(rings) > WindowPixels::reach && widened(rings) > mostRingsOfStar(p, frame)) break;
       widen(p, rings, window);
     }
+  }
+
+  /// Where the ranges of an image are noise, so are points far away, and the window of SurfaceWindows is the widest.
+  /// But along the rim of a body that curves away from the sensor neighbours in space are many pixels apart. Such a
+  /// surface is seen at a low angle, so that noise lies along it; and its points are farther from each other than noise
+  /// goes, or the angle would be one of noise.
+  int mostRingsOfStar(int p, const PixelFrame& frame) const {
+    if (image_.grid.goes_round) return WindowPixels::reach;
+    const Eigen::Vector3d sight = (image_.points.row(p) - image_.grid.origin).transpose();
+    const bool is_low = std::abs(sight.dot(frame.normal)) < low_angle * sight.norm();
+    if (is_low && image_.test.tolerance * sight.squaredNorm() <= frame.radius) return most_rings;
+    return is_exact_ ? most_certain_rings : WindowPixels::reach;
   }
 
   /// Whether no pixel beyond the window lies in a circle of the star: on a smooth surface the next ring is one step
@@ -203,7 +214,6 @@ class ImageStarBuilder {
   bool is_exact_;                                      ///< no point moves
   bool is_stretched_;                                  ///< rows alone tell how far the next ring is
   int rings_of_whole_;                                 ///< of the window of a star that is more than the pixels beside
-  int most_rings_of_star_;                             ///< of its window
   std::array<std::ptrdiff_t, pixels_around> shift_{};  ///< in the image
   Stars& stars_;
   StarSupport& support_;

@@ -1,8 +1,11 @@
 #include "depth_image/range_fit.h"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
+#include <cstdint>
 
 #include "depth_image/window_pixels.h"
 
@@ -20,6 +23,7 @@ constexpr double further_share = 1.0 / 8;         // of the variance that a fit 
 constexpr double further_share_nearer = 1.0 / 4;  // over 5 x 5
 constexpr int least_of_wide = 20;                 // pixels of a plane over 7 x 7, that of p included
 constexpr int least_of_narrow = 12;               // over 5 x 5
+constexpr double steep_squared = 1;               // change per pixel, in variances of the noise
 
 /// Variance of the value in the middle, by that of each pixel.
 template <int Reach>
@@ -30,18 +34,31 @@ double quadraticLeverage() {
   return 1 / pixels + 2 * mean_square * mean_square / bowl;
 }
 
+/// The inverse range of a pixel of the window, less that of the middle one.
+double rise(const PixelRows& ranges, const PixelStep& step) {
+  return ranges.at[step.row * ranges.row_step + step.column * ranges.column_step] - ranges.at[0];
+}
+
 /// A plane over some pixels of the window.
-/// @param most_variance of the residuals
-std::optional<SmoothedRange> fitPlane(const PixelRows& ranges, std::uint64_t around, int least_pixels,
-                                      double most_variance) {
+struct PlaneFit {
+  double value, variance;  ///< as SquareFit
+  double leverage;         ///< variance of the value, by that of each pixel
+  double slope_squared;    ///< how much a pixel changes it
+
+  std::optional<SmoothedRange> within(double most_variance) const {
+    if (!std::isfinite(value) || !(variance <= most_variance)) return std::nullopt;
+    return SmoothedRange{value, leverage * std::max(variance, most_variance / most_misfit)};
+  }
+};
+
+std::optional<PlaneFit> fitPlane(const PixelRows& ranges, std::uint64_t around, int least_pixels) {
   const int count = std::popcount(around) + 1;
   if (count < least_pixels) return std::nullopt;
-  const double middle = ranges.at[0];
   double all = 0, by_row = 0, by_column = 0, squares = 0;
   int rows = 0, columns = 0, rows_rows = 0, rows_columns = 0, columns_columns = 0;
   forEachPixel(around, [&](int pixel) {
     const auto [row, column] = window_pixels.step[pixel];
-    const double w = ranges.at[row * ranges.row_step + column * ranges.column_step] - middle;
+    const double w = rise(ranges, {row, column});
     all += w;
     by_row += row * w;
     by_column += column * w;
@@ -64,8 +81,73 @@ std::optional<SmoothedRange> fitPlane(const PixelRows& ranges, std::uint64_t aro
                                         (count * rows_rows - rows * rows) * by_column);
   const double explained = value * all + along_rows * by_row + along_columns * by_column;
   const double variance = std::max(0.0, squares - explained) / (count - 3);
+  const double slope_squared = along_rows * along_rows + along_columns * along_columns;
+  return PlaneFit{ranges.at[0] + value, variance, share * of_all, slope_squared};
+}
+
+/// The products of powers of its row and column, each up to the fourth, for every step of a window.
+struct StepPowers {
+  static constexpr int sides = 5, size = 32;  // of 25, filled up to whole packets
+  using Products = std::array<std::int16_t, size>;
+
+  std::array<Products, WindowPixels::count> of{};
+
+  constexpr StepPowers() {
+    for (int i = 0; i < WindowPixels::count; ++i) {
+      const PixelStep& step = window_pixels.step[i];
+      for (int row = 0, by_row = 1; row < sides; ++row, by_row *= step.row)
+        for (int column = 0, both = by_row; column < sides - row; ++column, both *= step.column)
+          of[i][row * sides + column] = static_cast<std::int16_t>(both);
+    }
+  }
+};
+
+constexpr StepPowers step_powers;
+
+/// A quadratic over some pixels of the window: at least least_of_wide, which no conic holds.
+std::optional<SmoothedRange> fitQuadratic(const PixelRows& ranges, std::uint64_t around, double most_variance) {
+  constexpr std::array<PixelStep, 6> terms = {{{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}}};  // powers
+  constexpr int unknowns = terms.size();
+  const int count = std::popcount(around) + 1;
+  if (count < least_of_wide) return std::nullopt;
+  StepPowers::Products products{1};  // of the middle
+  Eigen::Matrix<double, unknowns, 2> sides = Eigen::Matrix<double, unknowns, 2>::Zero();
+  double squares = 0;
+  forEachPixel(around, [&](int pixel) {
+    const PixelStep& step = window_pixels.step[pixel];
+    const double row = step.row, column = step.column, w = rise(ranges, step);
+    for (int i = 0; i < StepPowers::size; ++i) products[i] += step_powers.of[pixel][i];
+    sides(0, 0) += w;
+    sides(1, 0) += row * w;
+    sides(2, 0) += column * w;
+    sides(3, 0) += row * row * w;
+    sides(4, 0) += row * column * w;
+    sides(5, 0) += column * column * w;
+    squares += w * w;
+  });
+  Eigen::Matrix<double, unknowns, unknowns> moments;
+  for (int i = 0; i < unknowns; ++i)
+    for (int j = 0; j < unknowns; ++j)
+      moments(i, j) = products[(terms[i].row + terms[j].row) * StepPowers::sides + terms[i].column + terms[j].column];
+  sides(0, 1) = 1;
+  // With the triangular factor of the moments all that is asked for is a product of these two.
+  const Eigen::LLT<Eigen::Matrix<double, unknowns, unknowns>> factor(moments);
+  factor.matrixL().solveInPlace(sides);
+  const double value = sides.col(1).dot(sides.col(0)), leverage = sides.col(1).squaredNorm();
+  const double variance = std::max(0.0, squares - sides.col(0).squaredNorm()) / (count - unknowns);
   if (!std::isfinite(value) || !(variance <= most_variance)) return std::nullopt;
-  return SmoothedRange{middle + value, share * of_all * std::max(variance, most_variance / most_misfit)};
+  return SmoothedRange{ranges.at[0] + value, leverage * std::max(variance, most_variance / most_misfit)};
+}
+
+/// At an edge: a plane, but a quadratic where the surface goes along the line of sight by more than noise from pixel to
+/// pixel. A body that curves away from the sensor does so up to its rim, and a plane would cut that off.
+std::optional<SmoothedRange> fitAtEdge(const PixelRows& ranges, std::uint64_t around, int least_pixels, double known) {
+  const double most_variance = most_misfit * known;
+  const std::optional<PlaneFit> plane = fitPlane(ranges, around, least_pixels);
+  if (!plane) return std::nullopt;
+  if (plane->slope_squared > steep_squared * known)
+    if (const auto quadratic = fitQuadratic(ranges, around, most_variance)) return quadratic;
+  return plane->within(most_variance);
 }
 
 }  // namespace
@@ -79,8 +161,8 @@ std::optional<SmoothedRange> smoothedInverseRange(const PixelRows& ranges, std::
   const std::uint64_t inner = WindowPixels::rings(2), whole = WindowPixels::rings(3);
   const double known = noise * noise;
   if ((around & inner) != inner) {
-    if (const auto plane = fitPlane(ranges, around, least_of_wide, most_misfit * known)) return plane;
-    return fitPlane(ranges, around & inner, least_of_narrow, most_misfit * known);
+    if (const auto fit = fitAtEdge(ranges, around, least_of_wide, known)) return fit;
+    return fitAtEdge(ranges, around & inner, least_of_narrow, known);
   }
   const double variance = std::max(narrow.variance, known);  // on one step of a coarse depth there is no residual
   if (around == whole && wide.variance <= most_misfit * variance)
@@ -103,11 +185,13 @@ std::optional<SmoothedRange> smoothedNearer(const SquareFit& narrow, const Smoot
 std::optional<SmoothedRange> smoothedFurther(const PixelRows& ranges, std::uint64_t around, const SmoothedRange& before,
                                              double noise_variance) {
   const double most_variance = most_misfit_of_planes * noise_variance;
-  if (const auto plane = fitPlane(ranges, around, least_of_wide, most_variance))
-    return SmoothedRange{plane->inverse, before.variance * further_share};
-  if (const auto plane = fitPlane(ranges, around & WindowPixels::rings(2), least_of_narrow, most_variance))
-    return SmoothedRange{plane->inverse, before.variance * further_share_nearer};
-  return std::nullopt;
+  const auto planeOver = [&](std::uint64_t pixels, int least_pixels, double share) -> std::optional<SmoothedRange> {
+    const auto plane = fitPlane(ranges, pixels, least_pixels);
+    if (!plane || !plane->within(most_variance)) return std::nullopt;
+    return SmoothedRange{plane->value, before.variance * share};
+  };
+  if (const auto plane = planeOver(around, least_of_wide, further_share)) return plane;
+  return planeOver(around & WindowPixels::rings(2), least_of_narrow, further_share_nearer);
 }
 
 }  // namespace tufted

@@ -14,10 +14,10 @@
 namespace tufted {
 namespace {
 
-// Pixels apart, pass by pass; the last is left out for rings.
-constexpr std::array<int, 3> strides = {3, SmoothedRanges::widest_stride, 4};
+constexpr std::array<int, 3> strides = {3, SmoothedRanges::widest_stride, 4};  // pixels apart, pass by pass
+constexpr std::ptrdiff_t passes_of_rings = 1;
 constexpr double tolerance = 2;        // standard deviations of noise between two smoothed values
-constexpr double harmless = 0.01;      // of the squared spacing: a tenth of it in noise
+constexpr double harmless = 0.0025;    // of the squared spacing: a twentieth of it in noise
 constexpr double steepest = 4;         // pixels along the line of sight for one across
 constexpr std::int64_t samples = 500;  // packets of pixels, to see what noise smoothed values have
 constexpr double quiet = 0.25;         // of the windows have nothing but noise
@@ -186,8 +186,8 @@ void smoothFurther(SmoothedRanges& smoothed, double noise, const Workers& worker
   RawBuffer<double> after(smoothed.inverse.size());
   std::fill_n(after.end() - kernel_packet, kernel_packet, 0);
   double variance = left_at_first * noise * noise;
-  // The rings of a scanner are few rows: a third pass has little that is new to it.
-  const std::ptrdiff_t passes = std::ssize(strides) - (smoothed.goes_round ? 1 : 0);
+  // The rings of a scanner are few rows: 55 of them are most of the image, and no longer one surface.
+  const std::ptrdiff_t passes = smoothed.goes_round ? passes_of_rings : std::ssize(strides);
   for (std::ptrdiff_t i = 0; i < passes; ++i) {
     const int stride = strides[i];
     if (smoothed.goes_round) repeatBeyondSeam(smoothed, workers);

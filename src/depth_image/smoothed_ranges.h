@@ -30,7 +30,7 @@ struct SmoothedRanges {
 
 /// Where what is left of the noise is not small against the spacing of the pixels, as on walls far away, smooths again
 /// over pixels that are 3 apart, then 9: over 19 pixels, then 55, and more by what was smoothed before. A third pass,
-/// 4 apart, takes what noise lies between those distances. The rings of a scanner get none. What noise the
+/// 4 apart, takes what noise lies between those distances. The rings of a scanner get the first alone. What noise the
 /// values still have is told by the image.
 void smoothFurther(SmoothedRanges& smoothed, double noise, const Workers& workers);
 

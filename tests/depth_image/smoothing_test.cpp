@@ -4,6 +4,8 @@
 #include <Eigen/Cholesky>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <optional>
 
 #include "depth_image/image.h"
 #include "depth_image/pixel_frame.h"
@@ -81,33 +83,56 @@ TEST(SmoothedInverseRange, KeepsQuadraticsAndTakesTheRest) {
   EXPECT_FALSE(needsSmoothing(1e9, 0.01, 1e-6)) << "rounding";
 }
 
-TEST(SmoothedInverseRange, AtEdgesIsThatOfAPlane) {
-  // A plane over the left half of the window, with noise across it that no plane explains.
+/// The left half of a window, of a surface that is 2 in the middle, with waves across it of 1e-3.
+struct HalfWindow {
   std::array<double, 49> values{};
   std::uint64_t around = 0;
-  for (int i = 0; i < WindowPixels::count; ++i) {
-    const auto [row, column] = window_pixels.step[i];
-    if (column > 0) continue;
-    values[24 + 7 * row + column] = 2 + 0.1 * row - 0.3 * column + (row % 2 == 0 ? 1e-3 : -1e-3);
-    around |= std::uint64_t{1} << i;
-  }
-  values[24] = 2 + 1e-3;
-  const PixelRows ranges{values.data() + 24, 7, 1};
-  const auto smoothed = smoothedInverseRange(ranges, around, {}, {}, 1e-3);
-  ASSERT_TRUE(smoothed);
-  // By the normal equations of all 28 pixels.
-  Eigen::Matrix3d moments = Eigen::Matrix3d::Zero();
-  Eigen::Vector3d right = Eigen::Vector3d::Zero();
-  for (int row = -3; row <= 3; ++row) {
-    for (int column = -3; column <= 0; ++column) {
-      const Eigen::Vector3d base(1, row, column);
-      moments += base * base.transpose();
-      right += values[24 + 7 * row + column] * base;
+
+  explicit HalfWindow(const std::function<double(int, int)>& rise) {
+    for (int i = 0; i < WindowPixels::count; ++i) {
+      const auto [row, column] = window_pixels.step[i];
+      if (column > 0) continue;
+      values[24 + 7 * row + column] = 2 + rise(row, column) + (row % 2 == 0 ? 1e-3 : -1e-3);
+      around |= std::uint64_t{1} << i;
     }
+    values[24] = 2 + 1e-3;
   }
-  EXPECT_NEAR(smoothed->inverse, moments.ldlt().solve(right)[0], 1e-14);
-  EXPECT_NEAR(smoothed->variance, moments.inverse()(0, 0) * 1e-6, 2e-7);
-  EXPECT_FALSE(smoothedInverseRange(ranges, around, {}, {}, 1e-4)) << "more than noise";
+
+  std::optional<SmoothedRange> smoothed(double noise) const {
+    return smoothedInverseRange({values.data() + 24, 7, 1}, around, {}, {}, noise);
+  }
+
+  /// The first terms of 1, i, j, i^2, i j, j^2, by the normal equations of all 28 pixels.
+  SmoothedRange fit(int terms) const {
+    Eigen::MatrixXd moments = Eigen::MatrixXd::Zero(terms, terms);
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(terms);
+    for (int row = -3; row <= 3; ++row) {
+      for (int column = -3; column <= 0; ++column) {
+        Eigen::VectorXd base(6);
+        base << 1, row, column, row * row, row * column, column * column;
+        moments += base.head(terms) * base.head(terms).transpose();
+        right += values[24 + 7 * row + column] * base.head(terms);
+      }
+    }
+    const Eigen::VectorXd first = Eigen::VectorXd::Unit(terms, 0);
+    return {moments.ldlt().solve(right)[0], moments.ldlt().solve(first)[0] * 1e-6};
+  }
+};
+
+void expectFit(const HalfWindow& window, int terms) {
+  const auto smoothed = window.smoothed(1e-3);
+  ASSERT_TRUE(smoothed);
+  EXPECT_NEAR(smoothed->inverse, window.fit(terms).inverse, 1e-13);
+  EXPECT_NEAR(smoothed->variance, window.fit(terms).variance, 0.35 * window.fit(terms).variance);
+  EXPECT_FALSE(window.smoothed(1e-4)) << "more than noise";
+}
+
+TEST(SmoothedInverseRange, AtEdgesIsThatOfAPlane) {
+  expectFit(HalfWindow([](int row, int column) { return 1e-4 * row - 3e-4 * column; }), 3);
+}
+
+TEST(SmoothedInverseRange, AtEdgesIsThatOfAQuadraticWhereTheSurfaceIsSteep) {
+  expectFit(HalfWindow([](int row, int column) { return 1e-3 * row - 3e-3 * column - 4e-4 * column * column; }), 6);
 }
 
 double distanceFrom(const Points& points, const std::function<double(int, int)>& depth) {
