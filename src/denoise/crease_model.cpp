@@ -90,12 +90,13 @@ bool CreaseModel::startFaces() {
   for (int i = 0; i < end; ++i) ++counts[group_[i] + 1];
   std::array<int, most_groups> largest{};
   count_ = 0;
-  for (int g = 0; g < groups_; ++g)
-    if (counts[g + 1] >= least_members) largest[count_++] = g;
+  for (int g = 0; g < groups_; ++g) {
+    if (counts[g + 1] < least_members) continue;
+    int at = count_++;  // the largest first, in their order
+    for (; at > 0 && counts[largest[at - 1] + 1] < counts[g + 1]; --at) largest[at] = largest[at - 1];
+    largest[at] = g;
+  }
   if (count_ < 2) return false;
-  // The largest first, in their order; std::stable_sort would take memory.
-  std::sort(largest.begin(), largest.begin() + count_,
-            [&](int a, int b) { return counts[a + 1] != counts[b + 1] ? counts[a + 1] > counts[b + 1] : a < b; });
   count_ = std::min(count_, most_faces);
   std::array<Eigen::Vector3d, most_groups + 1> sums;
   sums.fill(Eigen::Vector3d::Zero());

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <utility>
 
 #include "base/median.h"
 #include "denoise/crease_moves.h"
+#include "denoise/middle_windows.h"
 #include "denoise/neighbor_lists.h"
 #include "denoise/pooling.h"
 #include "denoise/rim_moves.h"
@@ -19,10 +21,9 @@
 namespace tufted {
 namespace {
 
-constexpr int widest_stride = 8;        // of 64 neighbours, the smallest window that is shared, eight are middles
 constexpr int points_per_stride = 500;  // of small clouds every point has windows
 constexpr int fitted_near = 3;          // windows of a settled point next to others; it is in no wider window of theirs
-constexpr std::uint8_t reached_near = 1, reached_far = 2;
+enum : std::uint8_t { reached_near = 1, reached_far = 2 };  // among the neighbours of points alone
 
 /// Moves points once more, by their windows as before, onto the surface through where their neighbours are by now.
 void moveAgain(const PointsView& points, const NeighborLists& lists, const Windows& windows, const NoiseLevel& noise,
@@ -112,7 +113,7 @@ void moveAlone(const PointsView& points, const WindowFitter& fitter, const Windo
   for (const int p : far) windows.fits[p] = {};
   windows.fitted = fitted_near;
   fitter.take(near, windows, &lists);
-  windows.fitted = Windows::sizes;
+  windows.fitted = Windows::searched;
   const Buffer<int> asked =
       numbersWhere("noise", n, workers, [&](int p) { return reached[p] == reached_near || shared.settled[p] == 0; });
   findOutliers(fitter, asked, lists, workers, windows, noise);
@@ -165,13 +166,16 @@ SurfaceMoves surfaceMoves(const PointsView& points, const NeighborSource& source
   if (n <= Windows::first_base) return result;
   const WindowFitter fitter(points, source, workers);
   Windows windows;
-  windows.resize(n, std::clamp(n / points_per_stride, 1, widest_stride));
-  const NoiseLevel noise = findNoise(fitter, workers, windows);
+  const int stride = std::clamp(n / points_per_stride, 1, Windows::widest_stride);
+  windows.resize(n, static_cast<int>(std::bit_floor(static_cast<unsigned>(stride))));
+  NeighborLists lists(windows.size());
+  const NoiseLevel noise = findNoise(fitter, workers, windows, lists);
   if (std::ranges::find(noise.noisy, 1) == noise.noisy.end()) return result;
 
+  if (windows.stride > 1) fitThroughMiddles(points, workers, windows);
   const WindowChoice choice = chooseWindows(windows, noise, allOf(windows), workers);
   const SharedSurfaces shared =
-      shareSurfaces(points, source, windows, noise, choice, workers, result.move, result.variance);
+      shareSurfaces(points, source, lists, windows, noise, choice, workers, result.move, result.variance);
   moveAlone(points, fitter, windows, noise, shared, workers, result);
   moveOntoRims(points, source, windows, noise, choice, workers, result.move);
   return result;

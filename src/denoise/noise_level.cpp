@@ -39,13 +39,18 @@ RawBuffer<double> thicknessAround(const Windows& windows, const Workers& workers
   return around;
 }
 
+void makeWindows(const WindowFitter& fitter, std::span<const int> which, Windows& windows, NeighborLists& lists) {
+  fitter.take(which, windows, &lists);
+  fitter.spreadPools(which, lists, windows);
+}
+
 /// Doubles the base windows of some. Of windows around every so many points each stands for more of them then: it takes
 /// the place of those beside it.
 /// @param step how often they were doubled before
 /// @param waits those that may be doubled; overwritten
 /// @returns how many points are concerned
 int widenOnce(const WindowFitter& fitter, int step, const RawBuffer<double>& around, Buffer<std::uint8_t>& waits,
-              Windows& windows) {
+              Windows& windows, NeighborLists& lists) {
   const int apart = windows.stride > 1 ? 2 << step : 1, n = windows.size();
   Buffer<int> which;
   for (int w = 0; w < n; w += apart) {
@@ -56,7 +61,7 @@ int widenOnce(const WindowFitter& fitter, int step, const RawBuffer<double>& aro
   }
   if (static_cast<double>(which.size()) * apart < share_to_widen * n) return 0;
   for (const int w : which) windows.base[w] *= 2;
-  fitter.take(which, windows);
+  makeWindows(fitter, which, windows, lists);
   for (const int w : which)
     for (int other = w + 1; other < std::min(w + apart, n); ++other) windows.copy(w, other);
   return static_cast<int>(which.size());
@@ -64,7 +69,7 @@ int widenOnce(const WindowFitter& fitter, int step, const RawBuffer<double>& aro
 
 /// Doubles base windows while the points in them are as thick as wide, or a line.
 /// @returns which are as thick as wide in the end
-Buffer<std::uint8_t> widen(const WindowFitter& fitter, const Workers& workers, Windows& windows) {
+Buffer<std::uint8_t> widen(const WindowFitter& fitter, const Workers& workers, Windows& windows, NeighborLists& lists) {
   const int n = windows.size();
   RawBuffer<double> around = thicknessAround(windows, workers);
   const RawBuffer<double> first = around;
@@ -74,7 +79,7 @@ Buffer<std::uint8_t> widen(const WindowFitter& fitter, const Workers& workers, W
     if (windows.split[w] != 0) waits[w] = 0;  // sheets would be taken for one that is thick
   }
   for (int step = 0; step < most_widenings; ++step) {
-    if (widenOnce(fitter, step, around, waits, windows) == 0) break;
+    if (widenOnce(fitter, step, around, waits, windows, lists) == 0) break;
     around = thicknessAround(windows, workers);
   }
   Buffer<int> back;
@@ -86,7 +91,7 @@ Buffer<std::uint8_t> widen(const WindowFitter& fitter, const Workers& workers, W
     windows.base[w] = Windows::first_base;
     windows.is_copy[w] = 0;
   }
-  fitter.take(back, windows);
+  makeWindows(fitter, back, windows, lists);
   around = thicknessAround(windows, workers);
   Buffer<std::uint8_t> is_thick(windows.base.size());
   for (int w = 0; w < n; ++w) is_thick[w] = around[w] > 2 * thick ? 1 : 0;
@@ -168,10 +173,10 @@ bool mayBeNoisy(const PointsView& points, const NeighborSource& source, const Wo
   return like_noise > least_share * windows.size() && exact_windows < most_exact * windows.size();
 }
 
-NoiseLevel findNoise(const WindowFitter& fitter, const Workers& workers, Windows& windows) {
+NoiseLevel findNoise(const WindowFitter& fitter, const Workers& workers, Windows& windows, NeighborLists& lists) {
   NoiseLevel noise;
-  fitter.take(allOf(windows), windows);
-  const Buffer<std::uint8_t> is_thick = widen(fitter, workers, windows);
+  makeWindows(fitter, allOf(windows), windows, lists);
+  const Buffer<std::uint8_t> is_thick = widen(fitter, workers, windows, lists);
   noise.variance = noiseVariance(windows, workers);
   noise.outlier.resize(windows.base.size());
   for (int w = 0; w < windows.size(); ++w) noise.outlier[w] = isOutlier(windows, w, noise.variance[w]) ? 1 : 0;

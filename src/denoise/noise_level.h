@@ -39,7 +39,8 @@ bool mayBeNoisy(const PointsView& points, const NeighborSource& source, const Wo
 
 /// Makes windows, wider ones where the points are as thick as wide, and decides where there is noise.
 /// @param windows with room
-NoiseLevel findNoise(const WindowFitter& fitter, const Workers& workers, Windows& windows);
+/// @param[out] lists gets the neighbours of each window that is no copy
+NoiseLevel findNoise(const WindowFitter& fitter, const Workers& workers, Windows& windows, NeighborLists& lists);
 
 /// Finds outliers, leaves them out of the fits around them, and looks again for those that had hidden behind them.
 /// @param which windows that are looked at, ascending

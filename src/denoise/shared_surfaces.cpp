@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "denoise/crease_model.h"
-#include "denoise/listed_search.h"
+#include "denoise/neighbor_lists.h"
 #include "denoise/pooling.h"
 #include "denoise/window_surface.h"
 
@@ -15,6 +15,10 @@ namespace {
 constexpr std::int8_t least_shared = 2;  // of Windows::fits: smaller windows hold too few points to be shared
 constexpr double least_weight = 0.02;    // of all windows together; 1 is that of a window in its middle
 constexpr std::int64_t at_once = 64 * costly_block;  // windows whose surfaces are kept until they are added up
+constexpr double lifted_within = 0.6;                // of the radius of a window: how far its surface lifts others
+/// Noise along a surface draws fits towards the centre of curvature, by its variance times the mean curvature. Whether
+/// there is any, or all noise is along the normal, nobody knows: half of that is taken back.
+constexpr double along_surface = 0.5;
 constexpr double grown = 1.1;       // of the residuals' variance from the base window to the next: noise 1
 constexpr int more_where_bent = 2;  // times as many base windows as others: they hold half as many points
 
@@ -38,9 +42,16 @@ class SharingWindows {
   /// All arguments are borrowed.
   /// @param variance of the noise, by window
   /// @param shared which of Windows::fits is shared, by window; -1 where none is
-  SharingWindows(const PointsView& points, const NeighborSource& source, const Windows& windows,
+  SharingWindows(const PointsView& points, const NeighborLists& lists, const Windows& windows,
                  const RawBuffer<double>& variance, const Buffer<std::int8_t>& shared)
-      : points_(points), source_(source), windows_(windows), variance_(variance), shared_(shared) {}
+      : points_(points), lists_(lists), windows_(windows), variance_(variance), shared_(shared) {}
+
+  /// Lifts surfaces through middles, each to the mean of those around at its own middle: their errors partly cancel.
+  void lift(const Workers& workers) {
+    RawBuffer<double> lifts(windows_.base.size());
+    forEachPoint(windows_, workers, [&](int w) { lifts[w] = isThroughMiddles(w) ? liftOf(w) : 0; });
+    lift_ = std::move(lifts);
+  }
 
   double variance(int w) const { return variance_[w]; }
 
@@ -54,32 +65,55 @@ class SharingWindows {
 
   /// The votes of some windows.
   void vote(std::span<const int> which, Buffer<Vote>& votes) const {
-    WindowNeighbors around;
-    ListedSearch search(points_, *source_.search, windows_);
-    // Three quarters of the window's points.
+    // Three quarters of the window's points; of that of middles as of the widest one of neighbours.
     const auto count = [&](int w) {
-      return shared_[w] >= 0 ? 3 * (windows_.base[w] / 2 << shared_[w]) / 4 : windows_.base[w] / 2;
+      const int half = windows_.base[w] / 2;
+      return shared_[w] < 0 ? half : 3 * (half << std::min<int>(shared_[w], windows_.fitted - 1)) / 4;
     };
-    search.forEach(which, count, [&](int w, std::span<const Neighbor> neighbors) {
+    lists_.forEach(points_, windows_, which, count, [&](int w, std::span<const Neighbor> neighbors) {
       const bool is_shared = shared_[w] >= 0;
       const int p = windows_.pointOf(w);
-      if (is_shared) around.take(points_, windows_, w, neighbors, {});
+      const std::span<const std::uint8_t> skipped = lists_.skippedOf(w);
       const double farthest = neighbors.back().squared_distance;
       add(w, p, 0, is_shared ? 1 : 0, votes);
       for (std::size_t i = 0; i < neighbors.size(); ++i) {
         const double share = 1 - neighbors[i].squared_distance / farthest;
-        add(w, neighbors[i].index, neighbors[i].squared_distance,
-            is_shared && around.skipped[i] == 0 ? share * share : 0, votes);
+        add(w, neighbors[i].index, neighbors[i].squared_distance, is_shared && skipped[i] == 0 ? share * share : 0,
+            votes);
       }
     });
   }
 
  private:
+  bool isThroughMiddles(int w) const { return shared_[w] >= Windows::searched && windows_.is_copy[w] == 0; }
+
+  double liftOf(int w) const {
+    const int p = windows_.pointOf(w);
+    const Eigen::RowVector3d normal = windows_.normal.row(w);
+    const double own = windows_.fits[w][shared_[w]].height;
+    double weight = 1, sum = own;
+    int before = w;  // a pool of few windows holds each several times, one after the other
+    for (const int q : windows_.far[w]) {
+      if (q == before || !isThroughMiddles(q)) continue;
+      before = q;
+      const double radius = lifted_within * windows_.fits[q][shared_[q]].radius;
+      const Eigen::Vector3d d = (points_.row(p) - points_.row(windows_.pointOf(q))).transpose();
+      const double share = 1 - d.squaredNorm() / (radius * radius);
+      if (!(share > 0)) continue;
+      const WindowSurface surface = surfaceAt(windows_, q, shared_[q], d);
+      weight += share * share;
+      sum -= share * share * surface.height * normal.dot(surface.normal.transpose());
+    }
+    return sum / weight - own;
+  }
+
   /// The way of p onto the surface of the shared window w. False where it is too far off.
   bool moveOnto(int w, int p, Eigen::Vector3d& move) const {
     const Eigen::Vector3d d = (points_.row(p) - points_.row(windows_.pointOf(w))).transpose();
     const WindowSurface surface = surfaceAt(windows_, w, shared_[w], d);
-    move = -surface.height * surface.normal;
+    const auto& c = windows_.fits[w][shared_[w]].coefficient;
+    const double flattened = along_surface * variance_[w] * (c[3] + c[5]) / windows_.radius[w];
+    move = ((lift_.empty() ? 0 : lift_[w]) - flattened - surface.height) * surface.normal;
     return surface.height * surface.height <=
            std::max(outlier_sigmas * outlier_sigmas * variance_[w],
                     outlier_spacings * outlier_spacings * windows_.spacing(w) * windows_.spacing(w));
@@ -92,10 +126,11 @@ class SharingWindows {
   }
 
   PointsView points_;
-  const NeighborSource& source_;
+  const NeighborLists& lists_;
   const Windows& windows_;
   const RawBuffer<double>& variance_;
   const Buffer<std::int8_t>& shared_;
+  RawBuffer<double> lift_;  ///< of each window's surface; empty: none is lifted
 };
 
 /// Visits the votes of some windows, one after the other, so that sums are the same for any number of threads.
@@ -134,6 +169,7 @@ bool isGrowing(const Windows& windows, int w) {
 /// window counts only where more of them are made, since it is small.
 std::int8_t sharedWindow(const Windows& windows, const NoiseLevel& noise, const WindowChoice& choice, int w) {
   if (windows.split[w] != 0 || choice.window[w] < Windows::base_size) return -1;
+  if (choice.window[w] >= Windows::searched - 1) return choice.window[w];
   if (choice.biased[w] == 0) return choice.window[w] < least_shared ? -1 : choice.window[w];
   if (windows.base[w] > Windows::first_base || isNearCrease(windows, noise, w)) return -1;
   return choice.window[w] < least_shared || isGrowing(windows, w) ? Windows::base_size : least_shared;
@@ -141,7 +177,9 @@ std::int8_t sharedWindow(const Windows& windows, const NoiseLevel& noise, const 
 
 /// Base windows around every few points where the surface bends.
 struct BentWindows {
+  int stride;
   Windows windows;
+  NeighborLists lists;
   RawBuffer<double> variance;
   Buffer<std::int8_t> shared;
   Buffer<int> which;
@@ -149,9 +187,10 @@ struct BentWindows {
   /// @param coarse windows around every so many points
   /// @param bent those where the surface bends
   BentWindows(int n, const WindowFitter& fitter, const Windows& coarse, const NoiseLevel& noise,
-              std::span<const int> bent) {
+              std::span<const int> bent)
+      : stride((coarse.stride + more_where_bent - 1) / more_where_bent), lists(bent.empty() ? 0 : n / stride + 1) {
     if (bent.empty()) return;
-    windows.resize(n, (coarse.stride + more_where_bent - 1) / more_where_bent);
+    windows.resize(n, stride);
     windows.fitted = Windows::base_size + 1;
     variance.resize(windows.base.size());
     shared.assign(windows.base.size(), -1);
@@ -163,7 +202,7 @@ struct BentWindows {
         variance[fine] = noise.variance[w];
         fitted.push_back(fine);
       }
-    fitter.take(fitted, windows);
+    fitter.take(fitted, windows, &lists);
     for (const int fine : fitted) {
       if (!(windows.fits[fine][Windows::base_size].variance < explained * variance[fine]) || windows.split[fine] != 0)
         continue;
@@ -181,9 +220,9 @@ bool isQuiet(const Windows& windows, const NoiseLevel& noise, int w) {
 
 }  // namespace
 
-SharedSurfaces shareSurfaces(const PointsView& points, const NeighborSource& source, const Windows& windows,
-                             const NoiseLevel& noise, const WindowChoice& choice, const Workers& workers,
-                             PointBuffer& move, RawBuffer<double>& variance) {
+SharedSurfaces shareSurfaces(const PointsView& points, const NeighborSource& source, const NeighborLists& lists,
+                             const Windows& windows, const NoiseLevel& noise, const WindowChoice& choice,
+                             const Workers& workers, PointBuffer& move, RawBuffer<double>& variance) {
   const auto n = static_cast<std::size_t>(points.rows());
   SharedSurfaces shared;
   shared.settled.assign(n, 0);
@@ -207,7 +246,8 @@ SharedSurfaces shareSurfaces(const PointsView& points, const NeighborSource& sou
     bends.push_back(w);
     smooth[w] = -1;
   }
-  const SharingWindows sharing(points, source, windows, noise.variance, smooth);
+  SharingWindows sharing(points, lists, windows, noise.variance, smooth);
+  sharing.lift(workers);
   const Buffer<int> voters =
       numbersWhere("noise", windows.size(), workers, [&](int w) { return windows.is_copy[w] == 0; });
   forEachVote(sharing, voters, workers, [&](const Vote& vote) {
@@ -218,7 +258,7 @@ SharedSurfaces shareSurfaces(const PointsView& points, const NeighborSource& sou
     addTo(sharing, vote);
   });
   const BentWindows bent(static_cast<int>(n), WindowFitter(points, source, workers), windows, noise, bends);
-  const SharingWindows sharing_bent(points, source, bent.windows, bent.variance, bent.shared);
+  const SharingWindows sharing_bent(points, bent.lists, bent.windows, bent.variance, bent.shared);
   forEachVote(sharing_bent, bent.which, workers, [&](const Vote& vote) { addTo(sharing_bent, vote); });
 
   move.setZero(points.rows());

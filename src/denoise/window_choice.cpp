@@ -14,7 +14,7 @@ constexpr double own_growth = 4;  // of the residuals' variance around the point
 constexpr double own_height = 5;  // sigmas of the point alone from the fit
 constexpr double relative = 1.6;  // of the residuals' variance by that of the smallest window
 /// Of the spacing: no wider window once the remaining error is that small, by window.
-constexpr std::array<double, Windows::sizes> enough = {0, 0, 0.02, 0.05};
+constexpr std::array<double, Windows::searched> enough = {0, 0, 0.02, 0.05};
 
 /// The windows whose fits are averaged to judge a window. Around points alone, settled ones have no fits in the widest
 /// windows: the surface is smooth there.
@@ -84,7 +84,7 @@ WindowChoice chooseWindows(const Windows& windows, const NoiseLevel& noise, std:
     for (const int w : which.subspan(begin, end - begin)) {
       if (noise.noisy[w] == 0 || windows.fits[w][Windows::base_size].leverage > most_leverage) continue;
       const Choice of_w(windows, noise, w);
-      for (int k = 0; k < Windows::sizes && !(is_own && of_w.isEnough(k)); ++k) {
+      for (int k = 0; k < windows.levels() && !(is_own && of_w.isEnough(k)); ++k) {
         if (!of_w.isFlat(k)) {
           choice.biased[w] = 1;
           break;

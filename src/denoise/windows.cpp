@@ -14,12 +14,11 @@
 namespace tufted {
 namespace {
 
-/// Windows spread over some of the neighbours.
+/// Windows spread over those of a list.
 /// @param own the window that stands in where there is no other
-/// @param kept neighbours that are the middle of a window and not left out: those windows
-void spread(int own, std::span<const int> kept, Windows::Pool& pool) {
-  if (kept.empty()) return pool.fill(own);
-  for (std::size_t i = 0; i < pool.size(); ++i) pool[i] = kept[i * kept.size() / pool.size()];
+void spreadOver(std::span<const int> list, int own, Windows::Pool& pool) {
+  if (list.empty()) return pool.fill(own);
+  for (std::size_t i = 0; i < pool.size(); ++i) pool[i] = list[i * list.size() / pool.size()];
 }
 
 /// Spreads all pools of a window.
@@ -35,7 +34,7 @@ void spreadAll(int w, const Rank& rank, std::span<const std::uint8_t> skipped, B
   const auto pool = [&](int count, Windows::Pool& to) {
     for (; from < std::min(count, most); ++from)
       if (skipped[from] == 0 && rank(from) % windows.stride == 0) kept.push_back(rank(from) / windows.stride);
-    spread(w, kept, to);
+    spreadOver(kept, w, to);
   };
   pool(near, windows.near[w]);
   pool(2 * windows.base[w], windows.middle[w]);
@@ -94,13 +93,9 @@ class BlockFitter {
   void take(std::span<const int> which, NeighborLists* lists, int block) {
     const auto fitAndKeep = [&](int w, std::span<const Neighbor> neighbors) {
       fit(w, neighbors, {});
-      if (lists != nullptr) {
-        lists->put(block, w, neighbors);
-        return lists->skip(w, around_.skipped);
-      }
-      if (windows_.fitted < Windows::sizes) return;  // nobody averages over them
-      spreadAll(
-          w, [&](int i) { return neighbors[i].index; }, around_.skipped, listed_, windows_);
+      if (lists == nullptr) return;
+      lists->put(block, w, neighbors);
+      lists->skip(w, around_.skipped);
     };
     again_.clear();
     search_.forEach(
@@ -160,8 +155,8 @@ class BlockFitter {
     HeightMoments total = {{}, 1, windows_.radius[w]};
     windows_.one_sided[w] = 0;
     int from = 0;
-    for (int size = 0; size < Windows::sizes; ++size) {
-      windows_.fits[w][size] = {};
+    windows_.fits[w] = {};
+    for (int size = 0; size < windows_.fitted; ++size) {
       const int to = half << size;
       if (to > most) continue;
       const HeightMoments part = heightMoments({to - from, all.x + from, all.y + from, all.z + from},

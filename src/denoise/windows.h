@@ -21,17 +21,20 @@ struct WindowFit : HeightFit {
 };
 
 /// Around each point, or every so many, four nested windows of neighbours: half the base window, the base window, twice
-/// and four times as many neighbours. The tangent plane of all four is that of the base window.
+/// and four times as many neighbours. Around every so many points the widest one of all holds middles of others
+/// instead, see fitThroughMiddles(). The tangent plane of all is that of the base window.
 struct Windows {
-  static constexpr int sizes = 4;
-  static constexpr std::int8_t base_size = 1;  ///< of the four, the base window
+  static constexpr int searched = 4;           ///< windows of neighbours, the smallest first
+  static constexpr int sizes = searched + 1;   ///< with that of middles
+  static constexpr std::int8_t base_size = 1;  ///< of all, the base window
+  static constexpr int widest_stride = 8;      ///< all strides are powers of two
   static constexpr int first_base = 32;        ///< neighbours in the base window, but where the noise is stronger
   static constexpr int pooled = 32;
   /// Windows spread over a window, by whose values its own are averaged.
   using Pool = std::array<int, pooled>;
 
   int stride = 1;                 ///< window w is that around the point of rank w * stride
-  int fitted = sizes;             ///< how many of the four windows have fits, the smallest first
+  int fitted = searched;          ///< how many windows of neighbours have fits, the smallest first
   Buffer<int> base;               ///< neighbours in the base window of each: 32, 64, 128 or 256
   PointBuffer normal;             ///< of the base window
   RawBuffer<double> radius;       ///< of the base window
@@ -46,12 +49,17 @@ struct Windows {
 
   /// Room for windows around every `stride`-th of n points, with base windows of `first_base` neighbours.
   void resize(Eigen::Index n, int stride);
+  /// How many windows there are around a point.
+  int levels() const { return stride == 1 ? searched : sizes; }
   int size() const { return static_cast<int>(base.size()); }
   int pointOf(int w) const { return w * stride; }
   /// The distance of points from each other, were they spread evenly.
   double spacing(int w) const;
   /// Makes window w the same as window `other`.
   void copy(int other, int w);
+  /// The window that the copy w is the same as: base windows of twice as many neighbours stand for twice as many
+  /// points.
+  int copied(int w) const { return w - w % (base[w] / first_base); }
 };
 
 /// The nearest neighbours of a point that belong to its surface; memory of one worker.
@@ -78,14 +86,14 @@ class WindowFitter {
       : points_(points), source_(source), workers_(workers) {}
 
   /// Planes of the base windows of some points, and quadratics in the first `fitted` ones.
-  /// @param[out] lists gets the neighbours of each, and there are no pools yet; null: they are not kept
+  /// @param[out] lists gets the neighbours of each; null: they are not kept
   void take(std::span<const int> which, Windows& windows, NeighborLists* lists = nullptr) const;
   /// Fits the quadratics of some windows again.
   /// @param lists with the neighbours of each
   /// @param left_out n; points with an entry other than 0 are in no fit but their own
   void refit(std::span<const int> which, NeighborLists& lists, const Buffer<std::uint8_t>& left_out,
              Windows& windows) const;
-  /// Spreads the pools of some windows around every point over the neighbours that their fits are through.
+  /// Spreads the pools of some windows over the neighbours that their fits are through.
   void spreadPools(std::span<const int> which, const NeighborLists& lists, Windows& windows) const;
 
  private:

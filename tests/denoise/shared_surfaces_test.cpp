@@ -6,7 +6,9 @@
 #include <memory>
 #include <numeric>
 
+#include "denoise/middle_windows.h"
 #include "denoise/moves.h"
+#include "denoise/neighbor_lists.h"
 #include "shapes/shapes.h"
 #include "support/ranked.h"
 
@@ -23,6 +25,7 @@ struct SharedCloud {
   Workers workers = Workers(1, silent);
   NeighborSource source;
   Windows windows;
+  NeighborLists lists;
   NoiseLevel noise;
   WindowChoice choice;
   PointBuffer move;
@@ -31,11 +34,15 @@ struct SharedCloud {
 
   SharedCloud(const Points& points, double sigma)
       : ranked(support::ranked(points)),
-        source(windowSource(std::make_unique<NeighborSearch>(ranked.points), ranked.size())) {
+        source(windowSource(std::make_unique<NeighborSearch>(ranked.points), ranked.size())),
+        lists(ranked.size()) {
     windows.resize(ranked.size(), 8);
     Buffer<int> all(windows.base.size());
     std::iota(all.begin(), all.end(), 0);
-    WindowFitter(ranked.points, source, workers).take(all, windows);
+    const WindowFitter fitter(ranked.points, source, workers);
+    fitter.take(all, windows, &lists);
+    fitter.spreadPools(all, lists, windows);
+    fitThroughMiddles(ranked.points, workers, windows);
     noise.variance.resize(all.size());
     for (double& variance_of_window : noise.variance) variance_of_window = sigma * sigma;
     noise.outlier.assign(all.size(), 0);
@@ -44,7 +51,9 @@ struct SharedCloud {
     choice.biased.assign(all.size(), 0);
   }
 
-  void share() { shared = shareSurfaces(ranked.points, source, windows, noise, choice, workers, move, variance); }
+  void share() {
+    shared = shareSurfaces(ranked.points, source, lists, windows, noise, choice, workers, move, variance);
+  }
 };
 
 /// Points of z = (x^2 - y^2) / 8, on which every fit is exact.
@@ -72,6 +81,34 @@ TEST(SharedSurfaces, BringAPointBackThatAloneIsOff) {
     const double unit = std::ldexp(1, -cloud.ranked.exponent);
     EXPECT_NEAR(way, cloud.ranked.input_index[p] == 1234 ? 0.002 * unit : 0, 3e-4 * unit) << p;
   }
+}
+
+TEST(SharedSurfaces, OfMiddlesBringAPointBackThatAloneIsOff) {
+  Points points = quadric();
+  points(1234, 2) += 0.002;
+  SharedCloud cloud(points, 0.01);
+  cloud.choice.window.assign(cloud.choice.window.size(), Windows::searched);
+  cloud.share();
+  const double unit = std::ldexp(1, -cloud.ranked.exponent);
+  for (int p = 0; p < cloud.ranked.size(); ++p)
+    EXPECT_NEAR(cloud.move.row(p).norm(), cloud.ranked.input_index[p] == 1234 ? 0.002 * unit : 0, 3e-4 * unit) << p;
+}
+
+// In all directions noise of variance s2 draws the fit by s2 / 2 times the Laplacian of z = (x^2 + y^2) / 8; half of
+// that is taken back, away from the centre of curvature above.
+TEST(SharedSurfaces, TakeBackHalfOfWhatNoiseAlongABowlDoes) {
+  Points points = shapes::square(4000).points;
+  points.col(0).array() -= 0.5;
+  points.col(1).array() -= 0.5;
+  points.col(2) = points.leftCols(2).rowwise().squaredNorm() / 8;
+  const double sigma = 0.05;
+  const double unit = std::ldexp(1, -support::ranked(points).exponent);
+  SharedCloud cloud(points, sigma * unit);
+  cloud.share();
+  const double way = 0.5 * sigma * sigma / 2 * 0.5;
+  for (int p = 0; p < cloud.ranked.size(); ++p)
+    if (points.row(cloud.ranked.input_index[p]).head(2).norm() < 0.3)
+      EXPECT_NEAR(cloud.move.row(p)[2], -way * unit, 0.05 * way * unit) << p;
 }
 
 TEST(SharedSurfaces, SettleNoPointThatIsFarOff) {
