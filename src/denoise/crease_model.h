@@ -55,7 +55,7 @@ class CreaseModel {
     Buffer<double> heights;            ///< of all points over it
   };
 
-  /// Of the groups that the first points make, the largest become faces. False where fewer than two do.
+  /// The largest of the groups that the first points make become faces. False where fewer than two do.
   bool startFaces();
   void joinClosest(const Eigen::Vector3d& normal, int group, int from, int to);
   bool fitFace(Face& face);
@@ -76,7 +76,7 @@ class CreaseModel {
 
   double variance_ = 0, unit_ = 1;
   std::array<Buffer<double>, 3> coordinates_;
-  /// Of the points whose normals are known: these, and which they are.
+  /// The normals that are known, and which of the points have them.
   std::array<Buffer<double>, 3> normals_;
   Buffer<int> known_;
   std::array<int, most_groups> founders_;  ///< of the groups, among these points

@@ -8,28 +8,26 @@
 
 #include "base/buffer.h"
 #include "base/point_buffer.h"
-#include "denoise/windows.h"
 #include "neighbors/batched_search.h"
 
 namespace tufted {
 
-/// Searches for neighbours of the middles of listed windows; memory of one worker.
+/// Searches for neighbours of listed points; memory of one worker.
 class ListedSearch {
  public:
   /// All arguments are borrowed.
-  ListedSearch(const PointsView& points, const NeighborSearch& search, const Windows& windows)
-      : points_(points), search_(search), windows_(windows) {}
+  ListedSearch(const PointsView& points, const NeighborSearch& search) : points_(points), search_(search) {}
 
-  /// Calls visit(w, neighbors) for each window w of a list, with the `count(w)` nearest of its middle as by
-  /// NeighborSearch::nearest. Windows that follow each other are searched for together.
-  /// @param which ascending
-  template <class Count, class Visit>
-  void forEach(std::span<const int> which, const Count& count, const Visit& visit) {
+  /// Calls visit(w, neighbors) for each number w of a list, with the `count(w)` nearest of the point of rank `rank(w)`
+  /// as by NeighborSearch::nearest. Points that follow each other are searched for together.
+  /// @param which whose ranks ascend
+  template <class Rank, class Count, class Visit>
+  void forEach(std::span<const int> which, const Rank& rank, const Count& count, const Visit& visit) {
     std::array<int, most_together> ranks;
     for (std::size_t begin = 0, end = 0; begin < which.size(); begin = end) {
       const int k = count(which[begin]);
       for (; end < which.size() && end - begin < most_together && count(which[end]) == k; ++end)
-        ranks[end - begin] = windows_.pointOf(which[end]);
+        ranks[end - begin] = rank(which[end]);
       find(std::span(ranks).first(end - begin), k);
       for (std::size_t i = begin; i < end; ++i)
         visit(which[i], std::span<const Neighbor>(found_).subspan((i - begin) * row_, row_));
@@ -51,7 +49,6 @@ class ListedSearch {
 
   PointsView points_;
   const NeighborSearch& search_;
-  const Windows& windows_;
   BatchScratch scratch_;
   Buffer<Neighbor> found_;
   std::size_t row_ = 0;  ///< neighbours of each point

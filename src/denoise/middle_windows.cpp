@@ -3,19 +3,17 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
 
+#include "denoise/listed_search.h"
 #include "denoise/pooling.h"
-#include "neighbors/batched_search.h"
 #include "simd/kernels.h"
 #include "stars/sheets.h"
 
 namespace tufted {
 namespace {
 
-constexpr int in_widest = 40;              // middles, where they are as far apart as usual
-constexpr int in_moving = 2;               // of Windows::fits: the widest that a middle moves onto
-constexpr std::size_t most_together = 32;  // windows that one search is for
+constexpr int in_widest = 40;  // middles, where they are as far apart as usual
+constexpr int in_moving = 2;   // of Windows::fits: the widest that a middle moves onto
 
 /// A middle where its own window says that the surface is.
 struct MovedMiddle {
@@ -36,7 +34,6 @@ MovedMiddle movedMiddle(const PointsView& points, const Windows& windows, int w)
 /// Which middles serve a window: those of every 2^step-th window, and `times` as many of them as usual.
 struct Spread {
   int step, times;
-  bool operator==(const Spread&) const = default;
 };
 
 /// A base window of twice as many neighbours stands for twice as many points. Where it is not around a point that has
@@ -64,34 +61,16 @@ class MiddleFitter {
  public:
   MiddleFitter(const PointsView& points, const RawBuffer<MovedMiddle>& moved, const Middles& middles,
                const NeighborSearch& search, Windows& windows)
-      : points_(points), moved_(moved), middles_(middles), search_(search), windows_(windows) {}
+      : points_(points), moved_(moved), middles_(middles), search_(middles.positions, search), windows_(windows) {}
 
   void take(std::span<const int> which) {
-    for (std::size_t begin = 0, end = 0; begin < which.size(); begin = end) {
-      const Spread spread = spreadOf(windows_, which[begin]);
-      ranks_.clear();
-      for (; end < which.size() && end - begin < most_together && spreadOf(windows_, which[end]) == spread; ++end)
-        ranks_.push_back(which[end] >> middles_.step);
-      const auto row = find(in_widest * spread.times);
-      moments_.clear();
-      unit_.clear();
-      for (std::size_t i = begin; i < end; ++i)
-        sum(which[i], std::span<const Neighbor>(found_).subspan((i - begin) * row, row));
-      solve(which.subspan(begin, end - begin));
-    }
+    const auto rank = [&](int w) { return w >> middles_.step; };
+    const auto count = [&](int w) { return in_widest * spreadOf(windows_, w).times; };
+    search_.forEach(which, rank, count, [&](int w, std::span<const Neighbor> neighbors) { sum(w, neighbors); });
+    solve(which);
   }
 
  private:
-  /// @returns the neighbours of each
-  std::size_t find(int k) {
-    const auto row = static_cast<std::size_t>(std::min<Eigen::Index>(k, middles_.positions.rows() - 1));
-    nearestOfListed(search_, middles_.positions, ranks_, k, kernels(), scratch_, found_,
-                    k == last_count_ ? last_radius_ : std::numeric_limits<double>::infinity());
-    last_count_ = k;
-    last_radius_ = row > 0 ? std::sqrt(found_[row - 1].squared_distance) : 0;
-    return row;
-  }
-
   /// Finds what the fit around window w is made from.
   void sum(int w, std::span<const Neighbor> neighbors) {
     const int count = static_cast<int>(neighbors.size());
@@ -135,7 +114,7 @@ class MiddleFitter {
       const double up = (moved_[w].position - points_.row(windows_.pointOf(w))).dot(windows_.normal.row(w));
       fit.coefficient[0] += up / windows_.radius[w];
       fit.height += up;
-      // As if the fit were through all points that the middles stand for.
+      // Leverage and variance become those of a fit through all points that the middles stand for.
       fit.leverage /= windows_.stride << middles_.step;
       fit.variance /= unit_[i];
       static_cast<HeightFit&>(windows_.fits[w][Windows::searched]) = fit;
@@ -145,18 +124,13 @@ class MiddleFitter {
   PointsView points_;
   const RawBuffer<MovedMiddle>& moved_;
   const Middles& middles_;
-  const NeighborSearch& search_;
+  ListedSearch search_;
   Windows& windows_;
-  BatchScratch scratch_;
-  Buffer<Neighbor> found_;
-  Buffer<int> ranks_;
   Buffer<std::uint8_t> kept_;
   Buffer<double> heights_, unit_;
   OffsetBuffer offsets_;
   Buffer<HeightMoments> moments_;
   Buffer<HeightFit> fits_;
-  int last_count_ = 0;
-  double last_radius_ = 0;
 };
 
 }  // namespace

@@ -27,14 +27,15 @@ class NeighborLists {
   }
 
   /// @param neighbors ascending
-  void put(int block, int w, std::span<const Neighbor> neighbors) {
+  /// @param left_out of each, whether it is left out, as WindowNeighbors has it
+  void put(int block, int w, std::span<const Neighbor> neighbors, std::span<const std::uint8_t> left_out) {
     auto& [ranks, skipped] = blocks_[block];
     places_[w] = {block, static_cast<int>(ranks.size()), static_cast<int>(neighbors.size())};
     for (const Neighbor& q : neighbors) ranks.push_back(q.index);
-    skipped.resize(ranks.size(), 0);
+    skipped.insert(skipped.end(), left_out.begin(), left_out.end());
   }
 
-  /// Keeps which neighbours of a window are left out, as WindowNeighbors has it.
+  /// Keeps which neighbours of a window are left out now.
   void skip(int w, std::span<const std::uint8_t> skipped) {
     const Place& place = places_[w];
     std::copy(skipped.begin(), skipped.end(), blocks_[place.block].skipped.begin() + place.start);
@@ -47,7 +48,7 @@ class NeighborLists {
     return std::span<const int>(blocks_[place.block].ranks).subspan(place.start, place.count);
   }
 
-  /// Of each of them, whether it is left out.
+  /// Whether each of the neighbours that of() gives is left out.
   std::span<const std::uint8_t> skippedOf(int w) const {
     const Place& place = places_[w];
     if (place.count == 0) return {};

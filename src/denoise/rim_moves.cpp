@@ -284,10 +284,11 @@ void moveOntoRims(const PointsView& points, const NeighborSource& source, const 
   for (std::size_t i = 0; i < stretches.size(); i += judged) stretches[i].is_judged = true;
   workers.forBlocks("noise", std::ssize(which), costly_block, [&](std::int64_t begin, std::int64_t end, int) {
     RimScratch scratch;
-    ListedSearch search(points, *source.search, windows);
+    ListedSearch search(points, *source.search);
     Stretch* stretch = &stretches[begin];
     const auto count = [&](int w) { return seen * windows.base[w]; };
-    search.forEach(std::span<const int>(which).subspan(begin, end - begin), count,
+    const auto rank = [&](int w) { return windows.pointOf(w); };
+    search.forEach(std::span<const int>(which).subspan(begin, end - begin), rank, count,
                    [&](int w, std::span<const Neighbor> neighbors) {
                      scratch.around.take(points, windows, w, neighbors, {});
                      finder.look(w, scratch, *stretch++);

@@ -22,18 +22,18 @@ void spreadOver(std::span<const int> list, int own, Windows::Pool& pool) {
 }
 
 /// Spreads all pools of a window.
-/// @param rank(i) of the i-th neighbour
+/// @param ranks of its neighbours
 /// @param kept memory
-template <class Rank>
-void spreadAll(int w, const Rank& rank, std::span<const std::uint8_t> skipped, Buffer<int>& kept, Windows& windows) {
+void spreadAll(int w, std::span<const int> ranks, std::span<const std::uint8_t> skipped, Buffer<int>& kept,
+               Windows& windows) {
   kept.clear();
   // A base window holds few middles of windows that lie around every eighth point.
   const int near = windows.stride == 1 ? windows.base[w] : 2 * windows.base[w];
-  const auto most = static_cast<int>(skipped.size());
+  const auto most = static_cast<int>(ranks.size());
   int from = 0;
   const auto pool = [&](int count, Windows::Pool& to) {
     for (; from < std::min(count, most); ++from)
-      if (skipped[from] == 0 && rank(from) % windows.stride == 0) kept.push_back(rank(from) / windows.stride);
+      if (skipped[from] == 0 && ranks[from] % windows.stride == 0) kept.push_back(ranks[from] / windows.stride);
     spreadOver(kept, w, to);
   };
   pool(near, windows.near[w]);
@@ -86,28 +86,25 @@ class BlockFitter {
       : points_(points),
         windows_(windows),
         finder_(points, source, options_),
-        search_(points, *source.search, windows),
+        search_(points, *source.search),
         queue_(windows) {}
 
   /// @param lists null, or where block `block` gets the neighbours
   void take(std::span<const int> which, NeighborLists* lists, int block) {
     const auto fitAndKeep = [&](int w, std::span<const Neighbor> neighbors) {
       fit(w, neighbors, {});
-      if (lists == nullptr) return;
-      lists->put(block, w, neighbors);
-      lists->skip(w, around_.skipped);
+      if (lists != nullptr) lists->put(block, w, neighbors, around_.skipped);
     };
+    const auto rank = [&](int w) { return windows_.pointOf(w); };
+    const auto count = [&](int w) { return widest(w); };
     again_.clear();
-    search_.forEach(
-        which, [&](int w) { return widest(w); },
-        [&](int w, std::span<const Neighbor> neighbors) {
-          const int searched = widest(w);
-          fitPlane(w, neighbors);
-          if (widest(w) != searched) return again_.push_back(w);  // it has grown along a line
-          fitAndKeep(w, neighbors);
-        });
-    search_.forEach(
-        again_, [&](int w) { return widest(w); }, fitAndKeep);
+    search_.forEach(which, rank, count, [&](int w, std::span<const Neighbor> neighbors) {
+      const int searched = widest(w);
+      fitPlane(w, neighbors);
+      if (widest(w) != searched) return again_.push_back(w);  // it has grown along a line
+      fitAndKeep(w, neighbors);
+    });
+    search_.forEach(again_, rank, count, fitAndKeep);
     queue_.solve();
   }
 
@@ -182,7 +179,7 @@ class BlockFitter {
   NeighborhoodScratch plane_scratch_;
   OffsetBuffer plane_offsets_;
   WindowNeighbors around_;
-  Buffer<int> again_, listed_;
+  Buffer<int> again_;
 };
 
 }  // namespace
@@ -259,11 +256,7 @@ void WindowFitter::refit(std::span<const int> which, NeighborLists& lists, const
 void WindowFitter::spreadPools(std::span<const int> which, const NeighborLists& lists, Windows& windows) const {
   workers_.forBlocks("noise", std::ssize(which), costly_block, [&](std::int64_t begin, std::int64_t end, int) {
     Buffer<int> kept;
-    for (const int w : which.subspan(begin, end - begin)) {
-      const std::span<const int> ranks = lists.of(w);
-      spreadAll(
-          w, [&](int i) { return ranks[i]; }, lists.skippedOf(w), kept, windows);
-    }
+    for (const int w : which.subspan(begin, end - begin)) spreadAll(w, lists.of(w), lists.skippedOf(w), kept, windows);
   });
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "denoise/windows.h"
 #include "shapes/shapes.h"
 #include "support/ranked.h"
 
@@ -38,14 +39,14 @@ TEST(ListedSearch, FindsWhatSearchesForEachPointFind) {
     const SearchedCloud searched(cloud.points);
     const RankedCloud& ranked = searched.ranked;
     const Windows& windows = searched.windows;
-    ListedSearch listed(ranked.points, searched.search, windows);
+    ListedSearch listed(ranked.points, searched.search);
     for (const int step : {1, 3, 40}) {  // all points, a third of them, points that are far apart
       Buffer<int> which;
       for (int p = 0; p < ranked.size(); p += p % 7 == 0 ? step : 1) which.push_back(p);
       std::size_t visited = 0;
       Buffer<Neighbor> expected;
       listed.forEach(
-          which, [&](int p) { return 2 * windows.base[p]; },
+          which, [](int p) { return p; }, [&](int p) { return 2 * windows.base[p]; },
           [&](int p, std::span<const Neighbor> found) {
             ASSERT_EQ(p, which[visited++]);
             searched.search.nearest(p, 2 * windows.base[p], expected);
@@ -62,10 +63,11 @@ TEST(ListedSearch, FindsWhatSearchesForEachPointFind) {
 
 TEST(ListedSearch, OfMoreNeighborsThanThereAreFindsAll) {
   const SearchedCloud cloud(shapes::sphere(70).points);
-  ListedSearch listed(cloud.ranked.points, cloud.search, cloud.windows);
+  ListedSearch listed(cloud.ranked.points, cloud.search);
   const Buffer<int> which = {0, 1, 2, 69};
   listed.forEach(
-      which, [](int) { return 128; }, [](int, std::span<const Neighbor> found) { EXPECT_EQ(found.size(), 69U); });
+      which, [](int p) { return p; }, [](int) { return 128; },
+      [](int, std::span<const Neighbor> found) { EXPECT_EQ(found.size(), 69U); });
 }
 
 }  // namespace
