@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 #include <new>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -59,10 +60,10 @@ class UninitializedAllocator : public WorkspaceAllocator<T> {
 
   template <class U, class... Arguments>
   void construct(U* place, Arguments&&... arguments) {
-    if constexpr (sizeof...(Arguments) == 0)
-      ::new (static_cast<void*>(place)) U;
-    else
+    if constexpr (sizeof...(Arguments) > 0)
       ::new (static_cast<void*>(place)) U(std::forward<Arguments>(arguments)...);
+    else if constexpr (!std::is_aggregate_v<U> || !std::is_trivially_destructible_v<U>)
+      ::new (static_cast<void*>(place)) U;  // aggregates begin to live by themselves, without the values of members
   }
 };
 
