@@ -91,8 +91,10 @@ Buffer<std::uint8_t> widen(const WindowFitter& fitter, const Workers& workers, W
     windows.base[w] = Windows::first_base;
     windows.is_copy[w] = 0;
   }
-  makeWindows(fitter, back, windows, lists);
-  around = thicknessAround(windows, workers);
+  if (!back.empty()) {
+    makeWindows(fitter, back, windows, lists);
+    around = thicknessAround(windows, workers);
+  }
   Buffer<std::uint8_t> is_thick(windows.base.size());
   for (int w = 0; w < n; ++w) is_thick[w] = around[w] > 2 * thick ? 1 : 0;
   return is_thick;

@@ -30,6 +30,13 @@ struct Vote {
   Eigen::Vector3d move;
 };
 
+/// The ways of points onto the surface of one window; memory of one worker.
+struct Ways {
+  OffsetBuffer offsets;  ///< from the middle
+  Buffer<double> squared;
+  Buffer<double> height, x, y, z;
+};
+
 /// The sum of all votes about a point.
 struct Sum {
   Eigen::Vector3d move = Eigen::Vector3d::Zero();
@@ -65,23 +72,29 @@ class SharingWindows {
 
   /// The votes of some windows.
   void vote(std::span<const int> which, Buffer<Vote>& votes) const {
-    // Three quarters of the window's points; of that of middles as of the widest one of neighbours.
-    const auto count = [&](int w) {
-      const int half = windows_.base[w] / 2;
-      return shared_[w] < 0 ? half : 3 * (half << std::min<int>(shared_[w], windows_.fitted - 1)) / 4;
-    };
-    lists_.forEach(points_, windows_, which, count, [&](int w, std::span<const Neighbor> neighbors) {
-      const bool is_shared = shared_[w] >= 0;
-      const int p = windows_.pointOf(w);
+    Ways ways;
+    for (const int w : which) {
+      const std::span<const int> neighbors = sharing(w);
       const std::span<const std::uint8_t> skipped = lists_.skippedOf(w);
-      const double farthest = neighbors.back().squared_distance;
-      add(w, p, 0, is_shared ? 1 : 0, votes);
+      const bool is_shared = shared_[w] >= 0;
+      const double most = is_shared ? farthestMoved(w) : 0;
+      takeOffsets(w, neighbors, ways);
+      if (is_shared) findWays(w, ways);
+      const double farthest = ways.squared[neighbors.size()];
+      const auto add = [&](std::size_t i, int p, double weight) {
+        Vote vote{p, w, static_cast<float>(ways.squared[i]), weight, {}};
+        if (weight > 0) {
+          vote.move = {ways.x[i], ways.y[i], ways.z[i]};
+          if (!(ways.height[i] * ways.height[i] <= most)) vote.weight = 0;
+        }
+        votes.push_back(vote);
+      };
+      add(0, windows_.pointOf(w), is_shared ? 1 : 0);
       for (std::size_t i = 0; i < neighbors.size(); ++i) {
-        const double share = 1 - neighbors[i].squared_distance / farthest;
-        add(w, neighbors[i].index, neighbors[i].squared_distance, is_shared && skipped[i] == 0 ? share * share : 0,
-            votes);
+        const double share = 1 - ways.squared[i + 1] / farthest;
+        add(i + 1, neighbors[i], is_shared && skipped[i] == 0 ? share * share : 0);
       }
-    });
+    }
   }
 
  private:
@@ -107,22 +120,50 @@ class SharingWindows {
     return sum / weight - own;
   }
 
+  /// How high over the surface of the shared window w points move to.
+  double up(int w) const {
+    const auto& c = windows_.fits[w][shared_[w]].coefficient;
+    return (lift_.empty() ? 0 : lift_[w]) - along_surface * variance_[w] * (c[3] + c[5]) / windows_.radius[w];
+  }
+
+  /// The squared distance from the surface of window w within which points belong to it.
+  double farthestMoved(int w) const {
+    return std::max(outlier_sigmas * outlier_sigmas * variance_[w],
+                    outlier_spacings * outlier_spacings * windows_.spacing(w) * windows_.spacing(w));
+  }
+
   /// The way of p onto the surface of the shared window w. False where it is too far off.
   bool moveOnto(int w, int p, Eigen::Vector3d& move) const {
     const Eigen::Vector3d d = (points_.row(p) - points_.row(windows_.pointOf(w))).transpose();
     const WindowSurface surface = surfaceAt(windows_, w, shared_[w], d);
-    const auto& c = windows_.fits[w][shared_[w]].coefficient;
-    const double flattened = along_surface * variance_[w] * (c[3] + c[5]) / windows_.radius[w];
-    move = ((lift_.empty() ? 0 : lift_[w]) - flattened - surface.height) * surface.normal;
-    return surface.height * surface.height <=
-           std::max(outlier_sigmas * outlier_sigmas * variance_[w],
-                    outlier_spacings * outlier_spacings * windows_.spacing(w) * windows_.spacing(w));
+    move = (up(w) - surface.height) * surface.normal;
+    return surface.height * surface.height <= farthestMoved(w);
   }
 
-  void add(int w, int p, double squared_distance, double weight, Buffer<Vote>& votes) const {
-    Vote vote{p, w, static_cast<float>(squared_distance), weight, {}};
-    if (weight > 0 && !moveOnto(w, p, vote.move)) vote.weight = 0;
-    votes.push_back(vote);
+  /// The neighbours that a window is shared with: three quarters of its own, if it is of middles those of the widest
+  /// one of neighbours.
+  std::span<const int> sharing(int w) const {
+    const int half = windows_.base[w] / 2;
+    const int most = shared_[w] < 0 ? half : 3 * (half << std::min<int>(shared_[w], windows_.fitted - 1)) / 4;
+    const std::span<const int> all = lists_.of(w);
+    return all.first(std::min(all.size(), static_cast<std::size_t>(most)));
+  }
+
+  /// The offsets of the middle of window w, and then of its neighbours.
+  void takeOffsets(int w, std::span<const int> neighbors, Ways& ways) const {
+    const int p = windows_.pointOf(w), count = static_cast<int>(neighbors.size()) + 1;
+    ways.offsets.fill(count, [&](int i) -> Eigen::RowVector3d {
+      return points_.row(i == 0 ? p : neighbors[i - 1]) - points_.row(p);
+    });
+    const Offsets all = ways.offsets.view();
+    for (Buffer<double>* const each : {&ways.squared, &ways.height, &ways.x, &ways.y, &ways.z})
+      each->resize(static_cast<std::size_t>(toPackets(count)));
+    for (int i = 0; i < count; ++i) ways.squared[i] = all.x[i] * all.x[i] + all.y[i] * all.y[i] + all.z[i] * all.z[i];
+  }
+
+  void findWays(int w, Ways& ways) const {
+    kernels().moveOnto(ways.offsets.view(), quadraticOf(windows_, w, shared_[w]), up(w), ways.height.data(),
+                       ways.x.data(), ways.y.data(), ways.z.data());
   }
 
   PointsView points_;

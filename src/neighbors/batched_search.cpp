@@ -11,7 +11,7 @@
 namespace tufted {
 namespace {
 
-constexpr int least_batch = 4, most_batch = 32;
+constexpr int most_batch = 32;
 constexpr double widest_batch = 2.5;  // diagonal of its box, in radii of a neighbourhood
 constexpr double likely = 1.08;       // times the squared radius of the point before: holds the k nearest most often
 constexpr double first_around = 1.2;  // radii of a neighbourhood nearby: what is searched around a batch to begin with
@@ -30,6 +30,30 @@ void keepSearched(SearchedBatch& batch, BatchScratch& scratch) {
 double roomAround(const Eigen::RowVector3d& point, const SearchedBall& ball) {
   return ball.radius - (point - ball.center).norm();
 }
+
+template <class Ranks>
+PointGroup groupOf(const PointsView& points, const Ranks& ranks) {
+  const auto count = static_cast<int>(ranks.size());
+  Eigen::RowVector3d lowest = points.row(ranks[0]), highest = lowest;
+  for (int i = 1; i < count; ++i) {
+    lowest = lowest.cwiseMin(points.row(ranks[i]));
+    highest = highest.cwiseMax(points.row(ranks[i]));
+  }
+  const Eigen::RowVector3d center = lowest + (highest - lowest) / 2;
+  double farthest = 0;
+  for (int i = 0; i < count; ++i) farthest = std::max(farthest, (points.row(ranks[i]) - center).squaredNorm());
+  return {ranks[0], ranks[count / 2], center, std::sqrt(farthest)};
+}
+
+/// All points from `first` on.
+struct Consecutive {
+  int first;
+  std::size_t count;
+
+  std::size_t size() const { return count; }
+  int operator[](std::size_t i) const { return first + static_cast<int>(i); }
+  Consecutive subspan(std::size_t from, std::size_t size) const { return {(*this)[from], size}; }
+};
 
 /// The candidates of a batch, from which its points take their neighbours.
 class BatchCandidates {
@@ -127,7 +151,7 @@ class BatchSearch {
     scratch_.known.clear();
   }
 
-  /// How many points from the first on lie close enough together. All points between them are searched around, too.
+  /// How many points from the first on lie close enough together.
   int batchAt(const Ranks& ranks, double radius) const {
     Eigen::RowVector3d lowest = points_.row(ranks[0]), highest = lowest;
     const int most = std::min(static_cast<int>(ranks.size()), most_batch);
@@ -135,7 +159,7 @@ class BatchSearch {
     for (; size < most && ranks[size] - ranks[0] < std::max(most_batch, k_ / 2); ++size) {
       lowest = lowest.cwiseMin(points_.row(ranks[size]));
       highest = highest.cwiseMax(points_.row(ranks[size]));
-      if (size >= least_batch && (highest - lowest).norm() > widest_batch * radius) break;
+      if ((highest - lowest).norm() > widest_batch * radius) break;
     }
     return size;
   }
@@ -154,12 +178,12 @@ class BatchSearch {
   /// The first way. Returns how many points of the batch, from the first on, are done.
   int findAround(const Ranks& ranks, double radius, Neighbor* found) {
     const int count = static_cast<int>(ranks.size());
+    const PointGroup group = groupOf(points_, ranks);
     int done = 0;
     // NOLINTNEXTLINE(clang-analyzer-security.FloatLoopCounter): it grows by a factor, and need not end exactly
     for (double around = first_around; around < last_around; around *= next_around) {
       SearchedBatch batch = batchOf(ranks);
-      if (!search_.candidatesWithin(batch.first, batch.count, k_, around * radius, scratch_.searched, batch.ball))
-        break;
+      if (!search_.candidatesWithin(group, k_, around * radius, scratch_.searched, batch.ball)) break;
       keep(batch);
       for (; done < count; ++done) {
         const double before = done > 0 ? radiusOf(rowOf(found, done - 1)) : radius;
@@ -178,7 +202,7 @@ class BatchSearch {
     const int count = static_cast<int>(ranks.size());
     SearchedBatch batch = batchOf(ranks);
     if (count == 1) return findAlone(ranks[0], found);
-    if (!search_.candidates(batch.first, batch.count, k_, scratch_.searched, scratch_.bounds, batch.ball)) {
+    if (!search_.candidates(groupOf(points_, ranks), k_, scratch_.searched, scratch_.bounds, batch.ball)) {
       findByCentre(ranks.subspan(0, count / 2), 0, found);
       return findByCentre(ranks.subspan(count / 2, count - count / 2), 0, rowOf(found, count / 2));
     }
@@ -228,16 +252,6 @@ class BatchSearch {
   BatchScratch& scratch_;
 };
 
-/// All points from `first` on.
-struct Consecutive {
-  int first;
-  std::size_t count;
-
-  std::size_t size() const { return count; }
-  int operator[](std::size_t i) const { return first + static_cast<int>(i); }
-  Consecutive subspan(std::size_t from, std::size_t size) const { return {(*this)[from], size}; }
-};
-
 template <class Ranks>
 void nearestOfAll(const NeighborSearch& search, const PointsView& points, const Ranks& ranks, int k,
                   const Kernels& kernels, BatchScratch& scratch, Buffer<Neighbor>& found, double radius) {
@@ -282,8 +296,8 @@ bool nearestOfKnown(const NeighborSearch& search, const PointsView& points, int 
     const double radius = std::sqrt(likely_square);
     SearchedBall ball;
     if (roomAround(points.row(p), batch.ball) > radius) return false;
-    if (!search.candidatesWithin(batch.first, batch.count, k, spare_around * radius, scratch.searched, ball))
-      return false;
+    const PointGroup group = groupOf(points, Consecutive{batch.first, static_cast<std::size_t>(batch.count)});
+    if (!search.candidatesWithin(group, k, spare_around * radius, scratch.searched, ball)) return false;
     batch.ball = ball;
     keepSearched(batch, scratch);
     candidates.gather(batch);

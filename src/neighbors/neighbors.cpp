@@ -168,14 +168,6 @@ class ShrinkingBall final : public WholeBall {
   Buffer<double>& nearest_;
 };
 
-/// The middle of the box of some points. Returns how far from there the farthest of them is.
-double findCenter(const PointsView& points, int first, int count, SearchedBall& ball) {
-  const auto group = points.middleRows(first, count);
-  const Eigen::RowVector3d lowest = group.colwise().minCoeff(), highest = group.colwise().maxCoeff();
-  ball.center = lowest + (highest - lowest) / 2;
-  return std::sqrt((group.rowwise() - ball.center).rowwise().squaredNorm().maxCoeff());
-}
-
 }  // namespace
 
 NeighborSearch::NeighborSearch(const PointsView& points) : NeighborSearch(points, Workers(1, Progress())) {}
@@ -220,15 +212,15 @@ void NeighborSearch::nearestTo(const Eigen::RowVector3d& position, Buffer<Neighb
   ties.finish();
 }
 
-bool NeighborSearch::candidates(int first, int count, int k, Buffer<int>& found, Buffer<double>& bounds,
+bool NeighborSearch::candidates(const PointGroup& group, int k, Buffer<int>& found, Buffer<double>& bounds,
                                 SearchedBall& ball) const {
   const int n = static_cast<int>(points_.rows());
-  const double spread = findCenter(points_, first, count, ball);
+  ball.center = group.center;
 
   // A point of the group is not its own neighbour, so k + 1 nearest of the centre hold k neighbours of it. Points near
   // on the curve bound their distance to begin with.
   const int wanted = std::min(k, n - 1) + 1;
-  const int begin = std::max(0, std::min(first + count / 2 - wanted, n - 2 * wanted));
+  const int begin = std::max(0, std::min(group.middle - wanted, n - 2 * wanted));
   const int end = std::min(n, begin + 2 * wanted);
   bounds.clear();
   for (int q = begin; q < end; ++q) bounds.push_back((points_.row(q) - ball.center).squaredNorm());
@@ -236,18 +228,19 @@ bool NeighborSearch::candidates(int first, int count, int k, Buffer<int>& found,
   std::swap(bounds.front(), bounds[wanted - 1]);
   bounds.resize(static_cast<std::size_t>(wanted));
 
-  ShrinkingBall set(2 * spread, mostCandidates(k), bounds, found);
-  forest_->search(ball.center.data(), first, set);
+  ShrinkingBall set(2 * group.spread, mostCandidates(k), bounds, found);
+  forest_->search(ball.center.data(), group.first, set);
   ball.k_radius = std::sqrt(bounds.front());
-  ball.radius = ball.k_radius + 2 * spread;
+  ball.radius = ball.k_radius + 2 * group.spread;
   return !set.isTooFull() && bounds.front() > least_square;
 }
 
-bool NeighborSearch::candidatesWithin(int first, int count, int k, double around, Buffer<int>& found,
+bool NeighborSearch::candidatesWithin(const PointGroup& group, int k, double around, Buffer<int>& found,
                                       SearchedBall& ball) const {
-  ball.radius = findCenter(points_, first, count, ball) + around;
+  ball.center = group.center;
+  ball.radius = group.spread + around;
   WholeBall set(ball.radius, mostCandidates(k), found);
-  forest_->search(ball.center.data(), first, set);
+  forest_->search(ball.center.data(), group.first, set);
   return !set.isTooFull() && around * around > least_square;
 }
 

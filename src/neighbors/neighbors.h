@@ -41,6 +41,14 @@ struct SearchBefore {
   double radius = 0;  ///< of the k nearest of p
 };
 
+/// Points that are searched around together.
+struct PointGroup {
+  int first;                  ///< rank of one of them
+  int middle;                 ///< rank of one in their midst
+  Eigen::RowVector3d center;  ///< of their box
+  double spread;              ///< how far from there the farthest of them is
+};
+
 /// Where NeighborSearch::candidates has looked.
 struct SearchedBall {
   Eigen::RowVector3d center;
@@ -73,18 +81,17 @@ class NeighborSearch : public InWorkspace {
   /// @param[out] found in no order
   void nearestTo(const Eigen::RowVector3d& position, Buffer<Neighbor>& found) const;
 
-  /// All points that any of the points [first, first + count) has among its min(k, n - 1) nearest, and others near
-  /// them. False, and nothing of use, where these are more than mostCandidates(k), or so close that squares of
-  /// their distances underflow.
+  /// All points that any of a group has among its min(k, n - 1) nearest, and others near them. False, and nothing of
+  /// use, where these are more than mostCandidates(k), or so close that squares of their distances underflow.
   /// @param[out] found ranks
   /// @param bounds scratch
-  /// @param[out] ball around the middle of the points' box
-  bool candidates(int first, int count, int k, Buffer<int>& found, Buffer<double>& bounds, SearchedBall& ball) const;
+  /// @param[out] ball around the group
+  bool candidates(const PointGroup& group, int k, Buffer<int>& found, Buffer<double>& bounds, SearchedBall& ball) const;
 
-  /// All points within `around` of any of the points [first, first + count), and others near them. False,
-  /// and nothing of use, where these are too many for k nearest or too close, as for candidates().
+  /// All points within `around` of any of a group, and others near them. False, and nothing of use, where these are too
+  /// many for k nearest or too close, as for candidates().
   /// @param[out] ball its k_radius is not known
-  bool candidatesWithin(int first, int count, int k, double around, Buffer<int>& found, SearchedBall& ball) const;
+  bool candidatesWithin(const PointGroup& group, int k, double around, Buffer<int>& found, SearchedBall& ball) const;
 
   std::size_t bytes() const;
 
