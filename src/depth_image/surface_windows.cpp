@@ -4,6 +4,7 @@
 #include <array>
 #include <numeric>
 
+#include "depth_image/faint_jumps.h"
 #include "depth_image/image_tile.h"
 #include "depth_image/smoothed_ranges.h"
 
@@ -106,6 +107,7 @@ SurfaceWindows findSurfaceWindows(const PixelGrid& grid, const PointsView& point
   });
   windows.cut = std::accumulate(cut.begin(), cut.end(), std::int64_t{0});
   if (!smooths) return windows;
+  cutFaintJumps(grid, noise, windows, smoothed);
   smoothFurther(smoothed, noise, workers);
   moveAlongRays(grid, points, smoothed, workers, windows);
   return windows;
