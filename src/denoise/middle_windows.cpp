@@ -1,6 +1,7 @@
 #include "denoise/middle_windows.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 
@@ -12,8 +13,9 @@
 namespace tufted {
 namespace {
 
-constexpr int in_widest = 40;  // middles, where they are as far apart as usual
-constexpr int in_moving = 2;   // of Windows::fits: the widest that a middle moves onto
+/// How many middles the windows hold, where these are as far apart as usual.
+constexpr std::array<int, Windows::sizes - Windows::searched> middles_in = {24, 40};
+constexpr int in_moving = 2;  // of Windows::fits: the widest that a middle moves onto
 
 /// A middle where its own window says that the surface is.
 struct MovedMiddle {
@@ -65,7 +67,7 @@ class MiddleFitter {
 
   void take(std::span<const int> which) {
     const auto rank = [&](int w) { return w >> middles_.step; };
-    const auto count = [&](int w) { return in_widest * spreadOf(windows_, w).times; };
+    const auto count = [&](int w) { return middles_in.back() * spreadOf(windows_, w).times; };
     search_.forEach(which, rank, count, [&](int w, std::span<const Neighbor> neighbors) { sum(w, neighbors); });
     solve(which);
   }
@@ -89,26 +91,31 @@ class MiddleFitter {
     }
     offsets_.fill(count,
                   [&](int i) -> Eigen::RowVector3d { return kept_[i] != 0 ? offset(i) : Eigen::RowVector3d::Zero(); });
-    HeightMoments moments = heightMoments(offsets_.view(), normal, windows_.radius[w]);
+    const Offsets all = offsets_.view();
     double leverage = moved_[w].leverage;
-    moments.count = 1;
-    for (int i = 0; i < count; ++i) {
-      if (kept_[i] == 0) continue;
-      ++moments.count;
-      leverage += moved_[middles_.windowOf(neighbors[i].index)].leverage;
+    int from = 0, kept = 1;
+    for (std::size_t size = 0; size < middles_in.size(); ++size) {
+      const int to = std::min(count, middles_in[size] * spreadOf(windows_, w).times);
+      HeightMoments moments = heightMoments({to, all.x, all.y, all.z}, normal, windows_.radius[w]);
+      for (; from < to; ++from) {
+        if (kept_[from] == 0) continue;
+        ++kept;
+        leverage += moved_[middles_.windowOf(neighbors[from].index)].leverage;
+      }
+      moments.count = kept;
+      WindowFit& fit = windows_.fits[w][Windows::searched + size];
+      fit.radius = to > 0 ? std::sqrt(neighbors[to - 1].squared_distance) : 0;
+      fit.count = kept;
+      moments_.push_back(moments);
+      unit_.push_back(leverage / kept);
     }
-    WindowFit& fit = windows_.fits[w][Windows::searched];
-    fit.radius = count > 0 ? std::sqrt(neighbors.back().squared_distance) : 0;
-    fit.count = moments.count;
-    moments_.push_back(moments);
-    unit_.push_back(leverage / moments.count);
   }
 
   void solve(std::span<const int> which) {
     fits_.resize(moments_.size());
     fitHeights(moments_, fits_);
     for (std::size_t i = 0; i < fits_.size(); ++i) {
-      const int w = which[i];
+      const int w = which[i / middles_in.size()];
       HeightFit& fit = fits_[i];
       // From where the middle has moved to back to where it was.
       const double up = (moved_[w].position - points_.row(windows_.pointOf(w))).dot(windows_.normal.row(w));
@@ -117,7 +124,7 @@ class MiddleFitter {
       // Leverage and variance become those of a fit through all points that the middles stand for.
       fit.leverage /= windows_.stride << middles_.step;
       fit.variance /= unit_[i];
-      static_cast<HeightFit&>(windows_.fits[w][Windows::searched]) = fit;
+      static_cast<HeightFit&>(windows_.fits[w][Windows::searched + i % middles_in.size()]) = fit;
     }
   }
 
@@ -150,7 +157,9 @@ void fitThroughMiddles(const PointsView& points, const Workers& workers, Windows
     });
   }
   forEachPoint(windows, workers, [&](int w) {
-    if (windows.is_copy[w] != 0) windows.fits[w].back() = windows.fits[windows.copied(w)].back();
+    if (windows.is_copy[w] == 0) return;
+    const auto& fits = windows.fits[windows.copied(w)];
+    std::copy(fits.begin() + Windows::searched, fits.end(), windows.fits[w].begin() + Windows::searched);
   });
 }
 

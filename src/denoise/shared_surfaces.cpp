@@ -16,9 +16,9 @@ constexpr std::int8_t least_shared = 2;  // of Windows::fits: smaller windows ho
 constexpr double least_weight = 0.02;    // of all windows together; 1 is that of a window in its middle
 constexpr std::int64_t at_once = 64 * costly_block;  // windows whose surfaces are kept until they are added up
 constexpr double lifted_within = 0.6;                // of the radius of a window: how far its surface lifts others
-/// Noise along a surface draws fits towards the centre of curvature, by its variance times the mean curvature. Whether
-/// there is any, or all noise is along the normal, nobody knows: half of that is taken back.
-constexpr double along_surface = 0.5;
+/// Noise draws fits towards the centre of curvature: by 2.5 times its variance times the mean curvature where it is
+/// alike in all directions, by 3.5 times where it is along the normal. So many times of that are taken back.
+constexpr double taken_back = 1;
 constexpr double grown = 1.1;       // of the residuals' variance from the base window to the next: noise 1
 constexpr int more_where_bent = 2;  // times as many base windows as others: they hold half as many points
 
@@ -92,7 +92,7 @@ class SharingWindows {
       add(0, windows_.pointOf(w), is_shared ? 1 : 0);
       for (std::size_t i = 0; i < neighbors.size(); ++i) {
         const double share = 1 - ways.squared[i + 1] / farthest;
-        add(i + 1, neighbors[i], is_shared && skipped[i] == 0 ? share * share : 0);
+        add(i + 1, neighbors[i], is_shared && skipped[i] == 0 ? share : 0);
       }
     }
   }
@@ -123,7 +123,7 @@ class SharingWindows {
   /// How high over the surface of the shared window w points move to.
   double up(int w) const {
     const auto& c = windows_.fits[w][shared_[w]].coefficient;
-    return (lift_.empty() ? 0 : lift_[w]) - along_surface * variance_[w] * (c[3] + c[5]) / windows_.radius[w];
+    return (lift_.empty() ? 0 : lift_[w]) - taken_back * variance_[w] * (c[3] + c[5]) / windows_.radius[w];
   }
 
   /// The squared distance from the surface of window w within which points belong to it.

@@ -20,7 +20,7 @@ constexpr std::array<double, Windows::searched> enough = {0, 0, 0.02, 0.05};
 /// windows: the surface is smooth there.
 Windows::Pool poolOf(const Windows& windows, int p, int window) {
   if (windows.stride > 1) return windows.far[p];  // else there are few
-  if (window < Windows::sizes - 1) return window < 2 ? windows.near[p] : windows.middle[p];
+  if (window < Windows::searched - 1) return window < 2 ? windows.near[p] : windows.middle[p];
   Windows::Pool found, pool;
   const auto end =
       std::ranges::copy_if(windows.far[p], found.begin(), [&](int q) { return windows.fits[q][window].count > 0; }).out;

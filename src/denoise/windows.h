@@ -21,11 +21,11 @@ struct WindowFit : HeightFit {
 };
 
 /// Around each point, or every so many, four nested windows of neighbours: half the base window, the base window, twice
-/// and four times as many neighbours. Around every so many points the widest one of all holds middles of others
+/// and four times as many neighbours. Around every so many points the two widest hold middles of others
 /// instead, see fitThroughMiddles(). The tangent plane of all is that of the base window.
 struct Windows {
   static constexpr int searched = 4;           ///< windows of neighbours, the smallest first
-  static constexpr int sizes = searched + 1;   ///< with that of middles
+  static constexpr int sizes = searched + 2;   ///< with those of middles
   static constexpr std::int8_t base_size = 1;  ///< of all, the base window
   static constexpr int widest_stride = 8;      ///< all strides are powers of two
   static constexpr int first_base = 32;        ///< neighbours in the base window, but where the noise is stronger

@@ -94,9 +94,9 @@ TEST(SharedSurfaces, OfMiddlesBringAPointBackThatAloneIsOff) {
     EXPECT_NEAR(cloud.move.row(p).norm(), cloud.ranked.input_index[p] == 1234 ? 0.002 * unit : 0, 3e-4 * unit) << p;
 }
 
-// In all directions noise of variance s2 draws the fit by s2 / 2 times the Laplacian of z = (x^2 + y^2) / 8; half of
-// that is taken back, away from the centre of curvature above.
-TEST(SharedSurfaces, TakeBackHalfOfWhatNoiseAlongABowlDoes) {
+// The variance of the noise times the mean curvature, 1/4 of z = (x^2 + y^2) / 8, is taken back, away from the centre
+// of curvature above.
+TEST(SharedSurfaces, TakeBackSomeOfWhatNoiseOnABowlDoes) {
   Points points = shapes::square(4000).points;
   points.col(0).array() -= 0.5;
   points.col(1).array() -= 0.5;
@@ -105,7 +105,7 @@ TEST(SharedSurfaces, TakeBackHalfOfWhatNoiseAlongABowlDoes) {
   const double unit = std::ldexp(1, -support::ranked(points).exponent);
   SharedCloud cloud(points, sigma * unit);
   cloud.share();
-  const double way = 0.5 * sigma * sigma / 2 * 0.5;
+  const double way = sigma * sigma / 4;
   for (int p = 0; p < cloud.ranked.size(); ++p) {
     if (points.row(cloud.ranked.input_index[p]).head(2).norm() > 0.3) continue;
     EXPECT_NEAR(cloud.move.row(p)[2], -way * unit, 0.05 * way * unit) << p;
