@@ -70,6 +70,10 @@ void Components::multiply(Eigen::Ref<Eigen::MatrixXd> values, const Eigen::Matri
   }
 }
 
+std::string whyOnNone(const std::string& what, int point, PointStatus status) {
+  return what + " " + std::to_string(point) + (status == PointStatus::not_finite ? " is not finite" : " is isolated");
+}
+
 Components findComponents(const Laplacian& laplacian) {
   return joinedAbove(least_weight, laplacian);
 }

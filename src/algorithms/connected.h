@@ -1,5 +1,6 @@
 #pragma once
 
+#include <string>
 #include <vector>
 
 #include "tufted/laplacian.h"
@@ -26,6 +27,10 @@ struct Components {
 };
 
 Components findComponents(const Laplacian& laplacian);
+
+/// Why a point that is not active lies on no component, for errors: "source 3 is not finite".
+/// @param what the point is to the caller
+std::string whyOnNone(const std::string& what, int point, PointStatus status);
 
 /// Weights of at most this part of the smaller diagonal join badly. A factor loses about 1e-13 over this part of a jump
 /// across them.

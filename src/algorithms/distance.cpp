@@ -58,6 +58,7 @@ void checkSource(const SurfacePoint& source, int n) {
 struct DistanceSolver::State {
   Components components;
   std::vector<int> representative;
+  std::vector<PointStatus> status;
   double maximum = infinity;
   std::optional<MarchingDistance> marching;
   std::optional<HeatDistance> heat;
@@ -93,6 +94,7 @@ DistanceSolver::DistanceSolver(const Laplacian& laplacian, const DistanceOptions
   auto state = std::make_unique<State>();
   state->components = findComponents(laplacian);
   state->representative = laplacian.representative;
+  state->status = laplacian.status;
   state->maximum = options.maximum;
   if (options.method == DistanceMethod::marching)
     state->report = state->marching.emplace(laplacian, split, options).report();
@@ -122,8 +124,13 @@ std::vector<SurfacePoint> DistanceSolver::State::checked(const std::vector<Surfa
       has_one |= isActive(source.corners[k]) && source.weights[k] > 0;
     }
   }
-  if (!has_one)
-    throw InvalidInput(std::string(query_name) + ": no source lies on a component, must be at least one active point");
+  if (!has_one) {
+    int k = 0;
+    while (k < 2 && !(sources[0].weights[k] > 0)) ++k;
+    throw InvalidInput(std::string(query_name) +
+                       ": no source lies on a component, must be at least one active point: " +
+                       whyOnNone("source", sources[0].corners[k], status[found[0].corners[k]]));
+  }
   return found;
 }
 

@@ -62,7 +62,7 @@ Eigen::MatrixXd ExtensionSolver::query(const std::vector<int>& sources, const Ei
     start.scalars(i, 0) += 1;
     start.scalars.row(i).tail(values.cols()) += (value - range.middle).cwiseQuotient(range.half);
   }
-  checkHeat(query_name, start);
+  checkHeat(query_name, heat, sources, start);
   VectorHeatReport made;
   const HeatFields found = heat.spread(query_name, start, made, progress);
   Eigen::MatrixXd result = found.scalars.rightCols(values.cols());

@@ -24,9 +24,10 @@ void checkSources(const char* function, const std::vector<int>& sources, const c
       throw InvalidInput(name + "row " + std::to_string(s) + " of " + what + " is not finite, must be");
 }
 
-void checkHeat(const char* function, const HeatFields& sources) {
-  if ((sources.scalars.col(0).array() > 0).any()) return;
-  throw InvalidInput(std::string(function) + ": no source lies on a component, must be at least one active point");
+void checkHeat(const char* function, const FieldHeat& heat, const std::vector<int>& sources, const HeatFields& start) {
+  if ((start.scalars.col(0).array() > 0).any()) return;
+  throw InvalidInput(std::string(function) + ": no source lies on a component, must be at least one active point: " +
+                     heat.whyIgnored(sources[0]));
 }
 
 Eigen::Vector2d inTangentPlane(const std::string& name, const Frames& frames, int point,

@@ -16,8 +16,9 @@ namespace tufted {
 void checkSources(const char* function, const std::vector<int>& sources, const char* what,
                   const Eigen::Ref<const Eigen::MatrixXd>& values);
 
+/// @param start what flows in at the sources, each of which has a place or is ignored
 /// @throws InvalidInput where no source gives heat
-void checkHeat(const char* function, const HeatFields& sources);
+void checkHeat(const char* function, const FieldHeat& heat, const std::vector<int>& sources, const HeatFields& start);
 
 /// The coordinates of a vector's projection into the tangent plane of a point.
 /// @param name of the vector, for errors

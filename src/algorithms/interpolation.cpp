@@ -187,7 +187,8 @@ Eigen::MatrixXd unitSources(const std::string& function, const Laplacian& laplac
     }
     const int i = laplacian.representative[points[k]];
     if (laplacian.status[i] != PointStatus::active) {
-      throw InvalidInput(function + ": point " + std::to_string(points[k]) + " lies on no component, must be active");
+      throw InvalidInput(function + ": " + whyOnNone("point", points[k], laplacian.status[i]) +
+                         ", lies on no component, must be active");
     }
     b(i, static_cast<Eigen::Index>(k)) = 1;
   }

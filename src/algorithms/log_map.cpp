@@ -128,7 +128,7 @@ LogMap LogMapSolver::query(int source, const Eigen::RowVector3d& axis, const Pro
   const State& state = *state_;
   const std::string name = std::string(query_name) + ": ";
   const int s = state.heat.place(query_name, source);
-  if (s < 0) throw InvalidInput(name + "source " + std::to_string(source) + " lies on no component, must be active");
+  if (s < 0) throw InvalidInput(name + state.heat.whyIgnored(source) + ", lies on no component, must be active");
   if (!axis.allFinite()) throw InvalidInput(name + "axis is not finite, must be");
   Eigen::Vector2d first = inTangentPlane(name + "axis", state.frames, s, axis);
   first = first.norm() > 0 ? Eigen::Vector2d(first.stableNormalized()) : Eigen::Vector2d::UnitX();

@@ -25,7 +25,10 @@ PinnedPoints pinnedPoints(const std::string& function, const Laplacian& laplacia
   for (const int i : components.points)
     if (result.pinned[i] != 0) has_pin[components.of[i]] = true;
   if (std::find(has_pin.begin(), has_pin.end(), true) == has_pin.end()) {
-    throw InvalidInput(name + " has no point on a component, must have at least one active point");
+    std::string why;
+    if (!points.empty())
+      why = ": " + whyOnNone("point", points[0], laplacian.status[laplacian.representative[points[0]]]);
+    throw InvalidInput(name + " has no point on a component, must have at least one active point" + why);
   }
   for (const int i : components.points) result.free[i] = result.pinned[i] == 0 && has_pin[components.of[i]] ? 1 : 0;
   return result;

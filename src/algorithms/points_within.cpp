@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "algorithms/connected.h"
 #include "algorithms/march.h"
 #include "algorithms/march_faces.h"
 #include "base/number_text.h"
@@ -57,7 +58,10 @@ std::vector<int> checkedSources(const Laplacian& laplacian, const std::vector<in
     const int point = checkedSource(laplacian, source);
     if (laplacian.status[point] == PointStatus::active) found.push_back(point);
   }
-  if (found.empty()) throw InvalidInput(name + "no source lies on a component, must be at least one active point");
+  if (found.empty()) {
+    throw InvalidInput(name + "no source lies on a component, must be at least one active point: " +
+                       whyOnNone("source", sources[0], laplacian.status[laplacian.representative[sources[0]]]));
+  }
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;

@@ -40,7 +40,8 @@ void checkArguments(const Laplacian& laplacian, const SegmentOptions& options, c
                          std::to_string(laplacian.status.size()) + ")");
     const int point = laplacian.representative[seed];
     if (components.of[point] < 0)
-      throw InvalidInput(name + "seed " + std::to_string(seed) + " lies on no component, must be active");
+      throw InvalidInput(name + whyOnNone("seed", seed, laplacian.status[point]) +
+                         ", lies on no component, must be active");
     if (std::find(seen.begin(), seen.end(), point) != seen.end())
       throw InvalidInput(name + "seed " + std::to_string(seed) + " is given twice, must be given once");
     seen.push_back(point);

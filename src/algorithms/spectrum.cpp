@@ -244,10 +244,14 @@ Spectrum spectrum(const Laplacian& laplacian, int k, const SpectrumOptions& opti
   const Stopwatch watch;
   const Eigenproblem problem(laplacian);
   const Index bound = problem.bound(options.null_space);
+  const std::string counted =
+      std::string("active points of positive area") + (options.null_space ? "" : " without one per component");
+  if (bound < 2)
+    throw InvalidInput("spectrum: k = " + std::to_string(k) + ", and there are " + std::to_string(bound) + " " +
+                       counted + ", must be at least 2");
   if (k < 1 || k >= bound)
     throw InvalidInput("spectrum: k = " + std::to_string(k) + ", must be at least 1 and less than " +
-                       std::to_string(bound) + ", the number of active points of positive area" +
-                       (options.null_space ? "" : " without one per component"));
+                       std::to_string(bound) + ", the number of " + counted);
   Spectrum result{VectorXd::Zero(k), MatrixXd(problem.mass.size(), k), {}};
   const Index nulls = options.null_space ? std::min<Index>(k, problem.nulls()) : 0;
   result.report.null_space = static_cast<int>(nulls);

@@ -63,7 +63,7 @@ Points TransportSolver::query(const std::vector<int>& sources, const Points& vec
     start.vectors.col(0).segment<2>(2 * i) += inTangentPlane(name, state_->frames, i, vector);
     start.scalars(i, 0) += 1;
   }
-  checkHeat(query_name, start);
+  checkHeat(query_name, heat, sources, start);
   for (int i = 0; i < n; ++i) start.scalars(i, 1) = start.vectors.col(0).segment<2>(2 * i).norm();
   VectorHeatReport made;
   const HeatFields found = heat.spread(query_name, start, made, progress);

@@ -80,6 +80,7 @@ FieldHeat::FieldHeat(const char* function, const Laplacian& laplacian, const Fra
   L_ = laplacian.L;
   components_ = findComponents(laplacian);
   representative_ = laplacian.representative;
+  status_ = laplacian.status;
   spacing_ = spacingOf(L_, laplacian.positions);
   time_ = options.time_step * spacing_ * spacing_;
   const VectorXd diagonal = L_.diagonal();
@@ -107,6 +108,10 @@ int FieldHeat::place(const char* function, int source) const {
                        std::to_string(size()) + ")");
   const int i = representative_[source];
   return components_.of[i] < 0 ? -1 : i;
+}
+
+std::string FieldHeat::whyIgnored(int source) const {
+  return whyOnNone("source", source, status_[representative_[source]]);
 }
 
 HeatFields FieldHeat::solve(const char* function, HeatFields flow, const std::vector<std::uint8_t>& passed,

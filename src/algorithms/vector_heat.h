@@ -46,6 +46,9 @@ class FieldHeat {
       if (representative_[i] != i) values.row(i) = values.row(representative_[i]);
   }
 
+  /// Why a source is ignored, for errors.
+  std::string whyIgnored(int source) const;
+
   int size() const { return static_cast<int>(representative_.size()); }
   double spacing() const { return spacing_; }
   double timeStep() const { return time_; }
@@ -65,6 +68,7 @@ class FieldHeat {
   SparseMatrix connection_;  ///< 2N x 2N; empty without vectors
   Components components_;
   std::vector<int> representative_;
+  std::vector<PointStatus> status_;
   double spacing_ = 1;  ///< root mean squared distance of neighbours
   double time_ = 1;
   std::optional<LinearSystem> scalars_, vectors_;

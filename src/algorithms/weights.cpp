@@ -43,7 +43,11 @@ std::vector<int> handlesOfPoints(const Laplacian& laplacian, const Components& c
                std::to_string(h) + ", must be of one");
       of[i] = static_cast<int>(h);
     }
-    if (!has_active) refuse("handle " + std::to_string(h) + " has no active point, must have at least one");
+    if (has_active) continue;
+    std::string why;
+    if (!handles[h].empty())
+      why = ": " + whyOnNone("point", handles[h][0], laplacian.status[laplacian.representative[handles[h][0]]]);
+    refuse("handle " + std::to_string(h) + " has no active point, must have at least one" + why);
   }
   return of;
 }

@@ -37,6 +37,8 @@ class LineScanner {
   const std::vector<std::string_view>& tokens() const { return tokens_; }
   std::int64_t line() const { return line_; }     ///< number of the current line, from 1
   std::size_t offset() const { return offset_; }  ///< where the following line begins
+  /// Whether the text ends in this line, so that its last word may be cut off.
+  bool isCutOff() const { return offset_ > text_.size(); }
 
   /// The number in a token of this line. @throws IoError naming the line
   double number(std::size_t token) const;

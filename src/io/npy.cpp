@@ -122,9 +122,12 @@ NpyArray parseNpy(std::string_view bytes, const std::filesystem::path& shown, Np
 }
 
 FieldType numberType(const NpyHeader& header, const std::filesystem::path& shown) {
-  if (!header.type)
-    refuseByte(shown, npy_dictionary, "is an array of " + quote(header.descr) + ", which are no numbers");
-  return *header.type;
+  if (header.type) return *header.type;
+  const bool is_swapped = header.descr.starts_with('>') && types.count("<" + header.descr.substr(1)) > 0;
+  refuseByte(shown, npy_dictionary,
+             "is an array of " + quote(header.descr) +
+                 (is_swapped ? ", which are big-endian, must be little-endian"
+                             : ", must be of integers of 1 to 8 bytes, float32 or float64"));
 }
 
 std::vector<double> numbersOf(const NpyArray& array, const std::filesystem::path& shown) {

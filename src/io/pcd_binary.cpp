@@ -16,6 +16,9 @@ void readPcdBinary(const std::filesystem::path& path, std::string_view bytes, Pc
     refuseByte(path, bytes.size(),
                "ends there, too short for " + std::to_string(header.points) + " points of " +
                    std::to_string(header.row_bytes) + " bytes");
+  const auto item = static_cast<std::size_t>(header.row_bytes);
+  refuseFurther(path, bytes, header.body + static_cast<std::size_t>(header.points) * item, item,
+                std::to_string(header.points) + " points of the header");
   allocate(header);
   const char* value = bytes.data() + header.body;
   for (std::int64_t i = 0; i < header.points; ++i) {

@@ -27,6 +27,7 @@ class PcdHeaderParser {
 
   PcdHeader parse() {
     while (scanner_.next()) {
+      if (scanner_.isCutOff() && scanner_.tokens()[0] != "DATA") scanner_.refuse("the file ends within the header");
       if (keyword()) return finish();
     }
     scanner_.refuse("the header has no DATA line");

@@ -55,17 +55,27 @@ class AsciiPlyBody : public PlyBody {
   std::size_t token_ = 0;
 };
 
+/// The least bytes of an item of the last element.
+std::size_t lastItem(const PlyHeader& header) {
+  std::size_t least = 0;
+  if (header.elements.empty()) return least;
+  for (const PlyProperty& property : header.elements.back().properties)
+    least += sizeOf(property.is_list ? property.count_type : property.type);
+  return least;
+}
+
 class BinaryPlyBody : public PlyBody {
  public:
   BinaryPlyBody(const std::filesystem::path& path, std::string_view bytes, const PlyHeader& header)
       : path_(path),
         bytes_(bytes),
         offset_(header.body),
+        last_item_(lastItem(header)),
         swap_((header.format == PlyHeader::Format::big_endian) != (std::endian::native == std::endian::big)) {}
 
   void beginItem(const PlyElement&) override { item_ = offset_; }
   void endItem() override {}
-  void end() override {}  // some programs pad
+  void end() override { refuseFurther(path_, bytes_, offset_, last_item_, "elements of the header"); }
 
   void value(FieldType type, std::byte* bytes) override {
     const std::size_t size = sizeOf(type);
@@ -89,6 +99,7 @@ class BinaryPlyBody : public PlyBody {
   std::string_view bytes_;
   std::size_t offset_;
   std::size_t item_ = 0;
+  std::size_t last_item_;
   bool swap_;
 };
 

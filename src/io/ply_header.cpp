@@ -32,6 +32,8 @@ class PlyHeaderParser {
   PlyHeader parse() {
     if (!scanner_.next() || scanner_.tokens()[0] != "ply") refuseLine(path_, 1, "does not begin with 'ply'");
     while (scanner_.next()) {
+      if (scanner_.isCutOff() && scanner_.tokens()[0] != "end_header")
+        scanner_.refuse("the file ends within the header");
       if (keyword()) return finish();
     }
     scanner_.refuse("the header has no end_header line");

@@ -60,7 +60,9 @@ ScanStructure ringsOf(const Geometry& geometry, const std::string& name) {
     try {
       return findRings(seen);
     } catch (const InvalidInput& error) {
-      throw IoError(name + ": has no field `ring`, and its elevations show no rings: " + error.what());
+      std::string why = error.what();
+      why.erase(0, why.find(": ") + 2);  // the name of the function, which readers of files do not know
+      throw IoError(name + ": has no field `ring`, and its elevations show no rings: " + why);
     }
   };
   const auto byField = [&](const Field& field) {

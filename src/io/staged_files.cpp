@@ -17,6 +17,21 @@ namespace tufted::io {
 
 namespace fs = std::filesystem;
 
+namespace {
+
+/// Refuses a name that something has which a rename would take away, and which is no file of results: a directory, a
+/// device, a pipe, or a link, which says that the bytes belong elsewhere.
+void refuseOdd(const fs::path& path) {
+  std::error_code error;
+  const fs::file_type type = fs::symlink_status(path, error).type();
+  if (type == fs::file_type::directory || fs::is_directory(path, error)) refuse(path, "cannot write: is a directory");
+  if (type == fs::file_type::symlink) refuse(path, "cannot write: is a link, must be a file or missing");
+  if (type != fs::file_type::regular && type != fs::file_type::not_found && type != fs::file_type::none)
+    refuse(path, "cannot write: is no regular file");
+}
+
+}  // namespace
+
 StagedFiles::StagedFiles(const fs::path& dir) : dir_(dir) {
   int attempts = 100;  // another process may make the directory and remove it again
   while (!makeHiddenFolder(attempts > 1)) --attempts;
@@ -70,8 +85,7 @@ bool StagedFiles::makeHiddenFolder(bool may_vanish) {
 
 OutputPath StagedFiles::stage(const std::string& name) {
   OutputPath path = {hidden_ / name, dir_ / name};
-  std::error_code error;
-  if (fs::is_directory(path.shown, error)) refuse(path.shown, "cannot write: is a directory");
+  refuseOdd(path.shown);
   files_.push_back({path});
   return path;
 }
@@ -79,13 +93,11 @@ OutputPath StagedFiles::stage(const std::string& name) {
 void StagedFiles::keepOld(File& file) {
   const char* const name = file.path.shown.c_str();
   const fs::path old = oldOf(file);
+  refuseOdd(file.path.shown);  // another process may have made it meanwhile
   // A second link, so that the name always has a file.
   file.has_old = ::linkat(AT_FDCWD, name, AT_FDCWD, old.c_str(), 0) == 0;
   if (file.has_old || errno == ENOENT) return;
   // Not every file system has links, and not every file of others may be linked to.
-  std::error_code error;
-  if (fs::is_directory(fs::symlink_status(file.path.shown, error)))
-    refuse(file.path.shown, "cannot write: is a directory");
   file.has_old = ::rename(name, old.c_str()) == 0;
   if (!file.has_old && errno != ENOENT) refuseErrno(file.path.shown, "write", errno);
 }

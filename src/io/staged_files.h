@@ -21,7 +21,7 @@ class StagedFiles {
   StagedFiles& operator=(const StagedFiles&) = delete;
 
   /// The path in the hidden folder under which to write the file `name`, and the path that it will have.
-  /// @throws IoError where a directory has that name
+  /// @throws IoError where a directory, a link, a device or a pipe has that name
   OutputPath stage(const std::string& name);
 
   /// Brings the files to the disk, then renames them one after the other, while every other process that commits to

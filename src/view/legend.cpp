@@ -35,6 +35,8 @@ std::set<long long> labelsIn(const SceneField& field, int column) {
 
 std::string headingOf(const FieldColors& colors, const PictureOptions& options) {
   std::string text = colors.field->name;
+  const auto column = static_cast<std::size_t>(options.column);
+  if (column < colors.field->column_names.size()) return colors.field->column_names[column];
   if (!showsAllColumns(colors.field->kind) && colors.field->values.cols() > 1)
     text.append(" ").append(std::to_string(options.column));
   return text;

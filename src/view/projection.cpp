@@ -27,6 +27,8 @@ constexpr double half_angle = 0.31;
 constexpr double reach = 0.25;
 /// The share of the least variance in the middle one below which a scene is flat, such as a terrain.
 constexpr double flatness = 0.12;
+/// The share of the middle variance in the greatest one below which a scene is a line, which no view along it shows.
+constexpr double slenderness = 1e-4;
 
 struct Box {
   Vector3d low = Vector3d::Zero(), high = Vector3d::Zero();
@@ -76,7 +78,7 @@ struct Axes {
 };
 
 Axes axesOf(const Points& positions, const std::vector<int>& numbers) {
-  if (numbers.size() < 3) return {};
+  if (numbers.size() < 2) return {};
   Vector3d mean = Vector3d::Zero();
   for (const int i : numbers) mean += positions.row(i).transpose();
   mean /= static_cast<double>(numbers.size());
@@ -105,6 +107,14 @@ Vector3d directionAt(const Vector3d& up, double azimuth, double elevation) {
 void chooseDirections(const NormalizedPoints& points, const std::vector<int>& inside, Vector3d& eye, Vector3d& up) {
   const Axes axes = axesOf(points.positions, inside);
   Vector3d thin = axes.directions.col(0);
+  if (eye.norm() == 0 && axes.variances[1] < slenderness * axes.variances[2]) {
+    const Vector3d line = axes.directions.col(2);
+    if (up.norm() == 0) up = Vector3d::UnitZ();
+    const Vector3d across = line.cross(up);
+    eye = across.norm() > 0.1 ? across.normalized() : line.unitOrthogonal();
+    if (eye.y() > 0) eye = -eye;
+    return;
+  }
   const bool is_flat = axes.variances[0] < flatness * axes.variances[1];
   const bool is_upright = std::abs(thin.z()) < std::numbers::sqrt2 / 2;
   const bool knows_up = up.norm() > 0;

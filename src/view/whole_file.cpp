@@ -18,11 +18,30 @@ namespace {
   throw IoError(path.string() + ": cannot write: " + std::system_category().message(error));
 }
 
-/// A file in a hidden folder of its own beside `path`; both are removed again unless the file gets its name.
+/// The file that a path names, behind all links; it need not exist.
+std::filesystem::path behindLinks(const std::filesystem::path& path) {
+  namespace fs = std::filesystem;
+  std::error_code error;
+  const fs::file_status status = fs::status(path, error);
+  if (error && status.type() != fs::file_type::not_found) refuse(path, error.value());  // as where links go in circles
+  if (fs::is_directory(status)) throw IoError(path.string() + ": cannot write: is a directory");
+  if (fs::exists(status) && !fs::is_regular_file(status))
+    throw IoError(path.string() + ": cannot write: is no regular file");
+  fs::path file = path;
+  while (fs::is_symlink(fs::symlink_status(file, error))) {
+    const fs::path next = fs::read_symlink(file, error);
+    if (error) refuse(path, error.value());
+    file = file.parent_path() / next;
+  }
+  return file;
+}
+
+/// A file in a hidden folder of its own beside the one that `path` names; both are removed again unless the file gets
+/// its name.
 class HiddenFile {
  public:
-  explicit HiddenFile(const std::filesystem::path& path) : shown_(path) {
-    folder_ = (path.parent_path() / ".tufted-XXXXXX").string();
+  explicit HiddenFile(const std::filesystem::path& path) : shown_(path), final_(behindLinks(path)) {
+    folder_ = (final_.parent_path() / ".tufted-XXXXXX").string();
     if (::mkdtemp(folder_.data()) == nullptr) refuse(shown_, errno);
     name_ = folder_ + "/file";
     file_ = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
@@ -51,11 +70,11 @@ class HiddenFile {
     if (::fsync(file_) != 0) refuse(shown_, errno);
     const int closed = ::close(file_);
     file_ = -1;
-    if (closed != 0 || ::rename(name_.c_str(), shown_.c_str()) != 0) refuse(shown_, errno);
+    if (closed != 0 || ::rename(name_.c_str(), final_.c_str()) != 0) refuse(shown_, errno);
   }
 
  private:
-  std::filesystem::path shown_;
+  std::filesystem::path shown_, final_;
   std::string folder_, name_;
   int file_ = -1;
 };

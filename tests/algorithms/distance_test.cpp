@@ -267,7 +267,8 @@ TEST(Distance, NamesWhatACallerGotWrong) {
   EXPECT_EQ(refusal([&] { solver.query({500}); }), "DistanceSolver::query: source 500, must lie in [0, 500)");
   EXPECT_EQ(refusal([&] { solver.query({-1}); }), "DistanceSolver::query: source -1, must lie in [0, 500)");
   EXPECT_EQ(refusal([&] { solver.query({3}); }),
-            "DistanceSolver::query: no source lies on a component, must be at least one active point");
+            "DistanceSolver::query: no source lies on a component, must be at least one active point: source 3 is not "
+            "finite");
   EXPECT_EQ(solver.query({3, 4}), solver.query({4}));
   SurfacePoint odd = SurfacePoint::vertex(0);
   odd.weights[0] = -1;

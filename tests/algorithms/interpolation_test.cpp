@@ -215,7 +215,8 @@ TEST(Interpolation, NamesWhatACallerGotWrong) {
   EXPECT_EQ(pinned({{-1}, one}), "harmonic: pins.points has -1, must lie in [0, 500)");
   EXPECT_EQ(pinned({{1, 2}, one}), "harmonic: pins.values has 1 rows, must have 2, one per point pinned");
   EXPECT_EQ(pinned({{3}, one}),
-            "harmonic: pins.points has no point on a component, must have at least one active point");
+            "harmonic: pins.points has no point on a component, must have at least one active point: point 3 is not "
+            "finite");
   EXPECT_EQ(pinned({{}, Eigen::MatrixXd(0, 1)}),
             "harmonic: pins.points has no point on a component, must have at least one active point");
   EXPECT_EQ(pinned({{1}, NAN * one}), "harmonic: pins.values of point 1 are not finite, must be");
@@ -231,7 +232,7 @@ TEST(Interpolation, NamesWhatACallerGotWrong) {
   EXPECT_EQ(refusal([&] { greensFunction(laplacian, {}); }), "greensFunction: points is empty, must name at least one");
   EXPECT_EQ(refusal([&] { greensFunction(laplacian, {500}); }), "greensFunction: point 500, must lie in [0, 500)");
   EXPECT_EQ(refusal([&] { greensFunction(laplacian, {3}); }),
-            "greensFunction: point 3 lies on no component, must be active");
+            "greensFunction: point 3 is not finite, lies on no component, must be active");
 }
 
 TEST(Interpolation, FailsTypedWhenItCannotBeSolved) {

@@ -148,6 +148,12 @@ TEST(BoundedWeights, NameWhatACallerGotWrong) {
   };
   EXPECT_EQ(why({}), "boundedBiharmonicWeights: handles is empty, must name at least one");
   EXPECT_EQ(why({{0}, {}}), "boundedBiharmonicWeights: handle 1 has no active point, must have at least one");
+  Laplacian loose = laplacian;
+  loose.status[24] = PointStatus::isolated;
+  EXPECT_EQ(refusal([&] {
+              boundedBiharmonicWeights(loose, {{0}, {24}}, {});
+            }),
+            "boundedBiharmonicWeights: handle 1 has no active point, must have at least one: point 24 is isolated");
   EXPECT_EQ(why({{0}, {25}}), "boundedBiharmonicWeights: handle 1 has point 25, must lie in [0, 25)");
   EXPECT_EQ(why({{0, 1}, {1}}), "boundedBiharmonicWeights: point 1 is of handle 0 and of handle 1, must be of one");
   EXPECT_EQ(why({{0}}, {.max_iterations = 0}), "boundedBiharmonicWeights: max_iterations = 0, must be at least 1");

@@ -40,7 +40,8 @@ TEST_F(ComponentCommands, CanBeChosen) {
   EXPECT_EQ(values("same/distance.npy"), values("out/distance.npy"));
   run({"normals", file, "--component", "0,1", "--out", in("both")});
   EXPECT_EQ(report("both")["components"]["points"], 500);
-  expectRefusal({"distance", file, "--source", "499", "--component", "largest"}, "no source lies on a component");
+  expectRefusal({"distance", file, "--source", "499", "--component", "largest"},
+                "point 499 lies on a component that --component largest leaves out");
   expectRefusal({"normals", file, "--component", "2"}, "--component 2: " + file + " has 2 components, counted from 0");
   expectRefusal({"normals", file, "--component", "larges"}, "--component larges");
   expectRefusal({"normals", file, "--min-component", "301"}, "has 2 components, the largest of 300 points");

@@ -58,6 +58,8 @@ TEST_F(Info, SaysWhatIsOddAboutAMesh) {
   EXPECT_EQ(mesh["nonmanifold_edges"], 1);
   EXPECT_EQ(mesh["boundary_edges"], 6);
   EXPECT_EQ(mesh["isolated"], 1);
+  EXPECT_EQ(mesh["components"], 1);
+  EXPECT_FALSE(mesh.contains("graph_parts"));
   for (const char* beginning : {"edges of more than two", "vertices without a triangle", "triangles that name a vertex",
                                 "vertices that equal another"})
     EXPECT_TRUE(isOdd(mesh, beginning)) << beginning;
@@ -81,7 +83,7 @@ TEST_F(Info, TheTextHoldsTheSame) {
   EXPECT_EQ(result.code, 0) << result.err;
   EXPECT_EQ(result.err, "");
   for (const char* part : {"text in columns", "points          4", "spacing         1 (1 to 1)",
-                           "points that equal an earlier one and take no part: 1", "to expect"})
+                           "points that equal an earlier one and take no part: 1", "graph parts     1\n", "to expect"})
     EXPECT_NE(result.out.find(part), std::string::npos) << part << "\n" << result.out;
 }
 

@@ -22,7 +22,7 @@ double outward(const std::vector<double>& normals, const tufted::Points& points)
 TEST_F(Normals, PointOutwardsAndFaceTheSensorWhereItIsKnown) {
   const std::string file = dir_.write("sphere.xyz", sphere(500));
   const tufted::Points points = tufted::read(file).points;
-  EXPECT_NE(run({"normals", file, "--out", in("out")}).out.find("outwards on 1 components"), std::string::npos);
+  EXPECT_NE(run({"normals", file, "--out", in("out")}).out.find("outwards on 1 component,"), std::string::npos);
   EXPECT_EQ(outward(values("out/normals.npy"), points), 1);
   EXPECT_EQ(report("out")["orientation"]["disagreeing_edges"], 0);
   EXPECT_NE(readAll(dir_ / "out/points.ply").find("property float nx\n"), std::string::npos);

@@ -34,6 +34,9 @@ TEST_F(Structures, FindsNeighborsByTheStructureItIsTold) {
                                    rings);
   ASSERT_EQ(runTufted({"laplacian", image, "--out", out(), "--structure", "image"}).code, 0);
   EXPECT_NE(readAll(dir_ / "out/report.json").find("\"structure\": \"image\""), std::string::npos);
+  const Result both = runTufted({"laplacian", image, "--out", out(), "--structure", "image", "--neighbors", "20"});
+  EXPECT_EQ(both.code, 2);
+  EXPECT_EQ(both.err, "tufted: --neighbors 20 excludes --structure image, which takes the pixels around a point\n");
   ASSERT_EQ(runTufted({"laplacian", scan, "--out", out(), "--structure", "rings"}).code, 0);
   EXPECT_NE(readAll(dir_ / "out/report.json").find("\"unplaced\": 0"), std::string::npos);
   const auto loose = dir_.write("loose.xyz", sphere(500));

@@ -79,6 +79,7 @@ TEST_F(VectorHeat, LogmapHasItsAxesInTheReport) {
 
 TEST_F(VectorHeat, DefaultsDoForATetrahedron) {
   const std::string mesh = dir_.write("tetrahedron.off", tetrahedron);
+  expectRefusal({"transport", mesh, "--source", "1", "--vector", "0,0,0"}, "--vector 0,0,0 has no direction");
   run({"transport", mesh, "--source", "1", "--vector", "1,2,3", "--out", in("out")});
   EXPECT_EQ(values("out/vectors.npy").size(), 12u);
   run({"extend", mesh, "--pin", "1=2", "--out", in("out")});

@@ -1,5 +1,6 @@
 // A look at results: --png, --view and --color of all subcommands, and the subcommand view.
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <algorithm>
 #include <utility>
@@ -119,6 +120,34 @@ TEST_F(View, PicturesMayLieInTheFolderThatResultsMake) {
   EXPECT_TRUE(exists("new/a/b/c.html"));
 }
 
+TEST_F(View, PicturesGoWhereLinksLeadAndNeverReplaceAPipe) {
+  const std::filesystem::path target = dir_.write("kept.png", "old");
+  std::filesystem::create_symlink("kept.png", dir_ / "link.png");
+  std::filesystem::create_symlink(dir_ / "new.html", dir_ / "link.html");  // leads to nothing yet
+  run({"view", cloud_, "--png", in("link.png"), "--out", in("link.html"), "--size", "40x30"});
+  EXPECT_EQ(sizeOf("kept.png"), (std::pair{40, 30}));
+  expectPage("new.html");
+  EXPECT_TRUE(std::filesystem::is_symlink(dir_ / "link.png") && std::filesystem::is_symlink(dir_ / "link.html"));
+  ASSERT_EQ(mkfifo(in("pipe").c_str(), 0600), 0);
+  std::filesystem::create_symlink(in("pipe"), dir_ / "to_pipe");
+  std::filesystem::create_symlink(in("none/a.png"), dir_ / "to_none");
+  std::filesystem::create_symlink("circle", dir_ / "circle");
+  for (const char* name : {"pipe", "to_pipe"})
+    for (const char* option : {"--png", "--view"})
+      expectRefusal({"distance", cloud_, "--source", "0", option, in(name)}, "is no regular file");
+  EXPECT_TRUE(std::filesystem::is_fifo(dir_ / "pipe"));
+  expectRefusal({"distance", cloud_, "--source", "0", "--png", in("to_none")}, "there is no directory", 1);
+  expectRefusal({"distance", cloud_, "--source", "0", "--png", in("circle")}, "cannot write", 1);
+}
+
+TEST_F(View, OfNoFinitePointIsRefused) {
+  const std::string file = dir_.write("none.xyz", "nan nan nan\ninf 0 0\n");
+  const Result result = runTufted({"view", file, "--png", in("none.png")});
+  EXPECT_EQ(result.code, 1);
+  EXPECT_EQ(result.err, "tufted: " + file + ": has no finite point to look at\n");
+  EXPECT_FALSE(exists("none.png"));
+}
+
 TEST_F(View, MistakesAreRefusedBeforeTheBuild) {
   const std::vector<std::string> distance = {"distance", cloud_, "--source", "0"};
   const auto with = [&](std::vector<std::string> more) {
@@ -129,11 +158,19 @@ TEST_F(View, MistakesAreRefusedBeforeTheBuild) {
   expectRefusal(with({"--png", dir_.write("a.txt", "").string() + "/b.png"}), "there is no directory", 1);
   expectRefusal(with({"--view", in(".")}), "is a directory");
   expectRefusal(with({"--png", in("a"), "--view", in("a")}), "one file");
+  expectRefusal(with({"--png", in("a"), "--view", in("./a")}), "one file");
+  expectRefusal(with({"--png", in("a.JPG")}), "is written as PNG, and its name must not end in .jpg");
+  expectRefusal(with({"--view", in("a.png")}), "is written as HTML, and its name must not end in .png");
+  expectRefusal(with({"--png", in("refused/points.ply")}), "must not end in .ply");
+  expectRefusal(with({"--png", cloud_}), "overwritten");
+  expectRefusal(with({"--png", in("./sphere.ply")}), "overwritten");
   expectRefusal(with({"--png", in("a.png"), "--size", "10x900"}), "WIDTHxHEIGHT");
   expectRefusal(with({"--png", in("a.png"), "--size", "800"}), "WIDTHxHEIGHT");
   expectRefusal(with({"--png", in("a.png"), "--colormap", "viridsi"}), "did you mean `viridis`");
   expectRefusal(with({"--png", in("a.png"), "--camera", "10"}), "AZIMUTH,ELEVATION");
   expectRefusal(with({"--png", in("a.png"), "--camera", "10,91"}), "AZIMUTH,ELEVATION");
+  for (const char* camera : {"foo", "30,x", ",30", "30;40", "1e999,20", "30,20,0", ""})
+    expectRefusal(with({"--png", in("a.png"), "--camera", camera}), "--camera");
   expectRefusal(with({"--png", in("a.png"), "--color", "distanec"}), "did you mean `distance`");
   expectRefusal(with({"--png", in("a.png"), "--up", "w"}), "is none of");
   EXPECT_FALSE(exists("a.png"));

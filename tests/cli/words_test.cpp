@@ -72,6 +72,19 @@ TEST_F(Words, WhatIsMissingIsNamedWithTheHelpOfTheCommand) {
              "nothing to filter is given, must be exactly one of --field, --values and --positions");
 }
 
+TEST_F(Words, MisusedOptionsAreNamedWithTheRule) {
+  const std::string out = in("out");
+  expectSaid(
+      {"distance", cloud_, "--near", "0", "0", "1", "--out", out},
+      "--near 0 0 1 has blanks between its numbers, must have commas: --near 0,0,1 (see tufted distance --help)");
+  expectSaid({"laplacian", cloud_, "--png", "--out", out},
+             "--png has no value, must have FILE.png (see tufted laplacian --help)");
+  expectSaid({"laplacian", cloud_, "--out"}, "--out has no value, must have DIR (see tufted laplacian --help)");
+  expectSaid({"laplacian", cloud_, "--out", out, "--preset", "clean", "--preset", "scan"},
+             "--preset is given twice, must be given once (see tufted laplacian --help)");
+  expectSaid({"laplacian", cloud_, "--out", out, "a", "b"}, "not expected: a b (see tufted laplacian --help)");
+}
+
 TEST_F(Words, AMisspeltValueIsNamedWithTheNearest) {
   const auto expectValue = [&](const std::string& option, const std::string& value, const std::string& rule) {
     expectSaid({"laplacian", cloud_, "--out", in("out"), option, value},
@@ -93,7 +106,7 @@ TEST_F(Words, AMisspeltValueIsNamedWithTheNearest) {
 
 TEST_F(Words, ValuesOutOfRangeNameTheirOptionAndTheRule) {
   const std::string square = dir_.write("square.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n");
-  expectRefusal({"distance", square, "--face", "2,1,1,1"}, "--face 2,1,1,1: SurfacePoint::inFace: face = 2");
+  expectRefusal({"distance", square, "--face", "2,1,1,1"}, "--face 2,1,1,1: face = 2, must lie in [0, 2)");
   expectRefusal({"filter", cloud_, "--positions", "--wavelength", "0"}, "--wavelength: 0 is not a number in (0, inf)");
   expectRefusal({"distance", cloud_, "--source", "0", "--time-step", "0"},
                 "--time-step: 0 is not a number in (0, 1e+12]");

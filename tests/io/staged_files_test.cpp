@@ -2,6 +2,7 @@
 #include "io/staged_files.h"
 
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <functional>
 #include <thread>
@@ -99,19 +100,36 @@ TEST(StagedFiles, NeverReplaceADirectory) {
   EXPECT_EQ(readAll(dir / "d/inside"), "stays");
 }
 
-TEST(StagedFiles, ReplaceALinkAndNotWhatItPointsTo) {
+TEST(StagedFiles, NeverReplaceALinkOrAPipe) {
   const TemporaryDir dir;
   const auto elsewhere = dir.write("elsewhere", "stays");
-  fs::create_directory(dir / "out");
-  fs::create_symlink(elsewhere, dir / "out/a");
-  {
-    StagedFiles files(dir / "out");
-    write(files, "a", "new");
-    files.commit();
+  const auto makeLink = [&] { fs::create_symlink(elsewhere, dir / "out/a"); };
+  const auto makeDangling = [&] { fs::create_symlink(dir / "nowhere", dir / "out/a"); };
+  const auto makePipe = [&] { ASSERT_EQ(mkfifo((dir / "out/a").c_str(), 0600), 0); };
+  const std::string name = (dir / "out/a").string();
+  const std::string link = name + ": cannot write: is a link, must be a file or missing";
+  const std::vector<std::pair<std::function<void()>, std::string>> kinds = {
+      {makeLink, link}, {makeDangling, link}, {makePipe, name + ": cannot write: is no regular file"}};
+  for (const auto& [make, message] : kinds) {
+    for (const bool meanwhile : {false, true}) {  // made before, or while the files are written
+      fs::create_directory(dir / "out");
+      if (!meanwhile) make();
+      {
+        StagedFiles files(dir / "out");
+        if (meanwhile) {
+          write(files, "a", "new");
+          make();
+          EXPECT_EQ(ioError([&] { files.commit(); }), message);
+        } else {
+          EXPECT_EQ(ioError([&] { files.stage("a"); }), message);
+        }
+      }
+      EXPECT_FALSE(fs::is_regular_file(fs::symlink_status(name)));
+      fs::remove_all(dir / "out");
+    }
   }
-  EXPECT_EQ(contentOf(dir / "out"), (Content{{"a", "new"}}));
-  EXPECT_FALSE(fs::is_symlink(dir / "out/a"));
   EXPECT_EQ(readAll(elsewhere), "stays");
+  EXPECT_FALSE(fs::exists(dir / "nowhere"));
 }
 
 TEST(StagedFiles, AreNeverWrittenOverAFileOrThroughALink) {

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 #include <png.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -287,6 +288,21 @@ TEST_F(PictureFile, AFileThatCannotBeWrittenIsNamedAndNothingIsLeft) {
     EXPECT_NE(std::string(error.what()).find("a.png"), std::string::npos);
   }
   EXPECT_TRUE(std::filesystem::is_empty(folder_));
+}
+
+TEST_F(PictureFile, ALinkStaysAndWhatItLeadsToIsReplacedButNeverAPipe) {
+  std::filesystem::create_symlink("target.png", folder_ / "link.png");
+  tufted::writePicture(folder_ / "link.png", sphereOf(10), {.width = 40, .height = 30});
+  EXPECT_TRUE(std::filesystem::is_symlink(folder_ / "link.png"));
+  EXPECT_EQ(decode(folder_ / "target.png").width, 40);
+  ASSERT_EQ(mkfifo((folder_ / "pipe").c_str(), 0600), 0);
+  try {
+    tufted::writePicture(folder_ / "pipe", sphereOf(10));
+    FAIL();
+  } catch (const tufted::IoError& error) {
+    EXPECT_EQ(error.what(), (folder_ / "pipe").string() + ": cannot write: is no regular file");
+  }
+  EXPECT_TRUE(std::filesystem::is_fifo(folder_ / "pipe"));
 }
 
 TEST(PictureOf, MistakesAreRefused) {

@@ -75,6 +75,10 @@ tufted::Laplacian buildLaplacian(const tufted::Geometry& geometry, const Input& 
     const bool may_be_image = build.neighbors->count() == 0 && build.preset != tufted::Preset::lidar;
     build.structure = may_be_image ? structureFor(geometry) : Structure::none;
   }
+  // The pixels around a point are as many as they are.
+  if (build.structure == Structure::image && build.neighbors->count() > 0)
+    throw tufted::InvalidInput("--neighbors " + std::to_string(build.cloud.neighbors) +
+                               " excludes --structure image, which takes the pixels around a point");
   build.scan = structureOf(geometry, build.structure, input.name());
   if (build.scan) build.cloud.structure = &*build.scan;
   build.cloud.steps = tufted::cloudSteps(build.preset);
@@ -107,11 +111,11 @@ void addBuild(const tufted::Report& report, const Build& build, Summary& summary
     if (report.denoised == 0)
       summary.add("structure", "depth image, no point moved");
     else
-      summary.add("structure", "depth image, %lld points moved along their rays, noise %.3g",
-                  static_cast<long long>(report.denoised), report.noise);
+      summary.add("structure", "depth image, %s moved along their rays, off the surface by %.3g of the file's unit",
+                  countText(report.denoised, "point").c_str(), report.noise);
   } else if (report.noise > 0)
-    summary.add("noise", "%.3g, %lld points moved onto the surface", report.noise,
-                static_cast<long long>(report.denoised));
+    summary.add("noise", "%s moved onto the surface, off it by %.3g of the file's unit (standard deviation)",
+                countText(report.denoised, "point").c_str(), report.noise);
   if (report.neighbors_clamped)
     summary.add("neighbors", "%d and not %d: all other points", report.neighbors, build.cloud.neighbors);
 }

@@ -3,7 +3,9 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cctype>
+#include <charconv>
 #include <cstddef>
+#include <set>
 
 #include "suggestion.h"
 
@@ -23,6 +25,12 @@ const CLI::App* commandNamed(const CLI::App& app, const std::string& name) {
 bool isOption(const std::string& word) {
   return word.size() > 1 && word[0] == '-' &&
          (word[1] == '-' || std::isalpha(static_cast<unsigned char>(word[1])) != 0);
+}
+
+bool isNumber(const std::string& word) {
+  double number = 0;
+  const char* const end = word.data() + word.size();
+  return std::from_chars(word.data(), end, number).ptr == end && !word.empty();
 }
 
 /// The name in `--name=value` or `-nvalue`.
@@ -63,6 +71,36 @@ std::string findUnknownOption(const CLI::App& command, const std::vector<std::st
   return "";
 }
 
+/// What is wrong with the values of a command's options, which exist: one has none, blanks stand in its list instead of
+/// commas, or it is given twice. An empty string where that is not the fault.
+std::string findMisusedOption(const CLI::App& command, const std::vector<std::string>& arguments) {
+  std::set<const CLI::Option*> seen;
+  for (std::size_t i = 0; i < arguments.size() && arguments[i] != "--"; ++i) {
+    const std::string& word = arguments[i];
+    const CLI::Option* const option = isOption(word) ? optionNamed(command, nameIn(word)) : nullptr;
+    if (option == nullptr) continue;
+    const std::string name = nameIn(word);
+    const bool is_single =
+        option->get_items_expected_max() == 1 && option->get_multi_option_policy() == CLI::MultiOptionPolicy::Throw;
+    if (!seen.insert(option).second && is_single) return name + " is given twice, must be given once";
+    if (option->get_items_expected_min() == 0 || word.size() > name.size()) continue;
+    const std::string type = option->get_type_name();
+    const bool has_value =
+        i + 1 < arguments.size() && !(isOption(arguments[i + 1]) && optionNamed(command, nameIn(arguments[i + 1])));
+    if (!has_value) return name + " has no value, must have " + type;
+    std::size_t end = ++i + 1;
+    while (end < arguments.size() && isNumber(arguments[end - 1]) && isNumber(arguments[end])) ++end;
+    if (end == i + 1 || type.find(',') == std::string::npos) continue;
+    std::string blanks, commas;
+    for (; i < end; ++i) {
+      blanks += " " + arguments[i];
+      commas += (commas.empty() ? " " : ",") + arguments[i];
+    }
+    return name + blanks + " has blanks between its numbers, must have commas: " + name + commas;
+  }
+  return "";
+}
+
 std::string explainCommand(const CLI::App& app, const std::string& name) {
   std::vector<std::string> known;
   std::string all;
@@ -94,6 +132,7 @@ std::string explainArguments(const CLI::App& app, const std::vector<std::string>
   std::string fault = findUnknownOption(app, {arguments.begin(), first});
   if (fault.empty() && first != arguments.end() && command == nullptr) fault = explainCommand(app, *first);
   if (fault.empty() && command != nullptr) fault = findUnknownOption(*command, {first + 1, arguments.end()});
+  if (fault.empty() && command != nullptr) fault = findMisusedOption(*command, {first + 1, arguments.end()});
   return (fault.empty() ? error : fault) + " (see tufted " + (command == nullptr ? "" : command->get_name() + " ") +
          "--help)";
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "operator.h"
@@ -14,12 +15,17 @@
 
 namespace {
 
+/// The option that leaves components out, as the user gave it.
+std::string nameOf(const ComponentOptions& options) {
+  return options.chosen.empty() ? "--min-component " + std::to_string(options.min_points)
+                                : "--component " + options.chosen;
+}
+
 /// The labels that are wanted, of components with so many points.
 std::vector<int> chosenOf(const ComponentOptions& options, const std::vector<std::int64_t>& sizes,
                           const Operator& source) {
-  const std::string name = options.chosen.empty() ? "--min-component " + std::to_string(options.min_points)
-                                                  : "--component " + options.chosen;
-  const std::string rest = ": " + source.name + " has " + std::to_string(sizes.size()) + " components";
+  const std::string name = nameOf(options);
+  const std::string rest = ": " + source.name + " has " + countText(std::ssize(sizes), "component");
   std::vector<int> chosen;
   if (options.chosen.empty()) {
     for (std::size_t c = 0; c < sizes.size() && sizes[c] >= options.min_points; ++c)
@@ -53,11 +59,14 @@ void addComponentOptions(CLI::App& command, ComponentOptions& options) {
 
 void chooseComponents(const ComponentOptions& options, Operator& source, Results& results) {
   if (options.chosen.empty() && options.min_points <= 1) return;
-  const std::vector<std::int64_t> sizes = tufted::componentSizes(tufted::componentLabels(source.laplacian));
+  std::vector<int> labels = tufted::componentLabels(source.laplacian);
+  const std::vector<std::int64_t> sizes = tufted::componentSizes(labels);
   if (sizes.empty()) return;  // nothing is active, which is said elsewhere
   const std::vector<int> chosen = chosenOf(options, sizes, source);
   std::int64_t all = 0, points = 0;
   for (const std::int64_t size : sizes) all += size;
+  source.all_components = std::move(labels);
+  source.chosen_by = nameOf(options);
   source.laplacian = tufted::restrictedTo(source.laplacian, chosen);
   for (const std::int64_t size : tufted::componentSizes(source.laplacian.component)) points += size;
   results.report["components"] = {

@@ -10,6 +10,7 @@
 #include "options.h"
 #include "oriented.h"
 #include "point_options.h"
+#include "taking_part.h"
 #include "tufted/deformation.h"
 #include "tufted/errors.h"
 
@@ -74,6 +75,7 @@ void check(Settings& settings, const Operator& source) {
 
 Results compute(Settings& settings, Operator& source) {
   Results results;
+  noteLeftOut(settings.handles, source, results);
   settings.options.solver = source.solverOptions();
   // From where lengths are measured, as all points are moved; of noisy points that is not where the file has them.
   for (const Eigen::Index k : settings.staying)

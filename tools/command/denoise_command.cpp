@@ -61,7 +61,7 @@ int runDenoise(Settings& settings) {
   const std::vector<std::string> arrays = {"positions", "noise"};
   std::vector<std::string> files = tufted::resultFiles({}, {.copies = settings.copies});
   for (const std::string& name : arrays) files.push_back(name + ".npy");
-  checkLook(settings.look, settings.out);
+  checkLook(settings.look, settings.out, settings.input.file);
   checkOutput(settings.input, settings.out, files);
   ProgressBar bar(settings.console.quiet);
   const tufted::Progress progress = showOn(bar);

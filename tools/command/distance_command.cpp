@@ -12,6 +12,7 @@
 #include "options.h"
 #include "point_options.h"
 #include "reports.h"
+#include "taking_part.h"
 #include "time_step.h"
 #include "tufted/distance.h"
 #include "tufted/errors.h"
@@ -102,11 +103,22 @@ void check(Settings& settings, const Operator& source) {
     throw tufted::InvalidInput("no source is given, must be at least one by --source, --near, --sources or --face");
 }
 
+/// Whether a source has a corner on a component.
+bool takesPart(const tufted::SurfacePoint& point, const tufted::Laplacian& laplacian) {
+  for (std::size_t k = 0; k < 3; ++k)
+    if (point.weights[k] > 0 &&
+        laplacian.status[laplacian.representative[point.corners[k]]] == tufted::PointStatus::active)
+      return true;
+  return false;
+}
+
 /// N x K distances, from each source by itself; infinite from those on no component.
 Eigen::MatrixXd fromEach(const tufted::DistanceSolver& solver, const std::vector<tufted::SurfacePoint>& sources,
                          const Operator& source, tufted::DistanceReport& made) {
-  Eigen::MatrixXd distance(source.points(), std::ssize(sources));
+  Eigen::MatrixXd distance =
+      Eigen::MatrixXd::Constant(source.points(), std::ssize(sources), std::numeric_limits<double>::infinity());
   for (std::size_t s = 0; s < sources.size(); ++s) {
+    if (!takesPart(sources[s], source.laplacian)) continue;
     tufted::DistanceReport one;
     distance.col(static_cast<Eigen::Index>(s)) = solver.queryAt({sources[s]}, &one, source.progress);
     made.add(one);
@@ -166,8 +178,9 @@ Eigen::MatrixXd addSolved(const Settings& settings, const std::vector<tufted::Su
 Results compute(Settings& settings, Operator& source) {
   Results results;
   std::vector<tufted::SurfacePoint> sources;
-  for (const int point : locate(settings.places, source, results))
-    sources.push_back(tufted::SurfacePoint::vertex(point));
+  const std::vector<int> points = locate(settings.places, source, results);
+  noteLeftOut(points, source, results, !settings.inside.empty());
+  for (const int point : points) sources.push_back(tufted::SurfacePoint::vertex(point));
   sources.insert(sources.end(), settings.inside.begin(), settings.inside.end());
   settings.options.solver = source.solverOptions();
   if (settings.time_step) settings.options.time_step = *settings.time_step;

@@ -4,6 +4,7 @@
 #include "operator.h"
 #include "point_options.h"
 #include "reports.h"
+#include "taking_part.h"
 #include "tufted/errors.h"
 #include "tufted/interpolation.h"
 
@@ -38,6 +39,7 @@ void check(Settings& settings, const Operator& source) {
 Results compute(Settings& settings, Operator& source) {
   Results results;
   const std::vector<int> points = locate(settings.places, source, results);
+  requireTakingPart(points, source);
   tufted::SolveReport made;
   results.arrays = {
       {.name = "green", .values = tufted::greensFunction(source.laplacian, points, source.solverOptions(), &made)}};

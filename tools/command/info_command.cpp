@@ -35,7 +35,8 @@ one or two points, or all on lines: whether any of their points is active shows 
   float step    distance of neighbouring floats at the farthest coordinate; above a tenth of the spacing it is odd
   on lines      points whose nearest neighbours lie on one line, as on the rings of a scanner
   outliers      points whose nearest neighbour is more than five times as far as is usual around them
-  components    of the graph that joins each point with its nearest neighbours
+  graph parts   of the graph that joins each point with its nearest neighbours. Triangles may join fewer or more: the
+                connected components are those of `tufted laplacian`; of meshes, which are built, they are shown
   to expect     time from that of the search (clouds) or the build (meshes) in this run, memory from 1 kB per point
   odd           what to know before trusting a result, one line each: not finite, coincident, outliers, ...)";
 
@@ -99,7 +100,7 @@ void addCloud(const tufted::CloudDescription& cloud, int asked, Json& info) {
   info["neighbors_clamped"] = cloud.neighbors < asked;
   info["on_lines"] = cloud.on_lines;
   info["outliers"] = cloud.outliers;
-  info["components"] = cloud.components;
+  info["graph_parts"] = cloud.components;
   info["expected_seconds"] = cloud.seconds * build_over_search;
   info["expected_bytes"] = static_cast<double>(cloud.points) * bytes_per_point;
 }
@@ -130,7 +131,8 @@ std::vector<std::string> findOddities(const Json& info) {
   add("not_finite", "points that are not finite and take no part");
   add("coincident", info["kind"] == "mesh" ? "vertices that equal another one and stay separate (--weld joins them)"
                                            : "points that equal an earlier one and take no part");
-  add("outliers", "points far from all others");
+  add("outliers",
+      "points whose nearest neighbour is five times as far as is usual around them; most take part all the same");
   add("isolated", "vertices without a triangle");
   add("repeated_vertex_triangles", "triangles that name a vertex twice and are dropped");
   add("not_finite_triangles", "triangles with a vertex that is not finite, which are dropped");
@@ -190,7 +192,7 @@ void print(const Json& info) {
   }
   if (info.value("neighbors_clamped", false))
     std::printf("%-15s %lld, all other points\n", "neighbors", integer("neighbors"));
-  std::printf("%-15s %lld\n", "components", integer("components"));
+  std::printf("%-15s %lld\n", is_mesh ? "components" : "graph parts", integer(is_mesh ? "components" : "graph_parts"));
   for (const Json& sentence : info["odd"]) std::printf("%-15s %s\n", "odd", sentence.get<std::string>().c_str());
   std::printf("%-15s %.2g s, %.0f MB\n", "to expect", real("expected_seconds"), real("expected_bytes") / 1e6);
 }

@@ -174,7 +174,7 @@ Summary summarize(const Settings& settings, const tufted::Geometry& geometry, co
 
 int runLaplacian(Settings& settings) {
   const auto start = std::chrono::steady_clock::now();
-  checkLook(settings.look, settings.out);
+  checkLook(settings.look, settings.out, settings.input.file);
   checkOutput(settings.input, settings.out, tufted::resultFiles(settings.write.formats));
   ProgressBar bar(settings.console.quiet);
   const tufted::Progress progress = showOn(bar);

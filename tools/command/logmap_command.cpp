@@ -7,6 +7,7 @@
 #include "oriented.h"
 #include "point_options.h"
 #include "reports.h"
+#include "taking_part.h"
 #include "tufted/errors.h"
 #include "tufted/vector_heat.h"
 
@@ -57,6 +58,7 @@ void check(Settings& settings, const Operator& source) {
 Results compute(Settings& settings, Operator& source) {
   Results results;
   const int point = locate(settings.places, source, results).front();
+  requireTakingPart({point}, source);
   settings.options.solver = source.solverOptions();
   const tufted::LogMapSolver solver(source.laplacian, orientedFrames(settings.orienting, source, results),
                                     settings.options);

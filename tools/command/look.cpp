@@ -6,12 +6,14 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <cstring>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "options.h"
 #include "point_options.h"
@@ -33,6 +35,11 @@ const std::map<std::string, tufted::Background> backgrounds = {{"white", tufted:
 const std::map<std::string, Eigen::Vector3d> axes = {
     {"x", Eigen::Vector3d::UnitX()},   {"y", Eigen::Vector3d::UnitY()},   {"z", Eigen::Vector3d::UnitZ()},
     {"-x", -Eigen::Vector3d::UnitX()}, {"-y", -Eigen::Vector3d::UnitY()}, {"-z", -Eigen::Vector3d::UnitZ()}};
+
+/// Endings of names that neither a page nor a PNG file has: other pictures, and results, which would be overwritten.
+const std::vector<std::string> other_endings = {".jpg", ".jpeg", ".gif", ".bmp",   ".tif", ".tiff", ".webp", ".svg",
+                                                ".pdf", ".ppm",  ".npy", ".npz",   ".ply", ".pcd",  ".json", ".mtx",
+                                                ".mat", ".xyz",  ".obj", ".spmat", ".off", ".stl",  ".las"};
 
 /// WIDTHxHEIGHT; false where it is none.
 bool parseSize(const std::string& text, int& width, int& height) {
@@ -69,22 +76,57 @@ void setCamera(const std::string& text, tufted::Camera& camera) {
   if (numbers.size() == 3) camera.zoom = numbers[2];
 }
 
+/// A path from the root, as far as it exists without links.
+std::filesystem::path wholePath(const std::filesystem::path& path) {
+  std::error_code error;
+  const std::filesystem::path whole = std::filesystem::weakly_canonical(path, error);
+  return (error || whole.is_relative() ? std::filesystem::absolute(path) : whole).lexically_normal();
+}
+
 /// Whether a folder is there as soon as the results are.
 bool isMadeWith(const std::filesystem::path& out, const std::filesystem::path& folder) {
   if (out.empty()) return false;
-  const auto whole = [](const std::filesystem::path& path) {
-    return std::filesystem::absolute(path).lexically_normal();
-  };
-  return *whole(out).lexically_relative(whole(folder)).begin() != "..";
+  return *wholePath(out).lexically_relative(wholePath(folder)).begin() != "..";
 }
 
-/// Refuses a file that cannot be written.
+/// Whether two paths name one file, which need not exist.
+bool isSameFile(const std::filesystem::path& one, const std::filesystem::path& other) {
+  if (one.empty() || other.empty()) return false;
+  std::error_code error;
+  return std::filesystem::equivalent(one, other, error) || wholePath(one) == wholePath(other);
+}
+
+/// The file that a path names, behind all links; it need not exist.
+std::filesystem::path behindLinks(std::filesystem::path file) {
+  std::error_code error;
+  while (std::filesystem::is_symlink(std::filesystem::symlink_status(file, error))) {
+    const std::filesystem::path next = std::filesystem::read_symlink(file, error);
+    if (error) break;
+    file = file.parent_path() / next;
+  }
+  return file;
+}
+
+/// Refuses a file that cannot be written, or whose name says that it is something else.
 void checkFile(const std::string& option, const std::filesystem::path& file, const std::filesystem::path& out) {
   if (file.empty()) return;
+  const bool is_picture = option == "--png";
+  const std::string name = option + " " + file.string();
   std::error_code error;
-  if (std::filesystem::is_directory(file, error))
-    throw tufted::InvalidInput(option + " " + file.string() + ": is a directory");
-  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  const std::filesystem::file_status status = std::filesystem::status(file, error);
+  if (std::filesystem::is_directory(status)) throw tufted::InvalidInput(name + ": is a directory");
+  if (std::filesystem::exists(status) && !std::filesystem::is_regular_file(status))
+    throw tufted::InvalidInput(name + ": is no regular file, must be one or missing");
+  if (status.type() == std::filesystem::file_type::none)  // as where links go in circles
+    throw tufted::IoError(file.string() + ": cannot write: " + error.message());
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  if (std::find(other_endings.begin(), other_endings.end(), ending) != other_endings.end() ||
+      ending == (is_picture ? ".html" : ".png"))
+    throw tufted::InvalidInput(name + ": is written as " + (is_picture ? "PNG" : "HTML") +
+                               ", and its name must not end in " + ending);
+  const std::filesystem::path target = behindLinks(file);
+  const std::filesystem::path folder = target.has_parent_path() ? target.parent_path() : ".";
   if (!std::filesystem::exists(folder, error) && isMadeWith(out, folder)) return;
   if (!std::filesystem::is_directory(folder, error))
     throw tufted::IoError(file.string() + ": cannot write: there is no directory " + folder.string());
@@ -181,10 +223,13 @@ void addLookOptions(CLI::App& command, Look& look) {
   addPictureOptions(command, look);
 }
 
-void checkLook(const Look& look, const std::filesystem::path& out) {
+void checkLook(const Look& look, const std::filesystem::path& out, const std::filesystem::path& input) {
+  for (const std::filesystem::path& file : {look.png, look.page})
+    if (isSameFile(file, input))
+      throw tufted::InvalidInput(file.string() + ": is the input, which would be overwritten");
   checkFile("--png", look.png, out);
   checkFile("--view", look.page, out);
-  if (!look.png.empty() && look.png == look.page)
+  if (isSameFile(look.png, look.page))
     throw tufted::InvalidInput("--png and --view are one file, " + look.png.string());
 }
 

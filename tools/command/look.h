@@ -33,8 +33,9 @@ void addLookOptions(CLI::App& command, Look& look);
 
 /// Refuses files that cannot be written, before anything is computed.
 /// @param out where the results go: it and the folders above it are made if they are missing; empty: nowhere
+/// @param input of the command; empty: no file
 /// @throws InvalidInput, IoError
-void checkLook(const Look& look, const std::filesystem::path& out = {});
+void checkLook(const Look& look, const std::filesystem::path& out, const std::filesystem::path& input);
 /// Refuses a name of --color that is none of the fields that there will be.
 /// @param results names of results per point
 /// @throws InvalidInput

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "operator.h"
+#include "options.h"
 #include "tufted/errors.h"
 
 // Results that are new places of the points.
@@ -16,7 +17,7 @@ auto blameSurface(const Operator& source, const Work& work) {
   try {
     return work();
   } catch (const tufted::InvalidInput& error) {
-    throw tufted::IoError(source.name + ": " + error.what());
+    throw tufted::IoError(source.name + ": " + withoutClass(error.what()));
   }
 }
 

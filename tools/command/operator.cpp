@@ -182,7 +182,7 @@ int runWithOperator(OperatorSettings& settings, std::vector<std::string> files, 
   source.progress("read", 0);
   for (const std::string& name : tufted::resultFiles({}, {.copies = settings.copies})) files.push_back(name);
   const std::vector<std::string> arrays = arraysIn(files);
-  checkLook(settings.look, settings.out);
+  checkLook(settings.look, settings.out, settings.input.file);
   checkOutput(settings.input, settings.out, files);
   if (settings.folder.empty())
     source.geometry = readInput(settings.input, source.progress);

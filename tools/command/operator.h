@@ -58,6 +58,9 @@ struct Operator {
   Solving solving;
   int threads = 0;
   tufted::Progress progress;
+  /// The component of each point before options left some out, and the option that did; empty: all are there.
+  std::vector<int> all_components = {};
+  std::string chosen_by = {};
   tufted::Points moved;  ///< where --denoise has moved the points; 0 x 3 without it
 
   /// From where a command moves the points.

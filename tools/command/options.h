@@ -3,6 +3,7 @@
 #include <CLI/App.hpp>
 #include <CLI/Option.hpp>
 #include <charconv>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <optional>
@@ -27,6 +28,11 @@ inline std::string numberText(double number) {
   std::ostringstream text;
   text << number;
   return text.str();
+}
+
+/// So many things: "1 component", "2 components".
+inline std::string countText(std::int64_t count, const std::string& thing) {
+  return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
 }
 
 /// The names in `values`.
@@ -66,6 +72,12 @@ inline std::string notEmpty(const std::string& path) {
   return path.empty() ? "must not be empty" : "";
 }
 
+/// A message of the library, which begins with the function, without one of a class: that is no word the user knows.
+inline std::string withoutClass(std::string message) {
+  if (const std::size_t colon = message.find(": "); message.find("::") < colon) message.erase(0, colon + 2);
+  return message;
+}
+
 /// Runs `work`; a value that it refuses is said to be that of an option.
 /// @param option and its value, as the user gave them
 template <class Work>
@@ -73,7 +85,7 @@ auto forOption(const std::string& option, const Work& work) {
   try {
     return work();
   } catch (const tufted::InvalidInput& error) {
-    throw tufted::InvalidInput(option + ": " + error.what());
+    throw tufted::InvalidInput(option + ": " + withoutClass(error.what()));
   }
 }
 

@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <string>
 
+#include "options.h"
 #include "tufted/errors.h"
 #include "tufted/gradient.h"
 
@@ -52,8 +53,8 @@ tufted::Frames orientedFrames(const Orienting& orienting, const Operator& source
                                    {"turned", made.turned},
                                    {"disagreeing_edges", made.disagreeing_edges},
                                    {"seconds", made.seconds}};
-  results.summary.add("normals", "outwards on %lld components, %lld turned, %lld pairs of neighbours disagree",
-                      static_cast<long long>(made.components), static_cast<long long>(made.turned),
+  results.summary.add("normals", "outwards on %s, %lld turned, %lld pairs of neighbours disagree",
+                      countText(made.components, "component").c_str(), static_cast<long long>(made.turned),
                       static_cast<long long>(made.disagreeing_edges));
   return frames;
 }

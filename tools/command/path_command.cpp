@@ -2,9 +2,11 @@
 #include <string>
 
 #include "command.h"
+#include "moved_points.h"
 #include "operator.h"
 #include "point_options.h"
 #include "reports.h"
+#include "taking_part.h"
 #include "tufted/distance.h"
 #include "tufted/path.h"
 
@@ -45,8 +47,9 @@ void check(Settings& settings, const Operator& source) {
 Results compute(Settings& settings, Operator& source) {
   Results results;
   const std::vector<int> ends = locate(settings.ends, source, results);
+  requireTakingPart(ends, source);
   const tufted::PathSolver solver(source.laplacian, source.threads, source.progress);
-  const tufted::SurfacePath path = solver.path(ends[0], ends[1], source.progress);
+  const tufted::SurfacePath path = blameSurface(source, [&] { return solver.path(ends[0], ends[1], source.progress); });
   const tufted::DistanceSolver distances(source.laplacian, {.solver = source.solverOptions()});
   results.arrays = {{.name = "path", .values = path.points, .per_point = false},
                     {.name = "distance", .values = distances.query({ends[0]}, nullptr, source.progress)}};

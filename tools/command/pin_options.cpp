@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "options.h"
+#include "taking_part.h"
 #include "tufted/errors.h"
 
 namespace {
@@ -66,5 +67,7 @@ PlacedPins placePins(const PinOptions& options, int points) {
 }
 
 tufted::Pins PlacedPins::locate(const Operator& source, Results& results) const {
-  return {::locate(places, source, results), values};
+  const std::vector<int> points = ::locate(places, source, results);
+  noteLeftOut(points, source, results);
+  return {points, values};
 }

@@ -53,7 +53,7 @@ void addNearest(const Place& place, int point, std::size_t number, const Operato
 
 std::vector<double> parseNumbers(const std::string& text, const std::string& option) {
   std::vector<double> numbers;
-  std::istringstream words(text);
+  std::istringstream words(text + ',');
   bool valid = true;
   for (std::string word; std::getline(words, word, ',');) valid &= parseNumber(word, numbers.emplace_back());
   if (!valid) throw tufted::InvalidInput(option + " " + text + " is no list of numbers with commas between them");
@@ -129,8 +129,14 @@ std::vector<int> locate(const std::vector<Place>& places, const Operator& source
 
 std::vector<Place> NamedPoints::places(int points) const {
   std::vector<Place> found;
-  for (const std::string& index : indices)
-    found.push_back(placeOf(parseNumbers(index, "--source"), points, "--source " + index));
+  for (const std::string& list : indices) {
+    std::istringstream words(list);
+    for (const double index : parseNumbers(list, "--source")) {
+      std::string word;
+      std::getline(words, word, ',');
+      found.push_back(placeOf({index}, points, "--source " + word));
+    }
+  }
   for (const std::string& position : positions) {
     const std::vector<double> numbers = parseNumbers(position, "--near");
     if (numbers.size() != 3) throw tufted::InvalidInput("--near " + position + " is not X,Y,Z");
@@ -143,7 +149,6 @@ std::vector<Place> NamedPoints::places(int points) const {
 
 void addPointOptions(CLI::App& command, NamedPoints& points, const std::string& what) {
   command.add_option("--source", points.indices, what + ", by index from 0")
-      ->delimiter(',')
       ->allow_extra_args(false)  // what follows may be FILE
       ->type_name("I,J,...");
   command.add_option("--near", points.positions, what + ", as the point nearest to this")

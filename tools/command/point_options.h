@@ -49,7 +49,8 @@ std::vector<int> locate(const std::vector<Place>& places, const Operator& source
 
 /// Points that the user names with options.
 struct NamedPoints {
-  std::vector<std::string> indices, positions;
+  std::vector<std::string> indices;  ///< lists with commas
+  std::vector<std::string> positions;
   std::filesystem::path file;
 
   /// @returns all points, those by index first

@@ -2,6 +2,7 @@
 
 #include "command.h"
 #include "operator.h"
+#include "options.h"
 #include "pin_options.h"
 #include "reports.h"
 #include "signal_options.h"
@@ -58,8 +59,8 @@ Results compute(Settings& settings, Operator& source) {
     Eigen::MatrixXd mean = tufted::componentMeans(source.laplacian, settings.f);
     const double greatest = mean.size() > 0 ? mean.cwiseAbs().maxCoeff() : 0;
     results.report["greatest_mean"] = greatest;
-    results.summary.add("mean removed", "%.6g at most, of %lld components", greatest,
-                        static_cast<long long>(source.laplacian.report.components));
+    results.summary.add("mean removed", "%.6g at most, of %s", greatest,
+                        countText(source.laplacian.report.components, "component").c_str());
     results.arrays = {
         {.name = "u", .values = tufted::poisson(source.laplacian, settings.f, source.solverOptions(), &made)},
         {.name = "mean", .values = std::move(mean)}};

@@ -66,6 +66,11 @@ FieldKind kindOfResult(const std::string& name, Eigen::Index columns) {
   return fits && (kind->second != FieldKind::coordinates || columns == 2) ? kind->second : FieldKind::scalar;
 }
 
+std::vector<std::string> columnNamesOf(const std::string& name, Eigen::Index columns) {
+  if (name != "curvature" || (columns != 1 && columns != 4)) return {};
+  return {"mean H", "Gaussian K", "greatest k1", "least k2"};  // short enough for legends
+}
+
 SceneField boundaryField(Eigen::MatrixXd values) {
   values.array() -= 1;  // none is grey
   return {.name = "boundary",
@@ -89,7 +94,10 @@ std::vector<SceneField> fieldsOf(const tufted::Geometry& geometry) {
       const double scale = field.type == tufted::FieldType::uint16 ? 1.0 / 257 : 1;
       color.col(field.name == "red" ? 0 : field.name == "green" ? 1 : 2) = scale * valuesOf(field, n).col(0);
     } else if (field.count > 0) {
-      fields.push_back({field.name, kindOfResult(field.name, field.count), valuesOf(field, n)});
+      fields.push_back({.name = field.name,
+                        .kind = kindOfResult(field.name, field.count),
+                        .values = valuesOf(field, n),
+                        .column_names = columnNamesOf(field.name, field.count)});
     }
   }
   if (color.rows() == n && color.cols() == 3) fields.insert(fields.begin(), {"color", FieldKind::color, color});
@@ -107,7 +115,10 @@ tufted::Scene sceneOf(const std::string& title, const tufted::Geometry& geometry
     scene.normals = laplacian.frames.normals;
   for (const tufted::ResultArray& array : arrays)
     if (isShown(array.name) && array.values.rows() == n && array.values.cols() > 0)
-      scene.fields.push_back({array.name, kindOfResult(array.name, array.values.cols()), array.values});
+      scene.fields.push_back({.name = array.name,
+                              .kind = kindOfResult(array.name, array.values.cols()),
+                              .values = array.values,
+                              .column_names = columnNamesOf(array.name, array.values.cols())});
   for (SceneField& field : scene.fields) {
     if (field.kind == FieldKind::label) continue;
     for (Eigen::Index i = 0; i < n && !laplacian.status.empty(); ++i) {

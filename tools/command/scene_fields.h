@@ -23,6 +23,9 @@ bool isShown(const std::string& name);
 /// What the values of a result of a command mean, by its name.
 tufted::FieldKind kindOfResult(const std::string& name, Eigen::Index columns);
 
+/// What the columns of a result of a command are called; empty: they have numbers.
+std::vector<std::string> columnNamesOf(const std::string& name, Eigen::Index columns);
+
 /// The field of kinds of boundary, which are those of tufted::Boundary as numbers.
 tufted::SceneField boundaryField(Eigen::MatrixXd values);
 

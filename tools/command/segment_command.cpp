@@ -10,6 +10,7 @@
 #include "options.h"
 #include "oriented.h"
 #include "point_options.h"
+#include "taking_part.h"
 #include "tufted/errors.h"
 #include "tufted/segments.h"
 
@@ -62,6 +63,7 @@ Results compute(Settings& settings, Operator& source) {
   settings.options.solver = source.solverOptions();
   const std::string option =
       settings.seeds.empty() ? "--count " + std::to_string(settings.options.count) : "--seeds " + settings.seeds;
+  forOption(option, [&] { requireTakingPart(settings.options.seeds, source); });
   const tufted::Segments found =
       forOption(option, [&] { return tufted::segments(source.laplacian, settings.options); });
   const bool is_spectral = settings.options.method == tufted::SegmentMethod::spectral;

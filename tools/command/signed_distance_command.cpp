@@ -10,6 +10,7 @@
 #include "oriented.h"
 #include "point_options.h"
 #include "reports.h"
+#include "taking_part.h"
 #include "tufted/errors.h"
 #include "tufted/signed_distance.h"
 
@@ -53,6 +54,7 @@ void check(Settings& settings, const Operator& source) {
 
 Results compute(Settings& settings, Operator& source) {
   Results results;
+  noteLeftOut(settings.curve, source, results);
   settings.options.solver = source.solverOptions();
   const tufted::SignedDistanceSolver solver(source.laplacian, orientedFrames(settings.orienting, source, results),
                                             settings.options);

@@ -8,6 +8,7 @@
 #include "oriented.h"
 #include "point_options.h"
 #include "reports.h"
+#include "taking_part.h"
 #include "time_step.h"
 #include "tufted/errors.h"
 #include "tufted/vector_heat.h"
@@ -54,11 +55,14 @@ void check(Settings& settings, const Operator& source) {
   settings.vectors.resize(std::ssize(settings.texts), 3);
   for (std::size_t k = 0; k < settings.texts.size(); ++k)
     settings.vectors.row(static_cast<Eigen::Index>(k)) = parsePosition(settings.texts[k], "--vector");
+  if (settings.vectors.isZero(0))
+    throw tufted::InvalidInput("--vector " + settings.texts[0] + " has no direction, and no other has one");
 }
 
 Results compute(Settings& settings, Operator& source) {
   Results results;
   const std::vector<int> sources = locate(settings.places, source, results);
+  noteLeftOut(sources, source, results);
   settings.options.solver = source.solverOptions();
   if (settings.time_step) settings.options.time_step = *settings.time_step;
   const tufted::TransportSolver solver(source.laplacian, framesOf(source), settings.options);

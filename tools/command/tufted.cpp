@@ -11,6 +11,7 @@
 #include "command.h"
 #include "command_line.h"
 #include "interrupt.h"
+#include "options.h"
 #include "tufted/errors.h"
 #include "version.h"
 
@@ -29,7 +30,7 @@ int runCommand(const Run& run) {
   } catch (const tufted::Cancelled&) {
     return fail("cancelled", exit_cancelled);
   } catch (const tufted::InvalidInput& error) {
-    return fail(error.what(), exit_usage);
+    return fail(withoutClass(error.what()), exit_usage);
   } catch (const std::bad_alloc&) {
     return fail("out of memory", exit_failed);
   } catch (const std::exception& error) {
@@ -100,7 +101,13 @@ int main(int argc, char** argv) {
     app.parse(std::move(arguments));
   } catch (const CLI::Success& help) {
     return app.exit(help);
+  } catch (const CLI::ExtrasError&) {  // whose own text has the words in reverse
+    std::string rest;
+    for (const std::string& word : app.remaining(true)) rest += " " + word;
+    return refuse("not expected:" + rest);
   } catch (const CLI::ParseError& error) {
+    return refuse(error.what());
+  } catch (const tufted::InvalidInput& error) {  // of values that are taken apart while the words are
     return refuse(error.what());
   }
   return runCommand(run);

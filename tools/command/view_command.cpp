@@ -63,10 +63,11 @@ void addArrays(const std::filesystem::path& folder, Scene& scene) {
     if (values.rows() != scene.positions.rows() || values.cols() == 0) continue;
     const std::string shown = name == "M" ? "mass" : name == "components" ? "component" : name;
     const FieldKind kind = kindOfResult(shown, values.cols());
+    std::vector<std::string> columns = columnNamesOf(shown, values.cols());
     if (name == "boundary")
       fields.push_back(boundaryField(std::move(values)));
     else
-      fields.push_back({shown, kind, std::move(values)});
+      fields.push_back({.name = shown, .kind = kind, .values = std::move(values), .column_names = std::move(columns)});
   }
   const auto is_copy = [&](const SceneField& field) {
     return std::any_of(fields.begin(), fields.end(), [&](const SceneField& array) {
@@ -133,22 +134,26 @@ void choose(const std::vector<std::string>& names, Scene& scene) {
   scene.fields = std::move(chosen);
 }
 
+bool hasFinitePoint(const Scene& scene) {
+  for (Eigen::Index i = 0; i < scene.positions.rows(); ++i)
+    if (scene.positions.row(i).allFinite()) return true;
+  return false;
+}
+
 int runView(Settings& settings) {
   Look& look = settings.look;
   std::error_code error;
   const bool is_folder = std::filesystem::is_directory(settings.what, error);
   if (!look.isWanted())
     look.page = is_folder ? (settings.what / "view.html").string() : settings.what.string() + ".html";
-  for (const std::filesystem::path& file : {look.png, look.page})
-    if (!file.empty() && std::filesystem::equivalent(file, settings.what, error))
-      throw tufted::InvalidInput(file.string() + ": is the input, which would be overwritten");
-  checkLook(look);
+  checkLook(look, {}, settings.what);
   ProgressBar bar(settings.console.quiet);
   const tufted::Progress progress = showOn(bar);
   progress("read", 0);
   tufted::Geometry geometry;
   Scene scene =
       is_folder ? sceneOfFolder(settings.what, geometry, progress) : sceneOfFile(settings.what, geometry, progress);
+  if (!hasFinitePoint(scene)) throw tufted::IoError(settings.what.string() + ": has no finite point to look at");
   choose(settings.fields, scene);
   lookFromSensor(geometry, look);
   show(scene, look);

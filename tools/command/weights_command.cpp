@@ -8,6 +8,7 @@
 #include "operator.h"
 #include "options.h"
 #include "point_options.h"
+#include "taking_part.h"
 #include "tufted/errors.h"
 #include "tufted/weights.h"
 
@@ -62,6 +63,9 @@ void check(Settings& settings, const Operator& source) {
 
 Results compute(Settings& settings, Operator& source) {
   Results results;
+  std::vector<int> points;
+  for (const std::vector<int>& handle : settings.handles) points.insert(points.end(), handle.begin(), handle.end());
+  noteLeftOut(points, source, results);
   settings.options.solver = source.solverOptions();
   tufted::WeightReport made;
   const Eigen::MatrixXd weights = blameSurface(source, [&] {

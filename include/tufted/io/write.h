@@ -74,9 +74,10 @@ std::vector<std::string> resultFiles(const std::vector<Format>& formats);
 /// green, blue (and alpha) of 8 bits become a packed rgb (rgba).
 ///
 /// All files are written into a hidden folder `dir`/.tufted-XXXXXX, brought to the disk and then renamed one after the
-/// other. Files of these names are replaced; all others stay. Whatever throws leaves `dir` as it was. A process that is
-/// killed while it renames leaves new files beside old ones, and in `dir`/.tufted-XXXXXX/old those that it replaced.
-/// Where several processes write into one `dir`, each renames all its files before the next one does.
+/// other. Files of these names are replaced; links, pipes and devices of these names are refused; all others stay.
+/// Whatever throws leaves `dir` as it was. A process that is killed while it renames leaves new files beside old ones,
+/// and in `dir`/.tufted-XXXXXX/old those that it replaced. Where several processes write into one `dir`, each renames
+/// all its files before the next one does.
 /// @throws InvalidInput if the arrays of `laplacian` and `geometry` differ in length, the name of a field is not one
 ///         word, the pose of the sensor is not valid, or the cover is asked for and was not kept;
 ///         for Format::triangles also as surfaceTriangles()
@@ -88,7 +89,7 @@ void writeLaplacian(const std::filesystem::path& dir, const Laplacian& laplacian
 /// Checks, before results are computed, that writeLaplacian, writeResults or writeOperators will be able to write them:
 /// makes `dir` if missing and a folder in it, as they do, and removes both again.
 /// @param files names of the results
-/// @throws IoError naming the path, also where a directory has the name of a result
+/// @throws IoError naming the path, also where a directory, a link, a pipe or a device has the name of a result
 void checkWritable(const std::filesystem::path& dir, const std::vector<std::string>& files);
 
 /// The report as a JSON object (two-space indent), with a member per member of Report.

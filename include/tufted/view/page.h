@@ -30,7 +30,7 @@ struct PageOptions {
 std::string pageOf(const Scene& scene, const PageOptions& options = {});
 
 /// Writes pageOf() to a file. It appears whole or not at all: it is written beside `path` under another name, which is
-/// then changed. A file of that name is replaced.
+/// then changed. A file of that name, or behind that link, is replaced; a pipe or a device is refused.
 /// @param path the name of the file, in a directory that exists
 /// @throws InvalidInput as pageOf()
 /// @throws IoError naming `path`

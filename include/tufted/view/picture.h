@@ -48,7 +48,7 @@ struct Picture {
 ///         of range, or an unknown colour map
 Picture drawPicture(const Scene& scene, const PictureOptions& options = {});
 
-/// Writes drawPicture() as a PNG file, which appears whole or not at all. A file of that name is replaced.
+/// Writes drawPicture() as a PNG file, whole or not at all, as writePage() does. A file of that name is replaced.
 /// @throws InvalidInput as drawPicture(); IoError naming `path`
 void writePicture(const std::filesystem::path& path, const Scene& scene, const PictureOptions& options = {});
 

@@ -1,0 +1,53 @@
+// What pictures choose by themselves: from where they are seen, and what the legend says.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "tufted/view/picture.h"
+
+namespace tufted::picture_choices_test {
+namespace {
+
+bool isBackground(const Picture& picture, int x, int y) {
+  const std::uint8_t* const pixel = &picture.pixels[4 * (static_cast<std::size_t>(y) * picture.width + x)];
+  return std::equal(pixel, pixel + 4, picture.pixels.data());
+}
+
+TEST(PictureChoices, ALineIsSeenFromAside) {
+  // From the origin, where a sensor might be, along its direction, and elsewhere.
+  for (const Eigen::RowVector3d direction : {Eigen::RowVector3d(1, 2, 3), Eigen::RowVector3d(0, 0, 1),
+                                             Eigen::RowVector3d(0, 1, 0), Eigen::RowVector3d(1, 0, 0)}) {
+    for (const double start : {0.0, 3.0}) {
+      for (const int count : {2, 300}) {
+        Scene line = {.positions = Points(count, 3)};
+        for (int i = 0; i < count; ++i) line.positions.row(i) = (start + i / (count - 1.0)) * direction;
+        const Picture picture = drawPicture(line, {.width = 120, .height = 120, .legend = false});
+        int left = 120, right = 0, top = 120, bottom = 0;
+        for (int y = 0; y < 120; ++y) {
+          for (int x = 0; x < 120; ++x) {
+            if (isBackground(picture, x, y)) continue;
+            left = std::min(left, x), right = std::max(right, x);
+            top = std::min(top, y), bottom = std::max(bottom, y);
+          }
+        }
+        EXPECT_GT(std::hypot(right - left, bottom - top), 70) << direction << ", " << start << ", " << count;
+      }
+    }
+  }
+}
+
+TEST(PictureChoices, AColumnWithANameHasItInTheLegend) {
+  Scene scene = {.title = "Plane", .positions = Points::Zero(100, 3)};
+  for (int i = 0; i < 100; ++i) scene.positions.row(i) << i % 10, i / 10, 0;
+  scene.fields = {{.name = "both", .values = scene.positions.leftCols(2), .column_names = {"one", "two"}}};
+  Scene named = scene;
+  named.fields[0] = {.name = "two", .values = scene.positions.col(1)};
+  const auto pixels = [](const Scene& shown, int column) {
+    return drawPicture(shown, {.width = 300, .height = 200, .column = column}).pixels;
+  };
+  EXPECT_EQ(pixels(scene, 1), pixels(named, 0));
+}
+
+}  // namespace
+}  // namespace tufted::picture_choices_test
