@@ -34,7 +34,8 @@ struct OrientationReport {
 /// Keuper et al.: "Efficient decomposition of image and mesh graphs by lifted multicuts", 2015), so that single edges
 /// that are wrong, of which a spanning tree would take some, do not matter. Each component then faces outwards: the
 /// volume that its points and normals enclose is positive. Where it encloses none, as a plane does, the largest
-/// coordinate of its mean normal is positive.
+/// coordinate of its mean normal is positive. Bodies of some thousands of points that touch are one component, but face
+/// outwards one by one, as far as neighbours that disagree show where they touch.
 ///
 /// Where normals turn, so do tangents, and cross(normal, tangent) stays. Coincident points have the frame of their
 /// representative; other points that are not active keep theirs.

@@ -45,8 +45,8 @@ ScanStructure ringStructure(const Points& points, std::vector<int> ring,
 /// from the origin. Points that are not finite, or at the origin, have no place.
 /// @param points N x 3, in the scanner's frame: it turns around the z axis through `origin`
 /// @throws InvalidInput for an origin that is not finite, and where the elevations do not cluster: there are fewer than
-/// 4 rings, or a ring is wider than the narrowest gap between two, or within a ring there is a gap of more than a
-/// quarter of that between two
+/// 4 rings, or fewer than 16 points per ring in the mean, or a ring is wider than the narrowest gap between two, or
+/// within a ring there is a gap of more than a quarter of that between two
 ScanStructure findRings(const Points& points, const Eigen::Vector3d& origin = Eigen::Vector3d::Zero());
 
 }  // namespace tufted

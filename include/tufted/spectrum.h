@@ -71,7 +71,8 @@ struct Spectrum {
 ///        the number of components
 /// @throws InvalidInput for k or options out of range, arrays of the wrong size, or an M that is negative or not finite
 /// @throws SolverFailure when L cannot be factorised, the iterations do not suffice, or a pair, which it names, keeps a
-///         residual above what SpectrumOptions::tolerance says
+///         residual above what SpectrumOptions::tolerance says, or areas are so small that an eigenvalue is above the
+///         largest double
 /// @throws Cancelled when `options.progress` returns false
 Spectrum spectrum(const Laplacian& laplacian, int k, const SpectrumOptions& options = {});
 

@@ -57,25 +57,31 @@ class Fitter {
   Fitter(const Laplacian& laplacian, const Frames& frames)
       : positions_(laplacian.positions), frames_(frames), noise_(noiseOf(laplacian.report)), rings_(laplacian.L) {}
 
+  /// The noise that points were moved out of, as a standard deviation; 0 where fewer points were moved than not. What
+  /// is left of this noise is smooth, so that residuals do not show it, but over wide windows it is as strong as
+  /// before, and independent.
+  static double noiseOf(const Report& report) { return 2 * report.denoised > report.active ? report.noise : 0; }
+
   /// What fits leave over around one point.
   Residuals residuals(int p) {
     const auto leftOver = [&](int rings) {
       while (rings_.count() < rings && rings_.grow()) {
       }
       const std::optional<Window> window = fitWindow(p);
-      if (!window || !std::isfinite(window->fit.error) || window->fit.error < exact_below) return 0.0;
-      return window->fit.error * window->radius;
+      if (!window) return 0.0;
+      const double error = errorOf(window->fit, samples_, window->radius / unit_);
+      return std::isfinite(error) && error >= exact_below ? error * window->radius : 0;
     };
-    rings_.start(p);
+    start(p);
     const double few = leftOver(first_rings);
     return {few, leftOver(first_noisy_rings)};
   }
 
   /// The widest window that agrees with all narrower ones.
+  /// @param residuals of all points; empty where the noise is known
   std::optional<Window> fit(int p, const std::vector<Residuals>& residuals) {
-    rings_.start(p);
-    const Errors errors = errorsAround(residuals);
-    rings_.start(p);
+    const Errors errors = errorsAround(p, residuals);
+    start(p);
     std::optional<Window> best;
     int next_rings = errors.first_rings;
     Eigen::Array3d low = Eigen::Array3d::Constant(-INFINITY), high = -low;
@@ -91,6 +97,7 @@ class Fitter {
       high = high.min(second + half);
       if (best && (low > high).any()) break;
       best = window;
+      if (errors.interval == 0) break;  // exact heights, of which a wider window tells nothing more
     }
     return best;
   }
@@ -102,13 +109,9 @@ class Fitter {
     double interval;  ///< half the width of the confidence interval of a height, in the caller's unit
   };
 
-  /// The noise that points were moved out of, as a standard deviation; 0 where fewer points were moved than not. What
-  /// is left of this noise is smooth, so that residuals do not show it, but over wide windows it is as strong as
-  /// before, and independent.
-  static double noiseOf(const Report& report) { return 2 * report.denoised > report.active ? report.noise : 0; }
-
-  Errors errorsAround(const std::vector<Residuals>& residuals) {
+  Errors errorsAround(int p, const std::vector<Residuals>& residuals) {
     if (noise_ > 0) return {first_noisy_rings, confidence * noise_};
+    rings_.start(p);
     while (rings_.count() < first_noisy_rings && rings_.grow()) {
     }
     Residuals sum;
@@ -122,20 +125,35 @@ class Fitter {
                     : Errors{first_rings, confidence * sum.few / count};
   }
 
+  void start(int p) {
+    rings_.start(p);
+    samples_.clear();
+    farthest_ = 0;
+  }
+
   std::optional<Window> fitWindow(int p) {
+    takeNewPoints(p);
+    const double radius = wider * std::sqrt(farthest_);
+    if (!(radius > 0) || !std::isfinite(radius)) return std::nullopt;
+    const std::optional<SurfaceFit> fit = fitHeights(samples_, radius);
+    return fit ? std::optional(Window{*fit, radius * unit_, rings_.count()}) : std::nullopt;
+  }
+
+  /// Makes samples of the points that the rings have gained since the last window.
+  void takeNewPoints(int p) {
     const Eigen::RowVector3d center = positions_.row(p), normal = frames_.normals.row(p), x = frames_.tangents.row(p);
     const Eigen::RowVector3d y = normal.cross(x);
-    double radius = 0;
-    for (const int q : rings_.points()) radius = std::max(radius, (positions_.row(q) - center).stableNorm());
-    radius *= wider;
-    if (!(radius > 0) || !std::isfinite(radius)) return std::nullopt;
-    samples_.clear();
-    for (const int q : rings_.points()) {
-      const Eigen::RowVector3d offset = (positions_.row(q) - center) / radius;
-      samples_.push_back({offset.dot(x), offset.dot(y), offset.dot(normal)});
+    const std::vector<int>& points = rings_.points();
+    if (samples_.u.empty()) {
+      double extent = 0;
+      for (const int q : points) extent = std::max(extent, (positions_.row(q) - center).cwiseAbs().maxCoeff());
+      unit_ = extent > 0 && std::isfinite(extent) ? std::ldexp(1.0, std::clamp(std::ilogb(extent), -1000, 1000)) : 1;
     }
-    const std::optional<SurfaceFit> fit = fitHeights(samples_);
-    return fit ? std::optional(Window{*fit, radius, rings_.count()}) : std::nullopt;
+    for (std::size_t i = samples_.u.size(); i < points.size(); ++i) {
+      const Eigen::RowVector3d offset = (positions_.row(points[i]) - center) / unit_;
+      farthest_ = std::max(farthest_, offset.squaredNorm());
+      samples_.add(offset.dot(x), offset.dot(y), offset.dot(normal));
+    }
   }
 
   /// The radius where weights end, over that of the outermost point.
@@ -145,7 +163,9 @@ class Fitter {
   const Frames& frames_;
   double noise_;
   Rings rings_;
-  std::vector<HeightSample> samples_;
+  HeightSamples samples_;  ///< of the points of the rings, in units of `unit_`
+  double unit_ = 1;        ///< a power of two near the extent of the first window, in the caller's unit
+  double farthest_ = 0;    ///< squared distance of the farthest sample
 };
 
 /// Curvatures of the fitted surface at the point.
@@ -158,9 +178,10 @@ void setCurvatures(int p, const Window& window, const Frames& frames, Curvatures
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(second);
   const Eigen::RowVector3d normal = frames.normals.row(p), x = frames.tangents.row(p), y = normal.cross(x);
   const Eigen::Vector2d k = solver.eigenvalues() / window.radius;  // ascending
-  result.principal.row(p) << k[1], k[0];
-  result.mean[p] = (k[0] + k[1]) / 2;
-  result.gaussian[p] = k[0] * k[1];
+  // Plus 0, as that of a plane is no -0.
+  result.principal.row(p) << k[1] + 0.0, k[0] + 0.0;
+  result.mean[p] = (k[0] + k[1]) / 2 + 0.0;
+  result.gaussian[p] = k[0] * k[1] + 0.0;
   const Eigen::Vector2d v = solver.eigenvectors().col(1);
   const Eigen::RowVector3d fitted_normal = (normal - b * x - e * y) / length;
   const Eigen::RowVector3d first = (v[0] * (x + b * normal) + v[1] * (y + e * normal)).normalized();
@@ -174,13 +195,16 @@ Curvatures fitCurvatures(const Laplacian& laplacian, const Frames& frames, const
                     Points::Zero(n, 3), Points::Zero(n, 3), {}};
   std::vector<int> rings(n, 0);
   std::vector<std::optional<Fitter>> fitters(workers.count());
-  std::vector<Residuals> residuals(n);
-  workers.forBlocks("noise", n, costly_block, [&](std::int64_t begin, std::int64_t end, int worker) {
-    std::optional<Fitter>& fitter = fitters[worker];
-    if (!fitter) fitter.emplace(laplacian, frames);
-    for (int p = static_cast<int>(begin); p < end; ++p)
-      if (laplacian.status[p] == PointStatus::active) residuals[p] = fitter->residuals(p);
-  });
+  std::vector<Residuals> residuals;
+  if (!(Fitter::noiseOf(laplacian.report) > 0)) {
+    residuals.resize(n);
+    workers.forBlocks("noise", n, costly_block, [&](std::int64_t begin, std::int64_t end, int worker) {
+      std::optional<Fitter>& fitter = fitters[worker];
+      if (!fitter) fitter.emplace(laplacian, frames);
+      for (int p = static_cast<int>(begin); p < end; ++p)
+        if (laplacian.status[p] == PointStatus::active) residuals[p] = fitter->residuals(p);
+    });
+  }
   workers.forBlocks("curvature", n, costly_block, [&](std::int64_t begin, std::int64_t end, int worker) {
     std::optional<Fitter>& fitter = fitters[worker];
     if (!fitter) fitter.emplace(laplacian, frames);
@@ -214,7 +238,7 @@ Curvatures laplacianCurvatures(const Laplacian& laplacian, const Frames& frames,
       Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();  // of differences, whatever the distance from the origin
       for (SparseMatrix::InnerIterator entry(laplacian.L, p); entry; ++entry)
         sum += entry.value() * (positions.row(entry.row()) - positions.row(p));
-      result.mean[p] = sum.dot(frames.normals.row(p)) / laplacian.M[p] / 2;
+      result.mean[p] = sum.dot(frames.normals.row(p)) / laplacian.M[p] / 2 + 0.0;  // a plane has no -0
     }
   });
   return result;

@@ -14,6 +14,7 @@
 
 #include "algorithms/check_frames.h"
 #include "algorithms/connected.h"
+#include "base/disjoint_sets.h"
 #include "base/parallel.h"
 #include "base/stage_clock.h"
 #include "tufted/errors.h"
@@ -29,6 +30,13 @@ constexpr double smooth_cosine = 0.7;
 constexpr double crease_share = 0.5;
 /// A component whose normals point out by less than this part of its extent encloses no volume.
 constexpr double flat_share = 1e-6;
+/// Parts of fewer points, by those of the largest, lie within a joint.
+constexpr double small_part = 0.05;
+/// Rings of neighbours around normals that disagree, within which bodies that touch are joined.
+constexpr int joint_rings = 5;
+/// A part of a component is a body of its own if its normals point inwards by more than this part of its extent, and
+/// their mean is no longer than this: over a closed surface it is 0.
+constexpr double body_share = 0.1, most_mean = 0.3;
 
 /// Two neighbours.
 struct Edge {
@@ -157,8 +165,13 @@ class Contraction {
   std::size_t joined_ = 0;
 };
 
-/// Whether each component of normals that agree points inwards.
-std::vector<bool> inwardComponents(const Laplacian& laplacian, const Components& components, const Points& normals) {
+/// How each of some parts of the surface, whose normals agree, lies to them.
+struct Sides {
+  std::vector<double> outward;           ///< three times the volume over area and extent, negative if normals point in
+  std::vector<Eigen::RowVector3d> mean;  ///< normal, by area; 0 where the part is closed
+};
+
+Sides sidesOf(const Laplacian& laplacian, const Components& components, const Points& normals) {
   const Points& positions = laplacian.positions;
   const VectorXd weights = components.weights(laplacian.M);
   // Relative to one point and over the extent, so that neither distance nor size matters.
@@ -180,9 +193,15 @@ std::vector<bool> inwardComponents(const Laplacian& laplacian, const Components&
     center[components.of[i]] += weights[i] * place(i);
     mean[components.of[i]] += weights[i] * normals.row(i);
   }
-  std::vector<double> outward(components.count, 0);  // three times the volume over the area
+  std::vector<double> outward(components.count, 0);
   for (const int i : components.points)
     outward[components.of[i]] += weights[i] * normals.row(i).dot(place(i) - center[components.of[i]]);
+  return {std::move(outward), std::move(mean)};
+}
+
+/// Whether each component of normals that agree points inwards.
+std::vector<bool> inwardComponents(const Laplacian& laplacian, const Components& components, const Points& normals) {
+  const auto [outward, mean] = sidesOf(laplacian, components, normals);
   std::vector<bool> inward(components.count);
   for (int c = 0; c < components.count; ++c) {
     Eigen::Index axis = 0;
@@ -190,6 +209,81 @@ std::vector<bool> inwardComponents(const Laplacian& laplacian, const Components&
     inward[c] = std::abs(outward[c]) > flat_share ? outward[c] < 0 : mean[c][axis] < 0;
   }
   return inward;
+}
+
+bool disagrees(const Edge& edge, const Points& normals, const Points& positions) {
+  return edgeBetween(positions, normals, edge.low, edge.high).alike < 0;
+}
+
+/// The parts that components fall into without the points whose normals disagree with a neighbour's, and without some
+/// rings of neighbours around those.
+/// @param joint 1 for the points that are left out, of which there must be some
+Components partsBeside(const Laplacian& laplacian, const std::vector<Edge>& edges, std::vector<std::uint8_t>& joint) {
+  for (int ring = 0; ring < joint_rings; ++ring) {
+    const std::vector<std::uint8_t> core = joint;
+    for (const Edge& edge : edges) {
+      if (core[edge.low] != 0) joint[edge.high] = 1;
+      if (core[edge.high] != 0) joint[edge.low] = 1;
+    }
+  }
+  DisjointSets sets(std::ssize(joint));
+  for (const Edge& edge : edges)
+    if (joint[edge.low] == 0 && joint[edge.high] == 0) sets.unite(edge.low, edge.high);
+  Components parts;
+  parts.of.assign(joint.size(), -1);
+  for (int i = 0; i < static_cast<int>(joint.size()); ++i) {
+    if (joint[i] != 0 || laplacian.status[i] != PointStatus::active) continue;
+    const int root = sets.root(i);  // the first of its part
+    parts.of[i] = root == i ? parts.count++ : parts.of[root];
+    parts.points.push_back(i);
+  }
+  return parts;
+}
+
+/// Gives points of joints the sign that their neighbours beside them have, from the outside in.
+void settleJoints(const Laplacian& laplacian, const std::vector<Edge>& edges, std::vector<std::uint8_t>& joint,
+                  Points& normals) {
+  VectorXd alike(normals.rows());
+  for (bool settles = true; settles;) {
+    settles = false;
+    alike.setZero();
+    for (const Edge& edge : edges) {
+      if (joint[edge.low] == joint[edge.high]) continue;
+      const int open = joint[edge.low] != 0 ? edge.low : edge.high;
+      alike[open] += edgeBetween(laplacian.positions, normals, edge.low, edge.high).alike;
+    }
+    for (Eigen::Index i = 0; i < alike.size(); ++i) {
+      if (alike[i] == 0) continue;
+      if (alike[i] < 0) normals.row(i) *= -1;
+      joint[i] = 0;
+      settles = true;
+    }
+  }
+}
+
+/// Bodies that touch are one component, and where they do neighbours say that one of them is turned inside out. Some of
+/// them must disagree there. Where these cut off a part that is closed but for that, it faces outwards by itself.
+void turnBodies(const Laplacian& laplacian, const std::vector<Edge>& edges, Points& normals) {
+  std::vector<std::uint8_t> joint(static_cast<std::size_t>(normals.rows()), 0);
+  bool has_joint = false;
+  for (const Edge& edge : edges) {
+    if (!disagrees(edge, normals, laplacian.positions)) continue;
+    joint[edge.low] = joint[edge.high] = 1;
+    has_joint = true;
+  }
+  if (!has_joint) return;
+  const Components parts = partsBeside(laplacian, edges, joint);
+  const auto [outward, mean] = sidesOf(laplacian, parts, normals);
+  std::vector<std::uint8_t> turns(static_cast<std::size_t>(parts.count), 0);
+  for (int c = 0; c < parts.count; ++c) turns[c] = outward[c] < -body_share && mean[c].norm() < most_mean ? 1 : 0;
+  if (std::find(turns.begin(), turns.end(), 1) == turns.end()) return;
+  VectorXd sizes = VectorXd::Zero(parts.count);
+  for (const int i : parts.points) ++sizes[parts.of[i]];
+  for (const int i : parts.points) {
+    if (turns[parts.of[i]] != 0) normals.row(i) *= -1;
+    joint[i] = sizes[parts.of[i]] < small_part * sizes.maxCoeff() ? 1 : 0;
+  }
+  settleJoints(laplacian, edges, joint, normals);
 }
 
 /// Normals alike between neighbours, and outwards.
@@ -204,8 +298,8 @@ void orientAlike(const Laplacian& laplacian, const Progress& progress, Points& n
   const std::vector<bool> inward = inwardComponents(laplacian, components, normals);
   for (const int i : components.points)
     if (inward[components.of[i]]) normals.row(i) *= -1;
-  for (const Edge& edge : edges)
-    report.disagreeing_edges += (edge.alike < 0) != (sets.isTurned(edge.low) != sets.isTurned(edge.high)) ? 1 : 0;
+  turnBodies(laplacian, edges, normals);
+  for (const Edge& edge : edges) report.disagreeing_edges += disagrees(edge, normals, laplacian.positions) ? 1 : 0;
   report.components = components.count;
 }
 

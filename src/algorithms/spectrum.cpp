@@ -265,6 +265,10 @@ Spectrum spectrum(const Laplacian& laplacian, int k, const SpectrumOptions& opti
     result.vectors.row(static_cast<Index>(i)) = result.vectors.row(laplacian.representative[i]);
   }
   result.values /= problem.total;
+  if (!result.values.allFinite())
+    throw SolverFailure("spectrum: an eigenvalue has the unit of 1 / area, the whole area is " +
+                        numberText(problem.total) + ", must be large enough for the eigenvalue to be finite; scale " +
+                        "the points up");
   result.vectors /= std::sqrt(problem.total);
   result.report.seconds = watch.seconds();
   return result;

@@ -57,6 +57,27 @@ TEST(BlockLanczos, FindsOneEigenvalueOfManyCopies) {
   expectLargest(turned(VectorXd::Ones(300), 77), VectorXd::Ones(300), 1e-10);
 }
 
+TEST(BlockLanczos, TakesNoLongerWhereTheWantedEndWithinACluster) {
+  // Those of a sphere, the copies apart by 1e-4: the first 99 are nine whole clusters, the next has 21.
+  VectorXd values(2600);
+  for (Index i = 0, degree = 1; i < values.size(); ++degree)
+    for (Index copy = 0; copy <= 2 * degree && i < values.size(); ++copy, ++i)
+      values[i] = (1 - 1e-4 * static_cast<double>(copy) / static_cast<double>(2 * degree)) /
+                  static_cast<double>(degree * (degree + 1));
+  const auto iterations = [&](Index wanted) {
+    const Workers workers(1, silent);
+    const LanczosProblem problem = turned(values, wanted);
+    const LanczosResult found = largestEigenpairs(problem, {.tolerance = 1e-10, .max_iterations = 2000}, workers);
+    EXPECT_TRUE(found.converged) << wanted;
+    if (found.converged) {
+      EXPECT_LE((found.values - values.head(wanted)).cwiseAbs().maxCoeff(), 1e-12) << wanted;
+    }
+    return found.iterations;
+  };
+  const int whole = iterations(99);
+  for (const Index wanted : {100, 104, 110, 119}) EXPECT_LE(iterations(wanted), 1.5 * whole) << wanted;
+}
+
 TEST(BlockLanczos, TakesAnyPartOfASmallSpace) {
   for (Index n = 2; n <= 20; ++n) {
     const VectorXd values = VectorXd::LinSpaced(n, 2, 1);

@@ -172,6 +172,12 @@ TEST(Curvature, OfAPlaneIsZero) {
   const Points plane = shapes::square(1000).points;
   const Curvatures found = curvatures(pointCloudLaplacian(plane));
   EXPECT_LE(found.principal.cwiseAbs().maxCoeff(), 1e-9);
+  // What is exact takes no wider window.
+  EXPECT_EQ(found.report.mean_rings, 2);
+  const auto isSigned = [](double value) { return value == 0 && std::signbit(value); };
+  EXPECT_TRUE(std::none_of(found.mean.begin(), found.mean.end(), isSigned));
+  EXPECT_TRUE(std::none_of(found.gaussian.begin(), found.gaussian.end(), isSigned));
+  EXPECT_FALSE(found.principal.unaryExpr(isSigned).any());
 }
 
 TEST(Curvature, OfOddPointsIsDefined) {

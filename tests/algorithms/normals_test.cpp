@@ -56,6 +56,28 @@ TEST(OrientedFrames, OfSeveralComponentsAreOrientedOneByOne) {
   }
 }
 
+/// Clouds of unit spheres in a row, each of which touches the next.
+shapes::Cloud touchingSpheres(int count, int points_each, std::uint64_t seed) {
+  shapes::Cloud row = shapes::sphere(points_each, shapes::Sampling::uniform, seed);
+  for (int i = 1; i < count; ++i) {
+    const shapes::Cloud next = shapes::sphere(points_each, shapes::Sampling::uniform, seed + 1000 * i);
+    row.points.conservativeResize(row.points.rows() + points_each, 3);
+    row.points.bottomRows(points_each) = next.points.rowwise() + Eigen::RowVector3d(2.0 * i, 0, 0);
+    row.normals.conservativeResize(row.points.rows(), 3);
+    row.normals.bottomRows(points_each) = next.normals;
+  }
+  return row;
+}
+
+TEST(OrientedFrames, OfBodiesThatTouchPointOutwardsOnEach) {
+  for (std::uint64_t seed = 101; seed <= 106; ++seed) {
+    const shapes::Cloud row = touchingSpheres(seed % 2 == 0 ? 3 : 2, 3000, seed);
+    const Laplacian laplacian = pointCloudLaplacian(row.points);
+    ASSERT_EQ(laplacian.report.components, 1);
+    EXPECT_GE(outwardShare(laplacian, orientedFrames(laplacian).normals, row.normals), 0.97) << seed;
+  }
+}
+
 TEST(OrientedFrames, OfAPlanePointUp) {
   const Points plane = shapes::square(500).points;
   const Frames frames = orientedFrames(pointCloudLaplacian(plane));

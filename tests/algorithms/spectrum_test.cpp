@@ -167,6 +167,13 @@ TEST(Spectrum, IsSearchedWhereTheFactorForCountingDoesNotFit) {
   EXPECT_LE((searched.values - counted.values).cwiseAbs().maxCoeff(), 1e-9 * counted.values[29]);
 }
 
+TEST(Spectrum, RefusesAreasWhoseEigenvaluesAreNoDoubles) {
+  const Laplacian laplacian = pointCloudLaplacian(1e-160 * shapes::sphere(500).points);
+  ASSERT_GT(laplacian.M.sum(), 0);
+  EXPECT_THROW(spectrum(laplacian, 5), SolverFailure);
+  EXPECT_EQ(spectrum(laplacian, 1).values[0], 0);
+}
+
 TEST(Spectrum, ScalesWithTheCloud) {
   // Multiples of 2^-20: moving and doubling are exact.
   const Points points = shapes::ellipsoid(2000).points;

@@ -189,7 +189,9 @@ TEST_F(MovedPoints, SmoothRefusesOptionsThatDoNotFit) {
 }
 
 TEST_F(MovedPoints, MinimalFlattensWithinAFlatRim) {
-  run({"minimal", open_, "--out", in("soap")});
+  // Points slide within the surface, too, which the last line of the summary counts.
+  EXPECT_NE(run({"minimal", open_, "--out", in("soap")}).out.find("in the last one points left the surface by at most"),
+            std::string::npos);
   EXPECT_LE(highest("soap/positions.npy"), 1e-3);
   const nlohmann::json made = report("soap")["report"];
   EXPECT_TRUE(made["converged"]);

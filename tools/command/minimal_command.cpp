@@ -66,7 +66,7 @@ Results compute(Settings& settings, Operator& source) {
   results.summary.add("points", "%lld stayed, %lld moved", static_cast<long long>(made.fixed),
                       static_cast<long long>(made.moved));
   results.summary.add("area", "%.6g, before %.6g", made.area, made.area_before);
-  results.summary.add("iterations", "%d, in the last one points moved by at most %.3g", made.iterations,
+  results.summary.add("iterations", "%d, in the last one points left the surface by at most %.3g", made.iterations,
                       made.last_move);
   if (made.floating > 0)
     results.warnings.push_back(std::to_string(made.floating) + " points lie on parts without a fixed point; they stay");

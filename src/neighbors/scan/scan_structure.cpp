@@ -15,7 +15,8 @@ namespace {
 
 constexpr double least_contrast = 4;  // of the gaps between rings to those within
 constexpr int least_rings = 4;
-constexpr double rounding = 1e-9;  // rad; gaps below are rounding
+constexpr std::size_t least_per_ring = 16;  // points, in the mean; a few gaps of a random cloud are tiny by chance
+constexpr double rounding = 1e-9;           // rad; gaps below are rounding
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 void checkOrigin(const char* function, const Eigen::Vector3d& origin) {
@@ -31,17 +32,19 @@ double elevationOf(const Eigen::Vector3d& ray) {
 }
 
 /// The gap that every gap between two rings exceeds and none within one: where the gaps, from the widest down, fall
-/// by the largest factor.
+/// by the largest factor, and leave enough rings of enough points.
 double widestInnerGap(std::vector<double> gaps) {
   std::sort(gaps.begin(), gaps.end(), std::greater<>());
+  const std::size_t most_rings = (gaps.size() + 1) / least_per_ring;
   double contrast = 0, inner = 0;
-  for (std::size_t i = 1; i < gaps.size() && gaps[i - 1] > rounding; ++i) {
+  for (std::size_t i = least_rings - 1; i < most_rings && gaps[i - 1] > rounding; ++i) {
     const double here = gaps[i - 1] / std::max(gaps[i], rounding);
     if (here > contrast) contrast = here, inner = gaps[i];
   }
   if (!(contrast >= least_contrast)) {
     throw InvalidInput("findRings: the gaps between elevations fall by a factor of " + numberText(contrast) +
-                       " at most, must be at least 4 for rings to show (is `origin` the sensor's?)");
+                       " at most where they leave 4 rings or more of 16 points or more in the mean, must be at least "
+                       "4 for rings to show (is `origin` the sensor's?)");
   }
   return inner;
 }
