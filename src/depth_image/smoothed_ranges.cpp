@@ -146,7 +146,9 @@ class RangeSmoother {
       } else {
         std::uint64_t around = 0;
         for (int i = 0; i < WindowPixels::count; ++i) around |= std::uint64_t{packet.within[i] >> lane & 1U} << i;
-        range = smoothedFurther({rows.at + lane, rows.row_step, rows.column_step}, around, before, variance_);
+        // Windows of 55 pixels hold more than one bend, a third pass gains nothing, and rings lie too far apart.
+        const bool may_bend = stride_ == strides.front() && !smoothed_.goes_round;
+        range = smoothedFurther({rows.at + lane, rows.row_step, rows.column_step}, around, before, variance_, may_bend);
       }
       if (!range) continue;
       after_[at + lane] = range->inverse;
