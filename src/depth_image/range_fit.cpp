@@ -1,6 +1,5 @@
 #include "depth_image/range_fit.h"
 
-#include <Eigen/Cholesky>
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -21,6 +20,10 @@ constexpr double most_misfit_apart_nearer = 8;    // of one over 5 x 5
 constexpr double most_misfit_of_planes = 4;       // of planes over a part of either
 constexpr double further_share = 1.0 / 8;         // of the variance that a fit to values apart leaves
 constexpr double further_share_nearer = 1.0 / 4;  // over 5 x 5
+constexpr double most_share_of_bent = 0.25;       // of a quadratic over a part of 7 x 7
+constexpr double most_misfit_to_bend = 6;         // of a plane over 5 x 5, times most_misfit_of_planes
+constexpr double steepest_bend_squared = 64;      // change of a plane from value to value, in variances of the noise
+constexpr int least_of_bent = 28;                 // values of a quadratic over a part of 7 x 7, that of p included
 constexpr int least_of_wide = 20;                 // pixels of a plane over 7 x 7, that of p included
 constexpr int least_of_narrow = 12;               // over 5 x 5
 constexpr double steep_squared = 1;               // change per pixel, in variances of the noise
@@ -39,16 +42,19 @@ double rise(const PixelRows& ranges, const PixelStep& step) {
   return ranges.at[step.row * ranges.row_step + step.column * ranges.column_step] - ranges.at[0];
 }
 
-/// A plane over some pixels of the window.
-struct PlaneFit {
+/// A plane or a quadratic over some pixels of the window.
+struct PartFit {
   double value, variance;  ///< as SquareFit
   double leverage;         ///< variance of the value, by that of each pixel
-  double slope_squared;    ///< how much a pixel changes it
 
   std::optional<SmoothedRange> within(double most_variance) const {
     if (!std::isfinite(value) || !(variance <= most_variance)) return std::nullopt;
     return SmoothedRange{value, leverage * std::max(variance, most_variance / most_misfit)};
   }
+};
+
+struct PlaneFit : PartFit {
+  double slope_squared;  ///< how much a pixel changes it
 };
 
 std::optional<PlaneFit> fitPlane(const PixelRows& ranges, std::uint64_t around, int least_pixels) {
@@ -82,61 +88,83 @@ std::optional<PlaneFit> fitPlane(const PixelRows& ranges, std::uint64_t around, 
   const double explained = value * all + along_rows * by_row + along_columns * by_column;
   const double variance = std::max(0.0, squares - explained) / (count - 3);
   const double slope_squared = along_rows * along_rows + along_columns * along_columns;
-  return PlaneFit{ranges.at[0] + value, variance, share * of_all, slope_squared};
+  return PlaneFit{{ranges.at[0] + value, variance, share * of_all}, slope_squared};
 }
 
-/// The products of powers of its row and column, each up to the fourth, for every step of a window.
+/// The products of powers of its row and column, up to the fourth together, for every step of a window.
 struct StepPowers {
-  static constexpr int sides = 5, size = 32;  // of 25, filled up to whole packets
+  static constexpr int most = 4, size = 16;  // 15 products, filled up to whole packets
   using Products = std::array<std::int16_t, size>;
 
   std::array<Products, WindowPixels::count> of{};
+  Products of_all{1};  ///< the sum over a whole window
+
+  /// Where the product of so many rows and columns is.
+  static constexpr int at(int rows, int columns) { return rows * (2 * most + 3 - rows) / 2 + columns; }
 
   constexpr StepPowers() {
     for (int i = 0; i < WindowPixels::count; ++i) {
       const PixelStep& step = window_pixels.step[i];
-      for (int row = 0, by_row = 1; row < sides; ++row, by_row *= step.row)
-        for (int column = 0, both = by_row; column < sides - row; ++column, both *= step.column)
-          of[i][row * sides + column] = static_cast<std::int16_t>(both);
+      for (int rows = 0, by_row = 1; rows <= most; ++rows, by_row *= step.row)
+        for (int columns = 0, both = by_row; columns <= most - rows; ++columns, both *= step.column)
+          of[i][at(rows, columns)] = static_cast<std::int16_t>(both);
+      for (int j = 0; j < size; ++j) of_all[j] = static_cast<std::int16_t>(of_all[j] + of[i][j]);
     }
   }
 };
 
 constexpr StepPowers step_powers;
 
+/// The sums over some pixels of a window and the middle one. They are whole numbers, so that those of the pixels that
+/// are left out, mostly fewer, can be taken from the whole.
+StepPowers::Products momentsOf(std::uint64_t around) {
+  StepPowers::Products moments = step_powers.of_all;
+  forEachPixel(WindowPixels::rings(WindowPixels::reach) & ~around, [&](int pixel) {
+    for (int i = 0; i < StepPowers::size; ++i)
+      moments[i] = static_cast<std::int16_t>(moments[i] - step_powers.of[pixel][i]);
+  });
+  return moments;
+}
+
 /// A quadratic over some pixels of the window: at least least_of_wide, which no conic holds.
-std::optional<SmoothedRange> fitQuadratic(const PixelRows& ranges, std::uint64_t around, double most_variance) {
-  constexpr std::array<PixelStep, 6> terms = {{{0, 0}, {1, 0}, {0, 1}, {2, 0}, {1, 1}, {0, 2}}};  // powers
+std::optional<PartFit> fitQuadratic(const PixelRows& ranges, std::uint64_t around) {
+  constexpr std::array<PixelStep, 6> terms = {{{0, 2}, {1, 1}, {2, 0}, {0, 1}, {1, 0}, {0, 0}}};  // powers
   constexpr int unknowns = terms.size();
+  const int constant = unknowns - 1, values = unknowns;
   const int count = std::popcount(around) + 1;
   if (count < least_of_wide) return std::nullopt;
-  StepPowers::Products products{1};  // of the middle
-  Eigen::Matrix<double, unknowns, 2> sides = Eigen::Matrix<double, unknowns, 2>::Zero();
-  double squares = 0;
+  const StepPowers::Products moments = momentsOf(around);
+  // The lower triangle of the products of all terms and the values.
+  std::array<std::array<double, unknowns + 1>, unknowns + 1> left;
+  for (int i = 0; i < unknowns; ++i)
+    for (int j = 0; j <= i; ++j)
+      left[i][j] = moments[StepPowers::at(terms[i].row + terms[j].row, terms[i].column + terms[j].column)];
+  double all = 0, by_row = 0, by_column = 0, by_rows = 0, by_both = 0, by_columns = 0, squares = 0;
   forEachPixel(around, [&](int pixel) {
     const PixelStep& step = window_pixels.step[pixel];
     const double row = step.row, column = step.column, w = rise(ranges, step);
-    for (int i = 0; i < StepPowers::size; ++i) products[i] += step_powers.of[pixel][i];
-    sides(0, 0) += w;
-    sides(1, 0) += row * w;
-    sides(2, 0) += column * w;
-    sides(3, 0) += row * row * w;
-    sides(4, 0) += row * column * w;
-    sides(5, 0) += column * column * w;
+    const double row_w = row * w, column_w = column * w;
+    all += w;
+    by_row += row_w;
+    by_column += column_w;
+    by_rows += row * row_w;
+    by_both += row * column_w;
+    by_columns += column * column_w;
     squares += w * w;
   });
-  Eigen::Matrix<double, unknowns, unknowns> moments;
-  for (int i = 0; i < unknowns; ++i)
-    for (int j = 0; j < unknowns; ++j)
-      moments(i, j) = products[(terms[i].row + terms[j].row) * StepPowers::sides + terms[i].column + terms[j].column];
-  sides(0, 1) = 1;
-  // With the triangular factor of the moments all that is asked for is a product of these two.
-  const Eigen::LLT<Eigen::Matrix<double, unknowns, unknowns>> factor(moments);
-  factor.matrixL().solveInPlace(sides);
-  const double value = sides.col(1).dot(sides.col(0)), leverage = sides.col(1).squaredNorm();
-  const double variance = std::max(0.0, squares - sides.col(0).squaredNorm()) / (count - unknowns);
-  if (!std::isfinite(value) || !(variance <= most_variance)) return std::nullopt;
-  return SmoothedRange{ranges.at[0] + value, leverage * std::max(variance, most_variance / most_misfit)};
+  left[values] = {by_columns, by_both, by_rows, by_column, by_row, all, squares};
+  // Term by term but for the constant is eliminated. Of the constant and the values then that is left which the other
+  // terms do not explain.
+  for (int i = 0; i < constant; ++i) {
+    const double inverse = 1 / left[i][i];
+    for (int j = i + 1; j <= values; ++j) {
+      const double share = left[j][i] * inverse;
+      for (int k = i + 1; k <= j; ++k) left[j][k] -= share * left[k][i];
+    }
+  }
+  const double leverage = 1 / left[constant][constant], value = left[values][constant] * leverage;
+  const double variance = std::max(0.0, left[values][values] - value * left[values][constant]) / (count - unknowns);
+  return PartFit{ranges.at[0] + value, variance, leverage};
 }
 
 /// At an edge: a plane, but a quadratic where the surface goes along the line of sight by more than noise from pixel to
@@ -146,7 +174,8 @@ std::optional<SmoothedRange> fitAtEdge(const PixelRows& ranges, std::uint64_t ar
   const std::optional<PlaneFit> plane = fitPlane(ranges, around, least_pixels);
   if (!plane) return std::nullopt;
   if (plane->slope_squared > steep_squared * known)
-    if (const auto quadratic = fitQuadratic(ranges, around, most_variance)) return quadratic;
+    if (const auto quadratic = fitQuadratic(ranges, around))
+      if (const auto bent = quadratic->within(most_variance)) return bent;
   return plane->within(most_variance);
 }
 
@@ -183,15 +212,20 @@ std::optional<SmoothedRange> smoothedNearer(const SquareFit& narrow, const Smoot
 }
 
 std::optional<SmoothedRange> smoothedFurther(const PixelRows& ranges, std::uint64_t around, const SmoothedRange& before,
-                                             double noise_variance) {
+                                             double noise_variance, bool may_bend) {
   const double most_variance = most_misfit_of_planes * noise_variance;
-  const auto planeOver = [&](std::uint64_t pixels, int least_pixels, double share) -> std::optional<SmoothedRange> {
-    const auto plane = fitPlane(ranges, pixels, least_pixels);
-    if (!plane || !plane->within(most_variance)) return std::nullopt;
-    return SmoothedRange{plane->value, before.variance * share};
-  };
-  if (const auto plane = planeOver(around, least_of_wide, further_share)) return plane;
-  return planeOver(around & WindowPixels::rings(2), least_of_narrow, further_share_nearer);
+  const auto wide = fitPlane(ranges, around, least_of_wide);
+  if (wide && wide->within(most_variance)) return SmoothedRange{wide->value, before.variance * further_share};
+  const auto narrow = fitPlane(ranges, around & WindowPixels::rings(2), least_of_narrow);
+  if (!narrow) return std::nullopt;
+  if (narrow->within(most_variance)) return SmoothedRange{narrow->value, before.variance * further_share_nearer};
+  // Most of the others lie at creases, or along the sight at rims, where the first fit was a quadratic.
+  if (!may_bend || !wide || std::popcount(around) + 1 < least_of_bent) return std::nullopt;
+  if (!(narrow->variance <= most_misfit_to_bend * most_variance)) return std::nullopt;
+  if (!(wide->slope_squared <= steepest_bend_squared * noise_variance)) return std::nullopt;
+  const auto bent = fitQuadratic(ranges, around);
+  if (!bent || !bent->within(most_variance) || !(bent->leverage <= most_share_of_bent)) return std::nullopt;
+  return SmoothedRange{bent->value, before.variance * std::max(further_share, bent->leverage)};
 }
 
 }  // namespace tufted

@@ -39,11 +39,12 @@ std::optional<SmoothedRange> smoothedInverseRange(const PixelRows& ranges, std::
 /// a whole window of 7 x 7, or of 5 x 5, or a plane over a part of it.
 /// @param around which of the pixels are of one surface with the middle one
 /// @param noise_variance of what noise these values have
+/// @param may_bend where no plane fits to a part of a window, by little, a quadratic may
 /// @returns nothing where they do not fit as well as noise allows
 std::optional<SmoothedRange> smoothedFurther(const SquareFit& wide, const SmoothedRange& before, double noise_variance);
 std::optional<SmoothedRange> smoothedNearer(const SquareFit& narrow, const SmoothedRange& before,
                                             double noise_variance);
 std::optional<SmoothedRange> smoothedFurther(const PixelRows& ranges, std::uint64_t around, const SmoothedRange& before,
-                                             double noise_variance);
+                                             double noise_variance, bool may_bend);
 
 }  // namespace tufted

@@ -16,9 +16,7 @@ namespace {
 
 constexpr std::array<int, 3> strides = {3, SmoothedRanges::widest_stride, 4};  // pixels apart, pass by pass
 constexpr std::ptrdiff_t passes_of_rings = 1;
-constexpr double tolerance = 2;        // standard deviations of noise between two smoothed values
 constexpr double harmless = 0.0025;    // of the squared spacing: a twentieth of it in noise
-constexpr double steepest = 4;         // pixels along the line of sight for one across
 constexpr std::int64_t samples = 500;  // packets of pixels, to see what noise smoothed values have
 constexpr double quiet = 0.25;         // of the windows have nothing but noise
 constexpr double usual = 0.75;         // of the windows are of one surface
@@ -118,10 +116,10 @@ class RangeSmoother {
       packet.is_wanted |= static_cast<unsigned>(smoothed_.variance[at + lane] > harmless * spacing_squared) << lane;
     }
     if (packet.is_wanted == 0) return packet;
-    for (int lane = 0; lane < kernel_packet; ++lane)
-      slope[lane] = steepest * std::sqrt(smoothed_.spacing_squared[at + lane]) * stride_;
-    packet.is_whole = kernels().squaresWithin(smoothed_.inverse.data() + at, shift_.data(), slope.data(),
-                                              tolerance * noise_, packet.is_wanted, packet.within.data());
+    for (int lane = 0; lane < kernel_packet; ++lane) slope[lane] = smoothed_.steepestSlope(at + lane) * stride_;
+    packet.is_whole =
+        kernels().squaresWithin(smoothed_.inverse.data() + at, shift_.data(), slope.data(),
+                                SmoothedRanges::tolerance * noise_, packet.is_wanted, packet.within.data());
     if ((packet.is_wanted & packet.is_whole) != 0) kernels().fitSquares7(rowsAt(at), packet.wide);
     return packet;
   }
@@ -146,7 +144,9 @@ class RangeSmoother {
       } else {
         std::uint64_t around = 0;
         for (int i = 0; i < WindowPixels::count; ++i) around |= std::uint64_t{packet.within[i] >> lane & 1U} << i;
-        range = smoothedFurther({rows.at + lane, rows.row_step, rows.column_step}, around, before, variance_);
+        // Windows of 55 pixels hold more than one bend, a third pass gains nothing, and rings lie too far apart.
+        const bool may_bend = stride_ == strides.front() && !smoothed_.goes_round;
+        range = smoothedFurther({rows.at + lane, rows.row_step, rows.column_step}, around, before, variance_, may_bend);
       }
       if (!range) continue;
       after_[at + lane] = range->inverse;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 
 #include "base/buffer.h"
@@ -15,6 +16,8 @@ namespace tufted {
 struct SmoothedRanges {
   static constexpr int widest_stride = 9;  ///< pixels between the values of a window
   static constexpr int border = WindowPixels::reach * widest_stride;
+  static constexpr double steepest = 4;   ///< pixels along the line of sight for one across
+  static constexpr double tolerance = 2;  ///< standard deviations of noise between two smoothed values
 
   int rows = 0, columns = 0;          ///< of the grid
   bool goes_round = false;            ///< as the grid
@@ -24,6 +27,8 @@ struct SmoothedRanges {
   RawBuffer<double> spacing_squared;  ///< of neighbouring pixels, in inverse range
 
   std::ptrdiff_t at(int row, int column) const { return (row + border) * row_step + column + border; }
+  /// The largest change of a surface with each pixel.
+  double steepestSlope(std::ptrdiff_t pixel) const { return steepest * std::sqrt(spacing_squared[pixel]); }
   /// Makes room for an image, in which no pixel holds a point.
   void clear(const PixelGrid& grid, const Workers& workers);
 };

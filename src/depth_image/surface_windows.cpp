@@ -6,6 +6,7 @@
 
 #include "depth_image/faint_jumps.h"
 #include "depth_image/image_tile.h"
+#include "depth_image/missing_pixels.h"
 #include "depth_image/smoothed_ranges.h"
 
 namespace tufted {
@@ -108,6 +109,7 @@ SurfaceWindows findSurfaceWindows(const PixelGrid& grid, const PointsView& point
   windows.cut = std::accumulate(cut.begin(), cut.end(), std::int64_t{0});
   if (!smooths) return windows;
   cutFaintJumps(grid, noise, windows, smoothed);
+  fillMissingPixels(grid, noise, workers, smoothed);
   smoothFurther(smoothed, noise, workers);
   moveAlongRays(grid, points, smoothed, workers, windows);
   return windows;

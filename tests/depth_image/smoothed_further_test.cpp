@@ -1,6 +1,7 @@
 // The second smoothing of ranges, a packet at a time, against a loop over pixels.
 #include <gtest/gtest.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/QR>
 #include <algorithm>
 #include <array>
@@ -32,7 +33,9 @@ struct Case {
         if (random.uniform() < 0.002) continue;
         const std::ptrdiff_t at = smoothed.at(row + PixelGrid::margin, column + PixelGrid::margin);
         const double step = column > 2 * width / 3 ? 0.1 : 0;
-        smoothed.inverse[at] = 1 + step + 1e-4 * row - 2e-4 * column + 0.3 * noise * random.normal();
+        const int from_ridge = row % 24 - 12;  // between planes that meet in valleys
+        const double bend = row < 2 * height / 3 ? 0 : 8e-5 * from_ridge * from_ridge;
+        smoothed.inverse[at] = 1 + step + bend + 1e-4 * row - 2e-4 * column + 0.3 * noise * random.normal();
         smoothed.variance[at] = 0.1 * noise * noise;
         // Some have little noise beside their spacing and stay as they are.
         smoothed.spacing_squared[at] = column % 11 == 7 ? noise * noise * 1e3 : 1e-8;
@@ -59,12 +62,18 @@ Joined windowOf(const SmoothedRanges& image, const RawBuffer<double>& before, in
 }
 
 /// A fit to the pixels of a window up to a ring.
-SquareFit fitOf(const Joined& window, int terms, int rings) {
+struct WindowFit {
+  double value = 0, variance = INFINITY;  ///< of the middle, of the residuals
+  double leverage = INFINITY;             ///< variance of the value, by that of each pixel
+  double slope_squared = INFINITY;        ///< of a plane
+};
+
+WindowFit fitOf(const Joined& window, int terms, int rings) {
   Joined joined;
   for (const auto& pixel : window)
     if (std::abs(pixel[0]) <= rings && std::abs(pixel[1]) <= rings) joined.push_back(pixel);
   const auto count = static_cast<Eigen::Index>(joined.size());
-  if (count < (rings == 3 ? 20 : 12)) return {0, INFINITY};
+  if (count < (rings == 3 ? 20 : 12)) return {};
   Eigen::MatrixXd base(count, terms);
   Eigen::VectorXd values(count);
   for (Eigen::Index k = 0; k < count; ++k) {
@@ -74,21 +83,41 @@ SquareFit fitOf(const Joined& window, int terms, int rings) {
     values[k] = value;
   }
   const Eigen::VectorXd fit = base.householderQr().solve(values);
-  return {fit[0], (base * fit - values).squaredNorm() / static_cast<double>(count - terms)};
+  const Eigen::MatrixXd moments = base.transpose() * base;
+  return {fit[0], (base * fit - values).squaredNorm() / static_cast<double>(count - terms),
+          moments.ldlt().solve(Eigen::VectorXd::Unit(terms, 0))[0], fit.segment(1, 2).squaredNorm()};
 }
+
+/// How windows were smoothed.
+struct Counts {
+  int moved = 0, bent = 0;
+};
 
 /// What one pass does to one pixel.
 /// @param variance of the noise
-SmoothedRange smoothedRange(const Joined& window, const SmoothedRange& before, double variance) {
+/// @param may_bend whether a quadratic may fit to a part of a window
+SmoothedRange smoothedRange(const Joined& window, const SmoothedRange& before, double variance, bool may_bend,
+                            Counts& counts) {
+  ++counts.moved;
   const bool is_whole = window.size() == 49;
   const int terms = is_whole ? 6 : 3;
-  const SquareFit wide = fitOf(window, terms, 3), narrow = fitOf(window, terms, 2);
+  const WindowFit wide = fitOf(window, terms, 3), narrow = fitOf(window, terms, 2);
   if (wide.variance <= (is_whole ? 16 : 4) * variance) return {wide.value, before.variance / 8};
   if (narrow.variance <= (is_whole ? 8 : 4) * variance) return {narrow.value, before.variance / 4};
+  if (may_bend && !is_whole && window.size() >= 28 && narrow.variance <= 24 * variance &&
+      wide.slope_squared <= 64 * variance) {
+    const WindowFit bent = fitOf(window, 6, 3);
+    if (bent.variance <= 4 * variance && bent.leverage <= 0.25) {
+      ++counts.bent;
+      return {bent.value, before.variance * std::max(0.125, bent.leverage)};
+    }
+  }
+  --counts.moved;
   return before;
 }
 
 TEST(SmoothedFurther, IsThatOfALoopOverPixelsForImagesOfAnySize) {
+  Counts counts;
   for (const auto& size : {std::pair{70, 61}, {64, 20}, {61, 58}, {13, 90}, {1, 30}, {9, 7}, {57, 1}}) {
     const int width = size.first, height = size.second;
     const Progress silent;
@@ -99,7 +128,7 @@ TEST(SmoothedFurther, IsThatOfALoopOverPixelsForImagesOfAnySize) {
       for (int row = 0; row < image.grid.rows; ++row)
         for (int column = 0; column < image.grid.columns; ++column) visit(row, column, expected.at(row, column));
     };
-    int changed = 0;
+    const int moved_before = counts.moved;
     double variance = noise * noise / 2;
     for (const int stride : {3, 9, 4}) {
       const RawBuffer<double> before = expected.inverse;
@@ -119,8 +148,8 @@ TEST(SmoothedFurther, IsThatOfALoopOverPixelsForImagesOfAnySize) {
       forEachPixelOfImage([&](int row, int column, std::ptrdiff_t at) {
         if (!isWanted(at)) return;
         const Joined window = windowOf(expected, before, row, column, stride);
-        const SmoothedRange after = smoothedRange(window, {before[at], expected.variance[at]}, variance);
-        if (after.inverse != before[at]) ++changed;
+        const SmoothedRange after =
+            smoothedRange(window, {before[at], expected.variance[at]}, variance, stride == 3, counts);
         expected.inverse[at] = after.inverse;
         expected.variance[at] = after.variance;
       });
@@ -133,8 +162,9 @@ TEST(SmoothedFurther, IsThatOfALoopOverPixelsForImagesOfAnySize) {
       ASSERT_NEAR(value, expected.inverse[at], 1e-12) << width << " x " << height << ", " << row << ' ' << column;
       ASSERT_NEAR(image.smoothed.variance[at], expected.variance[at], 1e-15) << row << ' ' << column;
     });
-    EXPECT_TRUE(changed > 0 || width < 13 || height < 7);
+    EXPECT_TRUE(counts.moved > moved_before || width < 13 || height < 7);
   }
+  EXPECT_GT(counts.bent, 50);
 }
 
 }  // namespace
