@@ -35,8 +35,8 @@ struct SceneField {
   Eigen::MatrixXd values;
   std::string unit = {};                       ///< of the values, for the legend; may be empty
   std::vector<std::string> label_names = {};   ///< of labels 0, 1, ... in the legend; labels beyond have their number
-  std::vector<std::string> column_names = {};  ///< of the columns, for the legend; empty: the name and a number
   std::string no_value = {};                   ///< what grey means, for the legend; empty: "no value"
+  std::vector<std::string> column_names = {};  ///< of the columns, for the legend; empty: the name and a number
 };
 
 /// Points with what is known at them, for a page or a picture.
