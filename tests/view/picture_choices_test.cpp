@@ -16,11 +16,11 @@ bool isBackground(const Picture& picture, int x, int y) {
 
 TEST(PictureChoices, ALineIsSeenFromAside) {
   // From the origin, where a sensor might be, along its direction, and elsewhere.
-  for (const Eigen::RowVector3d direction : {Eigen::RowVector3d(1, 2, 3), Eigen::RowVector3d(0, 0, 1),
-                                             Eigen::RowVector3d(0, 1, 0), Eigen::RowVector3d(1, 0, 0)}) {
+  for (const Eigen::RowVector3d& direction : {Eigen::RowVector3d(1, 2, 3), Eigen::RowVector3d(0, 0, 1),
+                                              Eigen::RowVector3d(0, 1, 0), Eigen::RowVector3d(1, 0, 0)}) {
     for (const double start : {0.0, 3.0}) {
       for (const int count : {2, 300}) {
-        Scene line = {.positions = Points(count, 3)};
+        Scene line = {.title = "Line", .positions = Points(count, 3)};
         for (int i = 0; i < count; ++i) line.positions.row(i) = (start + i / (count - 1.0)) * direction;
         const Picture picture = drawPicture(line, {.width = 120, .height = 120, .legend = false});
         int left = 120, right = 0, top = 120, bottom = 0;
