@@ -49,8 +49,8 @@ struct Curvatures {
 /// of neighbours (four where there is noise), then to more, as long as what they say lies within the errors of what
 /// fewer rings have said: wide enough for the noise, narrow enough for the surface (intersection of confidence
 /// intervals; Goldenshluger and Nemirovski 1997). Where fits leave over rounding alone, the first window is taken.
-/// Heights are quadratic in coordinates as long as the distance in space, so that a sphere is fitted exactly by a window
-/// of any width. Curvatures are those of the fitted surface.
+/// Heights are quadratic in coordinates as long as the distance in space, so that a sphere is fitted exactly by a
+/// window of any width. Curvatures are those of the fitted surface.
 /// @param laplacian with positions, and frames, as that of a cloud has; orientedFrames() makes the signs consistent
 /// @throws InvalidInput for arrays of the wrong size, a Laplacian without positions or frames, positions or frames of
 /// active points that are not finite, or options out of range
