@@ -57,7 +57,7 @@ void forTerms(const HeightSamples& samples, double radius, const Take& take) {
 }  // namespace
 
 std::optional<SurfaceFit> fitHeights(const HeightSamples& samples, double radius) {
-  // Of the symmetric matrices sum w r r^T and sum w^2 r r^T the lower triangles, row by row.
+  // They hold the lower triangles of the symmetric matrices sum w r r^T and sum w^2 r r^T, row by row.
   std::array<Lanes, 21> sums, squared_sums;
   std::array<Lanes, 6> right_sums;
   sums.fill(Lanes::Zero());

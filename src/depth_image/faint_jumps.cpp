@@ -16,7 +16,7 @@
 namespace tufted {
 namespace {
 
-// Of what noise makes of a jump at all but a tenth of the pixels:
+// Bounds of jumps are multiples of what noise alone shows as a jump, at all but a tenth of the pixels.
 constexpr double least_found = 3.5;  // a jump that a line starts at
 constexpr double least_jump = 1.4;   // one where it goes on
 constexpr double steepest = 64;      // squared tangent of 83 degrees, beside the slopes of both sides
@@ -151,7 +151,7 @@ class JumpFollower {
     return mean > 0 ? std::min(mean, 2 * (sum - least - most) / (WindowPixels::side() - 2)) : mean;
   }
 
-  /// The same by the rows within reach.
+  /// How much larger the inverse range is on the near side of a straight line, by the mean of the rows within reach.
   double straightJump(const Step& step) const {
     std::array<double, WindowPixels::side()> rows;
     for (int i = -reach; i <= reach; ++i)

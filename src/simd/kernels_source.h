@@ -29,7 +29,7 @@ int takeWithin(const Candidates& candidates, const double* point, int p, double 
 
 void rankValues(const double* values, int count, float* rounded, int* rank) {
   for (int i = 0; i < count; i += packet_size) storeFloats(load(values + i), rounded + i);
-  // As many at once as fit in registers.
+  // Each step ranks as many values as fit in registers.
   int i = 0;
   for (; i + 2 * float_packet_size < count; i += 3 * float_packet_size)
     rankFloats<3>(rounded + i, rounded, count, rank + i);

@@ -3,35 +3,20 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <memory>
 
-#include "denoise/moves.h"
-#include "denoise/neighbor_lists.h"
 #include "denoise/noise_level.h"
 #include "denoise/pooling.h"
 #include "shapes/shapes.h"
-#include "support/ranked.h"
+#include "support/window_cloud.h"
 
 namespace tufted::middle_windows_test {
 namespace {
 
 using shapes::Sampling;
 
-const Progress silent;
-
 /// Windows around every eighth point of a cloud, with those through middles.
-struct CloudWithMiddles {
-  RankedCloud ranked;
-  Workers workers = Workers(1, silent);
-  NeighborSource source;
-  Windows windows;
-  NeighborLists lists;
-
-  explicit CloudWithMiddles(const Points& points)
-      : ranked(support::ranked(points)),
-        source(windowSource(std::make_unique<NeighborSearch>(ranked.points), ranked.size())),
-        lists(ranked.size()) {
-    windows.resize(ranked.size(), Windows::widest_stride);
+struct CloudWithMiddles : support::WindowCloud {
+  explicit CloudWithMiddles(const Points& points) : WindowCloud(points) {
     findNoise(WindowFitter(ranked.points, source, workers), workers, windows, lists);
     fitThroughMiddles(ranked.points, workers, windows);
   }

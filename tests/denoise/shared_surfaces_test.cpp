@@ -3,40 +3,26 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <memory>
 #include <numeric>
 
 #include "denoise/middle_windows.h"
-#include "denoise/moves.h"
-#include "denoise/neighbor_lists.h"
 #include "shapes/shapes.h"
-#include "support/ranked.h"
+#include "support/window_cloud.h"
 
 namespace tufted::shared_surfaces_test {
 namespace {
 
 using shapes::Sampling;
 
-const Progress silent;
-
 /// Windows around every eighth point of a cloud, which count as noisy and smooth.
-struct SharedCloud {
-  RankedCloud ranked;
-  Workers workers = Workers(1, silent);
-  NeighborSource source;
-  Windows windows;
-  NeighborLists lists;
+struct SharedCloud : support::WindowCloud {
   NoiseLevel noise;
   WindowChoice choice;
   PointBuffer move;
   RawBuffer<double> variance;
   SharedSurfaces shared;
 
-  SharedCloud(const Points& points, double sigma)
-      : ranked(support::ranked(points)),
-        source(windowSource(std::make_unique<NeighborSearch>(ranked.points), ranked.size())),
-        lists(ranked.size()) {
-    windows.resize(ranked.size(), 8);
+  SharedCloud(const Points& points, double sigma) : WindowCloud(points) {
     Buffer<int> all(windows.base.size());
     std::iota(all.begin(), all.end(), 0);
     const WindowFitter fitter(ranked.points, source, workers);
@@ -151,7 +137,7 @@ TEST(MayBeNoisy, IsTrueOfNoiseAndFalseOfExactPoints) {
   const auto asks = [](const shapes::Cloud& cloud) {
     const RankedCloud ranked = support::ranked(cloud.points);
     const NeighborSource source = windowSource(std::make_unique<NeighborSearch>(ranked.points), ranked.size());
-    return mayBeNoisy(ranked.points, source, Workers(1, silent));
+    return mayBeNoisy(ranked.points, source, Workers(1, support::silent));
   };
   for (const auto& cloud :
        {shapes::sphere(8000), shapes::torus(8000), shapes::cylinderPatch(8000), shapes::saddle(8000),
