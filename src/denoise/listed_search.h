@@ -23,20 +23,29 @@ class ListedSearch {
   /// @param which whose ranks ascend
   template <class Rank, class Count, class Visit>
   void forEach(std::span<const int> which, const Rank& rank, const Count& count, const Visit& visit) {
+    forEachGroup(which, rank, count, [&](std::span<const int> group, const auto& neighborsOf) {
+      for (std::size_t i = 0; i < group.size(); ++i) visit(group[i], neighborsOf(i));
+    });
+  }
+
+  /// As forEach(), for numbers of one count that follow each other, at most `most_together`: calls
+  /// visit(group, neighbors_of), and neighbors_of(i) are the neighbours of group[i].
+  template <class Rank, class Count, class Visit>
+  void forEachGroup(std::span<const int> which, const Rank& rank, const Count& count, const Visit& visit) {
     std::array<int, most_together> ranks;
     for (std::size_t begin = 0, end = 0; begin < which.size(); begin = end) {
       const int k = count(which[begin]);
       for (; end < which.size() && end - begin < most_together && count(which[end]) == k; ++end)
         ranks[end - begin] = rank(which[end]);
       find(std::span(ranks).first(end - begin), k);
-      for (std::size_t i = begin; i < end; ++i)
-        visit(which[i], std::span<const Neighbor>(found_).subspan((i - begin) * row_, row_));
+      visit(which.subspan(begin, end - begin),
+            [&](std::size_t i) { return std::span<const Neighbor>(found_).subspan(i * row_, row_); });
     }
   }
 
- private:
   static constexpr std::size_t most_together = 32;
 
+ private:
   void find(std::span<const int> ranks, int k) {
     row_ = static_cast<std::size_t>(std::min(k, static_cast<int>(points_.rows()) - 1));
     // About as far as the search before had to look, which was near by.

@@ -88,9 +88,8 @@ class MiddleFitter {
     for (int i = 0; i < count; ++i) {
       const bool is_connected = heights_[i] >= range.lowest && heights_[i] <= range.highest;
       kept_[i] = is_connected && windows_.is_copy[middles_.windowOf(neighbors[i].index)] == 0 ? 1 : 0;
+      if (kept_[i] == 0) offsets_.clear(i);
     }
-    offsets_.fill(count,
-                  [&](int i) -> Eigen::RowVector3d { return kept_[i] != 0 ? offset(i) : Eigen::RowVector3d::Zero(); });
     const Offsets all = offsets_.view();
     double leverage = moved_[w].leverage;
     int from = 0, kept = 1;

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <numeric>
 #include <span>
+#include <utility>
 
 #include "base/parallel.h"
 #include "denoise/windows.h"
@@ -41,22 +42,40 @@ inline double residualOf(const WindowFit& fit) {
   return std::isfinite(fit.variance) ? fit.variance : 0;
 }
 
+/// Calls visit(q, times) for p and its pool. A pool of few windows holds each several times, one after the other.
+template <class Visit>
+void forEachPooled(int p, const Windows::Pool& pool, const Visit& visit) {
+  int last = p, times = 1;
+  for (const int q : pool) {
+    if (q == last) {
+      ++times;
+      continue;
+    }
+    visit(last, times);
+    last = q;
+    times = 1;
+  }
+  visit(last, times);
+}
+
 /// The mean of value(q) over p and its pool.
 template <class Value>
 double pooledMean(int p, const Windows::Pool& pool, const Value& value) {
-  double sum = value(p);
-  for (const int q : pool) sum += value(q);
+  double sum = 0;
+  forEachPooled(p, pool, [&](int q, int times) { sum += times * value(q); });
   return sum / (Windows::pooled + 1);
 }
 
 /// The value(q) over p and its pool that has `rank` smaller ones.
 template <class Value>
 double pooledQuantile(int p, const Windows::Pool& pool, int rank, const Value& value) {
-  std::array<double, Windows::pooled + 1> values;
-  values[0] = value(p);
-  for (int i = 0; i < Windows::pooled; ++i) values[i + 1] = value(pool[i]);
-  std::nth_element(values.begin(), values.begin() + rank, values.end());
-  return values[rank];
+  std::array<std::pair<double, int>, Windows::pooled + 1> values;  // with how often each is there
+  auto end = values.begin();
+  forEachPooled(p, pool, [&](int q, int times) { *end++ = {value(q), times}; });
+  std::sort(values.begin(), end);
+  auto found = values.begin();
+  for (int smaller = found->second; smaller <= rank; smaller += found->second) ++found;
+  return found->first;
 }
 
 template <class Value>

@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::int8_t least_shared = 2;  // of Windows::fits: smaller windows hold too few points to be shared
 constexpr double least_weight = 0.02;    // of all windows together; 1 is that of a window in its middle
-constexpr std::int64_t at_once = 64 * costly_block;  // windows whose surfaces are kept until they are added up
-constexpr double lifted_within = 0.6;                // of the radius of a window: how far its surface lifts others
+constexpr int blocks_per_thread = 2;     // of windows whose votes are kept until they are added up
+constexpr double lifted_within = 0.6;    // of the radius of a window: how far its surface lifts others
 /// Noise draws fits towards the centre of curvature: by 2.5 times its variance times the mean curvature where it is
 /// alike in all directions, by 3.5 times where it is along the normal. So many times of that are taken back.
 constexpr double taken_back = 1;
@@ -37,10 +37,12 @@ struct Ways {
   Buffer<double> height, x, y, z;
 };
 
-/// The sum of all votes about a point.
+/// The sum of all votes about a point, and the window nearest to it.
 struct Sum {
   Eigen::Vector3d move = Eigen::Vector3d::Zero();
   double weight = 0, variance = 0;
+  float squared_distance = std::numeric_limits<float>::infinity();
+  int nearest = 0;
 };
 
 /// Windows whose surfaces are shared, all or some.
@@ -55,8 +57,12 @@ class SharingWindows {
 
   /// Lifts surfaces through middles, each to the mean of those around at its own middle: their errors partly cancel.
   void lift(const Workers& workers) {
+    RawBuffer<PlaneQuadratic> quadratics(windows_.base.size());
+    forEachPoint(windows_, workers, [&](int w) {
+      if (isThroughMiddles(w)) quadratics[w] = quadraticOf(windows_, w, shared_[w]);
+    });
     RawBuffer<double> lifts(windows_.base.size());
-    forEachPoint(windows_, workers, [&](int w) { lifts[w] = isThroughMiddles(w) ? liftOf(w) : 0; });
+    forEachPoint(windows_, workers, [&](int w) { lifts[w] = isThroughMiddles(w) ? liftOf(w, quadratics) : 0; });
     lift_ = std::move(lifts);
   }
 
@@ -70,9 +76,9 @@ class SharingWindows {
     return (points_.row(p) - points_.row(windows_.pointOf(w))).squaredNorm() <= radius * radius && moveOnto(w, p, move);
   }
 
-  /// The votes of some windows.
-  void vote(std::span<const int> which, Buffer<Vote>& votes) const {
-    Ways ways;
+  /// Calls visit(vote) for the votes of some windows, one window after the other.
+  template <class Visit>
+  void vote(std::span<const int> which, Ways& ways, const Visit& visit) const {
     for (const int w : which) {
       const std::span<const int> neighbors = sharing(w);
       const std::span<const std::uint8_t> skipped = lists_.skippedOf(w);
@@ -82,12 +88,12 @@ class SharingWindows {
       if (is_shared) findWays(w, ways);
       const double farthest = ways.squared[neighbors.size()];
       const auto add = [&](std::size_t i, int p, double weight) {
-        Vote vote{p, w, static_cast<float>(ways.squared[i]), weight, {}};
+        Vote vote{p, w, static_cast<float>(ways.squared[i]), weight, Eigen::Vector3d::Zero()};
         if (weight > 0) {
           vote.move = {ways.x[i], ways.y[i], ways.z[i]};
           if (!(ways.height[i] * ways.height[i] <= most)) vote.weight = 0;
         }
-        votes.push_back(vote);
+        visit(vote);
       };
       add(0, windows_.pointOf(w), is_shared ? 1 : 0);
       for (std::size_t i = 0; i < neighbors.size(); ++i) {
@@ -100,7 +106,7 @@ class SharingWindows {
  private:
   bool isThroughMiddles(int w) const { return shared_[w] >= Windows::searched && windows_.is_copy[w] == 0; }
 
-  double liftOf(int w) const {
+  double liftOf(int w, const RawBuffer<PlaneQuadratic>& quadratics) const {
     const int p = windows_.pointOf(w);
     const Eigen::RowVector3d normal = windows_.normal.row(w);
     const double own = windows_.fits[w][shared_[w]].height;
@@ -113,7 +119,7 @@ class SharingWindows {
       const Eigen::Vector3d d = (points_.row(p) - points_.row(windows_.pointOf(q))).transpose();
       const double share = 1 - d.squaredNorm() / (radius * radius);
       if (!(share > 0)) continue;
-      const WindowSurface surface = surfaceAt(windows_, q, shared_[q], d);
+      const WindowSurface surface = surfaceAt(quadratics[q], d);
       weight += share * share;
       sum -= share * share * surface.height * normal.dot(surface.normal.transpose());
     }
@@ -177,13 +183,22 @@ class SharingWindows {
 /// Visits the votes of some windows, one after the other, so that sums are the same for any number of threads.
 template <class Visit>
 void forEachVote(const SharingWindows& sharing, const Buffer<int>& which, const Workers& workers, const Visit& visit) {
-  Buffer<Buffer<Vote>> votes(at_once / costly_block);
+  if (workers.count() == 1) {
+    Ways ways;
+    return workers.forBlocks("noise", std::ssize(which), costly_block, [&](std::int64_t begin, std::int64_t end, int) {
+      sharing.vote(std::span(which).subspan(begin, end - begin), ways, visit);
+    });
+  }
+  const std::int64_t blocks = std::int64_t{blocks_per_thread} * workers.count(), at_once = blocks * costly_block;
+  Buffer<Buffer<Vote>> votes(static_cast<std::size_t>(blocks));
   for (std::int64_t first = 0; first < std::ssize(which); first += at_once) {
     const std::int64_t count = std::min<std::int64_t>(at_once, std::ssize(which) - first);
     workers.forBlocks("noise", count, costly_block, [&](std::int64_t begin, std::int64_t end, int) {
+      Ways ways;
       Buffer<Vote>& block = votes[begin / costly_block];
       block.clear();
-      sharing.vote(std::span(which).subspan(first + begin, end - begin), block);
+      sharing.vote(std::span(which).subspan(first + begin, end - begin), ways,
+                   [&](const Vote& vote) { block.push_back(vote); });
     });
     for (std::int64_t begin = 0; begin < count; begin += costly_block)
       for (const Vote& vote : votes[begin / costly_block]) visit(vote);
@@ -268,12 +283,10 @@ SharedSurfaces shareSurfaces(const PointsView& points, const NeighborSource& sou
   SharedSurfaces shared;
   shared.settled.assign(n, 0);
   shared.nearest.resize(n);
-  for (std::size_t p = 0; p < n; ++p) shared.nearest[p] = static_cast<int>(p) / windows.stride;
-  Buffer<float> nearest(n, std::numeric_limits<float>::infinity());
   Buffer<Sum> sums(n);
-  const auto addTo = [&](const SharingWindows& sharing, const Vote& vote) {
+  for (std::size_t p = 0; p < n; ++p) sums[p].nearest = static_cast<int>(p) / windows.stride;
+  const auto addTo = [](Sum& sum, const SharingWindows& sharing, const Vote& vote) {
     if (!(vote.weight > 0)) return;
-    Sum& sum = sums[vote.point];
     sum.move += vote.weight * vote.move;
     sum.weight += vote.weight;
     sum.variance += vote.weight * sharing.variance(vote.window);
@@ -292,22 +305,24 @@ SharedSurfaces shareSurfaces(const PointsView& points, const NeighborSource& sou
   const Buffer<int> voters =
       numbersWhere("noise", windows.size(), workers, [&](int w) { return windows.is_copy[w] == 0; });
   forEachVote(sharing, voters, workers, [&](const Vote& vote) {
-    if (vote.squared_distance < nearest[vote.point]) {
-      nearest[vote.point] = vote.squared_distance;
-      shared.nearest[vote.point] = vote.window;
+    Sum& sum = sums[vote.point];
+    if (vote.squared_distance < sum.squared_distance) {
+      sum.squared_distance = vote.squared_distance;
+      sum.nearest = vote.window;
     }
-    addTo(sharing, vote);
+    addTo(sum, sharing, vote);
   });
   const BentWindows bent(static_cast<int>(n), WindowFitter(points, source, workers), windows, noise, bends);
   const SharingWindows sharing_bent(points, bent.lists, bent.windows, bent.variance, bent.shared);
-  forEachVote(sharing_bent, bent.which, workers, [&](const Vote& vote) { addTo(sharing_bent, vote); });
+  forEachVote(sharing_bent, bent.which, workers,
+              [&](const Vote& vote) { addTo(sums[vote.point], sharing_bent, vote); });
 
   move.setZero(points.rows());
   variance.resize(n);
   workers.forBlocks("noise", points.rows(), usual_block, [&](std::int64_t begin, std::int64_t end, int) {
     for (std::int64_t p = begin; p < end; ++p) {
       const Sum& sum = sums[p];
-      const int w = shared.nearest[p];
+      const int w = shared.nearest[p] = sum.nearest;
       if (sum.weight >= least_weight) {
         shared.settled[p] = 1;
         move.row(p) = (sum.move / sum.weight).transpose();

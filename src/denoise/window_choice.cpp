@@ -46,19 +46,21 @@ class Choice {
 
   /// Whether the surface is a quadratic there, as far as the noise lets one see.
   bool isFlat(int window) const {
-    const Windows::Pool pool = poolOf(windows_, p_, window);
-    const auto mean = [&](const auto& value) { return pooledMean(p_, pool, value); };
-    const double shifted = mean([&](int q) {
-      const double d = noise_.outlier[q] != 0 ? 0 : height(q, window) - height(q, window - 1);
-      return d * d;
+    double shifted = 0, leverages = 0, residual = 0, smallest = 0;  // sums over the pool
+    forEachPooled(p_, poolOf(windows_, p_, window), [&](int q, int times) {
+      const WindowFit& fit = windows_.fits[q][window];
+      const double d = noise_.outlier[q] != 0 ? 0 : fit.height - height(q, window - 1);
+      shifted += times * (d * d);
+      leverages += times * (leverage(q, window - 1) - fit.leverage);
+      residual += times * residualOf(fit);
+      smallest += times * residualOf(windows_.fits[q][0]);
     });
-    const double by_noise =
-        variance_ * std::max(0.0, mean([&](int q) { return leverage(q, window - 1) - leverage(q, window); }));
-    const double residual = mean([&](int q) { return residualOf(windows_.fits[q][window]); });
-    const double smallest = mean([&](int q) { return residualOf(windows_.fits[q][0]); });
+    const double count = Windows::pooled + 1;
+    const double by_noise = variance_ * std::max(0.0, leverages / count);
     const WindowFit& own = windows_.fits[p_][window];
-    return shifted < shift * by_noise && residual < growth * variance_ && residual < relative * smallest &&
-           own.variance < own_growth * variance_ && own.height * own.height < own_height * own_height * variance_;
+    return shifted / count < shift * by_noise && residual / count < growth * variance_ &&
+           residual < relative * smallest && own.variance < own_growth * variance_ &&
+           own.height * own.height < own_height * own_height * variance_;
   }
 
  private:

@@ -26,10 +26,8 @@ inline PlaneQuadratic quadraticOf(const Windows& windows, int w, int size) {
   return quadratic;
 }
 
-/// @param size of Windows::fits
-/// @param d the position relative to the middle of window w
-inline WindowSurface surfaceAt(const Windows& windows, int w, int size, const Eigen::Vector3d& d) {
-  const PlaneQuadratic quadratic = quadraticOf(windows, w, size);
+/// @param d the position relative to the middle of the window
+inline WindowSurface surfaceAt(const PlaneQuadratic& quadratic, const Eigen::Vector3d& d) {
   const Eigen::Map<const Eigen::Vector3d> first(quadratic.axes), second(quadratic.axes + 3), normal(quadratic.axes + 6);
   const double* const c = quadratic.coefficient;
   const double unit = quadratic.unit, u = d.dot(first) / unit, v = d.dot(second) / unit;
@@ -38,6 +36,12 @@ inline WindowSurface surfaceAt(const Windows& windows, int w, int size, const Ei
   const Eigen::Vector3d across = normal - along_u * first - along_v * second;
   const double length = across.norm();
   return {(d.dot(normal) - height) / length, across / length};
+}
+
+/// @param size of Windows::fits
+/// @param d the position relative to the middle of window w
+inline WindowSurface surfaceAt(const Windows& windows, int w, int size, const Eigen::Vector3d& d) {
+  return surfaceAt(quadraticOf(windows, w, size), d);
 }
 
 }  // namespace tufted

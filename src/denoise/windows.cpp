@@ -1,7 +1,10 @@
 #include "denoise/windows.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 #include "denoise/listed_search.h"
@@ -30,10 +33,11 @@ void spreadAll(int w, std::span<const int> ranks, std::span<const std::uint8_t> 
   // A base window holds few middles of windows that lie around every eighth point.
   const int near = windows.stride == 1 ? windows.base[w] : 2 * windows.base[w];
   const auto most = static_cast<int>(ranks.size());
+  const int step = std::countr_zero(static_cast<unsigned>(windows.stride)), within = windows.stride - 1;
   int from = 0;
   const auto pool = [&](int count, Windows::Pool& to) {
     for (; from < std::min(count, most); ++from)
-      if (skipped[from] == 0 && ranks[from] % windows.stride == 0) kept.push_back(ranks[from] / windows.stride);
+      if (skipped[from] == 0 && (ranks[from] & within) == 0) kept.push_back(ranks[from] >> step);
     spreadOver(kept, w, to);
   };
   pool(near, windows.near[w]);
@@ -98,11 +102,14 @@ class BlockFitter {
     const auto rank = [&](int w) { return windows_.pointOf(w); };
     const auto count = [&](int w) { return widest(w); };
     again_.clear();
-    search_.forEach(which, rank, count, [&](int w, std::span<const Neighbor> neighbors) {
-      const int searched = widest(w);
-      fitPlane(w, neighbors);
-      if (widest(w) != searched) return again_.push_back(w);  // it has grown along a line
-      fitAndKeep(w, neighbors);
+    search_.forEachGroup(which, rank, count, [&](std::span<const int> group, const auto& neighborsOf) {
+      const int searched = widest(group[0]);
+      fitPlanes(group, neighborsOf);
+      for (std::size_t i = 0; i < group.size(); ++i)
+        if (widest(group[i]) != searched)
+          again_.push_back(group[i]);  // it has grown along a line
+        else
+          fitAndKeep(group[i], neighborsOf(i));
     });
     search_.forEach(again_, rank, count, fitAndKeep);
     queue_.solve();
@@ -121,28 +128,50 @@ class BlockFitter {
  private:
   int widest(int w) const { return windows_.base[w] / 2 << (windows_.fitted - 1); }
 
-  void fitPlane(int w, std::span<const Neighbor> neighbors) {
-    const int p = windows_.pointOf(w), base = windows_.base[w];
-    const auto inside = neighbors.first(std::min(neighbors.size(), static_cast<std::size_t>(base)));
+  /// Fits the planes of base windows of one size.
+  template <class NeighborsOf>
+  void fitPlanes(std::span<const int> group, const NeighborsOf& neighborsOf) {
+    const auto base = static_cast<std::size_t>(windows_.base[group[0]]);
+    const auto inside = [&](std::size_t i) {
+      const std::span<const Neighbor> all = neighborsOf(i);
+      return all.first(std::min(all.size(), base));
+    };
     if (base > Windows::first_base) {
-      windows_.radius[w] = std::sqrt(inside.back().squared_distance);
-      windows_.split[w] = 0;
-      plane_offsets_.take(points_, p, inside);
-      const Covariance covariance = covarianceOf(plane_offsets_.view(), windows_.radius[w]);
-      PrincipalAxes axes;
-      principalAxes({&covariance, 1}, {&axes, 1});
-      return takePlane(w, axes, windows_);
+      std::array<Covariance, ListedSearch::most_together> covariances;
+      std::array<PrincipalAxes, ListedSearch::most_together> axes;
+      for (std::size_t i = 0; i < group.size(); ++i) {
+        const int w = group[i];
+        windows_.radius[w] = std::sqrt(inside(i).back().squared_distance);
+        windows_.split[w] = 0;
+        plane_offsets_[0].take(points_, windows_.pointOf(w), inside(i));
+        covariances[i] = covarianceOf(plane_offsets_[0].view(), windows_.radius[w]);
+      }
+      principalAxes(std::span(covariances).first(group.size()), axes);
+      for (std::size_t i = 0; i < group.size(); ++i) takePlane(group[i], axes[i], windows_);
+      return;
     }
-    around_plane_.neighbors.assign(inside.begin(), inside.end());
-    around_plane_.k = static_cast<int>(inside.size());
-    around_plane_.radius = inside.empty() ? 0 : std::sqrt(inside.back().squared_distance);
-    around_plane_.grown = around_plane_.split = around_plane_.restored = around_plane_.isolated = false;
-    finder_.fitPlanes(p, {&around_plane_, 1}, {&plane_offsets_, 1});
-    finder_.refine(p, around_plane_, plane_offsets_, plane_scratch_);
-    while (2 * windows_.base[w] <= around_plane_.k) windows_.base[w] *= 2;
-    windows_.radius[w] = around_plane_.radius;
-    windows_.split[w] = around_plane_.split ? 1 : 0;
-    takePlane(w, around_plane_.axes, windows_);
+    for (std::size_t first = 0; first < group.size(); first += around_planes_.size()) {
+      const std::size_t count = std::min(around_planes_.size(), group.size() - first);
+      for (std::size_t i = 0; i < count; ++i) {
+        Neighborhood& around = around_planes_[i];
+        const std::span<const Neighbor> neighbors = inside(first + i);
+        around.neighbors.assign(neighbors.begin(), neighbors.end());
+        around.k = static_cast<int>(neighbors.size());
+        around.radius = neighbors.empty() ? 0 : std::sqrt(neighbors.back().squared_distance);
+        around.grown = around.split = around.restored = around.isolated = false;
+        plane_offsets_[i].take(points_, windows_.pointOf(group[first + i]), neighbors);
+      }
+      finder_.fitPlanes(std::span(around_planes_).first(count), plane_offsets_);
+      for (std::size_t i = 0; i < count; ++i) {
+        const int w = group[first + i];
+        Neighborhood& around = around_planes_[i];
+        finder_.refine(windows_.pointOf(w), around, plane_offsets_[i], plane_scratch_);
+        while (2 * windows_.base[w] <= around.k) windows_.base[w] *= 2;
+        windows_.radius[w] = around.radius;
+        windows_.split[w] = around.split ? 1 : 0;
+        takePlane(w, around.axes, windows_);
+      }
+    }
   }
 
   void fit(int w, std::span<const Neighbor> neighbors, const Buffer<std::uint8_t>& left_out) {
@@ -150,7 +179,7 @@ class BlockFitter {
     around_.take(points_, windows_, w, neighbors, left_out);
     const Offsets all = around_.offsets.view();
     HeightMoments total = {{}, 1, windows_.radius[w]};
-    windows_.one_sided[w] = 0;
+    windows_.one_sided[w] = std::numeric_limits<double>::infinity();
     int from = 0;
     windows_.fits[w] = {};
     for (int size = 0; size < windows_.fitted; ++size) {
@@ -162,9 +191,9 @@ class BlockFitter {
       for (; from < to; ++from) total.count += around_.skipped[from] == 0 ? 1 : 0;
       windows_.fits[w][size].radius = std::sqrt(neighbors[to - 1].squared_distance);
       windows_.fits[w][size].count = total.count;
-      if (size == Windows::base_size + 1)
-        windows_.one_sided[w] =
-            std::hypot(total.sums.u, total.sums.v) / total.count * windows_.radius[w] / windows_.fits[w][size].radius;
+      if (size > Windows::base_size)
+        windows_.one_sided[w] = std::min(windows_.one_sided[w], std::hypot(total.sums.u, total.sums.v) / total.count *
+                                                                    windows_.radius[w] / windows_.fits[w][size].radius);
       queue_.add(w, size, total);
     }
   }
@@ -175,9 +204,9 @@ class BlockFitter {
   NeighborhoodFinder finder_;
   ListedSearch search_;
   FitQueue queue_;
-  Neighborhood around_plane_;
+  std::array<Neighborhood, NeighborhoodFinder::most_planes> around_planes_;
+  std::array<OffsetBuffer, NeighborhoodFinder::most_planes> plane_offsets_;
   NeighborhoodScratch plane_scratch_;
-  OffsetBuffer plane_offsets_;
   WindowNeighbors around_;
   Buffer<int> again_;
 };

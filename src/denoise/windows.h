@@ -41,8 +41,9 @@ struct Windows {
   RawBuffer<double> thickness;    ///< the smallest variance of the base window by the middle one
   RawBuffer<std::uint8_t> line;   ///< whether the base window is one scan line
   RawBuffer<std::uint8_t> split;  ///< whether neighbours of another sheet were left out of the base window
-  RawBuffer<double> one_sided;    ///< from the middle to the centroid of twice the base window, by its radius
-  Buffer<std::uint8_t> is_copy;   ///< whether it is the same as a window beside it, see copy()
+  /// From the middle to the centroid of a window, by its radius: of those wider than the base window the least.
+  RawBuffer<double> one_sided;
+  Buffer<std::uint8_t> is_copy;  ///< whether it is the same as a window beside it, see copy()
   RawBuffer<std::array<WindowFit, sizes>> fits;
   RawBuffer<Pool> near;         ///< windows spread over the base window
   RawBuffer<Pool> middle, far;  ///< over twice and four times as many neighbours

@@ -189,7 +189,8 @@ void moveOnto(const Offsets& offsets, const PlaneQuadratic& given, double up, do
               double* z) {
   const PlaneQuadratic quadratic = given;  // a copy, which what is written below cannot change
   const double *const u_axis = quadratic.axes, *const v_axis = u_axis + 3, *const normal = u_axis + 6;
-  const Part unit = broadcastPart(quadratic.unit), two = broadcastPart(2), target = broadcastPart(up);
+  const Part one = broadcastPart(1), two = broadcastPart(2), target = broadcastPart(up);
+  const Part unit = broadcastPart(quadratic.unit), per_unit = one / unit;
   Part c[6];
   for (int i = 0; i < 6; ++i) c[i] = broadcastPart(quadratic.coefficient[i]);
   for (int i = 0; i < offsets.count; i += part_size) {
@@ -197,7 +198,7 @@ void moveOnto(const Offsets& offsets, const PlaneQuadratic& given, double up, do
     const auto along = [&](const double* axis) {
       return dx * broadcastPart(axis[0]) + dy * broadcastPart(axis[1]) + dz * broadcastPart(axis[2]);
     };
-    const Part u = along(u_axis) / unit, v = along(v_axis) / unit;
+    const Part u = along(u_axis) * per_unit, v = along(v_axis) * per_unit;
     const Part surface = unit * (c[0] + c[1] * u + c[2] * v + c[3] * u * u + c[4] * u * v + c[5] * v * v);
     const Part u_slope = c[1] + two * c[3] * u + c[4] * v, v_slope = c[2] + c[4] * u + two * c[5] * v;
     const auto across = [&](int axis) {
@@ -205,12 +206,12 @@ void moveOnto(const Offsets& offsets, const PlaneQuadratic& given, double up, do
              v_slope * broadcastPart(v_axis[axis]);
     };
     const Part nx = across(0), ny = across(1), nz = across(2);
-    const Part length = squareRoot(nx * nx + ny * ny + nz * nz);
-    const Part over = (along(normal) - surface) / length, way = target - over;
+    const Part per_length = one / squareRoot(nx * nx + ny * ny + nz * nz);
+    const Part over = (along(normal) - surface) * per_length, way = (target - over) * per_length;
     store(over, height + i);
-    store(way * (nx / length), x + i);
-    store(way * (ny / length), y + i);
-    store(way * (nz / length), z + i);
+    store(way * nx, x + i);
+    store(way * ny, y + i);
+    store(way * nz, z + i);
   }
 }
 

@@ -91,12 +91,10 @@ bool NeighborhoodFinder::isUneven(const Neighborhood& neighborhood) const {
   return static_cast<double>(far - neighborhood.neighbors.begin()) > crowd * neighborhood.k;
 }
 
-void NeighborhoodFinder::fitPlanes(int first, std::span<Neighborhood> neighborhoods,
-                                   std::span<OffsetBuffer> offsets) const {
+void NeighborhoodFinder::fitPlanes(std::span<Neighborhood> neighborhoods, std::span<const OffsetBuffer> offsets) const {
   std::array<std::array<Covariance, most_planes>, nested_sets> covariances;
   const std::size_t first_set = splitsSheets() ? 0 : few_neighbors.size();
   for (std::size_t i = 0; i < neighborhoods.size(); ++i) {
-    offsets[i].take(points_, first + static_cast<int>(i), neighborhoods[i].neighbors);
     if (!splitsSheets()) {
       covariances.back()[i] = covarianceOf(offsets[i].view(), neighborhoods[i].radius);
       continue;

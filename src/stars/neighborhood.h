@@ -51,10 +51,9 @@ class NeighborhoodFinder {
   void find(int first, int count, NeighborhoodScratch& scratch, Neighborhood* neighborhoods) const;
 
   static constexpr int most_planes = 16;
-  /// Fits planes to at most most_planes neighbourhoods of points from `first` on, and to the first few of each where
-  /// sheets are split.
-  /// @param[out] offsets of the neighbours of each
-  void fitPlanes(int first, std::span<Neighborhood> neighborhoods, std::span<OffsetBuffer> offsets) const;
+  /// Fits planes to at most most_planes neighbourhoods, and to the first few of each where sheets are split.
+  /// @param offsets of the neighbours of each
+  void fitPlanes(std::span<Neighborhood> neighborhoods, std::span<const OffsetBuffer> offsets) const;
 
   /// Doubles the neighbourhood while it says too little about the surface, with a plane fitted anew, and leaves other
   /// sheets out.
@@ -66,6 +65,7 @@ class NeighborhoodFinder {
   /// @param offsets of the neighbours, before and after
   bool grow(int p, int most, Neighborhood& neighborhood, OffsetBuffer& offsets, NeighborhoodScratch& scratch) const;
 
+  const PointsView& points() const { return points_; }
   /// The most neighbours that refine() asks for.
   int mostNeighbors() const;
 

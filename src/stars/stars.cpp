@@ -65,7 +65,9 @@ class StarBuilder {
     for (int group = 0; group < count; group += group_size) {
       const int group_end = std::min(count, group + group_size);
       const std::span neighborhoods(state.neighborhoods.data() + group, state.neighborhoods.data() + group_end);
-      finder_.fitPlanes(first + group, neighborhoods, state.offsets);
+      for (int i = group; i < group_end; ++i)
+        state.offsets[i - group].take(finder_.points(), first + i, state.neighborhoods[i].neighbors);
+      finder_.fitPlanes(neighborhoods, state.offsets);
       for (int i = group; i < group_end; ++i)
         takeFrame(first + i, state.neighborhoods[i], state.offsets[i - group], state);
       if (denoises_)

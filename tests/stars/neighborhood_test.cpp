@@ -24,7 +24,8 @@ class Hoods {
   Neighborhood at(int p) {
     Neighborhood neighborhood;
     finder_.find(p, 1, scratch_, &neighborhood);
-    finder_.fitPlanes(p, {&neighborhood, 1}, {&offsets_, 1});
+    offsets_.take(points_, p, neighborhood.neighbors);
+    finder_.fitPlanes({&neighborhood, 1}, {&offsets_, 1});
     finder_.refine(p, neighborhood, offsets_, scratch_);
     expectOffsetsOf(p, neighborhood);
     return neighborhood;
