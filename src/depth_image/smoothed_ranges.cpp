@@ -16,7 +16,10 @@ namespace {
 
 constexpr std::array<int, 3> strides = {3, SmoothedRanges::widest_stride, 4};  // pixels apart, pass by pass
 constexpr std::ptrdiff_t passes_of_rings = 1;
-constexpr double harmless = 0.0025;    // of the squared spacing: a twentieth of it in noise
+constexpr double harmless = 0.0004;  // of the squared spacing: a fiftieth of it in noise
+/// The same where a part of a window is fitted: errors of values apart are alike, and a plane carries them on to its
+/// rim.
+constexpr double harmless_at_edges = 0.0025;
 constexpr std::int64_t samples = 500;  // packets of pixels, to see what noise smoothed values have
 constexpr double quiet = 0.25;         // of the windows have nothing but noise
 constexpr double usual = 0.75;         // of the windows are of one surface
@@ -141,7 +144,7 @@ class RangeSmoother {
           has_narrow = true;
           range = smoothedNearer({narrow.value[lane], narrow.variance[lane]}, before, variance_);
         }
-      } else {
+      } else if (before.variance > harmless_at_edges * smoothed_.spacing_squared[at + lane]) {
         std::uint64_t around = 0;
         for (int i = 0; i < WindowPixels::count; ++i) around |= std::uint64_t{packet.within[i] >> lane & 1U} << i;
         // Windows of 55 pixels hold more than one bend, a third pass gains nothing, and rings lie too far apart.
