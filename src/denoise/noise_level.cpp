@@ -137,11 +137,14 @@ void findNoisy(const Windows& windows, const Buffer<std::uint8_t>& is_thick, con
   });
   Buffer<std::uint8_t> sure(windows.base.size());
   forEachPoint(windows, workers, [&](int p) {
-    const auto mean = [&](const auto& value) { return pooledMean(p, windows.near[p], value); };
-    const double small = mean([&](int q) { return residualOf(windows.fits[q][0]); });
-    const double base = mean([&](int q) { return residualOf(windows.fits[q][Windows::base_size]); });
-    const double exact_points = mean([&](int q) { return exact_around[q]; });
-    const bool is_sure = is_strong(p) && exact_points < exact_share && base < noise_growth * small;
+    double small = 0, base = 0, exact_points = 0;  // sums over the pool
+    forEachPooled(p, windows.near[p], [&](int q, int times) {
+      small += times * residualOf(windows.fits[q][0]);
+      base += times * residualOf(windows.fits[q][Windows::base_size]);
+      exact_points += times * exact_around[q];
+    });
+    const bool is_sure =
+        is_strong(p) && exact_points < exact_share * (Windows::pooled + 1) && base < noise_growth * small;
     sure[p] = is_sure ? 1 : 0;
   });
   noise.noisy.resize(windows.base.size());
@@ -164,12 +167,14 @@ bool mayBeNoisy(const PointsView& points, const NeighborSource& source, const Wo
   if (n <= Windows::first_base) return false;
   Windows windows;
   windows.resize(n, std::max(n / most_samples, std::clamp(n / least_samples, 1, sample_stride)));
+  windows.fitted = Windows::base_size + 2;
   WindowFitter(points, source, workers).take(allOf(windows), windows);
   int like_noise = 0, exact_windows = 0;
   for (int w = 0; w < windows.size(); ++w) {
     const auto& fits = windows.fits[w];
     const double least = leastVariance(windows, w);
-    like_noise += fits[0].variance > least && fits[2].variance < sample_growth * fits[0].variance ? 1 : 0;
+    const double widest = fits[windows.fitted - 1].variance;
+    like_noise += fits[0].variance > least && widest < sample_growth * fits[0].variance ? 1 : 0;
     exact_windows += fits[0].variance < exact * least ? 1 : 0;
   }
   return like_noise > least_share * windows.size() && exact_windows < most_exact * windows.size();
