@@ -35,7 +35,8 @@ struct OrientationReport {
 /// that are wrong, of which a spanning tree would take some, do not matter. Each component then faces outwards: the
 /// volume that its points and normals enclose is positive. Where it encloses none, as a plane does, the largest
 /// coordinate of its mean normal is positive. Bodies of some thousands of points that touch are one component, but face
-/// outwards one by one, as far as neighbours that disagree show where they touch.
+/// outwards one by one, as far as neighbours that disagree show where they touch. Where the triangles of a mesh agree
+/// (meshFrames() says Orientation::given) they say what is one side, and only whole components turn.
 ///
 /// Where normals turn, so do tangents, and cross(normal, tangent) stays. Coincident points have the frame of their
 /// representative; other points that are not active keep theirs.

@@ -14,6 +14,7 @@
 
 #include "algorithms/check_frames.h"
 #include "algorithms/connected.h"
+#include "algorithms/signed_sets.h"
 #include "base/disjoint_sets.h"
 #include "base/parallel.h"
 #include "base/stage_clock.h"
@@ -28,8 +29,9 @@ constexpr const char* function_name = "orientedFrames";
 constexpr double smooth_cosine = 0.7;
 /// What an edge across a crease counts for, beside one between two points of a smooth surface.
 constexpr double crease_share = 0.5;
-/// A component whose normals point out by less than this part of its extent encloses no volume.
-constexpr double flat_share = 1e-6;
+/// A component whose normals point out by less than this part of its extent encloses no volume; one that is open may be
+/// a plane with noise.
+constexpr double flat_share = 1e-6, flat_share_of_open = 1e-3;
 /// Parts of fewer points, by those of the largest, lie within a joint.
 constexpr double small_part = 0.05;
 /// Rings of neighbours around normals that disagree, within which bodies that touch are joined.
@@ -64,50 +66,6 @@ std::vector<Edge> edgesOf(const Laplacian& laplacian, const Points& normals) {
   }
   return edges;
 }
-
-/// Union-find in which each element knows whether it has the sign of its set's root.
-class SignedSets {
- public:
-  explicit SignedSets(int size) : parent_(size), turned_(size, 0) {
-    for (int i = 0; i < size; ++i) parent_[i] = i;
-  }
-
-  int size() const { return static_cast<int>(parent_.size()); }
-
-  /// Whether the sign of an element is not that of its root.
-  bool isTurned(int element) {
-    compress(element);
-    return turned_[element] != 0;
-  }
-
-  /// Joins the sets of a and b, which must be two, so that b has the sign of a, or the other one.
-  void unite(int a, int b, bool turns) {
-    const int first = compress(a), second = compress(b);
-    const bool differ = (turned_[a] ^ turned_[b]) != (turns ? 1 : 0);
-    parent_[std::max(first, second)] = std::min(first, second);
-    turned_[std::max(first, second)] = differ ? 1 : 0;
-  }
-
- private:
-  /// Makes the root of an element its parent, and returns it.
-  int compress(int element) {
-    int root = element;
-    bool turned = false;
-    for (; parent_[root] != root; root = parent_[root]) turned ^= turned_[root] != 0;
-    while (parent_[element] != root) {
-      const int next = parent_[element];
-      const bool is_turned = turned_[element] != 0;
-      parent_[element] = root;
-      turned_[element] = turned ? 1 : 0;
-      turned ^= is_turned;
-      element = next;
-    }
-    return root;
-  }
-
-  std::vector<int> parent_;
-  std::vector<std::uint8_t> turned_;
-};
 
 /// Joins all sets that edges connect, the surest pair of sets first. What speaks for a pair is the sum over all edges
 /// between its two sets, so a few edges that are wrong do not matter (greedy additive contraction, Keuper et al. 2015).
@@ -206,7 +164,8 @@ std::vector<bool> inwardComponents(const Laplacian& laplacian, const Components&
   for (int c = 0; c < components.count; ++c) {
     Eigen::Index axis = 0;
     mean[c].cwiseAbs().maxCoeff(&axis);
-    inward[c] = std::abs(outward[c]) > flat_share ? outward[c] < 0 : mean[c][axis] < 0;
+    const double flat = mean[c].norm() < most_mean ? flat_share : flat_share_of_open;
+    inward[c] = std::abs(outward[c]) > flat ? outward[c] < 0 : mean[c][axis] < 0;
   }
   return inward;
 }
@@ -286,21 +245,27 @@ void turnBodies(const Laplacian& laplacian, const std::vector<Edge>& edges, Poin
   settleJoints(laplacian, edges, joint, normals);
 }
 
+/// Turns whole components outwards.
+/// @returns how many there are
+int turnOutwards(const Laplacian& laplacian, Points& normals) {
+  const Components components = findComponents(laplacian);
+  const std::vector<bool> inward = inwardComponents(laplacian, components, normals);
+  for (const int i : components.points)
+    if (inward[components.of[i]]) normals.row(i) *= -1;
+  return components.count;
+}
+
 /// Normals alike between neighbours, and outwards.
 void orientAlike(const Laplacian& laplacian, const Progress& progress, Points& normals, OrientationReport& report) {
   const Workers workers(1, progress);
   const std::vector<Edge> edges = edgesOf(laplacian, normals);
   SignedSets sets(static_cast<int>(normals.rows()));
   Contraction(edges, sets).run(workers);
-  const Components components = findComponents(laplacian);
-  for (const int i : components.points)
+  for (int i = 0; i < sets.size(); ++i)
     if (sets.isTurned(i)) normals.row(i) *= -1;
-  const std::vector<bool> inward = inwardComponents(laplacian, components, normals);
-  for (const int i : components.points)
-    if (inward[components.of[i]]) normals.row(i) *= -1;
+  report.components = turnOutwards(laplacian, normals);
   turnBodies(laplacian, edges, normals);
   for (const Edge& edge : edges) report.disagreeing_edges += disagrees(edge, normals, laplacian.positions) ? 1 : 0;
-  report.components = components.count;
 }
 
 }  // namespace
@@ -323,6 +288,8 @@ Frames orientedFrames(const Laplacian& laplacian, const Frames& frames, const Or
       if (laplacian.status[i] != PointStatus::active) continue;
       if (result.normals.row(i).dot(viewpoint - laplacian.positions.row(i) / 2) < 0) result.normals.row(i) *= -1;
     }
+  } else if (laplacian.kind == Kind::mesh && frames.orientation == Orientation::given) {
+    made.components = turnOutwards(laplacian, result.normals);  // its triangles say what is one side
   } else {
     orientAlike(laplacian, options.progress, result.normals, made);
   }

@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -11,10 +12,22 @@
 #include "tufted/gradient.h"
 
 namespace tufted {
+namespace {
+
+/// Whether triangles are on one side of the surface: no two run along an edge in one direction.
+/// @param directed edges of all triangles, each from its first to its second corner; overwritten
+bool agree(std::vector<std::uint64_t>& directed) {
+  std::sort(directed.begin(), directed.end());
+  return std::adjacent_find(directed.begin(), directed.end()) == directed.end();
+}
+
+}  // namespace
 
 Frames meshFrames(const PointsRef& points, const TrianglesRef& triangles) {
   std::vector<Eigen::Matrix3d> moments(points.rows(), Eigen::Matrix3d::Zero());
   Points sums = Points::Zero(points.rows(), 3);
+  std::vector<std::uint64_t> directed;
+  directed.reserve(3 * static_cast<std::size_t>(triangles.rows()));
   for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
     for (int k = 0; k < 3; ++k) {
       if (triangles(f, k) >= 0 && triangles(f, k) < points.rows()) continue;
@@ -32,9 +45,12 @@ Frames meshFrames(const PointsRef& points, const TrianglesRef& triangles) {
     for (int k = 0; k < 3; ++k) {
       moments[triangles(f, k)] += normal.transpose() * (normal / weight);
       sums.row(triangles(f, k)) += normal;
+      directed.push_back(static_cast<std::uint64_t>(triangles(f, k)) << 32U |
+                         static_cast<std::uint64_t>(triangles(f, (k + 1) % 3)));
     }
   }
-  Frames frames{Points(points.rows(), 3), Points(points.rows(), 3), Orientation::given};
+  Frames frames{Points(points.rows(), 3), Points(points.rows(), 3),
+                agree(directed) ? Orientation::given : Orientation::arbitrary};
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
     Eigen::Vector3d normal = Eigen::Vector3d::UnitZ();
     const double scale = moments[i].trace();

@@ -134,6 +134,31 @@ TEST(OrientedFrames, OfMeshesDoNotNeedOrientedTriangles) {
   EXPECT_EQ(outwardShare(laplacian, frames.normals, ball.points), 1);
 }
 
+// Neighbours at a sharp edge say little about each other's side, triangles say it.
+TEST(OrientedFrames, OfAMeshWithSharpEdgesAreThoseOfItsTriangles) {
+  const Points corners{{0, 0, 0}, {1, 0, 0}, {1, 1, 0}, {0, 1, 0}, {0, 0, 1}, {1, 0, 1}, {1, 1, 1}, {0, 1, 1}};
+  Triangles triangles{{0, 2, 1}, {0, 3, 2}, {4, 5, 6}, {4, 6, 7}, {0, 1, 5}, {0, 5, 4},
+                      {1, 2, 6}, {1, 6, 5}, {2, 3, 7}, {2, 7, 6}, {3, 0, 4}, {3, 4, 7}};
+  const auto inwards = [&](double height) {
+    Points box = corners;
+    box.col(2) *= height;
+    const Points outward = box.rowwise() - box.colwise().mean();
+    const Frames frames = orientedFrames(meshLaplacian(box, triangles), meshFrames(box, triangles));
+    return (frames.normals.cwiseProduct(outward).rowwise().sum().array() <= 0).count();
+  };
+  for (const double height : {1.0, 0.1, 1e-3}) EXPECT_EQ(inwards(height), 0) << height;
+  triangles.col(1).swap(triangles.col(2));  // all of them inside out
+  for (const double height : {1.0, 0.1, 1e-3}) EXPECT_EQ(inwards(height), 0) << height;
+}
+
+TEST(OrientedFrames, OfANoisyPlanePointUp) {
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6}) {
+    const shapes::Cloud plane = shapes::square(4000, shapes::Sampling::uniform, shapes::Rim::included, seed);
+    const Frames frames = orientedFrames(pointCloudLaplacian(shapes::withNoise(plane, 0.4 / 63, seed + 100).points));
+    EXPECT_GT(frames.normals.col(2).mean(), 0.9) << seed;
+  }
+}
+
 TEST(OrientedFrames, FaceTheViewpoint) {
   const Points points = shapes::torus(2000).points;
   const Eigen::Vector3d sensor(3, 1, 2);

@@ -260,6 +260,8 @@ TEST(MeshFrames, DoNotDependOnOrientation) {
   const shapes::Mesh ball = shapes::icosphere(3);
   const Frames outward = meshFrames(ball.points, ball.triangles);
   EXPECT_GE((outward.normals.cwiseProduct(ball.points)).rowwise().sum().minCoeff(), 0.999);
+  EXPECT_EQ(outward.orientation, Orientation::given);
+  EXPECT_EQ(frames.orientation, Orientation::arbitrary);
   EXPECT_EQ(meshFrames(one.points, Triangles(0, 3)).normals.col(2).minCoeff(), 1);
 }
 
