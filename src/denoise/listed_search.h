@@ -29,7 +29,7 @@ class ListedSearch {
   }
 
   /// As forEach(), for numbers of one count that follow each other, at most `most_together`: calls
-  /// visit(group, neighbors_of), and neighbors_of(i) are the neighbours of group[i].
+  /// visit(group, neighborsOf), where neighborsOf(i) are the neighbours of group[i] until visit() returns.
   template <class Rank, class Count, class Visit>
   void forEachGroup(std::span<const int> which, const Rank& rank, const Count& count, const Visit& visit) {
     std::array<int, most_together> ranks;
@@ -43,7 +43,7 @@ class ListedSearch {
     }
   }
 
-  static constexpr std::size_t most_together = 32;
+  static constexpr std::size_t most_together = 32;  ///< points that are searched for together
 
  private:
   void find(std::span<const int> ranks, int k) {

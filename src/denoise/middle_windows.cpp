@@ -77,10 +77,9 @@ class MiddleFitter {
   void sum(int w, std::span<const Neighbor> neighbors) {
     const int count = static_cast<int>(neighbors.size());
     const Eigen::Vector3d normal = windows_.normal.row(w).transpose();
-    const auto offset = [&](int i) -> Eigen::RowVector3d {
+    offsets_.fill(count, [&](int i) -> Eigen::RowVector3d {
       return moved_[middles_.windowOf(neighbors[i].index)].position - moved_[w].position;
-    };
-    offsets_.fill(count, offset);
+    });
     heights_.resize(static_cast<std::size_t>(toPackets(count)));
     const HeightRange range =
         kernels().connectedHeights(offsets_.view(), normal.data(), sheet_gap * windows_.radius[w], heights_.data());

@@ -6,7 +6,6 @@
 #include <span>
 
 #include "base/buffer.h"
-#include "base/parallel.h"
 #include "base/point_buffer.h"
 #include "denoise/windows.h"
 #include "neighbors/neighbors.h"
@@ -27,14 +26,16 @@ class NeighborLists {
     return first;
   }
 
+  /// Room in a block for so many neighbours.
+  void reserve(int block, std::size_t neighbors) {
+    blocks_[block].ranks.reserve(neighbors);
+    blocks_[block].skipped.reserve(neighbors);
+  }
+
   /// @param neighbors ascending
   /// @param left_out of each, whether it is left out, as WindowNeighbors has it
   void put(int block, int w, std::span<const Neighbor> neighbors, std::span<const std::uint8_t> left_out) {
     auto& [ranks, skipped] = blocks_[block];
-    if (ranks.empty()) {  // most windows of a block have as many
-      ranks.reserve(costly_block * neighbors.size());
-      skipped.reserve(costly_block * neighbors.size());
-    }
     places_[w] = {block, static_cast<int>(ranks.size()), static_cast<int>(neighbors.size())};
     for (const Neighbor& q : neighbors) ranks.push_back(q.index);
     skipped.insert(skipped.end(), left_out.begin(), left_out.end());

@@ -26,6 +26,7 @@ constexpr double sure_share = 0.15;   // of the points around
 
 // A first look at the noise takes samples, which are windows around some points.
 constexpr int sample_stride = 64, least_samples = 64, most_samples = 1000;
+constexpr int widest_judged = 2;     // of Windows::fits, that with 64 neighbours
 constexpr double sample_growth = 2;  // of residuals' variance from 16 to 64 neighbours: noise 1, a crease 4
 constexpr double least_share = 0.05, most_exact = 0.5;  // of the samples: like noise, and exact
 
@@ -167,13 +168,13 @@ bool mayBeNoisy(const PointsView& points, const NeighborSource& source, const Wo
   if (n <= Windows::first_base) return false;
   Windows windows;
   windows.resize(n, std::max(n / most_samples, std::clamp(n / least_samples, 1, sample_stride)));
-  windows.fitted = Windows::base_size + 2;
+  windows.fitted = widest_judged + 1;
   WindowFitter(points, source, workers).take(allOf(windows), windows);
   int like_noise = 0, exact_windows = 0;
   for (int w = 0; w < windows.size(); ++w) {
     const auto& fits = windows.fits[w];
     const double least = leastVariance(windows, w);
-    const double widest = fits[windows.fitted - 1].variance;
+    const double widest = fits[widest_judged].variance;
     like_noise += fits[0].variance > least && widest < sample_growth * fits[0].variance ? 1 : 0;
     exact_windows += fits[0].variance < exact * least ? 1 : 0;
   }

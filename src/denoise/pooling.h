@@ -74,7 +74,7 @@ double pooledQuantile(int p, const Windows::Pool& pool, int rank, const Value& v
   forEachPooled(p, pool, [&](int q, int times) { *end++ = {value(q), times}; });
   std::sort(values.begin(), end);
   auto found = values.begin();
-  for (int smaller = found->second; smaller <= rank; smaller += found->second) ++found;
+  for (int up_to_found = found->second; up_to_found <= rank; up_to_found += found->second) ++found;
   return found->first;
 }
 

@@ -4,22 +4,20 @@
 #include <cmath>
 #include <limits>
 
-#include "denoise/crease_model.h"
 #include "denoise/neighbor_lists.h"
 #include "denoise/pooling.h"
+#include "denoise/shared_windows.h"
 #include "denoise/window_surface.h"
 
 namespace tufted {
 namespace {
 
-constexpr std::int8_t least_shared = 2;  // of Windows::fits: smaller windows hold too few points to be shared
-constexpr double least_weight = 0.02;    // of all windows together; 1 is that of a window in its middle
-constexpr int blocks_per_thread = 2;     // of windows whose votes are kept until they are added up
-constexpr double lifted_within = 0.6;    // of the radius of a window: how far its surface lifts others
+constexpr double least_weight = 0.02;  // of all windows together; 1 is that of a window in its middle
+constexpr int blocks_per_thread = 2;   // of windows whose votes are kept until they are added up
+constexpr double lifted_within = 0.6;  // of the radius of a window: how far its surface lifts others
 /// Noise draws fits towards the centre of curvature: by 2.5 times its variance times the mean curvature where it is
 /// alike in all directions, by 3.5 times where it is along the normal. So many times of that are taken back.
 constexpr double taken_back = 1;
-constexpr double grown = 1.1;       // of the residuals' variance from the base window to the next: noise 1
 constexpr int more_where_bent = 2;  // times as many base windows as others: they hold half as many points
 
 /// What one window says about one point.
@@ -111,18 +109,16 @@ class SharingWindows {
     const Eigen::RowVector3d normal = windows_.normal.row(w);
     const double own = windows_.fits[w][shared_[w]].height;
     double weight = 1, sum = own;
-    int before = w;  // a pool of few windows holds each several times, one after the other
-    for (const int q : windows_.far[w]) {
-      if (q == before || !isThroughMiddles(q)) continue;
-      before = q;
+    forEachPooled(w, windows_.far[w], [&](int q, int) {
+      if (q == w || !isThroughMiddles(q)) return;
       const double radius = lifted_within * windows_.fits[q][shared_[q]].radius;
       const Eigen::Vector3d d = (points_.row(p) - points_.row(windows_.pointOf(q))).transpose();
       const double share = 1 - d.squaredNorm() / (radius * radius);
-      if (!(share > 0)) continue;
+      if (!(share > 0)) return;
       const WindowSurface surface = surfaceAt(quadratics[q], d);
       weight += share * share;
       sum -= share * share * surface.height * normal.dot(surface.normal.transpose());
-    }
+    });
     return sum / weight - own;
   }
 
@@ -205,32 +201,6 @@ void forEachVote(const SharingWindows& sharing, const Buffer<int>& which, const 
   }
 }
 
-/// Whether a crease lies in the widest window around w, or near it.
-bool isNearCrease(const Windows& windows, const NoiseLevel& noise, int w) {
-  return std::ranges::any_of(windows.far[w], [&](int q) {
-    const double cosine = std::abs(windows.normal.row(q).dot(windows.normal.row(w)));
-    return noise.outlier[q] == 0 && !(cosine > CreaseModel::same_face);
-  });
-}
-
-/// Whether the residuals grow from the base window to the next.
-bool isGrowing(const Windows& windows, int w) {
-  const auto mean = [&](int size) {
-    return pooledMean(w, windows.near[w], [&](int q) { return residualOf(windows.fits[q][size]); });
-  };
-  return !(mean(least_shared) < grown * mean(Windows::base_size));
-}
-
-/// Which of Windows::fits has the surface that counts for the points around window w; -1 where none has. The base
-/// window counts only where more of them are made, since it is small.
-std::int8_t sharedWindow(const Windows& windows, const NoiseLevel& noise, const WindowChoice& choice, int w) {
-  if (windows.split[w] != 0 || choice.window[w] < Windows::base_size) return -1;
-  if (choice.window[w] >= Windows::searched - 1) return choice.window[w];
-  if (choice.biased[w] == 0) return choice.window[w] < least_shared ? -1 : choice.window[w];
-  if (windows.base[w] > Windows::first_base || isNearCrease(windows, noise, w)) return -1;
-  return choice.window[w] < least_shared || isGrowing(windows, w) ? Windows::base_size : least_shared;
-}
-
 /// Base windows around every few points where the surface bends.
 struct BentWindows {
   int stride;
@@ -292,8 +262,7 @@ SharedSurfaces shareSurfaces(const PointsView& points, const NeighborSource& sou
     sum.variance += vote.weight * sharing.variance(vote.window);
   };
 
-  Buffer<std::int8_t> smooth(windows.base.size());
-  forEachPoint(windows, workers, [&](int w) { smooth[w] = sharedWindow(windows, noise, choice, w); });
+  Buffer<std::int8_t> smooth = sharedWindows(windows, noise, choice, workers);
   Buffer<int> bends;
   for (int w = 0; w < windows.size(); ++w) {
     if (smooth[w] != Windows::base_size) continue;
@@ -322,7 +291,8 @@ SharedSurfaces shareSurfaces(const PointsView& points, const NeighborSource& sou
   workers.forBlocks("noise", points.rows(), usual_block, [&](std::int64_t begin, std::int64_t end, int) {
     for (std::int64_t p = begin; p < end; ++p) {
       const Sum& sum = sums[p];
-      const int w = shared.nearest[p] = sum.nearest;
+      const int w = sum.nearest;
+      shared.nearest[p] = w;
       if (sum.weight >= least_weight) {
         shared.settled[p] = 1;
         move.row(p) = (sum.move / sum.weight).transpose();

@@ -4,7 +4,6 @@
 #include <array>
 #include <bit>
 #include <cmath>
-#include <limits>
 #include <numbers>
 
 #include "denoise/listed_search.h"
@@ -102,14 +101,17 @@ class BlockFitter {
     const auto rank = [&](int w) { return windows_.pointOf(w); };
     const auto count = [&](int w) { return widest(w); };
     again_.clear();
+    if (lists != nullptr && !which.empty())
+      lists->reserve(block, which.size() * static_cast<std::size_t>(widest(which[0])));
     search_.forEachGroup(which, rank, count, [&](std::span<const int> group, const auto& neighborsOf) {
       const int searched = widest(group[0]);
       fitPlanes(group, neighborsOf);
-      for (std::size_t i = 0; i < group.size(); ++i)
-        if (widest(group[i]) != searched)
-          again_.push_back(group[i]);  // it has grown along a line
-        else
+      for (std::size_t i = 0; i < group.size(); ++i) {
+        if (widest(group[i]) == searched)
           fitAndKeep(group[i], neighborsOf(i));
+        else
+          again_.push_back(group[i]);  // it has grown along a line
+      }
     });
     search_.forEach(again_, rank, count, fitAndKeep);
     queue_.solve();
@@ -128,7 +130,7 @@ class BlockFitter {
  private:
   int widest(int w) const { return windows_.base[w] / 2 << (windows_.fitted - 1); }
 
-  /// Fits the planes of base windows of one size.
+  /// Fits planes to base windows of one size, which double along a line, and finds their radius.
   template <class NeighborsOf>
   void fitPlanes(std::span<const int> group, const NeighborsOf& neighborsOf) {
     const auto base = static_cast<std::size_t>(windows_.base[group[0]]);
@@ -136,41 +138,45 @@ class BlockFitter {
       const std::span<const Neighbor> all = neighborsOf(i);
       return all.first(std::min(all.size(), base));
     };
-    if (base > Windows::first_base) {
-      std::array<Covariance, ListedSearch::most_together> covariances;
-      std::array<PrincipalAxes, ListedSearch::most_together> axes;
-      for (std::size_t i = 0; i < group.size(); ++i) {
-        const int w = group[i];
-        windows_.radius[w] = std::sqrt(inside(i).back().squared_distance);
-        windows_.split[w] = 0;
-        plane_offsets_[0].take(points_, windows_.pointOf(w), inside(i));
-        covariances[i] = covarianceOf(plane_offsets_[0].view(), windows_.radius[w]);
-      }
-      principalAxes(std::span(covariances).first(group.size()), axes);
-      for (std::size_t i = 0; i < group.size(); ++i) takePlane(group[i], axes[i], windows_);
-      return;
+    if (base > Windows::first_base) return fitWidenedPlanes(group, inside);
+    for (std::size_t first = 0; first < group.size(); first += neighborhoods_.size()) {
+      const std::size_t count = std::min(neighborhoods_.size(), group.size() - first);
+      fitFirstPlanes(group.subspan(first, count), [&](std::size_t i) { return inside(first + i); });
     }
-    for (std::size_t first = 0; first < group.size(); first += around_planes_.size()) {
-      const std::size_t count = std::min(around_planes_.size(), group.size() - first);
-      for (std::size_t i = 0; i < count; ++i) {
-        Neighborhood& around = around_planes_[i];
-        const std::span<const Neighbor> neighbors = inside(first + i);
-        around.neighbors.assign(neighbors.begin(), neighbors.end());
-        around.k = static_cast<int>(neighbors.size());
-        around.radius = neighbors.empty() ? 0 : std::sqrt(neighbors.back().squared_distance);
-        around.grown = around.split = around.restored = around.isolated = false;
-        plane_offsets_[i].take(points_, windows_.pointOf(group[first + i]), neighbors);
-      }
-      finder_.fitPlanes(std::span(around_planes_).first(count), plane_offsets_);
-      for (std::size_t i = 0; i < count; ++i) {
-        const int w = group[first + i];
-        Neighborhood& around = around_planes_[i];
-        finder_.refine(windows_.pointOf(w), around, plane_offsets_[i], plane_scratch_);
-        while (2 * windows_.base[w] <= around.k) windows_.base[w] *= 2;
-        windows_.radius[w] = around.radius;
-        windows_.split[w] = around.split ? 1 : 0;
-        takePlane(w, around.axes, windows_);
-      }
+  }
+
+  template <class Inside>
+  void fitWidenedPlanes(std::span<const int> group, const Inside& inside) {
+    std::array<Covariance, ListedSearch::most_together> covariances;
+    std::array<PrincipalAxes, ListedSearch::most_together> axes;
+    OffsetBuffer& offsets = plane_offsets_.front();
+    for (std::size_t i = 0; i < group.size(); ++i) {
+      const int w = group[i];
+      windows_.radius[w] = std::sqrt(inside(i).back().squared_distance);
+      windows_.split[w] = 0;
+      offsets.take(points_, windows_.pointOf(w), inside(i));
+      covariances[i] = covarianceOf(offsets.view(), windows_.radius[w]);
+    }
+    principalAxes(std::span(covariances).first(group.size()), axes);
+    for (std::size_t i = 0; i < group.size(); ++i) takePlane(group[i], axes[i], windows_);
+  }
+
+  /// @param group at most as many as there are neighborhoods_
+  template <class Inside>
+  void fitFirstPlanes(std::span<const int> group, const Inside& inside) {
+    for (std::size_t i = 0; i < group.size(); ++i) {
+      finder_.start(inside(i), neighborhoods_[i]);
+      plane_offsets_[i].take(points_, windows_.pointOf(group[i]), inside(i));
+    }
+    finder_.fitPlanes(std::span(neighborhoods_).first(group.size()), plane_offsets_);
+    for (std::size_t i = 0; i < group.size(); ++i) {
+      const int w = group[i];
+      Neighborhood& neighborhood = neighborhoods_[i];
+      finder_.refine(windows_.pointOf(w), neighborhood, plane_offsets_[i], plane_scratch_);
+      while (2 * windows_.base[w] <= neighborhood.k) windows_.base[w] *= 2;
+      windows_.radius[w] = neighborhood.radius;
+      windows_.split[w] = neighborhood.split ? 1 : 0;
+      takePlane(w, neighborhood.axes, windows_);
     }
   }
 
@@ -179,7 +185,7 @@ class BlockFitter {
     around_.take(points_, windows_, w, neighbors, left_out);
     const Offsets all = around_.offsets.view();
     HeightMoments total = {{}, 1, windows_.radius[w]};
-    windows_.one_sided[w] = std::numeric_limits<double>::infinity();
+    windows_.one_sided[w] = 0;
     int from = 0;
     windows_.fits[w] = {};
     for (int size = 0; size < windows_.fitted; ++size) {
@@ -191,9 +197,11 @@ class BlockFitter {
       for (; from < to; ++from) total.count += around_.skipped[from] == 0 ? 1 : 0;
       windows_.fits[w][size].radius = std::sqrt(neighbors[to - 1].squared_distance);
       windows_.fits[w][size].count = total.count;
-      if (size > Windows::base_size)
-        windows_.one_sided[w] = std::min(windows_.one_sided[w], std::hypot(total.sums.u, total.sums.v) / total.count *
-                                                                    windows_.radius[w] / windows_.fits[w][size].radius);
+      if (size > Windows::base_size) {
+        const double side =
+            std::hypot(total.sums.u, total.sums.v) / total.count * windows_.radius[w] / windows_.fits[w][size].radius;
+        windows_.one_sided[w] = size == Windows::base_size + 1 ? side : std::min(windows_.one_sided[w], side);
+      }
       queue_.add(w, size, total);
     }
   }
@@ -204,7 +212,7 @@ class BlockFitter {
   NeighborhoodFinder finder_;
   ListedSearch search_;
   FitQueue queue_;
-  std::array<Neighborhood, NeighborhoodFinder::most_planes> around_planes_;
+  std::array<Neighborhood, NeighborhoodFinder::most_planes> neighborhoods_;
   std::array<OffsetBuffer, NeighborhoodFinder::most_planes> plane_offsets_;
   NeighborhoodScratch plane_scratch_;
   WindowNeighbors around_;

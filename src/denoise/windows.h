@@ -27,7 +27,7 @@ struct Windows {
   static constexpr int searched = 4;           ///< windows of neighbours, the smallest first
   static constexpr int sizes = searched + 2;   ///< with those of middles
   static constexpr std::int8_t base_size = 1;  ///< of all, the base window
-  static constexpr int widest_stride = 8;      ///< all strides are powers of two
+  static constexpr int widest_stride = 8;      ///< all strides are powers of two, but that of a first look
   static constexpr int first_base = 32;        ///< neighbours in the base window, but where the noise is stronger
   static constexpr int pooled = 32;
   /// Windows spread over a window, by whose values its own are averaged.
@@ -41,7 +41,8 @@ struct Windows {
   RawBuffer<double> thickness;    ///< the smallest variance of the base window by the middle one
   RawBuffer<std::uint8_t> line;   ///< whether the base window is one scan line
   RawBuffer<std::uint8_t> split;  ///< whether neighbours of another sheet were left out of the base window
-  /// From the middle to the centroid of a window, by its radius: of those wider than the base window the least.
+  /// From the middle to the centroid of a window, by its radius: of those wider than the base window the least, 0
+  /// where there is none.
   RawBuffer<double> one_sided;
   Buffer<std::uint8_t> is_copy;  ///< whether it is the same as a window beside it, see copy()
   RawBuffer<std::array<WindowFit, sizes>> fits;
@@ -94,7 +95,8 @@ class WindowFitter {
   /// @param left_out n; points with an entry other than 0 are in no fit but their own
   void refit(std::span<const int> which, NeighborLists& lists, const Buffer<std::uint8_t>& left_out,
              Windows& windows) const;
-  /// Spreads the pools of some windows over the neighbours that their fits are through.
+  /// Spreads the pools of some windows, whose stride is a power of two, over the neighbours that their fits are
+  /// through.
   void spreadPools(std::span<const int> which, const NeighborLists& lists, Windows& windows) const;
 
  private:

@@ -207,11 +207,11 @@ void moveOnto(const Offsets& offsets, const PlaneQuadratic& given, double up, do
     };
     const Part nx = across(0), ny = across(1), nz = across(2);
     const Part per_length = one / squareRoot(nx * nx + ny * ny + nz * nz);
-    const Part over = (along(normal) - surface) * per_length, way = (target - over) * per_length;
+    const Part over = (along(normal) - surface) * per_length, per_normal = (target - over) * per_length;
     store(over, height + i);
-    store(way * nx, x + i);
-    store(way * ny, y + i);
-    store(way * nz, z + i);
+    store(per_normal * nx, x + i);
+    store(per_normal * ny, y + i);
+    store(per_normal * nz, z + i);
   }
 }
 

@@ -70,15 +70,21 @@ void NeighborhoodFinder::find(int first, int count, NeighborhoodScratch& scratch
   if (source_.search != nullptr) source_.nearestOfEach(points_, first, count, scratch.batch, scratch.found);
   for (int i = 0; i < count; ++i) {
     Neighborhood& neighborhood = neighborhoods[i];
-    neighborhood.grown = neighborhood.split = neighborhood.restored = neighborhood.isolated = false;
-    if (source_.search == nullptr) {
-      take(source_.k, source_.nearest(points_, first + i, source_.k, neighborhood.neighbors), neighborhood);
+    if (source_.search != nullptr) {
+      const auto k = static_cast<std::size_t>(source_.k);
+      start(std::span<const Neighbor>(scratch.found).subspan(i * k, k), neighborhood);
       continue;
     }
-    const auto row = scratch.found.begin() + static_cast<std::ptrdiff_t>(i) * source_.k;
-    neighborhood.neighbors.assign(row, row + source_.k);
-    take(source_.k, source_.k > 0 ? std::sqrt(neighborhood.neighbors.back().squared_distance) : 0, neighborhood);
+    neighborhood.grown = neighborhood.split = neighborhood.restored = neighborhood.isolated = false;
+    take(source_.k, source_.nearest(points_, first + i, source_.k, neighborhood.neighbors), neighborhood);
   }
+}
+
+void NeighborhoodFinder::start(std::span<const Neighbor> neighbors, Neighborhood& neighborhood) const {
+  neighborhood.grown = neighborhood.split = neighborhood.restored = neighborhood.isolated = false;
+  neighborhood.neighbors.assign(neighbors.begin(), neighbors.end());
+  take(static_cast<int>(neighbors.size()), neighbors.empty() ? 0 : std::sqrt(neighbors.back().squared_distance),
+       neighborhood);
 }
 
 bool NeighborhoodFinder::isUneven(const Neighborhood& neighborhood) const {

@@ -50,9 +50,12 @@ class NeighborhoodFinder {
   /// these points later with the same scratch takes least time.
   void find(int first, int count, NeighborhoodScratch& scratch, Neighborhood* neighborhoods) const;
 
+  /// Begins with neighbours that were found elsewhere, ascending.
+  void start(std::span<const Neighbor> neighbors, Neighborhood& neighborhood) const;
+
   static constexpr int most_planes = 16;
   /// Fits planes to at most most_planes neighbourhoods, and to the first few of each where sheets are split.
-  /// @param offsets of the neighbours of each
+  /// @param offsets of the neighbours of each; there may be more
   void fitPlanes(std::span<Neighborhood> neighborhoods, std::span<const OffsetBuffer> offsets) const;
 
   /// Doubles the neighbourhood while it says too little about the surface, with a plane fitted anew, and leaves other
@@ -65,7 +68,6 @@ class NeighborhoodFinder {
   /// @param offsets of the neighbours, before and after
   bool grow(int p, int most, Neighborhood& neighborhood, OffsetBuffer& offsets, NeighborhoodScratch& scratch) const;
 
-  const PointsView& points() const { return points_; }
   /// The most neighbours that refine() asks for.
   int mostNeighbors() const;
 

@@ -34,15 +34,15 @@ struct WorkerState {
   Neighborhood saved_neighborhood;
   DelaunayStar saved_star;
   StarMemory memory;
-  std::int64_t grown_neighborhoods = 0, split_neighborhoods = 0, isolated = 0, grown_stars = 0, closed_stars = 0,
-               open_stars = 0, unusable_triangles = 0;
+  std::int64_t grown_neighborhoods = 0, split_neighborhoods = 0, isolated = 0, grown_stars = 0, closed_stars = 0;
   std::array<double, 3> seconds = {};  // neighbours, frames, stars
 };
 
 class StarBuilder {
  public:
   StarBuilder(const RankedCloud& cloud, const NeighborSource& source, const CloudOptions& options, BuiltStars& built)
-      : moved_(cloud.move),
+      : points_(cloud.points),
+        moved_(cloud.move),
         source_(source),
         options_(options),
         finder_(cloud.points, source, options),
@@ -66,7 +66,7 @@ class StarBuilder {
       const int group_end = std::min(count, group + group_size);
       const std::span neighborhoods(state.neighborhoods.data() + group, state.neighborhoods.data() + group_end);
       for (int i = group; i < group_end; ++i)
-        state.offsets[i - group].take(finder_.points(), first + i, state.neighborhoods[i].neighbors);
+        state.offsets[i - group].take(points_, first + i, state.neighborhoods[i].neighbors);
       finder_.fitPlanes(neighborhoods, state.offsets);
       for (int i = group; i < group_end; ++i)
         takeFrame(first + i, state.neighborhoods[i], state.offsets[i - group], state);
@@ -173,6 +173,7 @@ class StarBuilder {
     storeStar(p, unit, anyTriangle, state.memory, stars_);
   }
 
+  PointsView points_;
   const PointBuffer& moved_;
   const NeighborSource& source_;
   const CloudOptions& options_;
