@@ -70,10 +70,12 @@ void addShape(py::module_& module) {
   module.def("mesh_frames", [](const Doubles& points, const Integers& faces) {
     const auto view = pointsOf(points);
     const auto triangles = trianglesOf(faces);
-    return tupleOf([&] {
+    Frames frames = [&] {
       const py::gil_scoped_release release;
       return meshFrames(view, triangles);
-    }());
+    }();
+    const auto orientation = static_cast<int>(frames.orientation);
+    return py::make_tuple(tupleOf(std::move(frames)), orientation);
   });
   module.def("oriented_frames", &oriented);
   module.def("curvature", &curvature);

@@ -151,6 +151,13 @@ def test_normals_point_outwards_and_curvature_is_one(cloud):
     assert cloud.curvature(method="laplacian").gaussian.size == 0
 
 
+def test_normals_of_a_mesh_agree_also_where_its_faces_do_not(mesh):
+    faces = mesh.faces.copy()
+    faces[::3] = faces[::3, ::-1]
+    mixed = tufted.Mesh(mesh.points, faces).normals()
+    assert (np.sum(mixed * mesh.normals(), axis=1) > 0.9).all()
+
+
 def test_curvature_of_a_mesh_has_the_sign_of_its_faces(mesh):
     outer = np.linalg.norm(mesh.points[:, :2], axis=1) > 1.39
     np.testing.assert_allclose(mesh.curvature().gaussian[outer], 1 / (0.4 * 1.4), rtol=0.1)

@@ -122,11 +122,15 @@ class Mesh(Surface):
         """The triangles of the mesh, F x 3 int32, as those of a cloud."""
         return self._faces
 
-    def _frame_parts(self):
+    def _mesh_frames(self):
+        """Normals and tangents, and whether the triangles say which side they are on."""
         return self._keep("mesh frames", lambda: _tufted.mesh_frames(self._points, self._faces))
 
+    def _frame_parts(self):
+        return self._mesh_frames()[0]
+
     def _orientation(self):
-        return 1  # given, by the triangles
+        return self._mesh_frames()[1]
 
     def _fitted_frames(self):
         return self._frame_parts()
