@@ -28,8 +28,8 @@ class ListedSearch {
     });
   }
 
-  /// As forEach(), for numbers of one count that follow each other, at most `most_together`: calls
-  /// visit(group, neighborsOf), where neighborsOf(i) are the neighbours of group[i] until visit() returns.
+  /// Calls visit(group, neighborsOf) for numbers of one count that follow each other in the list, at most
+  /// `most_together`. neighborsOf(i) are the neighbours of group[i], as forEach() has them, until visit() returns.
   template <class Rank, class Count, class Visit>
   void forEachGroup(std::span<const int> which, const Rank& rank, const Count& count, const Visit& visit) {
     std::array<int, most_together> ranks;

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::int8_t least_shared = 2;  // of Windows::fits: smaller windows hold too few points to be shared
 constexpr double grown = 1.1;            // of the residuals' variance from the base window to the next: noise 1
-// Of the residuals' variance from each window to the next, where noise is alike in neighbouring points.
+// The residuals' variance grows by so much from each window to the next where noise is alike in neighbouring points.
 constexpr double least_growth = 1.09, most_growth = 1.7;
 constexpr double most_acceleration = 1.15;  // of that growth by the one before
 constexpr double least_alike = 0.5;         // of the windows around: of noise that is alike in neighbouring points

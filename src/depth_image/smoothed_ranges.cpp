@@ -17,8 +17,8 @@ namespace {
 constexpr std::array<int, 3> strides = {3, SmoothedRanges::widest_stride, 4};  // pixels apart, pass by pass
 constexpr std::ptrdiff_t passes_of_rings = 1;
 constexpr double harmless = 0.0004;  // of the squared spacing: a fiftieth of it in noise
-/// The same where a plane is fitted to a part of a window: values some pixels apart share errors of the pass before,
-/// and the plane carries these on to the edge.
+/// A twentieth of the spacing is harmless at edges, where a plane is fitted to a part of a window: values some pixels
+/// apart share errors of the pass before, and the plane carries these on to the edge.
 constexpr double harmless_at_edges = 0.0025;
 constexpr std::int64_t samples = 500;  // packets of pixels, to see what noise smoothed values have
 constexpr double quiet = 0.25;         // of the windows have nothing but noise
