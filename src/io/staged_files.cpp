@@ -60,7 +60,9 @@ bool StagedFiles::makeDirectory(bool may_vanish) {
   fs::create_directories(dir_, error);
   if (error) {
     removeMade();  // some parents may be there by now
-    if (may_vanish && error == std::errc::no_such_file_or_directory) return false;
+    // Either it vanished before a directory was made within it, or after it was found to be there.
+    const bool vanished = error == std::errc::no_such_file_or_directory || error == std::errc::file_exists;
+    if (may_vanish && vanished) return false;
     refuse(dir_, "cannot make the directory: " + error.message());
   }
   const fs::file_status status = fs::status(dir_, error);
