@@ -67,7 +67,7 @@ void moveOntoSurface(const RankedCloud& cloud, const Workers& workers, DenoisedP
 
 void moveAlongRays(const RankedScan& scan, const RankedCloud& cloud, const Workers& workers, DenoisedPoints& denoised) {
   const SurfaceImage image = surfaceImage(pixelGrid(scan), cloud.points, true, workers);
-  const auto noiseOf = [&](int p) { return image.noiseOf(p); };
+  const auto noiseOf = [&](int p) { return image.noiseOf(p, cloud.points); };
   apply(image.windows.displacement, noiseOf, cloud, denoised);
   denoised.report.unplaced = image.unplaced;
   const Buffer<std::uint64_t>& around = image.windows.around;

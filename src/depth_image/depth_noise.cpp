@@ -6,6 +6,9 @@
 #include <cstdint>
 #include <limits>
 #include <numeric>
+#include <optional>
+#include <span>
+#include <utility>
 
 #include "base/buffer.h"
 
@@ -19,6 +22,13 @@ constexpr double kept_at_first = 0.75, kept = 0.9;
 constexpr double spread_at_first = 0.37, spread = 0.62;  // mean square of the smallest, of normal numbers
 constexpr double sum_of_squares = 70;                    // of 1, 4, 6, 4, 1
 
+// How noise grows from far to near, by groups of rows of alike inverse depths.
+constexpr int groups_in_octave = 2;
+constexpr std::ptrdiff_t least_in_group = 200;  // rows of five pixels
+constexpr std::size_t least_groups = 3;
+constexpr double least_power = 0.6;  // of the inverse depth: less is that of a camera that measures disparities
+constexpr double most_misfit = 0.2;  // of the law to the groups: more is none of noise, as where depths are coarse
+
 // A coarse depth whose steps are farther apart than five pixels.
 constexpr double alike = 0.3;         // of a step: the others of a row change as much as each other
 constexpr double same = 0.02;         // the same, where there is no noise between steps
@@ -28,14 +38,14 @@ constexpr double most_spread = 0.25;  // of the middle half of the steps, by the
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-/// Inverse ranges of five pixels in a row.
+/// Inverse depths of five pixels in a row.
 using Five = std::array<double, 5>;
 
-/// Inverse ranges along the row and the column of some pixels. The first of five is NaN where a pixel has no point.
+/// Inverse depths along the row and the column of some pixels. The first of five is NaN where a pixel has no point.
 RawBuffer<Five> takeFives(const PixelGrid& grid, const PointsView& points, const Workers& workers) {
-  const auto inverseRange = [&](std::int64_t pixel) {
+  const auto inverseDepth = [&](std::int64_t pixel) {
     const int p = grid.rank[pixel];
-    return p < 0 ? unknown : 1 / (points.row(p) - grid.origin).norm();
+    return p < 0 ? unknown : 1 / grid.depthOf(points.row(p));
   };
   const std::int64_t pixels = std::ssize(grid.rank), stride = std::max<std::int64_t>(1, pixels / samples) | 1;
   const std::int64_t first = 2 * std::int64_t{grid.columns},
@@ -53,7 +63,7 @@ RawBuffer<Five> takeFives(const PixelGrid& grid, const PointsView& points, const
         const std::int64_t side = direction == 0 ? 1 : grid.columns;
         const bool is_told = isTold(pixel, direction);
         Five& w = fives[2 * i + direction];
-        for (int k = 0; k < 5; ++k) w[k] = is_told ? inverseRange(pixel + (k - 2) * side) : unknown;
+        for (int k = 0; k < 5; ++k) w[k] = is_told ? inverseDepth(pixel + (k - 2) * side) : unknown;
         if (!std::isfinite(w[0] + w[1] + w[2] + w[3] + w[4])) w[0] = unknown;
       }
     }
@@ -62,8 +72,8 @@ RawBuffer<Five> takeFives(const PixelGrid& grid, const PointsView& points, const
 }
 
 /// The standard deviation by the smallest fourth differences of those without a jump.
-/// @param least step of inverse ranges that may be a jump
-double noiseOf(const RawBuffer<Five>& fives, double least, double share, double mean_square) {
+/// @param least step of inverse depths that may be a jump
+double noiseOf(std::span<const Five> fives, double least, double share, double mean_square) {
   Buffer<double> squares;
   squares.reserve(fives.size());
   for (const Five& w : fives) {
@@ -80,6 +90,80 @@ double noiseOf(const RawBuffer<Five>& fives, double least, double share, double 
   return std::sqrt(sum / static_cast<double>(count) / mean_square / sum_of_squares);
 }
 
+/// The same, first with all steps that no jump is likely to make, then less those that the noise found does not make.
+double noiseOf(std::span<const Five> fives) {
+  const double at_first = noiseOf(fives, std::numeric_limits<double>::infinity(), kept_at_first, spread_at_first);
+  return noiseOf(fives, likely_jump * at_first, kept, spread);
+}
+
+/// Rows of five pixels that lie at about the same inverse depth.
+struct Level {
+  double inverse;  ///< range in the mean
+  double noise;
+  double weight;
+};
+
+Buffer<Level> levelsOf(const RawBuffer<Five>& fives) {
+  const auto groupOf = [](const Five& w) { return static_cast<int>(std::floor(groups_in_octave * std::log2(w[2]))); };
+  Buffer<std::pair<int, std::size_t>> by_group;
+  by_group.reserve(fives.size());
+  for (std::size_t i = 0; i < fives.size(); ++i)
+    if (!std::isnan(fives[i][0])) by_group.push_back({groupOf(fives[i]), i});
+  std::sort(by_group.begin(), by_group.end());
+  Buffer<Level> levels;
+  Buffer<Five> group;
+  for (auto begin = by_group.begin(); begin != by_group.end();) {
+    const int number = begin->first;
+    double sum = 0;
+    group.clear();
+    for (; begin != by_group.end() && begin->first == number; ++begin) {
+      group.push_back(fives[begin->second]);
+      sum += group.back()[2];
+    }
+    if (std::ssize(group) < least_in_group) continue;
+    const auto count = static_cast<double>(group.size());
+    levels.push_back({sum / count, noiseOf(group), count});
+  }
+  return levels;
+}
+
+/// The slope of the logarithm of the noise over that of the inverse depth.
+double powerOf(const Buffer<Level>& levels) {
+  double all = 0, x = 0, y = 0, xx = 0, xy = 0;
+  for (const Level& level : levels) {
+    const double a = std::log(level.inverse), b = std::log(level.noise);
+    all += level.weight;
+    x += level.weight * a;
+    y += level.weight * b;
+    xx += level.weight * a * a;
+    xy += level.weight * a * b;
+  }
+  return (all * xy - x * y) / (all * xx - x * x);
+}
+
+/// The sum of both laws that fits the levels best, by relative errors; nothing where it does not fit them.
+std::optional<RangeNoise> fitOf(const Buffer<Level>& levels) {
+  double aa = 0, ab = 0, bb = 0, a = 0, b = 0;
+  for (const Level& level : levels) {
+    const double of_inverse = 1 / level.noise, of_range = level.inverse * level.inverse / level.noise;
+    aa += level.weight * of_inverse * of_inverse;
+    ab += level.weight * of_inverse * of_range;
+    bb += level.weight * of_range * of_range;
+    a += level.weight * of_inverse;
+    b += level.weight * of_range;
+  }
+  const double determinant = aa * bb - ab * ab;
+  RangeNoise noise{(bb * a - ab * b) / determinant, (aa * b - ab * a) / determinant};
+  if (noise.of_inverse < 0) noise = {0, b / bb};
+  double misfit = 0, weight = 0;
+  for (const Level& level : levels) {
+    misfit += level.weight * std::pow(noise.atInverse(level.inverse) / level.noise - 1, 2);
+    weight += level.weight;
+  }
+  if (!(noise.of_range >= 0 && misfit <= most_misfit * most_misfit * weight)) return std::nullopt;
+  return noise;
+}
+
 /// The step that a row of five pixels takes in the middle.
 struct MiddleStep {
   double size;
@@ -94,7 +178,7 @@ MiddleStep middleStep(const Five& w) {
 
 /// The standard deviation of the rounding to steps of one size, if there are such steps; 0 if not. Steps that are far
 /// apart are too few for noiseOf(): the smallest differences lie all between them.
-double roundingOf(const RawBuffer<Five>& fives, double noise) {
+double roundingOf(std::span<const Five> fives, double noise) {
   Buffer<double> steps;
   double count = 0, same_count = 0;
   for (const Five& w : fives) {
@@ -116,11 +200,17 @@ double roundingOf(const RawBuffer<Five>& fives, double noise) {
 
 }  // namespace
 
-double inverseRangeNoise(const PixelGrid& grid, const PointsView& points, const Workers& workers) {
+RangeNoise rangeNoise(const PixelGrid& grid, const PointsView& points, const Workers& workers) {
   const RawBuffer<Five> fives = takeFives(grid, points, workers);
-  const double at_first = noiseOf(fives, std::numeric_limits<double>::infinity(), kept_at_first, spread_at_first);
-  const double noise = noiseOf(fives, likely_jump * at_first, kept, spread);
-  return std::max(noise, roundingOf(fives, noise));
+  const double of_inverse = noiseOf(fives);
+  const double rounding = roundingOf(fives, of_inverse);
+  if (rounding > 0) return {std::max(of_inverse, rounding), 0};
+  const Buffer<Level> levels = levelsOf(fives);
+  const auto isKnown = [](const Level& level) { return level.noise > 0; };
+  if (levels.size() >= least_groups && std::all_of(levels.begin(), levels.end(), isKnown) &&
+      powerOf(levels) > least_power)
+    if (const auto noise = fitOf(levels)) return *noise;
+  return {of_inverse, 0};
 }
 
 }  // namespace tufted

@@ -10,7 +10,7 @@
 
 #include "base/buffer.h"
 #include "depth_image/range_fit.h"
-#include "depth_image/window_pixels.h"
+#include "depth_image/window_halves.h"
 #include "simd/kernels.h"
 
 namespace tufted {
@@ -28,32 +28,11 @@ constexpr int reach = WindowPixels::reach;
 // What four pixels in a row contribute to the value of their line half a pixel before the first of them.
 constexpr std::array<double, reach + 1> at_the_end = {0.85, 0.45, 0.05, -0.35};
 
-/// From one pixel to the next of its row, or the next of its column.
-enum Direction : int { right, down };
-
-/// The pixels of a window before and after its middle one. With the middle row or column left out, through which a line
-/// may run that lies aslant.
-struct Halves {
-  std::array<std::uint64_t, 2> before{}, after{};  ///< by Direction
-
-  constexpr Halves() {
-    for (int i = 0; i < WindowPixels::count; ++i) {
-      const PixelStep& step = window_pixels.step[i];
-      const std::uint64_t pixel = std::uint64_t{1} << i;
-      before[right] |= step.column < 0 ? pixel : 0;
-      after[right] |= step.column > 0 ? pixel : 0;
-      before[down] |= step.row < 0 ? pixel : 0;
-      after[down] |= step.row > 0 ? pixel : 0;
-    }
-  }
-};
-
-constexpr Halves halves;
-
 class JumpFollower {
  public:
-  JumpFollower(const PixelGrid& grid, double noise, SurfaceWindows& windows, SmoothedRanges& smoothed)
-      : grid_(grid), noise_(noise), windows_(windows), smoothed_(smoothed) {}
+  JumpFollower(const PixelGrid& grid, const PointsView& points, const RangeNoise& noise, SurfaceWindows& windows,
+               SmoothedRanges& smoothed)
+      : grid_(grid), points_(points), noise_(noise), windows_(windows), smoothed_(smoothed) {}
 
   void run() {
     findRefused();
@@ -81,8 +60,10 @@ class JumpFollower {
   bool isCut(std::int64_t pixel, Direction direction) const { return (cut_[pixel] >> direction & 1) != 0; }
   double inverseAt(std::int64_t pixel) const {
     const int p = grid_.rank[pixel];
-    return p < 0 ? std::numeric_limits<double>::quiet_NaN() : 1 / windows_.range[p];
+    return p < 0 ? std::numeric_limits<double>::quiet_NaN() : 1 / grid_.depthOf(points_.row(p));
   }
+  double noiseAt(std::int64_t pixel) const { return noise_.atInverse(inverseAt(pixel)); }
+  double typicalAt(std::int64_t pixel) const { return typical_ * noiseAt(pixel); }
 
   void findRefused() {
     const std::array<std::uint64_t, 2> bit = {std::uint64_t{1} << window_pixels.numberOf({0, 1}),
@@ -109,13 +90,12 @@ class JumpFollower {
     for (std::size_t p = 0; p < windows_.around.size(); p += stride) {
       if (windows_.around[p] != WindowPixels::rings(reach)) continue;
       const std::int64_t pixel = grid_.pixel[p];
-      if (!needsSmoothing(inverseAt(pixel), noise_, smoothed_.spacing_squared[smoothedAt(pixel)])) continue;
+      if (!needsSmoothing(inverseAt(pixel), noiseAt(pixel), smoothed_.spacing_squared[smoothedAt(pixel)])) continue;
       for (const Direction direction : {right, down}) {
-        const double jump = std::abs(straightJump({pixel, direction, true}));
+        const double jump = std::abs(straightJump({pixel, direction, true})) / noiseAt(pixel);
         if (std::isfinite(jump)) jumps.push_back(jump);
       }
     }
-    typical_ = of_white_noise * noise_;
     if (jumps.empty()) return;
     const auto at = jumps.begin() + static_cast<std::ptrdiff_t>(most_pixels * static_cast<double>(jumps.size()));
     std::nth_element(jumps.begin(), at, jumps.end());
@@ -128,7 +108,7 @@ class JumpFollower {
     steps_.push_back(step);
   }
 
-  /// How much larger the inverse range is on this side of a line across a row than beyond, by lines over four pixels on
+  /// How much larger the inverse depth is on this side of a line across a row than beyond, by lines over four pixels on
   /// either side.
   double jumpOfRow(std::int64_t pixel, Direction direction) const {
     double sum = 0;
@@ -151,7 +131,7 @@ class JumpFollower {
     return mean > 0 ? std::min(mean, 2 * (sum - least - most) / (WindowPixels::side() - 2)) : mean;
   }
 
-  /// How much larger the inverse range is on the near side of a straight line, by the mean of the rows within reach.
+  /// How much larger the inverse depth is on the near side of a straight line, by the mean of the rows within reach.
   double straightJump(const Step& step) const {
     std::array<double, WindowPixels::side()> rows;
     for (int i = -reach; i <= reach; ++i)
@@ -186,12 +166,12 @@ class JumpFollower {
     const std::int64_t next = step.pixel + across(step.direction);
     const int p = grid_.rank[step.pixel], q = grid_.rank[next];
     if (p < 0 || q < 0) return false;
-    const std::uint64_t before = halves.before[step.direction], after = halves.after[step.direction];
-    if ((windows_.around[p] & before) != before || (windows_.around[q] & after) != after) return false;
+    const std::uint64_t missing_before = window_halves.before[step.direction] & ~windows_.around[p];
+    if ((missing_before | (window_halves.after[step.direction] & ~windows_.around[q])) != 0) return false;
     const double spacing_squared = smoothed_.spacing_squared[smoothedAt(step.pixel)];
-    if (!needsSmoothing(inverseAt(step.pixel), noise_, spacing_squared)) return false;
-    const double jump = jumpAt(step);
-    if (!(jump > least_jump * typical_ && jump * jump > steepest * spacing_squared)) return false;
+    if (!needsSmoothing(inverseAt(step.pixel), noiseAt(step.pixel), spacing_squared)) return false;
+    const double jump = jumpAt(step), least = least_jump * typicalAt(step.pixel);
+    if (!(jump > least && jump * jump > steepest * spacing_squared)) return false;
     // The line is one step wide.
     const std::int64_t previous = step.pixel - across(step.direction);
     return !(straightJump({previous, step.direction, step.leads_away}) > jump) &&
@@ -213,7 +193,7 @@ class JumpFollower {
         const Step next{step.pixel + forward * along(step.direction) + aside * across(step.direction), step.direction,
                         step.leads_away};
         if (isCut(next.pixel, next.direction) || !leadsOver(next)) continue;
-        if (!is_known && !(isWellInside(step.pixel) && jumpAt(step) > least_found * typical_)) return;
+        if (!is_known && !(isWellInside(step.pixel) && jumpAt(step) > least_found * typicalAt(step.pixel))) return;
         is_known = true;
         add(next);
       }
@@ -319,32 +299,34 @@ class JumpFollower {
     const std::ptrdiff_t at = smoothedAt(pixel);
     SmoothedRange range{inverse[middle], 0};
     const PixelRows rows{inverse.data() + middle, row_step, 1};
-    if ((around & WindowPixels::rings(1)) != 0 &&
-        needsSmoothing(inverse[middle], noise_, smoothed_.spacing_squared[at])) {
+    const double noise = noise_.atInverse(inverse[middle]);
+    const bool has_neighbors = (around & WindowPixels::rings(1)) != 0;
+    if (has_neighbors && needsSmoothing(inverse[middle], noise, smoothed_.spacing_squared[at])) {
       SquareFits narrow{};
       if ((around & WindowPixels::rings(2)) == WindowPixels::rings(2)) kernels().fitSquares5(rows, narrow);
-      const SquareFit none{0, 0};
-      range = smoothedInverseRange(rows, around, {narrow.value[0], narrow.variance[0]}, none, noise_).value_or(range);
+      range = smoothedInverseRange(rows, around, {narrow.value[0], narrow.variance[0]}, {}, noise).value_or(range);
     }
     smoothed_.inverse[at] = range.inverse;
     smoothed_.variance[at] = range.variance;
   }
 
   const PixelGrid& grid_;
-  double noise_;
+  PointsView points_;
+  RangeNoise noise_;
   SurfaceWindows& windows_;
   SmoothedRanges& smoothed_;
-  double typical_ = 0;        ///< see findTypical()
-  Buffer<std::uint8_t> cut_;  ///< by pixel, a bit per Direction; empty without any
-  Buffer<Step> steps_;        ///< over jumps: those that were refused before, then those that are found
-  std::size_t refused_ = 0;   ///< how many were refused
+  double typical_ = of_white_noise;  ///< jump, in standard deviations of the noise; see findTypical()
+  Buffer<std::uint8_t> cut_;         ///< by pixel, a bit per Direction; empty without any
+  Buffer<Step> steps_;               ///< over jumps: those that were refused before, then those that are found
+  std::size_t refused_ = 0;          ///< how many were refused
 };
 
 }  // namespace
 
-void cutFaintJumps(const PixelGrid& grid, double noise, SurfaceWindows& windows, SmoothedRanges& smoothed) {
+void cutFaintJumps(const PixelGrid& grid, const PointsView& points, const RangeNoise& noise, SurfaceWindows& windows,
+                   SmoothedRanges& smoothed) {
   if (grid.goes_round) return;
-  JumpFollower(grid, noise, windows, smoothed).run();
+  JumpFollower(grid, points, noise, windows, smoothed).run();
 }
 
 }  // namespace tufted

@@ -10,9 +10,10 @@ namespace tufted {
 /// one pixel. Along the line on which pixels were refused, planes over both sides still show it. Windows on either
 /// side of such a line leave out the other, and what is smoothed by them is smoothed again. Nothing changes where
 /// noise is harmless, nor in images that go round.
-/// @param noise see inverseRangeNoise()
+/// @param noise see rangeNoise()
 /// @param windows of all pixels, complete but for displacements
 /// @param smoothed by these windows
-void cutFaintJumps(const PixelGrid& grid, double noise, SurfaceWindows& windows, SmoothedRanges& smoothed);
+void cutFaintJumps(const PixelGrid& grid, const PointsView& points, const RangeNoise& noise, SurfaceWindows& windows,
+                   SmoothedRanges& smoothed);
 
 }  // namespace tufted

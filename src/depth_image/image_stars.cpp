@@ -185,7 +185,7 @@ class ImageStarBuilder {
     if (image_.grid.goes_round) return WindowPixels::reach;
     const Eigen::Vector3d sight = (image_.points.row(p) - image_.grid.origin).transpose();
     const bool is_low = std::abs(sight.dot(frame.normal)) < low_angle * sight.norm();
-    if (is_low && image_.test.tolerance * sight.squaredNorm() <= frame.radius) return most_rings;
+    if (is_low && image_.test.tolerance.atRange(sight.norm(), sight.norm()) <= frame.radius) return most_rings;
     return is_exact_ ? most_certain_rings : WindowPixels::reach;
   }
 
@@ -221,19 +221,20 @@ class ImageStarBuilder {
 
 }  // namespace
 
-double SurfaceImage::noiseOfMoved() const {
+double SurfaceImage::noiseOfMoved(const PointsView& points) const {
   Buffer<double> values;
   values.reserve(static_cast<std::size_t>(windows.moved));
   for (Eigen::Index p = 0; p < windows.displacement.rows(); ++p)
-    if (!windows.displacement.row(p).isZero(0)) values.push_back(noiseOf(static_cast<int>(p)));
+    if (!windows.displacement.row(p).isZero(0)) values.push_back(noiseOf(static_cast<int>(p), points));
   return medianOf(std::move(values));
 }
 
 SurfaceImage surfaceImage(PixelGrid grid, const PointsView& points, bool smooths, const Workers& workers) {
   SurfaceImage image;
   image.grid = std::move(grid);
+  findAxis(points, image.grid);
   image.unplaced = std::count(image.grid.pixel.begin(), image.grid.pixel.end(), -1);
-  image.noise = inverseRangeNoise(image.grid, points, workers);
+  image.noise = rangeNoise(image.grid, points, workers);
   image.windows = findSurfaceWindows(image.grid, points, image.noise, smooths, workers);
   return image;
 }

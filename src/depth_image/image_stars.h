@@ -17,20 +17,22 @@ namespace tufted {
 struct SurfaceImage {
   PixelGrid grid;
   SurfaceWindows windows;
-  double noise = 0;           ///< see inverseRangeNoise()
+  RangeNoise noise;           ///< see rangeNoise()
   std::int64_t unplaced = 0;  ///< points without a pixel
 
   /// Standard deviation of the noise of a point that has a pixel, along its ray.
-  double noiseOf(int p) const { return noise * windows.range[p] * windows.range[p]; }
+  double noiseOf(int p, const PointsView& points) const {
+    return noise.atRange(windows.range[p], grid.depthOf(points.row(p)));
+  }
   /// The median over the points that are moved; 0 if none are.
-  double noiseOfMoved() const;
+  double noiseOfMoved(const PointsView& points) const;
   std::size_t bytes() const {
     return grid.bytes() + bytesOf(windows.around) + bytesOf(windows.range) + windows.displacement.bytes() +
            windows.place.bytes();
   }
   /// @param points of the cloud, borrowed
   DepthImage view(const PointsView& points) const {
-    return {grid, points, windows.place.rows() > 0 ? PointsView(windows.place) : points, windows, JumpTest(noise)};
+    return {grid, points, windows.place.rows() > 0 ? PointsView(windows.place) : points, windows, JumpTest::of(noise)};
   }
 };
 

@@ -89,7 +89,7 @@ void transposeBits(std::array<std::uint64_t, 64>& words) {
   }
 }
 
-bool ImageTile::take(const PixelGrid& grid, const PointsView& points, int top, int left, double tolerance) {
+bool ImageTile::take(const PixelGrid& grid, const PointsView& points, int top, int left, const RangeNoise& tolerance) {
   bool any = false;
   const int own_columns = std::min(columns, grid.columns - PixelGrid::margin - halo - left);
   own_ = ((std::uint64_t{1} << own_columns) - 1) << halo;
@@ -117,10 +117,22 @@ bool ImageTile::take(const PixelGrid& grid, const PointsView& points, int top, i
   using Row = Eigen::Map<Eigen::Array<double, all_pixels, 1>>;
   const auto inFull = [](Values& values) { return Row(values.data()); };
   inFull(range_) = (inFull(x_).square() + inFull(y_).square() + inFull(z_).square()).sqrt();
-  inFull(inverse_) = inFull(range_).inverse();
+  const Eigen::RowVector3d& axis = grid.axis;
+  if (axis.isZero(0)) {
+    inFull(inverse_) = inFull(range_).inverse();
+  } else if (grid.goes_round) {
+    inFull(inverse_) = ((axis[1] * inFull(z_) - axis[2] * inFull(y_)).square() +
+                        (axis[2] * inFull(x_) - axis[0] * inFull(z_)).square() +
+                        (axis[0] * inFull(y_) - axis[1] * inFull(x_)).square())
+                           .sqrt()
+                           .inverse();
+  } else {
+    inFull(inverse_) = (axis[0] * inFull(x_) + axis[1] * inFull(y_) + axis[2] * inFull(z_)).inverse();
+  }
   const PixelSteps steps{steps_down, ways.down_shift.data(), (grid.goes_round ? ways.most_of_rings : ways.most).data()};
   for (int row = 0; row < all_rows; ++row)
-    kernels().joinPixels(pixelsAt(row * pixels_in_word), steps, tolerance, joined_[row].data());
+    kernels().joinPixels(pixelsAt(row * pixels_in_word), steps, tolerance.of_inverse, tolerance.of_range,
+                         joined_[row].data());
   if (grid.goes_round) {
     findSlopes(grid, points, top, left);
     for (int row = 0; row < all_rows; ++row) joinAlongSlopes(row, tolerance);
@@ -138,20 +150,20 @@ void ImageTile::findSlopes(const PixelGrid& grid, const PointsView& points, int 
     if (row < 0 || row >= all_rows || column < 0 || column >= pixels_in_word)
       return inverseBeyond(top + row, left + column);
     const int i = row * pixels_in_word + column;
-    return rank_[i] < 0 ? unknown : inverse_[i];
+    return rank_[i] < 0 ? unknown : 1 / range_[i];
   };
   for (int row = 0; row < all_rows; ++row) {
     forEachPixel(is_filled_[row], [&](int column) {
       const int i = row * pixels_in_word + column;
-      const double here = inverse_[i], most = steepest_slope * here;
+      const double here = 1 / range_[i], most = steepest_slope * here;
       slope_[i] = {commonSlope(here - inverse(row - 1, column), inverse(row + 1, column) - here, most),
                    commonSlope(here - inverse(row, column - 1), inverse(row, column + 1) - here, most)};
     });
   }
 }
 
-void ImageTile::joinAlongSlopes(int row, double tolerance) {
-  const JumpTest test = JumpTest::withTolerance(tolerance);
+void ImageTile::joinAlongSlopes(int row, const RangeNoise& tolerance) {
+  const JumpTest test{tolerance};
   for (int i = 0; i < steps_down; ++i) {
     const PixelStep& step = ways.down[i];
     if (row + step.row >= all_rows) continue;
@@ -204,7 +216,8 @@ std::int64_t ImageTile::findWindows(int row, std::array<std::uint64_t, pixels_in
 void ImageTile::spacings(int row, int column, double* squared) const {
   std::array<unsigned char, pixels_beside> beside;
   for (int i = 0; i < pixels_beside; ++i) beside[i] = static_cast<unsigned char>(around_[i] >> (column + halo));
-  kernels().spacingsOf(pixelsAt(at(row, column)), ways.beside_shift.data(), beside.data(), squared);
+  kernels().spacingsOf(pixelsAt(at(row, column)), inverseAt(row, column), ways.beside_shift.data(), beside.data(),
+                       squared);
 }
 
 }  // namespace tufted

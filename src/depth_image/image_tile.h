@@ -26,7 +26,7 @@ class ImageTile {
   /// @param top,left first pixel with the halo
   /// @param tolerance see JumpTest
   /// @returns whether the part itself holds a point
-  bool take(const PixelGrid& grid, const PointsView& points, int top, int left, double tolerance);
+  bool take(const PixelGrid& grid, const PointsView& points, int top, int left, const RangeNoise& tolerance);
 
   /// The windows of the pixels of one row, as SurfaceWindows has them: sets of steps.
   /// @param row from 0; pixel i of the row has number i + halo
@@ -35,12 +35,12 @@ class ImageTile {
 
   int rankAt(int row, int column) const { return rank_[at(row, column)]; }
   const double* rangeAt(int row, int column) const { return range_.data() + at(row, column); }
-  /// Inverse ranges; what lies rowStep() on is one row below.
+  /// Inverse depths, see PixelGrid::depthOf(); what lies rowStep() on is one row below.
   const double* inverseAt(int row, int column) const { return inverse_.data() + at(row, column); }
   static constexpr int rowStep() { return pixels_in_word; }
   /// For images that go round.
   const InverseSlope& slopeAt(int row, int column) const { return slope_[at(row, column)]; }
-  /// Squared spacings in inverse range between eight pixels and those beside them, for the row of the last
+  /// Squared spacings in inverse depth between eight pixels and those beside them, for the row of the last
   /// findWindows().
   void spacings(int row, int column, double* squared) const;
 
@@ -58,7 +58,7 @@ class ImageTile {
   std::uint64_t own_ = 0;  ///< the pixels of a row that are of the image and not of the halo
   void findSlopes(const PixelGrid& grid, const PointsView& points, int top, int left);
   /// Joins pixels of a row with others as well where the step between them is steep and the slope goes on.
-  void joinAlongSlopes(int row, double tolerance);
+  void joinAlongSlopes(int row, const RangeNoise& tolerance);
 
   std::array<int, all_pixels> rank_{};
   Values x_{}, y_{}, z_{}, range_{}, inverse_{};

@@ -12,7 +12,7 @@ namespace {
 constexpr std::array<PixelStep, 4> directions = {{{0, 1}, {1, 0}, {1, 1}, {1, -1}}};
 
 /// The mean of the values on either side, in all directions in which these may be of one surface; 0 if there are none.
-double meanAround(const PixelGrid& grid, const SmoothedRanges& smoothed, double noise, int row, int column) {
+double meanAround(const PixelGrid& grid, const SmoothedRanges& smoothed, const RangeNoise& noise, int row, int column) {
   const std::int64_t pixel = std::int64_t{row} * grid.columns + column;
   const std::ptrdiff_t at = smoothed.at(row, column);
   double sum = 0;
@@ -25,8 +25,9 @@ double meanAround(const PixelGrid& grid, const SmoothedRanges& smoothed, double 
     const std::ptrdiff_t before = at - values, after = at + values;
     const double most = 2 * std::min(smoothed.steepestSlope(before), smoothed.steepestSlope(after));
     const double change = std::abs(smoothed.inverse[before] - smoothed.inverse[after]);
-    if (!(change <= most + SmoothedRanges::tolerance * noise)) continue;
-    sum += (smoothed.inverse[before] + smoothed.inverse[after]) / 2;
+    const double mean = (smoothed.inverse[before] + smoothed.inverse[after]) / 2;
+    if (!(change <= most + SmoothedRanges::tolerance * noise.atInverse(mean))) continue;
+    sum += mean;
     ++count;
   }
   return count > 0 ? sum / count : 0;
@@ -34,7 +35,8 @@ double meanAround(const PixelGrid& grid, const SmoothedRanges& smoothed, double 
 
 }  // namespace
 
-void fillMissingPixels(const PixelGrid& grid, double noise, const Workers& workers, SmoothedRanges& smoothed) {
+void fillMissingPixels(const PixelGrid& grid, const RangeNoise& noise, const Workers& workers,
+                       SmoothedRanges& smoothed) {
   if (grid.goes_round) return;
   const int first = PixelGrid::margin, rows = grid.rows - 2 * first;
   workers.forBlocks("windows", rows, usual_block / grid.columns + 1, [&](std::int64_t begin, std::int64_t end, int) {

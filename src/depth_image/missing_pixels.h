@@ -10,6 +10,7 @@ namespace tufted {
 /// moves by this, but the windows around are whole. Where one pixel in twenty is missing at random, one window in
 /// twelve would be whole otherwise, too few to tell what noise is left and to fit quadratics. Rings are left as they
 /// are, as the next one is far away.
-void fillMissingPixels(const PixelGrid& grid, double noise, const Workers& workers, SmoothedRanges& smoothed);
+void fillMissingPixels(const PixelGrid& grid, const RangeNoise& noise, const Workers& workers,
+                       SmoothedRanges& smoothed);
 
 }  // namespace tufted

@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
+#include <vector>
 
+#include "neighbors/scan/pinhole.h"
 #include "tufted/errors.h"
 
 namespace tufted {
@@ -12,6 +15,8 @@ namespace {
 
 constexpr std::int64_t most_pixels = 1 << 24;  // of an image that holds few points
 constexpr std::int64_t pixels_per_point = 64;
+constexpr std::int64_t axis_samples = 2000;  // rays that the axis is found by
+constexpr double least_depth = 0.2;          // of the range: no pinhole camera sees farther aside than 78 degrees
 
 /// The rows or the columns of an image that hold points, numbered without the empty ones.
 class Lines {
@@ -96,6 +101,37 @@ PixelGrid pixelGrid(const RankedScan& scan, int around) {
   });
   if (grid.goes_round) repeatBeyondSeam(grid);
   return grid;
+}
+
+namespace {
+
+std::optional<Eigen::Vector3d> axisOfCamera(const PointsView& points, const PixelGrid& grid) {
+  const int width = grid.columnsInImage(), height = grid.rows - 2 * PixelGrid::margin;
+  std::vector<Sighting> sightings;
+  const std::int64_t stride = std::max<std::int64_t>(1, points.rows() / axis_samples) | 1;
+  for (std::int64_t p = 0; p < points.rows(); p += stride) {
+    const Eigen::Vector3d ray = (points.row(p) - grid.origin).transpose();
+    if (grid.pixel[p] < 0 || ray.isZero(0)) continue;
+    const int row = grid.rowOf(static_cast<int>(p)) - PixelGrid::margin,
+              column = grid.columnOf(static_cast<int>(p)) - PixelGrid::margin;
+    sightings.push_back({{2.0 * column / (width - 1) - 1, 2.0 * row / (height - 1) - 1}, ray.normalized()});
+  }
+  return opticalAxis(sightings, width, height);
+}
+
+}  // namespace
+
+void findAxis(const PointsView& points, PixelGrid& grid) {
+  grid.axis.setZero();
+  const auto axis = grid.goes_round ? std::optional(Eigen::Vector3d::UnitZ().eval()) : axisOfCamera(points, grid);
+  if (!axis) return;
+  grid.axis = axis->transpose();
+  for (std::int64_t p = 0; p < points.rows(); ++p) {
+    if (grid.pixel[p] < 0 || grid.depthOf(points.row(p)) >= least_depth * (points.row(p) - grid.origin).norm())
+      continue;
+    grid.axis.setZero();
+    return;
+  }
 }
 
 }  // namespace tufted

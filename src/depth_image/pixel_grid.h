@@ -1,11 +1,13 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 
 #include "base/buffer.h"
+#include "base/point_buffer.h"
 #include "base/stage_clock.h"
 #include "depth_image/window_pixels.h"
 #include "neighbors/scan/ranked_scan.h"
@@ -22,8 +24,17 @@ struct PixelGrid {
   Buffer<int> rank;            ///< rows x columns, -1: no point
   Buffer<std::int64_t> pixel;  ///< n, -1: no pixel, or one that a point of a smaller rank has
   Eigen::RowVector3d origin;   ///< of the rays, in units of the cloud
-  bool goes_round = false;     ///< the last column is a neighbour of the first, as around a spinning scanner
+  /// Of a pinhole camera, or around which a scanner spins; unit length, zero where the image is of neither.
+  Eigen::RowVector3d axis = Eigen::RowVector3d::Zero();
+  bool goes_round = false;  ///< the last column is a neighbour of the first, as around a spinning scanner
 
+  /// The distance of a point from the camera along its axis, or from the axis of a scanner; where there is none the
+  /// range. Its inverse is linear on planes over the image of a pinhole camera, and nearly over the other two.
+  double depthOf(const Eigen::RowVector3d& point) const {
+    const Eigen::RowVector3d sight = point - origin;
+    if (axis.isZero(0)) return sight.norm();
+    return goes_round ? sight.cross(axis).norm() : sight.dot(axis);
+  }
   /// Whether a pixel lies within the margins, or in one that repeats the image.
   bool isInImage(int row, int column) const {
     const int side = goes_round ? 0 : margin;
@@ -54,5 +65,9 @@ struct PixelGrid {
 /// @param around the columns of an image that goes round, none of which is left out, more than 2 x margin; 0: it ends
 /// at the sides
 PixelGrid pixelGrid(const RankedScan& scan, int around = 0);
+
+/// Sets the axis of a scanner, which is that of z, or of the pinhole camera if there is one. All points must lie well
+/// in front of it, or beside it.
+void findAxis(const PointsView& points, PixelGrid& grid);
 
 }  // namespace tufted

@@ -23,7 +23,7 @@ constexpr double harmless_at_edges = 0.0025;
 constexpr std::int64_t samples = 500;  // packets of pixels, to see what noise smoothed values have
 constexpr double quiet = 0.25;         // of the windows have nothing but noise
 constexpr double usual = 0.75;         // of the windows are of one surface
-constexpr double most_to_usual = 3;    // times the variance that noise leaves, in these
+constexpr double most_to_usual = 2;    // times the variance that noise leaves, in these
 constexpr double left_at_first = 0.5;  // of the variance of the noise, at most, once it was smoothed
 
 /// Calls work(row, worker) for all rows, those of the border too.
@@ -53,9 +53,10 @@ void repeatBeyondSeam(SmoothedRanges& image, const Workers& workers) {
 /// more than a slope and noise explain may be of one surface with it.
 class RangeSmoother {
  public:
-  /// @param variance of the noise that values have before, at most
+  /// @param variance that values have before, at most, in variances of the noise
   /// @param[out] after inverse ranges
-  RangeSmoother(double noise, double variance, int stride, SmoothedRanges& smoothed, RawBuffer<double>& after)
+  RangeSmoother(const RangeNoise& noise, double variance, int stride, SmoothedRanges& smoothed,
+                RawBuffer<double>& after)
       : noise_(noise), variance_(variance), stride_(stride), smoothed_(smoothed), after_(after) {
     for (int i = 0; i < WindowPixels::count; ++i) {
       const PixelStep& step = window_pixels.step[i];
@@ -63,9 +64,9 @@ class RangeSmoother {
     }
   }
 
-  /// The variance of the noise that values still have, by what fits leave in windows all over the image. Noise of real
-  /// cameras is alike in neighbouring pixels and survives smoothing, white noise does not. Steps of a coarse depth
-  /// are in some windows and not in others.
+  /// The variance of the noise that values still have, in variances of the noise, by what fits leave in windows all
+  /// over the image. Noise of real cameras is alike in neighbouring pixels and survives smoothing, white noise does
+  /// not. Steps of a coarse depth are in some windows and not in others.
   double findVariance() {
     const int in_row = (smoothed_.columns - 2 * PixelGrid::margin + kernel_packet - 1) / kernel_packet;
     const std::int64_t packets = std::int64_t{in_row} * (smoothed_.rows - 2 * PixelGrid::margin);
@@ -78,7 +79,10 @@ class RangeSmoother {
       const int column = PixelGrid::margin + static_cast<int>(i % in_row) * kernel_packet;
       const Packet packet = fit(smoothed_.at(row, column));
       for (int lane = 0; lane < kernel_packet; ++lane)
-        if (((packet.is_wanted & packet.is_whole) >> lane & 1U) != 0) left.push_back(packet.wide.variance[lane]);
+        if (((packet.is_wanted & packet.is_whole) >> lane & 1U) != 0) {
+          const double noise = noise_.atInverse(smoothed_.inverse[smoothed_.at(row, column) + lane]);
+          left.push_back(packet.wide.variance[lane] / (noise * noise));
+        }
     }
     if (left.empty()) return variance_;
     const auto quantile = [&left](double share) {
@@ -113,16 +117,18 @@ class RangeSmoother {
 
   Packet fit(std::ptrdiff_t at) const {
     Packet packet;
-    std::array<double, kernel_packet> slope;
+    std::array<double, kernel_packet> slope, tolerance;
     for (int lane = 0; lane < kernel_packet; ++lane) {
       const double spacing_squared = smoothed_.spacing_squared[at + lane];
       packet.is_wanted |= static_cast<unsigned>(smoothed_.variance[at + lane] > harmless * spacing_squared) << lane;
     }
     if (packet.is_wanted == 0) return packet;
-    for (int lane = 0; lane < kernel_packet; ++lane) slope[lane] = smoothed_.steepestSlope(at + lane) * stride_;
-    packet.is_whole =
-        kernels().squaresWithin(smoothed_.inverse.data() + at, shift_.data(), slope.data(),
-                                SmoothedRanges::tolerance * noise_, packet.is_wanted, packet.within.data());
+    for (int lane = 0; lane < kernel_packet; ++lane) {
+      slope[lane] = smoothed_.steepestSlope(at + lane) * stride_;
+      tolerance[lane] = SmoothedRanges::tolerance * noise_.atInverse(smoothed_.inverse[at + lane]);
+    }
+    packet.is_whole = kernels().squaresWithin(smoothed_.inverse.data() + at, shift_.data(), slope.data(),
+                                              tolerance.data(), packet.is_wanted, packet.within.data());
     if ((packet.is_wanted & packet.is_whole) != 0) kernels().fitSquares7(rowsAt(at), packet.wide);
     return packet;
   }
@@ -136,20 +142,21 @@ class RangeSmoother {
     for (int lane = 0; lane < kernel_packet; ++lane) {
       if ((packet.is_wanted >> lane & 1U) == 0) continue;
       const SmoothedRange before{rows.at[lane], smoothed_.variance[at + lane]};
+      const double noise = noise_.atInverse(before.inverse), variance = variance_ * noise * noise;
       std::optional<SmoothedRange> range;
       if ((packet.is_whole >> lane & 1U) != 0) {
-        range = smoothedFurther({packet.wide.value[lane], packet.wide.variance[lane]}, before, variance_);
+        range = smoothedFurther({packet.wide.value[lane], packet.wide.variance[lane]}, before, variance);
         if (!range) {
           if (!has_narrow) kernels().fitSquares5(rows, narrow);
           has_narrow = true;
-          range = smoothedNearer({narrow.value[lane], narrow.variance[lane]}, before, variance_);
+          range = smoothedNearer({narrow.value[lane], narrow.variance[lane]}, before, variance);
         }
       } else if (before.variance > harmless_at_edges * smoothed_.spacing_squared[at + lane]) {
         std::uint64_t around = 0;
         for (int i = 0; i < WindowPixels::count; ++i) around |= std::uint64_t{packet.within[i] >> lane & 1U} << i;
         // Windows of 55 pixels hold more than one bend, a third pass gains nothing, and rings lie too far apart.
         const bool may_bend = stride_ == strides.front() && !smoothed_.goes_round;
-        range = smoothedFurther({rows.at + lane, rows.row_step, rows.column_step}, around, before, variance_, may_bend);
+        range = smoothedFurther({rows.at + lane, rows.row_step, rows.column_step}, around, before, variance, may_bend);
       }
       if (!range) continue;
       after_[at + lane] = range->inverse;
@@ -157,8 +164,8 @@ class RangeSmoother {
     }
   }
 
-  double noise_;
-  double variance_;  ///< of the noise of the values
+  RangeNoise noise_;
+  double variance_;  ///< of the values, in variances of the noise
   int stride_;
   SmoothedRanges& smoothed_;
   RawBuffer<double>& after_;
@@ -185,10 +192,10 @@ void SmoothedRanges::clear(const PixelGrid& grid, const Workers& workers) {
   std::fill_n(spacing_squared.end() - kernel_packet, kernel_packet, 0);
 }
 
-void smoothFurther(SmoothedRanges& smoothed, double noise, const Workers& workers) {
+void smoothFurther(SmoothedRanges& smoothed, const RangeNoise& noise, const Workers& workers) {
   RawBuffer<double> after(smoothed.inverse.size());
   std::fill_n(after.end() - kernel_packet, kernel_packet, 0);
-  double variance = left_at_first * noise * noise;
+  double variance = left_at_first;
   // The rings of a scanner are few rows: 55 of them are most of the image, and no longer one surface.
   const std::ptrdiff_t passes = smoothed.goes_round ? passes_of_rings : std::ssize(strides);
   for (std::ptrdiff_t i = 0; i < passes; ++i) {
@@ -216,7 +223,7 @@ void moveAlongRays(const PixelGrid& grid, const PointsView& points, const Smooth
       const int p = grid.rank[std::int64_t{row} * grid.columns + column];
       if (p < 0) continue;
       const std::ptrdiff_t at = smoothed.at(row, column);
-      const double share = 1 / (windows.range[p] * smoothed.inverse[at]) - 1;
+      const double share = 1 / (grid.depthOf(points.row(p)) * smoothed.inverse[at]) - 1;
       const bool moves = smoothed.variance[at] > 0 && share != 0 && std::isfinite(share);
       moved[worker] += moves ? 1 : 0;
       if (moves) {

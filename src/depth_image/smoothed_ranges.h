@@ -8,6 +8,7 @@
 #include "base/point_buffer.h"
 #include "depth_image/pixel_grid.h"
 #include "depth_image/range_fit.h"
+#include "depth_image/range_noise.h"
 #include "depth_image/surface_windows.h"
 
 namespace tufted {
@@ -37,7 +38,7 @@ struct SmoothedRanges {
 /// over pixels that are 3 apart, then 9: over 19 pixels, then 55, and more by what was smoothed before. A third pass,
 /// 4 apart, takes what noise lies between those distances. The rings of a scanner get the first alone. What noise the
 /// values still have is told by the image.
-void smoothFurther(SmoothedRanges& smoothed, double noise, const Workers& workers);
+void smoothFurther(SmoothedRanges& smoothed, const RangeNoise& noise, const Workers& workers);
 
 /// Moves each point along its ray to the smoothed range: sets displacements, places and how many move.
 void moveAlongRays(const PixelGrid& grid, const PointsView& points, const SmoothedRanges& smoothed,

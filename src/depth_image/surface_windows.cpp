@@ -15,9 +15,14 @@ namespace {
 class WindowFinder {
  public:
   /// @param smoothed null: nothing moves
-  WindowFinder(const PixelGrid& grid, const PointsView& points, double noise, SurfaceWindows& windows,
+  WindowFinder(const PixelGrid& grid, const PointsView& points, const RangeNoise& noise, SurfaceWindows& windows,
                SmoothedRanges* smoothed)
-      : grid_(grid), points_(points), noise_(noise), test_(noise), windows_(windows), smoothed_(smoothed) {}
+      : grid_(grid),
+        points_(points),
+        noise_(noise),
+        test_(JumpTest::of(noise)),
+        windows_(windows),
+        smoothed_(smoothed) {}
 
   static int inTiles(int pixels, int tile) { return (pixels - 2 * PixelGrid::margin + tile - 1) / tile; }
   int tiles() const { return inTiles(grid_.rows, ImageTile::rows) * inTiles(grid_.columns, ImageTile::columns); }
@@ -48,7 +53,7 @@ class WindowFinder {
   /// Smooths a packet of pixels.
   /// @param at where they are in SmoothedRanges
   void smoothSome(const ImageTile& tile, int row, int column, const std::uint64_t* around, std::ptrdiff_t at) const {
-    std::array<double, kernel_packet> spacing_squared;
+    std::array<double, kernel_packet> spacing_squared, noise;
     tile.spacings(row, column, spacing_squared.data());
     const PixelRows rows{tile.inverseAt(row, column), ImageTile::rowStep(), 1};
     unsigned is_filled = 0, is_wanted = 0, is_narrow = 0, is_wide = 0;
@@ -56,7 +61,9 @@ class WindowFinder {
       if (tile.rankAt(row, column + lane) < 0) continue;
       const unsigned here = 1U << lane;
       is_filled |= here;
-      if ((around[lane] & WindowPixels::rings(1)) == 0 || !needsSmoothing(rows.at[lane], noise_, spacing_squared[lane]))
+      noise[lane] = noise_.atInverse(rows.at[lane]);
+      if ((around[lane] & WindowPixels::rings(1)) == 0 ||
+          !needsSmoothing(rows.at[lane], noise[lane], spacing_squared[lane]))
         continue;
       is_wanted |= here;
       if ((around[lane] & WindowPixels::rings(2)) == WindowPixels::rings(2)) is_narrow |= here;
@@ -71,7 +78,7 @@ class WindowFinder {
       if ((is_wanted >> lane & 1U) != 0) {
         const auto smoothed = smoothedInverseRange({rows.at + lane, rows.row_step, rows.column_step}, around[lane],
                                                    {narrow.value[lane], narrow.variance[lane]},
-                                                   {wide.value[lane], wide.variance[lane]}, noise_);
+                                                   {wide.value[lane], wide.variance[lane]}, noise[lane]);
         range = smoothed.value_or(range);
       }
       smoothed_->inverse[at + lane] = range.inverse;
@@ -82,7 +89,7 @@ class WindowFinder {
 
   const PixelGrid& grid_;
   PointsView points_;
-  double noise_;
+  RangeNoise noise_;
   JumpTest test_;
   SurfaceWindows& windows_;
   SmoothedRanges* smoothed_;
@@ -90,8 +97,8 @@ class WindowFinder {
 
 }  // namespace
 
-SurfaceWindows findSurfaceWindows(const PixelGrid& grid, const PointsView& points, double noise, bool smooths,
-                                  const Workers& workers) {
+SurfaceWindows findSurfaceWindows(const PixelGrid& grid, const PointsView& points, const RangeNoise& noise,
+                                  bool smooths, const Workers& workers) {
   SurfaceWindows windows;
   const auto n = static_cast<std::size_t>(points.rows());
   windows.around.assign(n, 0);
@@ -108,7 +115,7 @@ SurfaceWindows findSurfaceWindows(const PixelGrid& grid, const PointsView& point
   });
   windows.cut = std::accumulate(cut.begin(), cut.end(), std::int64_t{0});
   if (!smooths) return windows;
-  cutFaintJumps(grid, noise, windows, smoothed);
+  cutFaintJumps(grid, points, noise, windows, smoothed);
   fillMissingPixels(grid, noise, workers, smoothed);
   smoothFurther(smoothed, noise, workers);
   moveAlongRays(grid, points, smoothed, workers, windows);

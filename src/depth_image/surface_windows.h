@@ -9,6 +9,7 @@
 #include "base/point_buffer.h"
 #include "depth_image/inverse_slope.h"
 #include "depth_image/pixel_grid.h"
+#include "depth_image/range_noise.h"
 #include "depth_image/window_pixels.h"
 
 namespace tufted {
@@ -27,9 +28,9 @@ struct SurfaceWindows {
   std::int64_t moved = 0;      ///< points whose displacement is not 0
 };
 
-/// @param noise see inverseRangeNoise()
-SurfaceWindows findSurfaceWindows(const PixelGrid& grid, const PointsView& points, double noise, bool smooths,
-                                  const Workers& workers);
+/// @param noise see rangeNoise()
+SurfaceWindows findSurfaceWindows(const PixelGrid& grid, const PointsView& points, const RangeNoise& noise,
+                                  bool smooths, const Workers& workers);
 
 /// Whether a surface goes from one point to another near it in the image: the step between them does not go along the
 /// line of sight by more than noise. A step along the diagonal of pixels may go along the sight no more than one along
@@ -41,12 +42,7 @@ struct JumpTest {
   static constexpr double steepest_of_rings = 32;
   static constexpr double deviations = 5;  ///< of the noise are no jump
 
-  explicit JumpTest(double noise) : tolerance(deviations * noise) {}
-  static JumpTest withTolerance(double tolerance) {
-    JumpTest test(0);
-    test.tolerance = tolerance;
-    return test;
-  }
+  static JumpTest of(const RangeNoise& noise) { return {deviations * noise}; }
 
   /// @param step in the image, not zero
   static constexpr double steepestOf(const PixelStep& step, double along_rows = steepest) {
@@ -57,7 +53,7 @@ struct JumpTest {
   /// @param most the square of the tangent, see steepestOf()
   bool joins(double squared_step, double range_a, double range_b, double most = steepest) const {
     const double along = std::abs(range_a - range_b);
-    const double more = along - tolerance * range_a * range_b;
+    const double more = along - tolerance.of_inverse * range_a * range_b - tolerance.of_range;
     // Without branches, so that many are tested at once.
     return (static_cast<int>(more <= 0) | static_cast<int>(more * more <= most * (squared_step - along * along))) != 0;
   }
@@ -67,11 +63,11 @@ struct JumpTest {
   bool joins(double squared_step, double range_a, double range_b, double most, const Rise& rise) const {
     const double product = range_a * range_b, along = range_a - range_b;
     const double beyond = std::max({0.0, along - rise.most * product, rise.least * product - along});
-    const double more = beyond - tolerance * product;
+    const double more = beyond - tolerance.of_inverse * product - tolerance.of_range;
     return more <= 0 || more * more <= most * (squared_step - along * along);
   }
 
-  double tolerance;  ///< of inverse ranges
+  RangeNoise tolerance;
 };
 
 }  // namespace tufted

@@ -24,7 +24,7 @@ CloudSurface imageSurface(PixelGrid grid, const RankedCloud& cloud, const CloudO
   report.unplaced = surface.unplaced;
   report.cut_neighbors = surface.windows.cut;
   report.denoised = surface.windows.moved;
-  report.noise = PowerOfTwo(cloud.exponent).times(surface.noiseOfMoved());
+  report.noise = PowerOfTwo(cloud.exponent).times(surface.noiseOfMoved(cloud.points));
   clock.finish("windows", surface.bytes());
   const DepthImage image = surface.view(cloud.points);
   BuiltStars built = buildImageStars(image, normals, options, workers, report);

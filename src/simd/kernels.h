@@ -233,21 +233,24 @@ struct Kernels {
   void (*fitSquares5)(const PixelRows& rows, SquareFits& fits);
   void (*fitSquares7)(const PixelRows& rows, SquareFits& fits);
   /// For each step whether JumpTest joins each pixel of a row with the one that the step leads to: bits of 64 pixels.
-  void (*joinPixels)(const PixelPoints& pixels, const PixelSteps& steps, double tolerance, std::uint64_t* joined);
-  /// The mean squared spacing, in inverse range, between each of eight pixels and those beside it that are chosen; 0
+  /// @param of_inverse,of_range its tolerance
+  void (*joinPixels)(const PixelPoints& pixels, const PixelSteps& steps, double of_inverse, double of_range,
+                     std::uint64_t* joined);
+  /// The mean squared spacing, in inverse depth, between each of eight pixels and those beside it that are chosen; 0
   /// where none is.
   /// @param shift of the pixels of ring 1
   /// @param beside of each of them, for which lanes it is chosen
-  void (*spacingsOf)(const PixelPoints& pixels, const int* shift, const unsigned char* beside, double* squared);
-  /// Which values of a 7 x 7 window differ from the middle by at most the lane's slope times the ring, plus the
+  void (*spacingsOf)(const PixelPoints& pixels, const double* inverse_depth, const int* shift,
+                     const unsigned char* beside, double* squared);
+  /// Which values of a 7 x 7 window differ from the middle by at most the lane's slope times the ring, plus its
   /// tolerance; what is no number differs.
   /// @param values in the middle of each of eight windows
   /// @param shift to each pixel of the window
   /// @param wanted lanes
   /// @param[out] within for each pixel of the window, the lanes; not set where those wanted are within as a whole
   /// @returns the lanes of which all are within
-  unsigned (*squaresWithin)(const double* values, const std::ptrdiff_t* shift, const double* slope, double tolerance,
-                            unsigned wanted, unsigned char* within);
+  unsigned (*squaresWithin)(const double* values, const std::ptrdiff_t* shift, const double* slope,
+                            const double* tolerance, unsigned wanted, unsigned char* within);
   // NOLINTEND(readability-identifier-naming)
 };
 

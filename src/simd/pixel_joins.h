@@ -11,17 +11,18 @@ TUFTED_INLINE Part differenceOf(const double* values, int shift, int at) {
 }
 
 /// JumpTest of depth_image/surface_windows.h.
-void joinPixels(const PixelPoints& pixels, const PixelSteps& steps, double tolerance, std::uint64_t* joined) {
+void joinPixels(const PixelPoints& pixels, const PixelSteps& steps, double of_inverse, double of_range,
+                std::uint64_t* joined) {
   const PixelPoints given = pixels;  // a copy, which what is written below cannot change
   for (int s = 0; s < steps.count; ++s) joined[s] = 0;
   for (int at = 0; at < pixels_in_word; at += part_size) {
-    const Part range = loadPart(given.range + at), allowed = broadcastPart(tolerance) * range;
+    const Part range = loadPart(given.range + at), allowed = broadcastPart(of_inverse) * range;
     for (int s = 0; s < steps.count; ++s) {
       const int shift = steps.shift[s];
       const Part x = differenceOf(given.x, shift, at), y = differenceOf(given.y, shift, at),
                  z = differenceOf(given.z, shift, at);
       const Part there = loadPart(given.range + shift + at), along = absolute(range - there);
-      const Part more = along - allowed * there;
+      const Part more = along - allowed * there - broadcastPart(of_range);
       const Part across = x * x + y * y + z * z - along * along;
       const unsigned are_near = bitsOf(isAtMost(more, broadcastPart(0)));
       const unsigned are_flat = bitsOf(isAtMost(more * more, broadcastPart(steps.most[s]) * across));
@@ -30,7 +31,8 @@ void joinPixels(const PixelPoints& pixels, const PixelSteps& steps, double toler
   }
 }
 
-void spacingsOf(const PixelPoints& pixels, const int* shift, const unsigned char* beside, double* squared) {
+void spacingsOf(const PixelPoints& pixels, const double* inverse_depth, const int* shift, const unsigned char* beside,
+                double* squared) {
   for (int at = 0; at < packet_size; at += part_size) {
     const Part zero = broadcastPart(0), one = broadcastPart(1);
     Part across = zero, count = zero;
@@ -41,18 +43,19 @@ void spacingsOf(const PixelPoints& pixels, const int* shift, const unsigned char
       across = across + select(is_beside, x * x + y * y + z * z - along * along, zero);
       count = count + select(is_beside, one, zero);
     }
-    const Part inverse = one / loadPart(pixels.range + at), square = inverse * inverse;
-    store(select(isLess(zero, count), across / count * square * square, zero), squared + at);
+    // A way d along the ray changes the inverse depth by d over range and depth.
+    const Part change = loadPart(inverse_depth + at) / loadPart(pixels.range + at);
+    store(select(isLess(zero, count), across / count * change * change, zero), squared + at);
   }
 }
 
-unsigned squaresWithin(const double* values, const std::ptrdiff_t* shift, const double* slope, double tolerance,
+unsigned squaresWithin(const double* values, const std::ptrdiff_t* shift, const double* slope, const double* tolerance,
                        unsigned wanted, unsigned char* within) {
   // Rings of 8, 16 and 24.
   const auto compare = [&](int part, const auto& take) {
-    const Part middle = loadPart(values + part), rise = loadPart(slope + part);
+    const Part middle = loadPart(values + part), rise = loadPart(slope + part), rest = loadPart(tolerance + part);
     for (int ring = 1, i = 0; ring <= 3; ++ring) {
-      const Part most = broadcastPart(ring) * rise + broadcastPart(tolerance);
+      const Part most = broadcastPart(ring) * rise + rest;
       for (const int end = i + 8 * ring; i < end; ++i)
         take(i, isAtMost(absolute(loadPart(values + shift[i] + part) - middle), most));
     }

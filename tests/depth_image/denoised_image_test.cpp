@@ -63,6 +63,24 @@ double rootMeanSquare(const Points& a, const Points& b) {
   return std::sqrt((a - b).squaredNorm() / static_cast<double>(a.rows()));
 }
 
+// Noise of ranges, which is alike near and far: where it was taken for that of disparities, points nearby stayed.
+TEST(DenoisedImage, OfASensorThatTimesLightLosesItsNoiseNearAndFar) {
+  const ScanStructure structure = imageStructure(width, height);
+  const double noise = 5e-3;
+  const auto depth = [](int, int row) { return 0.5 / (1 - 0.018 * row); };  // a floor from .5 to 4 m
+  shapes::Random random(3);
+  const Points surface = image_tests::imageOf(depth);
+  const Points measured =
+      image_tests::imageOf([&](int column, int row) { return depth(column, row) + noise * random.normal(); });
+  const DenoisedPoints done = denoise(measured, {.structure = &structure});
+  const auto errorOf = [&](const Points& points, int first_row, int rows) {
+    return rootMeanSquare(points.middleRows(first_row * width, rows * width),
+                          surface.middleRows(first_row * width, rows * width));
+  };
+  EXPECT_LT(errorOf(done.positions, 0, 10), 0.4 * errorOf(measured, 0, 10)) << "near";
+  EXPECT_LT(errorOf(done.positions, 30, 10), 0.4 * errorOf(measured, 30, 10)) << "far";
+}
+
 TEST(DenoisedImage, OfACoarseDepthWithoutNoiseLiesOnTheSurface) {
   // Steps are 16 columns apart, so that most rows of five pixels are exact.
   const ScanStructure structure = imageStructure(width, height);

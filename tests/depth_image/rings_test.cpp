@@ -53,7 +53,7 @@ class Rings {
     image_ = columnsOfRings(rankScan(structure, cloud_, status_, representative_), cloud_.points, workers);
     if (!image_) return;
     surface_.grid = pixelGrid(image_->scan, image_->columns);
-    surface_.windows = findSurfaceWindows(surface_.grid, cloud_.points, 0, false, workers);
+    surface_.windows = findSurfaceWindows(surface_.grid, cloud_.points, {}, false, workers);
   }
 
   bool areImage() const { return image_.has_value(); }

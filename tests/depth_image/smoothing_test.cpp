@@ -26,10 +26,17 @@ Points noisy(const std::function<double(int, int)>& depth, double noise, int see
 }
 
 /// In units of the caller.
-double noiseOf(const Points& points) {
+RangeNoise lawOf(const Points& points) {
   const Image image(points);
   const Progress silent;
-  return std::ldexp(inverseRangeNoise(image.grid(), image.cloud().points, Workers(2, silent)), -image.cloud().exponent);
+  const RangeNoise noise = rangeNoise(image.grid(), image.cloud().points, Workers(2, silent));
+  return {std::ldexp(noise.of_inverse, -image.cloud().exponent), std::ldexp(noise.of_range, image.cloud().exponent)};
+}
+
+double noiseOf(const Points& points) {
+  const RangeNoise noise = lawOf(points);
+  EXPECT_EQ(noise.of_range, 0);
+  return noise.of_inverse;
 }
 
 double slanted(int column, int row) {
@@ -41,16 +48,56 @@ double ball(int column, int row) {
   return 2 - std::sqrt(1 - u * u - v * v);
 }
 
-TEST(InverseRangeNoise, IsFoundOnSurfacesOfAnyShape) {
+TEST(RangeNoise, IsFoundOnSurfacesOfAnyShape) {
   for (const auto& depth : {slanted, ball})
     for (const double noise : {1e-4, 1e-3, 1e-2}) EXPECT_NEAR(noiseOf(noisy(depth, noise, 1)), noise, 0.1 * noise);
 }
 
-TEST(InverseRangeNoise, IsNotCurvature) {
+TEST(RangeNoise, IsNotCurvature) {
   for (const auto& depth : {slanted, ball}) EXPECT_LT(noiseOf(imageOf(depth)), 1e-7);
 }
 
-TEST(InverseRangeNoise, IsNotJumps) {
+/// A floor from 1 to 5 m.
+double floorDepth(int, int row) {
+  return 1 / (1 - 0.016 * row);
+}
+
+/// The floor with noise of the range that grows with a power of it.
+Points noisyFloor(double noise, double power, int seed) {
+  shapes::Random random(seed);
+  return imageOf([&](int column, int row) {
+    const double depth = floorDepth(column, row);
+    return depth + noise * std::pow(depth, power) * random.normal();
+  });
+}
+
+TEST(RangeNoise, OfASensorThatTimesLightIsThatOfRanges) {
+  for (int seed = 1; seed <= 3; ++seed) {
+    const RangeNoise timed = lawOf(noisyFloor(2e-3, 0, seed));
+    EXPECT_NEAR(timed.of_range, 2e-3, 2e-4) << seed;
+    EXPECT_LT(timed.of_inverse, 2e-5) << seed;
+    const RangeNoise disparities = lawOf(noisyFloor(2e-3, 2, seed));
+    EXPECT_NEAR(disparities.of_inverse, 2e-3, 2e-4) << seed;
+    EXPECT_EQ(disparities.of_range, 0) << seed;
+  }
+}
+
+TEST(RangeNoise, ThatGrowsWithTheRangeIsASumOfBothLaws) {
+  for (int seed = 1; seed <= 3; ++seed) {
+    const RangeNoise noise = lawOf(noisyFloor(2e-3, 1, seed));
+    for (const double range : {1.2, 2.0, 4.0})
+      EXPECT_NEAR(noise.atRange(range, range), 2e-3 * range, 7e-4 * range) << seed;
+  }
+}
+
+TEST(RangeNoise, OfACoarseDepthIsThatOfInverseRanges) {
+  const double step = 0.004;
+  const Points coarse = imageOf(
+      [&](int column, int row) { return 1 / (step * std::round(1 / floorDepth(column, row + column / 20) / step)); });
+  EXPECT_EQ(lawOf(coarse).of_range, 0);
+}
+
+TEST(RangeNoise, IsNotJumps) {
   const auto stripes = [](int column, int row) { return column % 12 < 6 ? slanted(column, row) : 1.5; };
   EXPECT_NEAR(noiseOf(noisy(stripes, 1e-3, 2)), 1e-3, 2e-4);
   EXPECT_EQ(noiseOf(Points::Constant(width * height, 3, std::nan(""))), 0);

@@ -45,11 +45,12 @@ TEST(PixelJoins, AreThoseOfTheTestForTwoPoints) {
     shift[s] = steps[s].row * columns + steps[s].column;
     most[s] = JumpTest::steepestOf(steps[s]) / 100;  // some fail
   }
-  for (const double noise : {0.0, 0.01}) {
-    const JumpTest test(noise);
+  for (const RangeNoise& noise : {RangeNoise{0, 0}, {0.01, 0}, {0, 0.01}, {0.004, 0.006}}) {
+    const JumpTest test = JumpTest::of(noise);
     for (const Kernels* kernel : {&kernels(), &portableKernels()}) {
       std::array<std::uint64_t, steps.size()> joined;
-      kernel->joinPixels(image.at(first), {steps.size(), shift.data(), most.data()}, test.tolerance, joined.data());
+      const PixelSteps all{steps.size(), shift.data(), most.data()};
+      kernel->joinPixels(image.at(first), all, test.tolerance.of_inverse, test.tolerance.of_range, joined.data());
       for (std::size_t s = 0; s < steps.size(); ++s) {
         EXPECT_NE(joined[s], 0U);
         EXPECT_NE(~joined[s], 0U);
@@ -70,8 +71,9 @@ TEST(PixelJoins, GiveSpacingsOfTheChosenPixels) {
   std::array<unsigned char, pixels_beside> beside = {0x01, 0x83, 0x10, 0xFE, 0x04, 0x80, 0x22, 0x00};
   for (auto& lanes : beside) lanes = static_cast<unsigned char>(lanes & ~0x08);  // lane 3 has none
   for (const Kernels* kernel : {&kernels(), &portableKernels()}) {
-    std::array<double, kernel_packet> squared;
-    kernel->spacingsOf(image.at(first), shift.data(), beside.data(), squared.data());
+    std::array<double, kernel_packet> inverse, squared;
+    for (int lane = 0; lane < kernel_packet; ++lane) inverse[lane] = 1.5 / image.range[first + lane];
+    kernel->spacingsOf(image.at(first), inverse.data(), shift.data(), beside.data(), squared.data());
     EXPECT_EQ(squared[3], 0);
     for (int lane = 0; lane < kernel_packet; ++lane) {
       if (lane == 3) continue;
@@ -80,11 +82,11 @@ TEST(PixelJoins, GiveSpacingsOfTheChosenPixels) {
       for (int i = 0; i < pixels_beside; ++i) {
         if ((beside[i] >> lane & 1) == 0) continue;
         const int b = a + shift[i];
-        // What lies across the line of sight, as inverse ranges of points near each other differ.
+        // What lies across the line of sight, as ranges of points near each other differ.
         sum += image.squaredStep(a, b) - std::pow(image.range[a] - image.range[b], 2);
         ++count;
       }
-      EXPECT_NEAR(squared[lane], sum / count / std::pow(image.range[a], 4), 1e-15) << lane;
+      EXPECT_NEAR(squared[lane], sum / count * std::pow(1.5 / image.range[a] / image.range[a], 2), 1e-15) << lane;
     }
   }
 }

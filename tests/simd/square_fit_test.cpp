@@ -58,30 +58,35 @@ TEST(SquareFit, SeesWhichValuesStayWithinASlope) {
     shift[i] = window_pixels.step[i].row * columns + window_pixels.step[i].column;
   for (const Kernels* kernel : {&kernels(), &portableKernels()}) {
     std::array<unsigned char, pixels_of_window> within;
-    const auto whole = [&](double tolerance) {
+    std::array<double, kernel_packet> tolerance;
+    const auto whole = [&](double of_all) {
       within.fill(0x55);
-      return kernel->squaresWithin(&image[middle], shift.data(), slope.data(), tolerance, 0xFF, within.data());
+      tolerance.fill(of_all);
+      return kernel->squaresWithin(&image[middle], shift.data(), slope.data(), tolerance.data(), 0xFF, within.data());
     };
-    const auto expectEachWithin = [&](double tolerance) {
+    const auto expectEachWithin = [&] {
       for (int i = 0; i < pixels_of_window; ++i) {
         for (int lane = 0; lane < kernel_packet; ++lane) {
           const double difference = std::abs(image[middle + lane + shift[i]] - image[middle + lane]);
-          const bool is_within = difference <= slope[lane] * window_pixels.step[i].ring() + tolerance;
+          const bool is_within = difference <= slope[lane] * window_pixels.step[i].ring() + tolerance[lane];
           EXPECT_EQ(within[i] >> lane & 1, is_within ? 1 : 0) << i << ' ' << lane;
         }
       }
     };
     EXPECT_EQ(whole(1e-9), 0xFDU);
-    expectEachWithin(1e-9);
+    expectEachWithin();
+    tolerance[1] = 0.1;  // each lane has its own
+    EXPECT_EQ(kernel->squaresWithin(&image[middle], shift.data(), slope.data(), tolerance.data(), 0xFF, within.data()),
+              0xFFU);
     EXPECT_EQ(whole(0.1), 0xFFU);
     EXPECT_EQ(within[0], 0x55);     // all are whole, so there is nothing to tell
     image[6 * columns + 20] = NAN;  // in the windows of pixels 17 to 23
     EXPECT_EQ(whole(0.1), 0x7FU);
-    expectEachWithin(0.1);
+    expectEachWithin();
     image[6 * columns + 20] = 0.1 * 20 + 0.2 * 6;
     image[middle] = NAN;  // a middle, and in the windows of the next three
     EXPECT_EQ(whole(0.1), 0xF0U);
-    expectEachWithin(0.1);
+    expectEachWithin();
     image[middle] = 0.1 * 10 + 0.2 * 3;
   }
 }

@@ -32,8 +32,8 @@ constexpr const char* footer =
 There is no radius to choose: how wide a surface is fitted follows from the noise around each point and the bend of the
 surface. Exact points, outliers, and whatever cannot be told from the shape of the surface stay as they are, bit for bit.
 An organized cloud that a pinhole camera saw from the file's viewpoint is a depth image, as any is with --structure
-image: its points move along the camera's rays, by noise that grows with the square of the distance, as that of stereo
-and structured light does. Noise of a time-of-flight camera hardly grows: --structure none takes its image as any cloud.
+image: its points move along the camera's rays. How noise grows with the distance the image tells itself: with the square
+as in stereo and structured light, hardly as in time of flight, or between.
 Every build does the same by itself, unless the preset is clean or lidar; --denoise asks for it with these, too.
 
 Writes into DIR, renamed one after the other when all are complete:

@@ -1,3 +1,5 @@
+#include "neighbors/scan/pinhole.h"
+
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -15,12 +17,6 @@ constexpr int least_samples = 100;
 constexpr double usual_error = 0.5;  // pixels, of half the samples
 constexpr double most_error = 2;     // of 95 % of them
 constexpr double most_share = 0.95;
-
-/// A pixel and the ray to the point that is in it.
-struct Sighting {
-  Eigen::Vector2d pixel;  ///< from -1 to 1
-  Eigen::Vector3d ray;    ///< unit length
-};
 
 std::vector<Sighting> takeSightings(const Points& points, int width, int height, const Eigen::Vector3d& origin) {
   std::vector<Sighting> sightings;
@@ -55,12 +51,8 @@ Eigen::Matrix3d fitCamera(const std::vector<Sighting>& sightings) {
 
 }  // namespace
 
-bool isDepthImage(const Points& points, int width, int height, const Eigen::Vector3d& origin) {
-  if (width < least_side || height < least_side || points.rows() != static_cast<Eigen::Index>(width) * height ||
-      !origin.allFinite())
-    return false;
-  const std::vector<Sighting> sightings = takeSightings(points, width, height, origin);
-  if (std::ssize(sightings) < least_samples) return false;
+std::optional<Eigen::Vector3d> opticalAxis(const std::vector<Sighting>& sightings, int width, int height) {
+  if (width < least_side || height < least_side || std::ssize(sightings) < least_samples) return std::nullopt;
   const Eigen::Matrix3d camera = fitCamera(sightings);
   std::vector<double> errors;
   std::int64_t before = 0;  // points in front of the camera, one way round
@@ -71,13 +63,22 @@ bool isDepthImage(const Points& points, int width, int height, const Eigen::Vect
     const double pixels = std::max(std::abs(error.x()) * (width - 1), std::abs(error.y()) * (height - 1)) / 2;
     errors.push_back(std::isfinite(pixels) ? pixels : HUGE_VAL);
   }
-  const std::int64_t on_one_side = std::max(before, std::ssize(errors) - before);
+  const std::int64_t behind = std::ssize(errors) - before, on_one_side = std::max(before, behind);
   std::sort(errors.begin(), errors.end());
   const auto errorOf = [&](double share) {
     return errors[static_cast<std::size_t>(share * static_cast<double>(errors.size() - 1))];
   };
-  return static_cast<double>(on_one_side) >= most_share * static_cast<double>(errors.size()) &&
-         errorOf(0.5) <= usual_error && errorOf(most_share) <= most_error;
+  const bool sees_all = static_cast<double>(on_one_side) >= most_share * static_cast<double>(errors.size()) &&
+                        errorOf(0.5) <= usual_error && errorOf(most_share) <= most_error;
+  if (!sees_all) return std::nullopt;
+  return camera.row(2).transpose().normalized() * (before > behind ? 1 : -1);
+}
+
+bool isDepthImage(const Points& points, int width, int height, const Eigen::Vector3d& origin) {
+  if (width < least_side || height < least_side || points.rows() != static_cast<Eigen::Index>(width) * height ||
+      !origin.allFinite())
+    return false;
+  return opticalAxis(takeSightings(points, width, height, origin), width, height).has_value();
 }
 
 }  // namespace tufted
