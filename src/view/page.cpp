@@ -9,6 +9,7 @@
 #include "view/color_maps.h"
 #include "view/page_block.h"
 #include "view/page_columns.h"
+#include "view/path_line.h"
 #include "view/projection.h"
 #include "view/shown_values.h"
 #include "view/spacing.h"
@@ -188,6 +189,7 @@ Json sceneJson(const Scene& scene, const PageOptions& options, PageBlocks& block
                {"fields", Json::array()},
                {"maps", mapsJson()},
                {"noValue", no_value_color},
+               {"pathColor", view::path_color},
                {"start",
                 {{"field", options.field},
                  {"column", options.column},
@@ -205,6 +207,8 @@ Json sceneJson(const Scene& scene, const PageOptions& options, PageBlocks& block
   if (scene.triangles.rows() > 0)
     json["triangles"] =
         blocks.add(std::vector<std::uint32_t>(scene.triangles.data(), scene.triangles.data() + scene.triangles.size()));
+  if (scene.path.rows() > 0)
+    json["path"] = blocks.add(std::vector<double>(scene.path.data(), scene.path.data() + scene.path.size()));
   for (const SceneField& field : scene.fields) json["fields"].push_back(fieldJson(field, blocks));
   return json;
 }

@@ -6,6 +6,7 @@
 #include "view/arrows.h"
 #include "view/field_colors.h"
 #include "view/legend.h"
+#include "view/path_line.h"
 #include "view/png_file.h"
 #include "view/projection.h"
 #include "view/samples.h"
@@ -45,6 +46,7 @@ Picture drawPicture(const Scene& scene, const PictureOptions& options) {
   Picture picture = view::shade(seen, colors, options);
   view::Canvas canvas(picture);
   if (colors.field != nullptr && colors.field->kind == FieldKind::vector) view::drawArrows(seen, colors, canvas);
+  view::drawPath(seen, layout.text_size, canvas);
   view::drawLegend(scene, colors, options, layout, canvas);
   return picture;
 }

@@ -60,6 +60,17 @@ TEST_F(View, EverySubcommandShowsItsResult) {
   }
 }
 
+TEST_F(View, OfAPathShowsIt) {
+  const std::string size = "200x150";
+  run({"path", mesh_, "--from", "1", "--to", "2", "--out", in("path"), "--png", in("path.png"), "--view",
+       in("path.html"), "--size", size});
+  EXPECT_TRUE(contains(readAll(dir_ / "path.html"), "\"path\":"));
+  run({"distance", mesh_, "--source", "1", "--out", in("distance"), "--png", in("distance.png"), "--size", size});
+  EXPECT_NE(readAll(dir_ / "path.png"), readAll(dir_ / "distance.png"));  // without a title, so small
+  run({"view", in("path"), "--out", in("again.html"), "--png", in("again.png"), "--size", size, "--color", "distance"});
+  EXPECT_TRUE(contains(readAll(dir_ / "again.html"), "\"path\":"));
+}
+
 TEST_F(View, OfAFolderShowsWhatASubcommandWrote) {
   run({"spectrum", cloud_, "--count", "3", "--out", in("modes")});
   run({"view", in("modes")});

@@ -172,6 +172,19 @@ def test_vectors(page, dir):
     untroubled(page, dir / "whirl.html")
 
 
+def test_paths(page, dir):
+    page.open(dir / "walk.html")
+    red = page.run("return JSON.parse(document.getElementById('scene').textContent).pathColor")
+    on, begin, beyond = page.color(row_at(-0.4, 0.2), row_at(-0.8, 0.2), row_at(0.4, 0.2))
+    close(on, red)
+    close(begin, [255, 255, 255])  # a ring
+    close(beyond, of_map(map_colors(page, "viridis"), 0.7))  # the path has ended
+    page.set(clip="x", clip_at=0.05)
+    back = page.run("return tufted.stage.scene.background.toArray().map((c) => 255 * c)")
+    close(page.color(row_at(-0.4, 0.2))[0], back)
+    untroubled(page, dir / "walk.html")
+
+
 def test_touch_on_a_phone(page, dir):
     page.resize(390, 844, mobile=True, scale=2)
     page.open(dir / "plane.html")

@@ -82,6 +82,15 @@ Scene whirl() {
   return {.title = "whirl", .positions = points, .fields = {{"around", FieldKind::vector, vectors, "m/s"}}};
 }
 
+/// A square with a path along y = 0.2, from the left to the middle.
+Scene walk() {
+  Scene scene = {.title = "walk", .positions = square(101)};
+  scene.fields = {{"x", FieldKind::scalar, scene.positions.col(0)}};
+  scene.path.resize(3, 3);
+  scene.path << -0.8, 0.2, 0, -0.7, 0.2, 0, 0, 0.2, 0;
+  return scene;
+}
+
 /// What a depth camera sees: a floor that runs away from it, and a wall that stands on it and ends in the air. Rows of
 /// the image one after another; a column and a corner have no depth.
 Scene depthImage() {
@@ -145,6 +154,7 @@ int main(int argc, char** argv) try {
   tufted::writePage(dir / "plane.html", plane(), from_above);
   tufted::writePage(dir / "sphere.html", sphere());
   tufted::writePage(dir / "whirl.html", whirl(), from_above);
+  tufted::writePage(dir / "walk.html", walk(), from_above);
   tufted::writePage(dir / "depth.html", depthImage(), {.camera = {.eye = {0.3, -0.8, -1}, .up = {0, -1, 0}}});
   tufted::writePage(dir / "hostile.html", hostile(), from_above);
   tufted::writePage(dir / "empty.html", {.title = "empty", .positions = Points(0, 3)});

@@ -34,7 +34,7 @@ Eigen::MatrixXd unpacked(const tufted::Field& field, Eigen::Index rows) {
 
 bool isShown(const std::string& name) {
   return !isOneOf(name, {"evals", "principal_directions", "frames", "measured_positions", "M", "status",
-                         "representative", "components"});
+                         "representative", "components", "path"});
 }
 
 FieldKind kindOfResult(const std::string& name, Eigen::Index columns) {
@@ -113,12 +113,14 @@ tufted::Scene sceneOf(const std::string& title, const tufted::Geometry& geometry
     scene.normals = geometry.normals;
   else if (laplacian.frames.normals.rows() == n)
     scene.normals = laplacian.frames.normals;
-  for (const tufted::ResultArray& array : arrays)
+  for (const tufted::ResultArray& array : arrays) {
+    if (array.name == "path") scene.path = array.values;
     if (isShown(array.name) && array.values.rows() == n && array.values.cols() > 0)
       scene.fields.push_back({.name = array.name,
                               .kind = kindOfResult(array.name, array.values.cols()),
                               .values = array.values,
                               .column_names = columnNamesOf(array.name, array.values.cols())});
+  }
   for (SceneField& field : scene.fields) {
     if (field.kind == FieldKind::label) continue;
     for (Eigen::Index i = 0; i < n && !laplacian.status.empty(); ++i) {

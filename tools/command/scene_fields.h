@@ -33,6 +33,6 @@ tufted::SceneField boundaryField(Eigen::MatrixXd values);
 std::vector<tufted::SceneField> fieldsOf(const tufted::Geometry& geometry);
 
 /// The scene of results: arrays per point first, then mass, boundary and components of the Laplacian, then the fields
-/// of the file. Points that take no part have no value.
+/// of the file. Points that take no part have no value. An array `path` is drawn as a line.
 tufted::Scene sceneOf(const std::string& title, const tufted::Geometry& geometry, const tufted::Laplacian& laplacian,
                       const std::vector<tufted::ResultArray>& arrays);

@@ -46,7 +46,8 @@ int orderOf(const std::string& name) {
   return std::find(std::begin(last), std::end(last), name) == std::end(last) ? 0 : 1;
 }
 
-/// Adds the arrays of a row per point, in place of the fields of the copy of the points that they are also in.
+/// Adds the path where there is one, and the arrays of a row per point, in place of the fields of the copy of the
+/// points that they are also in.
 void addArrays(const std::filesystem::path& folder, Scene& scene) {
   std::vector<std::filesystem::path> files;
   for (const auto& entry : std::filesystem::directory_iterator(folder))
@@ -60,6 +61,10 @@ void addArrays(const std::filesystem::path& folder, Scene& scene) {
     if (name == "frames" || name == "measured_positions" || name == "representative" || name == "filtered_positions")
       continue;
     Eigen::MatrixXd values = tufted::readArray(file);
+    if (name == "path") {
+      if (values.cols() == 3) scene.path = values;
+      continue;
+    }
     if (values.rows() != scene.positions.rows() || values.cols() == 0) continue;
     const std::string shown = name == "M" ? "mass" : name == "components" ? "component" : name;
     const FieldKind kind = kindOfResult(shown, values.cols());

@@ -47,6 +47,7 @@ struct Scene {
   Points normals = {};       ///< N x 3, of any length and either sign, for light; 0 x 3 where nobody knows them
   std::vector<SceneField> fields = {};  ///< what can be shown, the first one first
   std::string unit = {};                ///< of the positions, "m"; may be empty
+  Points path = {};  ///< K x 3: the corners of one line on the surface, from its beginning to its end; 0 x 3: none
 };
 
 /// Checks that the parts of a scene fit together.

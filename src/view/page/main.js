@@ -6,7 +6,7 @@
 import { Color, Vector3 } from 'three';
 import { canHaveLines, hasLines, intervalOf, mapOf, startState } from './choices.js';
 import { colorMaps, mapTexture } from './color.js';
-import { integers, positions, radii } from './data.js';
+import { doubles, integers, positions, radii } from './data.js';
 import { hasColumns, legendOf, pairsOf, tintsOf, unpacked, valueText } from './fields.js';
 import { count, number, stepped, withUnit } from './format.js';
 import { showLegend } from './legend.js';
@@ -252,6 +252,8 @@ async function start() {
   const directions = scene.normals === undefined ? null : await integers(scene.normals, Uint8Array);
   const triangles = scene.triangles === undefined ? null : await integers(scene.triangles, Uint32Array);
   stage = new Stage(get('canvas'), places, await radii(scene, places), directions, triangles, pointer);
+  if (scene.path !== undefined)
+    stage.showPath(await doubles(scene.path), scene.pathColor.map((channel) => channel / 255));
   if (stage.triangles) state.shown = 'triangles';
   fillHelp(get('help'));
   if (matchMedia('(max-width: 760px)').matches) get('panel').classList.add('folded');

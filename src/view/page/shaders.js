@@ -148,6 +148,52 @@ export const arrowFragment = `
     gl_FragColor = vec4(v_color * light, 1.0);
   }`;
 
+// Each stroke is as wide on the screen wherever it is, with round ends.
+export const pathVertex = `
+  attribute vec3 begin, end;
+  attribute vec3 shade;
+  attribute float width;
+  uniform vec2 screen;     // pixels
+  uniform float ratio;     // pixels of the screen in one of the page
+  uniform float path_lift; // towards the eye, so that the surface that it lies on does not hide it
+  uniform vec4 clip;
+  varying vec3 v_color;
+  varying vec2 v_place;    // along and across the stroke, in pixels
+  varying float v_length, v_half;
+  vec4 lifted(vec3 place) {
+    vec3 eye = (modelViewMatrix * vec4(place, 1.0)).xyz;
+    return projectionMatrix * vec4(eye * (1.0 - min(path_lift / length(eye), 0.5)), 1.0);
+  }
+  void main() {
+    const float nearest = 1e-4;
+    vec4 a = lifted(begin), b = lifted(end);
+    v_color = shade;
+    gl_Position = vec4(2.0, 2.0, 2.0, 1.0);
+    if (max(a.w, b.w) < nearest || dot(clip.xyz, begin) > clip.w) return;
+    if (a.w < nearest) a = mix(b, a, (b.w - nearest) / (b.w - a.w));
+    if (b.w < nearest) b = mix(a, b, (a.w - nearest) / (a.w - b.w));
+    vec2 from = 0.5 * screen * a.xy / a.w, to = 0.5 * screen * b.xy / b.w;
+    v_length = distance(from, to);
+    v_half = 0.5 * width * ratio;
+    vec2 along = v_length > 0.0 ? (to - from) / v_length : vec2(1.0, 0.0);
+    vec2 place = (position.x < 0.0 ? from : to) + v_half * (position.x * along + position.y * vec2(-along.y, along.x));
+    v_place = vec2(dot(place - from, along), position.y * v_half);
+    // Divided here, so that places on the screen are between those of the corners.
+    gl_Position = vec4(2.0 * place / screen, position.x < 0.0 ? a.z / a.w : b.z / b.w, 1.0);
+  }`;
+
+export const pathFragment = `
+  varying vec3 v_color;
+  varying vec2 v_place;
+  varying float v_length, v_half;
+  void main() {
+    if (distance(v_place, vec2(clamp(v_place.x, 0.0, v_length), 0.0)) > v_half) discard;
+    #ifdef STIPPLED
+      if (mod(floor(gl_FragCoord.x / 3.0) + floor(gl_FragCoord.y / 3.0), 2.0) > 0.5) discard;
+    #endif
+    gl_FragColor = vec4(v_color, 1.0);
+  }`;
+
 // Eye-dome lighting (Boucheny 2009): a pixel is darker the farther it lies behind its neighbours.
 export const domeVertex = `
   varying vec2 v_uv;

@@ -6,6 +6,7 @@ import {
 } from 'three';
 import { makeArrows } from './arrows.js';
 import { Controls } from './controls.js';
+import { makePath } from './path.js';
 import { domeFragment, domeVertex, pointFragment, pointVertex, triangleFragment, triangleVertex } from './shaders.js';
 
 ColorManagement.enabled = false; // colours of the maps go to the screen as they are
@@ -38,7 +39,7 @@ export class Stage {
     const list = {
       mode: 0, map: null, range: new Vector2(0, 1), plain: new Color(), no_value: new Color(), line_color: new Color(),
       interval: 0, start: 0, grid: 0, thickness: 0.08, is_lit: true, is_flat: false, clip: new Vector4(0, 0, 0, 1), size: 0, least_size: 1.5,
-      pixels: 1, arrow_scale: 1,
+      pixels: 1, arrow_scale: 1, screen: new Vector2(), ratio: 1, path_lift: 0,
     };
     this.uniforms = {};
     for (const [name, value] of Object.entries(list)) this.uniforms[name] = { value };
@@ -133,6 +134,11 @@ export class Stage {
     this.scene.add(this.arrows);
   }
 
+  /** Shows a line from corner to corner, as numbers in the order x, y, z, in a colour of numbers from 0 to 1. */
+  showPath(corners, color) {
+    for (const part of makePath(corners, this.positions, this.uniforms, color)) this.scene.add(part);
+  }
+
   /** Looks at the middle from a direction, from where all is seen, or nearer by `zoom`. */
   look(eye, up, zoom = 1) {
     this.controls.look(eye, up, (toEye) => this.distanceToSee(toEye) / zoom);
@@ -185,6 +191,9 @@ export class Stage {
     this.set({
       is_lit: this.is_lit, size: point_width * this.size_factor,
       least_size: 1.5 * Math.min(2, this.size_factor) * this.renderer.getPixelRatio(),
+      screen: size, ratio: this.renderer.getPixelRatio(),
+      // Points face the eye: on a slope the next one stands out as far as its disc is wide.
+      path_lift: this.radii.quartile * (this.points.visible ? point_width * this.size_factor : 0.5),
       pixels: size.y / (2 * Math.tan((this.camera.fov * Math.PI) / 360)),
     });
     const is_domed = this.points.visible;

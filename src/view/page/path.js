@@ -1,0 +1,55 @@
+// A path over the surface: a line of a width in pixels with a rim, stippled where it is hidden, and circles at its ends.
+import {
+  GreaterDepth, InstancedBufferAttribute, InstancedBufferGeometry, BufferAttribute, LessEqualDepth, Mesh, ShaderMaterial,
+} from 'three';
+import { pathFragment, pathVertex } from './shaders.js';
+
+const widths = { rim: 6, line: 3, hidden: 2, end_rim: 13, end: 10, hole: 5 }; // pixels
+const white = [1, 1, 1];
+
+/** Corners as the positions of points are shown, without those that are not finite. */
+function shownCorners(corners, { axes, sides }) {
+  const places = [];
+  for (let i = 0; i + 2 < corners.length; i += 3) {
+    const place = axes.map((axis, k) => (axis.step > 0 ? (axis.toScaled(corners[i + k]) - 0.5) * sides[k] : 0));
+    if (place.every(Number.isFinite)) places.push(place);
+  }
+  return places;
+}
+
+/** @param strokes lists of from, to, width and colour, later ones above earlier ones */
+function strokesMesh(strokes, uniforms, options) {
+  const geometry = new InstancedBufferGeometry();
+  geometry.setAttribute('position', new BufferAttribute(new Float32Array([-1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0]), 3));
+  geometry.setIndex([0, 1, 2, 0, 2, 3]);
+  const attribute = (name, size, of) =>
+    geometry.setAttribute(name, new InstancedBufferAttribute(Float32Array.from(strokes.flatMap(of)), size));
+  attribute('begin', 3, ([begin]) => begin);
+  attribute('end', 3, ([, end]) => end);
+  attribute('width', 1, ([, , width]) => [width]);
+  attribute('shade', 3, ([, , , shade]) => shade);
+  geometry.instanceCount = strokes.length;
+  const material = new ShaderMaterial({
+    vertexShader: pathVertex, fragmentShader: pathFragment, uniforms, depthWrite: false, ...options,
+  });
+  const mesh = new Mesh(geometry, material);
+  mesh.frustumCulled = false;
+  mesh.renderOrder = 1; // over the points, whose depths hide it
+  return mesh;
+}
+
+/** @param color numbers from 0 to 1 */
+export function makePath(corners, positions, uniforms, color) {
+  const places = shownCorners(corners, positions);
+  if (places.length === 0) return [];
+  const along = (width, shade) => places.slice(1).map((place, i) => [places[i], place, width, shade]);
+  const ends = [places[0], places[places.length - 1]];
+  const dots = (width, shade) => ends.map((place) => [place, place, width, shade]);
+  const seen = [
+    ...along(widths.rim, white), ...along(widths.line, color), ...dots(widths.end_rim, white),
+    ...dots(widths.end, color), [ends[0], ends[0], widths.hole, white],
+  ];
+  const hidden = [...along(widths.hidden, color), ...dots(widths.end, color)];
+  return [strokesMesh(hidden, uniforms, { depthFunc: GreaterDepth, defines: { STIPPLED: 1 } }),
+          strokesMesh(seen, uniforms, { depthFunc: LessEqualDepth })];
+}

@@ -1,0 +1,117 @@
+#include "view/path_line.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <vector>
+
+#include "view/shading.h"
+
+namespace tufted::view {
+
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+/// Widths of the line, of its rim and of dashes, the length of these and the circles of the ends, in letter sizes.
+constexpr double line_width = 0.24;
+constexpr double rim_width = 0.46;
+constexpr double dash_width = 0.14;
+constexpr double dash_length = 0.45;
+constexpr double end_width = 0.75;
+constexpr double end_rim_width = 1;
+constexpr double ring_hole = 0.35;
+/// A path so far behind a triangle, in its longest side, still lies on it: paths run straight between edges of the
+/// cover, and these need not be the mesh's.
+constexpr double sunk_share = 0.05;
+/// Pixels from the picture beyond which nothing is drawn: integers hold them.
+constexpr double farthest = 1e6;
+
+/// A place of the path on the picture.
+struct Step {
+  Vector2d place;
+  bool is_hidden = false;
+  bool is_joined = false;  ///< to the step before
+  double length = 0;       ///< from the beginning, in pixels
+};
+
+/// How far behind what is seen at a sample the path may lie: by the radius of a disc, which stands forward.
+double toleranceAt(const SeenScene& seen, std::uint32_t number) {
+  const auto n = static_cast<std::uint32_t>(seen.scene.positions.rows());
+  if (number < n) return seen.radii[number];
+  double longest = 0;
+  const auto corner = [&](int k) -> const Eigen::Vector3f& {
+    return seen.views[static_cast<std::size_t>(seen.scene.triangles(number - n, k))];
+  };
+  for (int k = 0; k < 3; ++k) longest = std::max<double>(longest, (corner((k + 1) % 3) - corner(k)).norm());
+  return sunk_share * longest;
+}
+
+bool isHidden(const SeenScene& seen, const Vector3d& view) {
+  const double x = seen.projection.screenX(view);
+  const double y = seen.projection.screenY(view);
+  if (!(x >= 0 && y >= 0 && x < seen.width && y < seen.height)) return false;
+  const Sample sample = seen.samples[static_cast<std::size_t>(y) * seen.width + static_cast<std::size_t>(x)];
+  return sample != nothing && view.z() > depthOf(sample) + toleranceAt(seen, numberOf(sample));
+}
+
+Vector2d placeOf(const SeenScene& seen, const Vector3d& view) {
+  const Vector2d place(seen.projection.screenX(view), seen.projection.screenY(view));
+  return (place / samples_per_pixel).cwiseMax(-farthest).cwiseMin(farthest);
+}
+
+/// The path in steps of about a pixel, without what is not finite or too near to the eye.
+std::vector<Step> stepsOf(const SeenScene& seen) {
+  const int most_steps = seen.width + seen.height;  // of one part; longer ones leave the picture
+  std::vector<Step> steps;
+  Vector3d before = Vector3d::Zero();
+  bool is_joined = false;
+  for (Eigen::Index i = 0; i < seen.scene.path.rows(); ++i) {
+    const Vector3d view = seen.projection.toView(seen.points.at(seen.scene.path.row(i).transpose()));
+    const bool is_drawn = view.allFinite() && view.z() > nearest_depth;
+    if (is_drawn) {
+      const double pixels = is_joined ? (placeOf(seen, view) - steps.back().place).norm() : 0;
+      const int count = std::clamp(static_cast<int>(pixels) + 1, 1, most_steps);
+      for (int k = 1; k <= count; ++k) {
+        const Vector3d at = is_joined ? Vector3d(before + (static_cast<double>(k) / count) * (view - before)) : view;
+        Step step = {placeOf(seen, at), isHidden(seen, at), is_joined, 0};
+        if (is_joined) step.length = steps.back().length + (step.place - steps.back().place).norm();
+        steps.push_back(step);
+        if (!is_joined) break;
+      }
+      before = view;
+    }
+    is_joined = is_drawn;
+  }
+  return steps;
+}
+
+}  // namespace
+
+void drawPath(const SeenScene& seen, double text_size, Canvas& canvas) {
+  const std::vector<Step> steps = stepsOf(seen);
+  if (steps.empty()) return;
+  const auto draw = [&](bool hidden, double width, const Rgb& color) {
+    for (std::size_t k = 1; k < steps.size(); ++k) {
+      const Step& from = steps[k - 1];
+      const Step& to = steps[k];
+      if (!to.is_joined || to.is_hidden != hidden) continue;
+      if (hidden && std::fmod(to.length / text_size, 2 * dash_length) > dash_length) continue;
+      canvas.line(from.place.x(), from.place.y(), to.place.x(), to.place.y(), width * text_size, color);
+    }
+  };
+  draw(true, dash_width, path_color);
+  draw(false, rim_width, path_rim_color);
+  draw(false, line_width, path_color);
+  const auto dot = [&](const Vector2d& place, double width, const Rgb& color) {
+    canvas.line(place.x(), place.y(), place.x(), place.y(), width * text_size, color);
+  };
+  for (const Step* const end : {&steps.front(), &steps.back()}) {
+    dot(end->place, end_rim_width, path_rim_color);
+    dot(end->place, end_width, path_color);
+  }
+  dot(steps.front().place, ring_hole, path_rim_color);
+}
+
+}  // namespace tufted::view
