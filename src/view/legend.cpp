@@ -6,6 +6,8 @@
 #include <iterator>
 #include <set>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "view/shown_values.h"
 #include "view/ticks.h"
@@ -21,6 +23,11 @@ constexpr std::size_t most_swatches = 20;
 /// The legend's width and parts in the size of its letters.
 constexpr double legend_width = 9;
 constexpr double bar_width = 1.3;
+constexpr double line_height = 1.4;
+/// Texts that are too long have letters that are smaller by this factor at most.
+constexpr double smallest_letters = 0.7;
+/// The share of the width that such a text takes, as sizes of letters are rounded.
+constexpr double fitted_share = 0.99;
 
 /// Labels that occur, ascending; one more than are shown if there are more.
 std::set<long long> labelsIn(const SceneField& field, int column) {
@@ -42,6 +49,26 @@ std::string headingOf(const FieldColors& colors, const PictureOptions& options) 
   return text;
 }
 
+/// Writes a text into a width: in smaller letters where it is too long, and shortened where these are too small.
+void writeWithin(const std::string& text, double x, double y, double size, double width, const Rgb& ink,
+                 Canvas& canvas) {
+  const double wanted = canvas.widthOf(text, size);
+  if (wanted > width) size *= std::max(smallest_letters, fitted_share * width / wanted);
+  canvas.text(canvas.shorten(text, size, width), x, y, size, ink);
+}
+
+/// A heading in one line, or in two where it is too long and has words.
+std::vector<std::string> linesOf(const std::string& heading, double size, double width, Canvas& canvas) {
+  if (canvas.widthOf(heading, size) <= width) return {heading};
+  std::size_t best = 0;
+  for (std::size_t at = 1; at < heading.size(); ++at) {
+    const bool ends_word = std::string_view(" _-./").find(heading[at - 1]) != std::string_view::npos;
+    if (ends_word && canvas.widthOf(heading.substr(0, at), size) <= width) best = at;
+  }
+  if (best == 0) return {heading};
+  return {heading.substr(0, best), heading.substr(best)};
+}
+
 }  // namespace
 
 Layout layoutOf(const Scene& scene, const FieldColors& colors, const PictureOptions& options) {
@@ -60,20 +87,23 @@ void drawLegend(const Scene& scene, const FieldColors& colors, const PictureOpti
                 Canvas& canvas) {
   const double em = layout.text_size;
   const Rgb ink = options.background == Background::dark ? Rgb{232, 232, 232} : Rgb{32, 32, 32};
-  if (layout.top > 0)
-    canvas.text(canvas.shorten(scene.title, 1.2 * em, options.width - 2 * em), em, 1.9 * em, 1.2 * em, ink);
+  if (layout.top > 0) writeWithin(scene.title, em, 1.9 * em, 1.2 * em, options.width - 2 * em, ink, canvas);
   if (!layout.has_legend) return;
   const int left = layout.right + static_cast<int>(0.7 * em);
   const double width = options.width - left - 0.4 * em;
   double y = layout.top + 2 * em;
-  canvas.text(canvas.shorten(headingOf(colors, options), em, width), left, y, em, ink);
+  for (const std::string& line : linesOf(headingOf(colors, options), em, width, canvas)) {
+    writeWithin(line, left, y, em, width, ink, canvas);
+    y += line_height * em;
+  }
+  y -= line_height * em;
   const bool is_bar = colors.map->use != MapUse::categorical;
   const Ticks ticks = !is_bar                 ? Ticks{}
                       : colors.is_logarithmic ? logarithmicTicksOf(colors.low, colors.high)
                                               : ticksOf(colors.low, colors.high);
   std::string scale = ticks.exponent == 0 ? "" : "\u00d7 10" + raised(ticks.exponent) + " ";
   scale += colors.field->unit;
-  if (!scale.empty()) canvas.text(canvas.shorten(scale, em, width), left, y += 1.4 * em, em, ink);
+  if (!scale.empty()) writeWithin(scale, left, y += line_height * em, em, width, ink, canvas);
   y += em;
   if (!is_bar) {
     const std::set<long long> labels = labelsIn(*colors.field, options.column);
@@ -86,8 +116,7 @@ void drawLegend(const Scene& scene, const FieldColors& colors, const PictureOpti
       const std::vector<std::string>& names = colors.field->label_names;
       const bool is_named = label < static_cast<long long>(names.size());
       const std::string name = is_named ? names[static_cast<std::size_t>(label)] : std::to_string(label);
-      canvas.text(canvas.shorten(name, em, width - (bar_width + 0.5) * em), left + (bar_width + 0.5) * em,
-                  y + 0.86 * em, em, ink);
+      writeWithin(name, left + (bar_width + 0.5) * em, y + 0.86 * em, em, width - (bar_width + 0.5) * em, ink, canvas);
       y += 1.5 * em;
     }
     if (labels.size() > count) canvas.text("\u2026", left, y + 0.5 * em, em, ink);
@@ -109,7 +138,7 @@ void drawLegend(const Scene& scene, const FieldColors& colors, const PictureOpti
     if (colors.step > 0) {
       char text[64];
       std::snprintf(text, sizeof text, "lines: %.3g", colors.step);
-      canvas.text(canvas.shorten(text, 0.85 * em, width), left, y + em, 0.85 * em, ink);
+      writeWithin(text, left, y + em, 0.85 * em, width, ink, canvas);
       y += 1.7 * em;
     }
   }
@@ -117,8 +146,8 @@ void drawLegend(const Scene& scene, const FieldColors& colors, const PictureOpti
   canvas.fill(left, static_cast<int>(y), left + static_cast<int>(bar_width * em), static_cast<int>(y + em),
               no_value_color);
   const std::string& no_value = colors.field->no_value;
-  canvas.text(canvas.shorten(no_value.empty() ? "no value" : no_value, 0.85 * em, width - (bar_width + 0.5) * em),
-              left + (bar_width + 0.5) * em, y + 0.82 * em, 0.85 * em, ink);
+  writeWithin(no_value.empty() ? "no value" : no_value, left + (bar_width + 0.5) * em, y + 0.82 * em, 0.85 * em,
+              width - (bar_width + 0.5) * em, ink, canvas);
 }
 
 }  // namespace tufted::view

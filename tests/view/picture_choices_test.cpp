@@ -49,5 +49,26 @@ TEST(PictureChoices, AColumnWithANameHasItInTheLegend) {
   EXPECT_EQ(pixels(scene, 1), pixels(named, 0));
 }
 
+TEST(PictureChoices, LongNamesAreReadToTheirLastLetter) {
+  Scene scene = {.title = "", .positions = Points::Zero(100, 3)};
+  for (int i = 0; i < 100; ++i) scene.positions.row(i) << i % 10, i / 10, 0;
+  const auto pixels = [&](const std::string& title, const std::string& name, const std::string& label) {
+    Scene named = scene;
+    named.title = title;
+    named.fields = {{.name = name,
+                     .kind = label.empty() ? FieldKind::scalar : FieldKind::label,
+                     .values = label.empty() ? Eigen::MatrixXd(scene.positions.col(0)) : Eigen::MatrixXd::Zero(100, 1),
+                     .label_names = {label}}};
+    return drawPicture(named, {.width = 300, .height = 200}).pixels;
+  };
+  // Names that are cut before their last letter look the same.
+  EXPECT_NE(pixels("t", "signed_distance", ""), pixels("t", "signed_distancf", ""));
+  EXPECT_NE(pixels("t", "measured position 17", ""), pixels("t", "measured position 18", ""));
+  EXPECT_NE(pixels("t", "displacementfields", ""), pixels("t", "displacementfieldz", ""));
+  EXPECT_NE(pixels("t", "a", "low vegetation"), pixels("t", "a", "low vegetatiom"));
+  EXPECT_NE(pixels("signed-distance: bildstein_station_3.ply", "a", ""),
+            pixels("signed-distance: bildstein_station_3.plz", "a", ""));
+}
+
 }  // namespace
 }  // namespace tufted::picture_choices_test
