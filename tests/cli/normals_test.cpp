@@ -75,6 +75,18 @@ TEST_F(Normals, DecideOnTheSignOfCurvature) {
   expectRefusal({"curvature", file, "--method", "laplacien"}, "did you mean `laplacian`?");
 }
 
+TEST_F(Normals, OfPointsThatTakeNoPartHaveNoCurvatureToSumUp) {
+  const std::string file = dir_.write("sphere.xyz", sphere(2000) + "nan nan nan\n900 0 0\n");
+  for (const char* method : {"fit", "laplacian"}) {
+    const std::string said = run({"curvature", file, "--method", method, "--out", in(method)}).out;
+    EXPECT_TRUE(contains(said, ", 1 / length, without 2 points that take no part\n")) << said;
+    EXPECT_FALSE(contains(said, "mean curvature  0 to")) << said;
+    EXPECT_EQ(report(method)["report"]["left_out"], 2);
+  }
+  const std::string whole = run({"curvature", dir_.write("whole.xyz", sphere(200)), "--out", in("whole")}).out;
+  EXPECT_TRUE(contains(whole, ", 1 / length\n")) << whole;
+}
+
 TEST_F(Normals, RefuseWhatTheyCannotUse) {
   const std::string file = dir_.write("sphere.xyz", sphere(200));
   const std::string mesh = dir_.write("tetrahedron.off", tetrahedron);

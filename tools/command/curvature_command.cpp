@@ -1,5 +1,9 @@
 #include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cstdint>
+#include <limits>
 #include <map>
+#include <string>
 
 #include "command.h"
 #include "operator.h"
@@ -28,7 +32,8 @@ Writes into DIR, renamed one after the other when all are complete:
   principal_directions.npy  N x 6: unit vectors of k1, then of k2; not with --method laplacian
   points.ply                the points with the fields curvature_0 to curvature_3, float32, and the normals; points.pcd
                             with --format pcd
-  report.json               method, orientation, undetermined points, rings of neighbours in the fits, seconds
+  report.json               method, orientation, points undetermined and left out as they take no part, rings of
+                            neighbours in the fits, seconds
 FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written.)";
 
 const std::map<std::string, tufted::CurvatureMethod> methods = {{"fit", tufted::CurvatureMethod::fit},
@@ -48,6 +53,30 @@ struct Settings {
 
 void check(Settings&, const Operator& source) {
   checkFrames(source);
+}
+
+/// Adds the range of mean curvature. Points that take no part, and those where none was found, have a 0 that is none.
+void addRange(const tufted::Curvatures& found, const tufted::Laplacian& laplacian, Results& results) {
+  const bool fits = found.first.rows() > 0;
+  std::int64_t left_out = 0;
+  double least = std::numeric_limits<double>::infinity();
+  double greatest = -least;
+  for (Eigen::Index i = 0; i < found.mean.size(); ++i) {
+    const int shown = laplacian.representative[static_cast<std::size_t>(i)];
+    if (laplacian.status[static_cast<std::size_t>(shown)] != tufted::PointStatus::active) {
+      ++left_out;
+      continue;
+    }
+    if (fits ? found.first.row(i).isZero(0) : !(laplacian.M[shown] > 0)) continue;
+    least = std::min(least, found.mean[i]);
+    greatest = std::max(greatest, found.mean[i]);
+  }
+  results.report["report"]["left_out"] = left_out;
+  const std::string without = left_out > 0 ? ", without " + countText(left_out, "point") +
+                                                 (left_out == 1 ? " that takes no part" : " that take no part")
+                                           : "";
+  if (least <= greatest)
+    results.summary.add("mean curvature", "%.6g to %.6g, 1 / length%s", least, greatest, without.c_str());
 }
 
 Results compute(Settings& settings, Operator& source) {
@@ -78,8 +107,7 @@ Results compute(Settings& settings, Operator& source) {
                               {"undetermined", found.report.undetermined},
                               {"mean_rings", found.report.mean_rings},
                               {"seconds", found.report.seconds}};
-  if (found.mean.size() > 0)
-    results.summary.add("mean curvature", "%.6g to %.6g, 1 / length", found.mean.minCoeff(), found.mean.maxCoeff());
+  addRange(found, source.laplacian, results);
   return results;
 }
 
