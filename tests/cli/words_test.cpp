@@ -104,6 +104,28 @@ TEST_F(Words, AMisspeltValueIsNamedWithTheNearest) {
              "--field intensty: " + fields + " has no such field; did you mean `intensity`?");
 }
 
+TEST_F(Words, ListsHaveNoEmptyWords) {
+  const std::string fields = dir_.write("fields.txt", "x y z f\n0 0 0 1\n1 0 0 2\n0 1 0 3\n0 0 1 3\n");
+  const auto expectList = [&](const std::vector<std::string>& command, const std::string& option,
+                              const std::string& one, const std::string& other) {
+    for (const std::string& list : {one + ",," + other, one + ",", "," + other}) {
+      std::vector<std::string> arguments = command;
+      arguments.insert(arguments.end(), {fields, "--out", in("out"), option, list});
+      expectSaid(arguments,
+                 option + ": " + list + " has an empty word, must have none (see tufted " + command[0] + " --help)");
+    }
+    std::vector<std::string> arguments = command;
+    arguments.insert(arguments.end(), {fields, "--out", in("out"), option, ""});
+    expectSaid(arguments, option + ": must not be empty (see tufted " + command[0] + " --help)");
+  };
+  expectList({"laplacian"}, "--format", "ply", "pcd");
+  expectList({"denoise"}, "--format", "ply", "pcd");
+  expectList({"spectrum"}, "--format", "ply", "pcd");
+  expectList({"hks"}, "--times", "0.5", "1");
+  expectList({"poisson"}, "--field", "f", "f");
+  EXPECT_FALSE(std::filesystem::exists(in("out")));
+}
+
 TEST_F(Words, ValuesOutOfRangeNameTheirOptionAndTheRule) {
   const std::string square = dir_.write("square.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n3 0 1 2\n3 0 2 3\n");
   expectRefusal({"distance", square, "--face", "2,1,1,1"}, "--face 2,1,1,1: face = 2, must lie in [0, 2)");

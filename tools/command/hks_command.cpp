@@ -3,6 +3,7 @@
 #include <charconv>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 #include <system_error>
 #include <vector>
@@ -52,13 +53,17 @@ struct Settings {
   }
 };
 
-/// A check; CLI11's own lets nan pass.
-std::string isTime(const std::string& text) {
+/// A time that is finite and above 0; nothing where the text is none.
+std::optional<double> parseTime(const std::string& text) {
   double time = 0;
   const char* const text_end = text.data() + text.size();
   const auto [end, error] = std::from_chars(text.data(), text_end, time);
   const bool is_number = error == std::errc() && end == text_end;
-  return is_number && time > 0 && std::isfinite(time) ? "" : text + " is no time, must be finite and above 0";
+  return is_number && time > 0 && std::isfinite(time) ? std::optional(time) : std::nullopt;
+}
+
+std::string isTime(const std::string& text) {
+  return parseTime(text) ? "" : text + " is no time, must be finite and above 0";
 }
 
 void check(Settings& settings, const Operator& source) {
@@ -121,12 +126,12 @@ void addHks(CLI::App& app, Run& run) {
       addNumber(*command, "--samples", settings->samples, 2, 1 << 16, "Times (16), or energies with --wave (100)")
           ->type_name("S");
   CLI::Option* const wave = command->add_flag("--wave", settings->wave, "Wave kernel signatures");
-  command
-      ->add_option("--times", settings->times,
-                   "The times, separated by commas, in squares of the points' unit of length")
-      ->delimiter(',')
-      ->allow_extra_args(false)  // what follows may be FILE
-      ->check(isTime)
+  std::vector<double>& times = settings->times;
+  const auto set = [&times](const std::vector<std::string>& words) {
+    times.clear();
+    for (const std::string& word : words) times.push_back(parseTime(word).value());
+  };
+  addList(*command, "--times", "The times, separated by commas, in squares of the points' unit of length", isTime, set)
       ->excludes(samples)
       ->excludes(wave)
       ->type_name("LIST");

@@ -72,6 +72,39 @@ inline std::string notEmpty(const std::string& path) {
   return path.empty() ? "must not be empty" : "";
 }
 
+/// The words of a list, between its commas.
+inline std::vector<std::string> wordsOf(const std::string& list) {
+  std::vector<std::string> words;
+  std::istringstream stream(list + ',');
+  for (std::string word; std::getline(stream, word, ',');) words.push_back(word);
+  return words;
+}
+
+/// An option that takes words with commas between them, none of them empty. Given again it takes further ones.
+/// @param check the message for a word that is none; an empty string if it is one
+/// @param set takes all words
+template <class Check, class Set>
+CLI::Option* addList(CLI::App& app, const std::string& name, const std::string& help, const Check& check,
+                     const Set& set) {
+  const auto check_all = [check](const std::string& list) {
+    if (list.empty()) return std::string("must not be empty");
+    for (const std::string& word : wordsOf(list)) {
+      const std::string why = word.empty() ? list + " has an empty word, must have none" : check(word);
+      if (!why.empty()) return why;
+    }
+    return std::string();
+  };
+  const auto set_all = [set](const std::vector<std::string>& lists) {
+    std::vector<std::string> words;
+    for (const std::string& list : lists)
+      for (const std::string& word : wordsOf(list)) words.push_back(word);
+    set(words);
+  };
+  return app.add_option_function<std::vector<std::string>>(name, set_all, help)
+      ->allow_extra_args(false)  // what follows may be FILE
+      ->check(check_all);
+}
+
 /// A message of the library, which begins with the function, without one of a class: that is no word the user knows.
 inline std::string withoutClass(std::string message) {
   if (const std::size_t colon = message.find(": "); message.find("::") < colon) message.erase(0, colon + 2);

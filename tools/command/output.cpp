@@ -33,11 +33,7 @@ void addFormats(CLI::App& command, std::vector<tufted::Format>& target,
       target.push_back(formats.at(key));
     }
   };
-  command.add_option_function<std::vector<std::string>>("--format", set, help)
-      ->delimiter(',')
-      ->allow_extra_args(false)  // what follows may be FILE
-      ->check(check)
-      ->type_name("LIST");
+  addList(command, "--format", help, check, set)->type_name("LIST");
 }
 
 void addCopies(CLI::App& command, std::vector<tufted::Format>& target) {

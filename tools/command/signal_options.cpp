@@ -73,10 +73,9 @@ std::vector<std::string> namesOf(const tufted::Geometry& geometry) {
 }  // namespace
 
 void addSignalOptions(CLI::App& command, SignalOptions& options, const std::string& what) {
-  command.add_option("--field", options.fields, what + ": fields of the points, separated by commas")
-      ->delimiter(',')
-      ->allow_extra_args(false)  // what follows may be FILE
-      ->type_name("NAME,...");
+  const auto any = [](const std::string&) { return std::string(); };  // the fields are not read yet
+  const auto set = [&options](const std::vector<std::string>& names) { options.fields = names; };
+  addList(command, "--field", what + ": fields of the points, separated by commas", any, set)->type_name("NAME,...");
   command.add_option("--values", options.values, what + ": a .npy file of N values or N x c")
       ->check(notEmpty)
       ->type_name("NPY");
