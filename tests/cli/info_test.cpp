@@ -5,6 +5,7 @@
 
 #include "../io/temporary_dir.h"
 #include "command.h"
+#include "samples.h"
 
 namespace info_test {
 namespace {
@@ -47,6 +48,29 @@ TEST_F(Info, SaysWhatAnOrganizedCloudHolds) {
   EXPECT_EQ(cloud["spacing"], 1);
   EXPECT_EQ(cloud["not_finite"], 1);
   EXPECT_TRUE(isOdd(cloud, "points that are not finite")) << cloud["odd"];
+}
+
+TEST_F(Info, ExpectsTheBuildByPixelsOfADepthImage) {
+  // A slope that a pinhole camera at the origin sees, and what is left of it without its rows.
+  std::string points;
+  for (int i = 0; i < 40 * 30; ++i) {
+    const double x = (i % 40 - 19.5) / 40, y = (i / 40 - 14.5) / 40, depth = 2 / (1 - 0.3 * x);
+    points += std::to_string(depth * x) + " " + std::to_string(depth * y) + " " + std::to_string(depth) + "\n";
+  }
+  const auto pcd = [&](int width, int height) {
+    return "VERSION .7\nFIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nCOUNT 1 1 1\nWIDTH " + std::to_string(width) +
+           "\nHEIGHT " + std::to_string(height) + "\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS 1200\nDATA ascii\n" + points;
+  };
+  const std::string file = dir_.write("image.pcd", pcd(40, 30));
+  const Json image = info(file);
+  const Json cloud = info(dir_.write("cloud.pcd", pcd(1200, 1)));
+  EXPECT_EQ(image["structure"], "image");
+  EXPECT_EQ(cloud["structure"], "none");
+  EXPECT_LT(image["expected_bytes"], cloud["expected_bytes"]);
+  EXPECT_TRUE(contains(runTufted({"info", file}).out, "\nstructure       depth image, built by its pixels\n"));
+  const Json searched = Json::parse(runTufted({"info", "--json", file, "--neighbors", "20"}).out);
+  EXPECT_EQ(searched["structure"], "none");
+  EXPECT_EQ(searched["expected_bytes"], cloud["expected_bytes"]);
 }
 
 TEST_F(Info, SaysWhatIsOddAboutAMesh) {
