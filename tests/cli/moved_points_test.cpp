@@ -72,20 +72,26 @@ TEST_F(MovedPoints, ParameterizeRefusesWhatItCannotLayOut) {
 TEST_F(MovedPoints, DenoiseMovesTheDepthsOfAnImageAlongItsRays) {
   std::mt19937_64 random(1);
   std::normal_distribution<double> noise(0, 0.002);
-  std::string text =
-      "VERSION .7\nFIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 60\nHEIGHT 50\nPOINTS 3000\n";
-  text += "DATA ascii\n";
-  for (int i = 0; i < 3000; ++i) {
-    const double u = (i % 60 - 30) / 100.0, v = (i / 60 - 25) / 100.0,
-                 depth = 1 / (1 - 0.3 * u + 0.2 * v + noise(random));
-    for (const double c : {u * depth, v * depth, depth}) text += std::to_string(c) + ' ';
-    text += '\n';
-  }
-  const std::string image = dir_.write("image.pcd", text);
+  const auto imageWith = [&](double share) {
+    std::string text =
+        "VERSION .7\nFIELDS x y z\nSIZE 8 8 8\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 60\nHEIGHT 50\nPOINTS 3000\n";
+    text += "DATA ascii\n";
+    for (int i = 0; i < 3000; ++i) {
+      const double u = (i % 60 - 30) / 100.0, v = (i / 60 - 25) / 100.0,
+                   depth = 1 / (1 - 0.3 * u + 0.2 * v + share * noise(random));
+      for (const double c : {u * depth, v * depth, depth}) text += std::to_string(c) + ' ';
+      text += '\n';
+    }
+    return text;
+  };
+  const std::string image = dir_.write("image.pcd", imageWith(1));
   EXPECT_NE(run({"denoise", image, "--out", in("clean")}).out.find("rays"), std::string::npos);
   const nlohmann::json made = report("clean")["report"];
   EXPECT_GT(made["moved"], 2850);
   EXPECT_NEAR(made["noise"], 0.002, 0.0003);
+  // Where no point moves, that it was taken for an image is said as well.
+  const std::string exact = run({"denoise", dir_.write("exact.pcd", imageWith(0)), "--out", in("exact")}).out;
+  EXPECT_TRUE(contains(exact, "0 moved") && contains(exact, "by the pixels of a depth image")) << exact;
   // A build does the same by itself, asked or not.
   for (const std::vector<std::string>& asked :
        {std::vector<std::string>{}, {"--denoise"}, {"--denoise", "--preset", "clean"}}) {
@@ -158,6 +164,9 @@ TEST_F(MovedPoints, DenoiseSaysThatThereIsNothingToDo) {
   EXPECT_NE(said.out.find("none that can be told"), std::string::npos) << said.out;
   EXPECT_EQ(report("same")["report"]["moved"], 0);
   expectRefusal({"denoise", open_}, "is a mesh; --as cloud takes its points alone", 1);
+  // It has no vertices to join: clouds alone are taken.
+  expectRefusal({"denoise", open_, "--weld"}, "unknown option `--weld`");
+  EXPECT_FALSE(contains(runTufted({"denoise", "--help"}).out, "--weld"));
   expectRefusal({"laplacian", open_, "--denoise"}, "--denoise applies to point clouds");
 }
 

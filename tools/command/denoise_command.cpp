@@ -105,7 +105,8 @@ int runDenoise(Settings& settings) {
                 scan ? "rays of a depth image" : "normal");
     summary.add("way", "of the moved points %.4g in the mean, by %.4g at most", done.mean_move, done.farthest_move);
   } else {
-    summary.add("noise", "none that can be told from the shape of the surface");
+    summary.add("noise", "none that can be told from the shape of the surface%s",
+                scan ? ", by the pixels of a depth image" : "");
   }
   summary.add("took", "%.3g s, peak memory %.0f MB", done.seconds, peakMemory());
   summary.add("written to", "%s", settings.out.c_str());

@@ -265,6 +265,7 @@ void addInfo(CLI::App& app, Run& run) {
   command.footer(footer);
   const auto settings = std::make_shared<Settings>();
   addInput(command, settings->input);
+  addWeld(command, settings->input);
   settings->neighbors = addNumber(command, "--neighbors", settings->cloud.neighbors, 3, std::numeric_limits<int>::max(),
                                   "Neighbours per point (30)")
                             ->type_name("K");

@@ -17,8 +17,11 @@ CLI::Option* addInput(CLI::App& command, Input& input) {
           ->required()
           ->check(notEmpty);
   addChoice(command, "--as", input.as, kinds, "Take a file that may be either as one of them");
-  command.add_flag("--weld", input.weld, "Give the vertices of a mesh that coincide one number, meshes only");
   return file;
+}
+
+void addWeld(CLI::App& command, Input& input) {
+  command.add_flag("--weld", input.weld, "Give the vertices of a mesh that coincide one number, meshes only");
 }
 
 namespace {

@@ -17,8 +17,11 @@ struct Input {
   std::string name() const { return isStandardInput() ? "standard input" : file.string(); }
 };
 
-/// Adds FILE, which is required, --as and --weld; gives FILE.
+/// Adds FILE, which is required, and --as; gives FILE.
 CLI::Option* addInput(CLI::App& command, Input& input);
+
+/// Adds --weld, for commands that take meshes.
+void addWeld(CLI::App& command, Input& input);
 
 /// @throws IoError and Cancelled as tufted::read does; InvalidInput for --weld on a cloud, whose equal points are
 /// merged anyway

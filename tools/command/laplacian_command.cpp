@@ -219,6 +219,7 @@ void addLaplacian(CLI::App& app, Run& run) {
   command.footer(footer);
   const auto settings = std::make_shared<Settings>();
   addInput(command, settings->input);
+  addWeld(command, settings->input);
   addOut(command, settings->out);
   addWriteOptions(command, settings->write);
   command.option_defaults()->group("Building the Laplacian");

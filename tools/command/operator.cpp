@@ -140,6 +140,7 @@ auto blameData(const Operator& source, const Step& step) {
 void addOperatorOptions(CLI::App& command, OperatorSettings& settings) {
   settings.command = command.get_name();
   CLI::Option* const file = addInput(command, settings.input)->required(false);
+  addWeld(command, settings.input);
   CLI::Option* const folder =
       command
           .add_option("--operator", settings.folder,
