@@ -43,10 +43,11 @@ struct Gradients {
   GradientReport report;  ///< what happened
 };
 
-/// Tangent frames of a mesh's vertices. A normal is the direction that the normals of the triangles around, weighted by
-/// area, deviate from least, whichever way each of them is oriented; its sign is that of their sum where they have one.
-/// Vertices of no triangle get z as their normal. The orientation is Orientation::given where no two triangles run
-/// along an edge in one direction, else arbitrary.
+/// Tangent frames of a mesh's vertices. A normal is the direction that the normals of the triangles around deviate from
+/// least, whichever way each of them is oriented; its sign is that of their sum where they have one. Triangles are
+/// weighted by area over extent, the greatest difference of a coordinate from the first corner to the others: a length,
+/// as areas may underflow. Vertices of no triangle get z as their normal. The orientation is Orientation::given where
+/// no two triangles run along an edge in one direction, else arbitrary.
 /// @param triangles F x 3 indices into `points`; triangles with a corner that is not finite are left out
 /// @throws InvalidInput for indices out of range
 Frames meshFrames(const PointsRef& points, const TrianglesRef& triangles);
