@@ -116,7 +116,7 @@ void printDepthImages() {
     const ScanStructure structure = imageStructure(view.width, view.height);
     const Eigen::Vector3d sensor = Eigen::Vector3d::Zero();
     for (const CameraNoise& noise : camera_noises) {
-      const std::uint64_t last = noise.sigma > 0 ? last_view_seed : first_view_seed;
+      const std::uint64_t last = noise.lastSeed();
       for (const bool by_pixels : {false, true}) {
         Quality sum;
         for (std::uint64_t seed = first_view_seed; seed <= last; ++seed) {

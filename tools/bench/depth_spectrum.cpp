@@ -71,7 +71,7 @@ void printDepthSpectra() {
   const Eigen::RowVector3d middle(0, 0, ball_depth);
   for (const CameraNoise& noise : camera_noises) {
     Errors errors[2];
-    const std::uint64_t last_seed = noise.sigma > 0 ? last_view_seed : first_view_seed;
+    const std::uint64_t last_seed = noise.lastSeed();
     const auto runs = static_cast<double>(last_seed - first_view_seed + 1);
     for (std::uint64_t seed = first_view_seed; seed <= last_seed; ++seed) {
       Points points = seenBy(view, noise, seed);

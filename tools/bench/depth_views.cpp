@@ -89,11 +89,16 @@ std::vector<View> views() {
 Points seenBy(const View& view, const CameraNoise& noise, std::uint64_t seed) {
   shapes::Random random(seed);
   Points points = view.points;
+  const double first = noise.step > 0 && noise.sigma == 0 ? noise.step * random.uniform() : 0;
   for (Eigen::Index i = 0; i < points.rows(); ++i) {
     const double z = points(i, 2);
     if (!std::isfinite(z)) continue;
+    if (noise.of_range > 0) {
+      points.row(i) *= 1 + noise.of_range * random.normal() / points.row(i).norm();
+      continue;
+    }
     double measured = disparity / z + noise.sigma * random.normal();
-    if (noise.step > 0) measured = std::round(measured / noise.step) * noise.step;
+    if (noise.step > 0) measured = std::round((measured - first) / noise.step) * noise.step + first;
     points.row(i) *= measured > 0 ? disparity / measured / z : nothing;
   }
   return points;

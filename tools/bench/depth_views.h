@@ -10,7 +10,7 @@
 
 namespace tufted::bench {
 
-constexpr std::uint64_t first_view_seed = 101, last_view_seed = 103;  // of the noise
+constexpr std::uint64_t first_view_seed = 101, last_view_seed = 103;  // of the noise, or where steps begin
 
 /// What a pinhole camera of 640 x 480 pixels would see exactly.
 struct View {
@@ -29,18 +29,24 @@ std::vector<View> views();
 View ballView();
 constexpr double ball_depth = 1.2, ball_radius = 0.4;  // m
 
-/// Noise of a camera that measures disparities.
+/// Noise of a camera that measures disparities, or of one that times light.
 struct CameraNoise {
   std::string name;
-  double step, sigma;  ///< of the disparity, pixels
+  double step, sigma;   ///< of the disparity, pixels
+  double of_range = 0;  ///< m
+
+  /// The last of the seeds over which a mean is taken: all exact images are the same.
+  std::uint64_t lastSeed() const { return step + sigma + of_range > 0 ? last_view_seed : first_view_seed; }
 };
 
 inline const std::vector<CameraNoise> camera_noises = {{"exact", 0, 0},
                                                        {"steps of 1/8 px", 0.125, 0},
                                                        {"steps of 1/8, noise .1 px", 0.125, 0.1},
-                                                       {"noise .25 px", 0, 0.25}};
+                                                       {"noise .25 px", 0, 0.25},
+                                                       {"timed light, noise 5 mm", 0, 0, 0.005}};
 
-/// The points of a view as a camera with such noise has them.
+/// The points of a view as a camera with such noise has them. Where steps are without noise the seed says at which
+/// disparity they begin.
 Points seenBy(const View& view, const CameraNoise& noise, std::uint64_t seed);
 
 }  // namespace tufted::bench
