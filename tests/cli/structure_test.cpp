@@ -37,6 +37,23 @@ TEST_F(Structures, FindsNeighborsByTheStructureItIsTold) {
   const Result both = runTufted({"laplacian", image, "--out", out(), "--structure", "image", "--neighbors", "20"});
   EXPECT_EQ(both.code, 2);
   EXPECT_EQ(both.err, "tufted: --neighbors 20 excludes --structure image, which takes the pixels around a point\n");
+  // Ten rows at one depth are what a camera sees, but not from aside.
+  const std::string rays = "\nrays            of no pinhole camera at 1, 2, 0, which the file has as its viewpoint\n";
+  std::string header = "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 60\nHEIGHT 10\n";
+  header += "VIEWPOINT 1 2 0 1 0 0 0\nPOINTS 600\nDATA ascii\n";
+  std::string curved;
+  for (int i = 0; i < 600; ++i) {
+    const double depth = 1 + 0.3 * std::sin(i % 60 * 0.2) + 0.2 * std::cos(i / 60 * 0.5);
+    curved += std::to_string(i % 60 * 0.01 * depth) + ' ' + std::to_string(i / 60 * 0.01 * depth) + ' ' +
+              std::to_string(depth) + '\n';
+  }
+  const auto aside = dir_.write("aside.pcd", header + curved);
+  for (const char* command : {"laplacian", "denoise"}) {
+    const Result doubted = runTufted({command, aside, "--out", out(), "--structure", "image"});
+    EXPECT_EQ(doubted.code, 0);
+    EXPECT_TRUE(contains(doubted.out, rays)) << doubted.out;
+    EXPECT_FALSE(contains(runTufted({command, image, "--out", out(), "--structure", "image"}).out, "\nrays"));
+  }
   ASSERT_EQ(runTufted({"laplacian", scan, "--out", out(), "--structure", "rings"}).code, 0);
   EXPECT_NE(readAll(dir_ / "out/report.json").find("\"unplaced\": 0"), std::string::npos);
   const auto loose = dir_.write("loose.xyz", sphere(500));

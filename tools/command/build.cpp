@@ -80,6 +80,7 @@ tufted::Laplacian buildLaplacian(const tufted::Geometry& geometry, const Input& 
     throw tufted::InvalidInput("--neighbors " + std::to_string(build.cloud.neighbors) +
                                " excludes --structure image, which takes the pixels around a point");
   build.scan = structureOf(geometry, build.structure, input.name());
+  build.doubt = doubtOf(geometry, build.structure);
   if (build.scan) build.cloud.structure = &*build.scan;
   build.cloud.steps = tufted::cloudSteps(build.preset);
   const bool is_image = build.structure == Structure::image;
@@ -113,6 +114,7 @@ void addBuild(const tufted::Report& report, const Build& build, Summary& summary
     else
       summary.add("structure", "depth image, %s moved along their rays, off the surface by %.3g of the file's unit",
                   countText(report.denoised, "point").c_str(), report.noise);
+    if (!build.doubt.empty()) summary.add("rays", "%s", build.doubt.c_str());
   } else if (report.noise > 0)
     summary.add("noise", "%s moved onto the surface, off it by %.3g of the file's unit (standard deviation)",
                 countText(report.denoised, "point").c_str(), report.noise);

@@ -25,6 +25,7 @@ struct Build {
   tufted::MeshOptions mesh;
   std::string given_viewpoint;  ///< X,Y,Z; empty: that of the file, if it has one
   std::optional<tufted::ScanStructure> scan;
+  std::string doubt;  ///< see doubtOf()
   Eigen::Vector3d viewpoint = Eigen::Vector3d::Zero();
   tufted::Points moved;  ///< where --denoise has moved the points; 0 x 3 without it
 

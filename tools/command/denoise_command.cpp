@@ -74,6 +74,7 @@ int runDenoise(Settings& settings) {
   bar.setPoints(geometry.points.rows());
   if (settings.structure == Structure::automatic) settings.structure = structureFor(geometry);
   const auto scan = structureOf(geometry, settings.structure, settings.input.name());
+  const std::string doubt = doubtOf(geometry, settings.structure);
   const tufted::DenoisedPoints denoised = tufted::denoise(
       geometry.points, {.structure = scan ? &*scan : nullptr, .threads = settings.threads, .progress = progress});
   bar.setPoints(0);
@@ -108,6 +109,7 @@ int runDenoise(Settings& settings) {
     summary.add("noise", "none that can be told from the shape of the surface%s",
                 scan ? ", by the pixels of a depth image" : "");
   }
+  if (!doubt.empty()) summary.add("rays", "%s", doubt.c_str());
   summary.add("took", "%.3g s, peak memory %.0f MB", done.seconds, peakMemory());
   summary.add("written to", "%s", settings.out.c_str());
   addLook(settings.look, summary);

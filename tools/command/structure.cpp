@@ -1,5 +1,7 @@
 #include "structure.h"
 
+#include <cstdio>
+
 #include "tufted/errors.h"
 #include "tufted/io/rings.h"
 
@@ -8,6 +10,15 @@ Structure structureFor(const tufted::Geometry& geometry) {
   const bool is_seen = !geometry.is_mesh && geometry.height > 1 &&
                        tufted::isDepthImage(geometry.points, geometry.width, geometry.height, origin);
   return is_seen ? Structure::image : Structure::none;
+}
+
+std::string doubtOf(const tufted::Geometry& geometry, Structure structure) {
+  if (structure != Structure::image || structureFor(geometry) == Structure::image) return "";
+  const auto& at = geometry.viewpoint;
+  char text[160];
+  std::snprintf(text, sizeof text, "of no pinhole camera at %.6g, %.6g, %.6g, which the file has as its viewpoint",
+                at[0], at[1], at[2]);
+  return text;
 }
 
 std::string nameOf(Structure structure) {

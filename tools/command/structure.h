@@ -19,6 +19,10 @@ inline const std::map<std::string, Structure> structures = {{"automatic", Struct
 /// What `automatic` stands for: `image` for a cloud that a pinhole camera saw, else `none`.
 Structure structureFor(const tufted::Geometry& geometry);
 
+/// What to say of an image that was asked for where no pinhole camera at the file's viewpoint has its rays, along which
+/// jumps and noise are looked for; else empty.
+std::string doubtOf(const tufted::Geometry& geometry, Structure structure);
+
 /// The value of --structure.
 std::string nameOf(Structure structure);
 
