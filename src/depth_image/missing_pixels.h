@@ -6,7 +6,7 @@
 
 namespace tufted {
 
-/// Sets the inverse range of pixels without a point that lie between two of one surface: to the mean of those. No point
+/// Sets the inverse depth of pixels without a point that lie between two of one surface: to the mean of those. No point
 /// moves by this, but the windows around are whole. Where one pixel in twenty is missing at random, one window in
 /// twelve would be whole otherwise, too few to tell what noise is left and to fit quadratics. Rings are left as they
 /// are, as the next one is far away.

@@ -54,7 +54,7 @@ void repeatBeyondSeam(SmoothedRanges& image, const Workers& workers) {
 class RangeSmoother {
  public:
   /// @param variance that values have before, at most, in variances of the noise
-  /// @param[out] after inverse ranges
+  /// @param[out] after inverse depths
   RangeSmoother(const RangeNoise& noise, double variance, int stride, SmoothedRanges& smoothed,
                 RawBuffer<double>& after)
       : noise_(noise), variance_(variance), stride_(stride), smoothed_(smoothed), after_(after) {

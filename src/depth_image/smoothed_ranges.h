@@ -13,7 +13,8 @@
 
 namespace tufted {
 
-/// Inverse ranges without noise, pixel by pixel. A border goes around the image, as wide as any window reaches.
+/// Inverse depths without noise, pixel by pixel; see PixelGrid::depthOf(). A border goes around the image, as wide as
+/// any window reaches.
 struct SmoothedRanges {
   static constexpr int widest_stride = 9;  ///< pixels between the values of a window
   static constexpr int border = WindowPixels::reach * widest_stride;
@@ -25,7 +26,7 @@ struct SmoothedRanges {
   std::ptrdiff_t row_step = 0;        ///< in these arrays
   RawBuffer<double> inverse;          ///< NaN where there is no point
   RawBuffer<double> variance;         ///< of it; 0: as measured, and where there is no point
-  RawBuffer<double> spacing_squared;  ///< of neighbouring pixels, in inverse range
+  RawBuffer<double> spacing_squared;  ///< of neighbouring pixels, in inverse depth
 
   std::ptrdiff_t at(int row, int column) const { return (row + border) * row_step + column + border; }
   /// The largest change of a surface with each pixel.
@@ -40,7 +41,7 @@ struct SmoothedRanges {
 /// values still have is told by the image.
 void smoothFurther(SmoothedRanges& smoothed, const RangeNoise& noise, const Workers& workers);
 
-/// Moves each point along its ray to the smoothed range: sets displacements, places and how many move.
+/// Moves each point along its ray to the smoothed depth: sets displacements, places and how many move.
 void moveAlongRays(const PixelGrid& grid, const PointsView& points, const SmoothedRanges& smoothed,
                    const Workers& workers, SurfaceWindows& windows);
 
