@@ -27,8 +27,8 @@ struct SurfaceImage {
   /// The median over the points that are moved; 0 if none are.
   double noiseOfMoved(const PointsView& points) const;
   std::size_t bytes() const {
-    return grid.bytes() + bytesOf(windows.around) + bytesOf(windows.range) + windows.displacement.bytes() +
-           windows.place.bytes();
+    return grid.bytes() + bytesOf(windows.around) + bytesOf(windows.range) + bytesOf(windows.at_rim) +
+           windows.displacement.bytes() + windows.place.bytes();
   }
   /// @param points of the cloud, borrowed
   DepthImage view(const PointsView& points) const {

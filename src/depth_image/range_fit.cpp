@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "depth_image/rim_fit.h"
 #include "depth_image/window_pixels.h"
 
 namespace tufted {
@@ -27,6 +28,11 @@ constexpr int least_of_bent = 28;                 // values of a quadratic over 
 constexpr int least_of_wide = 20;                 // pixels of a plane over 7 x 7, that of p included
 constexpr int least_of_narrow = 12;               // over 5 x 5
 constexpr double steep_squared = 1;               // change per pixel, in variances of the noise
+constexpr double steep_rim_squared = 2;           // where a rim may be
+constexpr double least_lean = 0.4;                // pixels from the middle one up the slope to the mean of all
+constexpr double most_gap = 1;                    // pixels from the last one to the silhouette
+constexpr double most_loss = 3;                   // variances, of all residuals to those of a quadratic
+constexpr int terms_of_quadratic = 6;
 
 /// Variance of the value in the middle, by that of each pixel.
 template <int Reach>
@@ -54,7 +60,9 @@ struct PartFit {
 };
 
 struct PlaneFit : PartFit {
-  double slope_squared;  ///< how much a pixel changes it
+  double along_rows, along_columns;  ///< its slope
+  double slope_squared;              ///< how much a pixel changes it
+  double rise;                       ///< of it from the middle pixel to the mean of all
 };
 
 std::optional<PlaneFit> fitPlane(const PixelRows& ranges, std::uint64_t around, int least_pixels) {
@@ -88,7 +96,8 @@ std::optional<PlaneFit> fitPlane(const PixelRows& ranges, std::uint64_t around, 
   const double explained = value * all + along_rows * by_row + along_columns * by_column;
   const double variance = std::max(0.0, squares - explained) / (count - 3);
   const double slope_squared = along_rows * along_rows + along_columns * along_columns;
-  return PlaneFit{{ranges.at[0] + value, variance, share * of_all}, slope_squared};
+  const double rise = (rows * along_rows + columns * along_columns) / count;
+  return PlaneFit{{ranges.at[0] + value, variance, share * of_all}, along_rows, along_columns, slope_squared, rise};
 }
 
 /// The products of powers of its row and column, up to the fourth together, for every step of a window.
@@ -128,7 +137,8 @@ StepPowers::Products momentsOf(std::uint64_t around) {
 
 /// A quadratic over some pixels of the window: at least least_of_wide, which no conic holds.
 std::optional<PartFit> fitQuadratic(const PixelRows& ranges, std::uint64_t around) {
-  constexpr std::array<PixelStep, 6> terms = {{{0, 2}, {1, 1}, {2, 0}, {0, 1}, {1, 0}, {0, 0}}};  // powers
+  constexpr std::array<PixelStep, terms_of_quadratic> terms = {
+      {{0, 2}, {1, 1}, {2, 0}, {0, 1}, {1, 0}, {0, 0}}};  // powers
   constexpr int unknowns = terms.size();
   const int constant = unknowns - 1, values = unknowns;
   const int count = std::popcount(around) + 1;
@@ -167,15 +177,33 @@ std::optional<PartFit> fitQuadratic(const PixelRows& ranges, std::uint64_t aroun
   return PartFit{ranges.at[0] + value, variance, leverage};
 }
 
+/// The surface that ends at a rim, where pixels are missing down a steep slope, the silhouette is found between the
+/// last pixel and the next, and a quadratic explains hardly more. On flat surfaces, which may end there as well, a
+/// quadratic has less noise than what is found by chance.
+std::optional<PartFit> fitAtRim(const PixelRows& ranges, std::uint64_t around, const PlaneFit& plane,
+                                const PartFit& quadratic, double known) {
+  const double slope = std::sqrt(plane.slope_squared);
+  if (!(plane.slope_squared > steep_rim_squared * known && plane.rise > least_lean * slope)) return std::nullopt;
+  const auto rim = fitRim(ranges, around, plane.along_rows, plane.along_columns, std::sqrt(known));
+  if (!rim || !(rim->gap <= most_gap && rim->leverage <= 1)) return std::nullopt;
+  const int free = std::popcount(around) + 1 - terms_of_quadratic;
+  if (!(rim->misfits <= free * quadratic.variance + most_loss * known)) return std::nullopt;
+  return PartFit{rim->value, rim->misfits / free, rim->leverage};
+}
+
 /// At an edge: a plane, but a quadratic where the surface goes along the line of sight by more than noise from pixel to
-/// pixel. A body that curves away from the sensor does so up to its rim, and a plane would cut that off.
+/// pixel, or up to a rim what goes like a root. A body that curves away from the sensor is steep up to its rim, and a
+/// plane would cut that off.
 std::optional<SmoothedRange> fitAtEdge(const PixelRows& ranges, std::uint64_t around, int least_pixels, double known) {
   const double most_variance = most_misfit * known;
   const std::optional<PlaneFit> plane = fitPlane(ranges, around, least_pixels);
   if (!plane) return std::nullopt;
   if (plane->slope_squared > steep_squared * known)
-    if (const auto quadratic = fitQuadratic(ranges, around))
+    if (const auto quadratic = fitQuadratic(ranges, around)) {
+      if (const auto rim = fitAtRim(ranges, around, *plane, *quadratic, known))
+        if (const auto range = rim->within(most_variance)) return SmoothedRange{range->inverse, range->variance, true};
       if (const auto bent = quadratic->within(most_variance)) return bent;
+    }
   return plane->within(most_variance);
 }
 

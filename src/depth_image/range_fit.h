@@ -14,8 +14,9 @@ struct SquareFit {
 
 /// An inverse range without the noise of its pixel.
 struct SmoothedRange {
-  double inverse;   ///< the value
-  double variance;  ///< of it, by the residuals of the fit
+  double inverse;       ///< the value
+  double variance;      ///< of it, by the residuals of the fit
+  bool at_rim = false;  ///< found by fitRim()
 };
 
 /// Whether noise counts beside the spacing of the pixels and the rounding of ranges.
@@ -27,7 +28,8 @@ bool needsSmoothing(double inverse_range, double noise, double spacing_squared);
 /// over a pinhole camera's image.
 ///
 /// Where the whole window is one surface, a quadratic over 7 x 7 pixels, or over 5 x 5 where the residuals are more
-/// than noise; at edges a plane, where it fits as well as noise allows.
+/// than noise; at edges a plane, where it fits as well as noise allows, and where the surface is steep there a
+/// quadratic or, up to a rim, a root.
 /// @param around see SurfaceWindows
 /// @param ranges around the pixel, lane 0
 /// @param narrow, wide over 5 x 5 and 7 x 7 pixels; not looked at where these are not whole

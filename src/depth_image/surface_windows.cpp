@@ -80,6 +80,7 @@ class WindowFinder {
                                                    {narrow.value[lane], narrow.variance[lane]},
                                                    {wide.value[lane], wide.variance[lane]}, noise[lane]);
         range = smoothed.value_or(range);
+        if (range.at_rim) windows_.at_rim[tile.rankAt(row, column + lane)] = 1;
       }
       smoothed_->inverse[at + lane] = range.inverse;
       smoothed_->variance[at + lane] = range.variance;
@@ -106,6 +107,7 @@ SurfaceWindows findSurfaceWindows(const PixelGrid& grid, const PointsView& point
   if (grid.goes_round) windows.slope.resize(n);
   SmoothedRanges smoothed;
   if (smooths) smoothed.clear(grid, workers);
+  if (smooths) windows.at_rim.assign(n, 0);
   const WindowFinder finder(grid, points, noise, windows, smooths ? &smoothed : nullptr);
   Buffer<ImageTile> tiles(workers.count());
   Buffer<std::int64_t> cut(workers.count());
