@@ -304,7 +304,7 @@ class JumpFollower {
     if (has_neighbors && needsSmoothing(inverse[middle], noise, smoothed_.spacing_squared[at])) {
       SquareFits narrow{};
       if ((around & WindowPixels::rings(2)) == WindowPixels::rings(2)) kernels().fitSquares5(rows, narrow);
-      range = smoothedInverseRange(rows, around, {narrow.value[0], narrow.variance[0]}, {}, noise).value_or(range);
+      range = smoothedInverseDepth(rows, around, {narrow.value[0], narrow.variance[0]}, {}, noise).value_or(range);
     }
     smoothed_.inverse[at] = range.inverse;
     smoothed_.variance[at] = range.variance;

@@ -5,7 +5,6 @@
 #include <limits>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "neighbors/scan/pinhole.h"
 #include "tufted/errors.h"
@@ -50,6 +49,20 @@ void repeatBeyondSeam(PixelGrid& grid) {
     std::copy_n(rank + around, PixelGrid::margin, rank);
     std::copy_n(rank + PixelGrid::margin, PixelGrid::margin, rank + PixelGrid::margin + around);
   }
+}
+
+std::optional<Eigen::Vector3d> axisOfCamera(const PointsView& points, const PixelGrid& grid) {
+  const int width = grid.columnsInImage(), height = grid.rows - 2 * PixelGrid::margin;
+  Buffer<Sighting> sightings;
+  const std::int64_t stride = std::max<std::int64_t>(1, points.rows() / axis_samples) | 1;
+  for (std::int64_t p = 0; p < points.rows(); p += stride) {
+    const Eigen::Vector3d ray = (points.row(p) - grid.origin).transpose();
+    if (grid.pixel[p] < 0 || ray.isZero(0)) continue;
+    const int row = grid.rowOf(static_cast<int>(p)) - PixelGrid::margin,
+              column = grid.columnOf(static_cast<int>(p)) - PixelGrid::margin;
+    sightings.push_back({{2.0 * column / (width - 1) - 1, 2.0 * row / (height - 1) - 1}, ray.normalized()});
+  }
+  return opticalAxis(sightings, width, height);
 }
 
 }  // namespace
@@ -102,24 +115,6 @@ PixelGrid pixelGrid(const RankedScan& scan, int around) {
   if (grid.goes_round) repeatBeyondSeam(grid);
   return grid;
 }
-
-namespace {
-
-std::optional<Eigen::Vector3d> axisOfCamera(const PointsView& points, const PixelGrid& grid) {
-  const int width = grid.columnsInImage(), height = grid.rows - 2 * PixelGrid::margin;
-  std::vector<Sighting> sightings;
-  const std::int64_t stride = std::max<std::int64_t>(1, points.rows() / axis_samples) | 1;
-  for (std::int64_t p = 0; p < points.rows(); p += stride) {
-    const Eigen::Vector3d ray = (points.row(p) - grid.origin).transpose();
-    if (grid.pixel[p] < 0 || ray.isZero(0)) continue;
-    const int row = grid.rowOf(static_cast<int>(p)) - PixelGrid::margin,
-              column = grid.columnOf(static_cast<int>(p)) - PixelGrid::margin;
-    sightings.push_back({{2.0 * column / (width - 1) - 1, 2.0 * row / (height - 1) - 1}, ray.normalized()});
-  }
-  return opticalAxis(sightings, width, height);
-}
-
-}  // namespace
 
 void findAxis(const PointsView& points, PixelGrid& grid) {
   grid.axis.setZero();

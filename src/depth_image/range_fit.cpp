@@ -13,7 +13,7 @@ namespace tufted {
 namespace {
 
 constexpr double harmless = 1e-4;   // of the squared spacing; a hundredth of it does not matter for L
-constexpr double rounding = 1e-10;  // of an inverse range; less is no noise, as from a sensor that is far away
+constexpr double rounding = 1e-10;  // of an inverse depth; less is no noise, as from a sensor that is far away
 constexpr double most_misfit = 3;   // variance of residuals, in variances of the noise
 // Values that were smoothed before have bounds of their own, in variances of what noise they still have.
 constexpr double most_misfit_apart = 16;          // of a quadratic over 7 x 7 values
@@ -43,7 +43,7 @@ double quadraticLeverage() {
   return 1 / pixels + 2 * mean_square * mean_square / bowl;
 }
 
-/// The inverse range of a pixel of the window, less that of the middle one.
+/// The inverse depth of a pixel of the window, less that of the middle one.
 double rise(const PixelRows& ranges, const PixelStep& step) {
   return ranges.at[step.row * ranges.row_step + step.column * ranges.column_step] - ranges.at[0];
 }
@@ -213,7 +213,7 @@ bool needsSmoothing(double inverse_range, double noise, double spacing_squared) 
   return noise * noise > harmless * spacing_squared && noise > rounding * inverse_range;
 }
 
-std::optional<SmoothedRange> smoothedInverseRange(const PixelRows& ranges, std::uint64_t around,
+std::optional<SmoothedRange> smoothedInverseDepth(const PixelRows& ranges, std::uint64_t around,
                                                   const SquareFit& narrow, const SquareFit& wide, double noise) {
   const std::uint64_t inner = WindowPixels::rings(2), whole = WindowPixels::rings(3);
   const double known = noise * noise;

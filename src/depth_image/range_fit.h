@@ -12,7 +12,7 @@ struct SquareFit {
   double value, variance;
 };
 
-/// An inverse range without the noise of its pixel.
+/// An inverse depth without the noise of its pixel.
 struct SmoothedRange {
   double inverse;       ///< the value
   double variance;      ///< of it, by the residuals of the fit
@@ -21,10 +21,10 @@ struct SmoothedRange {
 
 /// Whether noise counts beside the spacing of the pixels and the rounding of ranges.
 /// @param noise of the whole image, see inverseRangeNoise()
-/// @param spacing_squared of neighbouring pixels in inverse range
+/// @param spacing_squared of neighbouring pixels in inverse depth
 bool needsSmoothing(double inverse_range, double noise, double spacing_squared);
 
-/// The inverse range of the surface at a pixel, by least squares over the window. Inverse ranges of a plane are linear
+/// The inverse depth of the surface at a pixel, by least squares over the window. Inverse depths of a plane are linear
 /// over a pinhole camera's image.
 ///
 /// Where the whole window is one surface, a quadratic over 7 x 7 pixels, or over 5 x 5 where the residuals are more
@@ -34,7 +34,7 @@ bool needsSmoothing(double inverse_range, double noise, double spacing_squared);
 /// @param ranges around the pixel, lane 0
 /// @param narrow, wide over 5 x 5 and 7 x 7 pixels; not looked at where these are not whole
 /// @returns nothing where the point should stay where it is
-std::optional<SmoothedRange> smoothedInverseRange(const PixelRows& ranges, std::uint64_t around,
+std::optional<SmoothedRange> smoothedInverseDepth(const PixelRows& ranges, std::uint64_t around,
                                                   const SquareFit& narrow, const SquareFit& wide, double noise);
 
 /// Smooths a range again, by a fit to values that were smoothed before, of pixels some distance apart: a quadratic over

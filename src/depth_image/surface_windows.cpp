@@ -76,7 +76,7 @@ class WindowFinder {
       if ((is_filled >> lane & 1U) == 0) continue;
       SmoothedRange range{rows.at[lane], 0};
       if ((is_wanted >> lane & 1U) != 0) {
-        const auto smoothed = smoothedInverseRange({rows.at + lane, rows.row_step, rows.column_step}, around[lane],
+        const auto smoothed = smoothedInverseDepth({rows.at + lane, rows.row_step, rows.column_step}, around[lane],
                                                    {narrow.value[lane], narrow.variance[lane]},
                                                    {wide.value[lane], wide.variance[lane]}, noise[lane]);
         range = smoothed.value_or(range);

@@ -1,4 +1,4 @@
-// The inverse range at the rim of bodies that curve away from the sensor, where it goes like a root.
+// The inverse depth at the rim of bodies that curve away from the sensor, where it goes like a root.
 #include "depth_image/rim_fit.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ struct Part {
   std::uint64_t around = 0;
   double truth;
 
-  /// @param surface inverse ranges by row and column, NaN where there is none
+  /// @param surface inverse depths by row and column, NaN where there is none
   Part(const std::function<double(int, int)>& surface, shapes::Random* random) : truth(surface(0, 0)) {
     const auto seen = [&](double value) { return value + (random == nullptr ? 0 : random->normal()); };
     values[24] = seen(truth);
@@ -86,13 +86,13 @@ double errorOf(const std::function<double(int, int)>& surface) {
   constexpr int samples = 1000;
   for (int i = 0; i < samples; ++i) {
     const Part part(surface, &random);
-    const auto range = smoothedInverseRange(part.ranges(), part.around, {}, {}, 1);
+    const auto range = smoothedInverseDepth(part.ranges(), part.around, {}, {}, 1);
     squares += std::pow(range.value_or(SmoothedRange{part.values[24], 0}).inverse - part.truth, 2) / samples;
   }
   return std::sqrt(squares);
 }
 
-TEST(SmoothedInverseRange, HasHalfTheNoiseAtRims) {
+TEST(SmoothedInverseDepth, HasHalfTheNoiseAtRims) {
   // Quadratics have errors of 1.33, 0.50 and 0.95 in the first case, of 0.78, 0.4 and 0.51 in the second.
   for (const double rise : {15.0, 7.0}) {
     EXPECT_LT(errorOf(rimOf(rise, 0.1)), 0.9);
@@ -101,7 +101,7 @@ TEST(SmoothedInverseRange, HasHalfTheNoiseAtRims) {
   }
 }
 
-TEST(SmoothedInverseRange, TakesNoFlatSurfaceForARim) {
+TEST(SmoothedInverseDepth, TakesNoFlatSurfaceForARim) {
   for (const double slope : {2.0, 6.0}) {
     const auto card = [slope](int row, int column) { return column < -1 ? NAN : 1000 + slope * column + 0.5 * row; };
     EXPECT_LT(errorOf(card), 0.45) << "a quadratic has 0.43";

@@ -103,7 +103,7 @@ TEST(RangeNoise, IsNotJumps) {
   EXPECT_EQ(noiseOf(Points::Constant(width * height, 3, std::nan(""))), 0);
 }
 
-TEST(SmoothedInverseRange, KeepsQuadraticsAndTakesTheRest) {
+TEST(SmoothedInverseDepth, KeepsQuadraticsAndTakesTheRest) {
   std::array<double, 49 + kernel_packet> values{};
   const auto fill = [&](double cubic) {
     for (int i = -3; i <= 3; ++i)
@@ -118,7 +118,7 @@ TEST(SmoothedInverseRange, KeepsQuadraticsAndTakesTheRest) {
     SquareFits narrow, wide;
     kernels().fitSquares5(ranges, narrow);
     kernels().fitSquares7(ranges, wide);
-    return smoothedInverseRange(ranges, around, {narrow.value[0], narrow.variance[0]},
+    return smoothedInverseDepth(ranges, around, {narrow.value[0], narrow.variance[0]},
                                 {wide.value[0], wide.variance[0]}, 0.01);
   };
   const auto smoothed = smoothedOf(WindowPixels::rings(3));
@@ -146,7 +146,7 @@ struct HalfWindow {
   }
 
   std::optional<SmoothedRange> smoothed(double noise) const {
-    return smoothedInverseRange({values.data() + 24, 7, 1}, around, {}, {}, noise);
+    return smoothedInverseDepth({values.data() + 24, 7, 1}, around, {}, {}, noise);
   }
 
   /// The first terms of 1, i, j, i^2, i j, j^2, by the normal equations of all 28 pixels.
@@ -174,11 +174,11 @@ void expectFit(const HalfWindow& window, int terms) {
   EXPECT_FALSE(window.smoothed(1e-4)) << "more than noise";
 }
 
-TEST(SmoothedInverseRange, AtEdgesIsThatOfAPlane) {
+TEST(SmoothedInverseDepth, AtEdgesIsThatOfAPlane) {
   expectFit(HalfWindow([](int row, int column) { return 1e-4 * row - 3e-4 * column; }), 3);
 }
 
-TEST(SmoothedInverseRange, AtEdgesIsThatOfAQuadraticWhereTheSurfaceIsSteep) {
+TEST(SmoothedInverseDepth, AtEdgesIsThatOfAQuadraticWhereTheSurfaceIsSteep) {
   expectFit(HalfWindow([](int row, int column) { return 1e-3 * row - 3e-3 * column - 4e-4 * column * column; }), 6);
 }
 

@@ -62,13 +62,11 @@ struct Quality {
 
 Quality measure(const View& view, const Points& points, const Laplacian& laplacian) {
   Quality quality;
-  double truth = 0;
   std::vector<double> angles, linear;
   for (int i = 0; i < points.rows(); ++i) {
     if (!std::isfinite(points(i, 0))) continue;
     const Eigen::Vector3d x = view.points.row(i), normal = view.normals.row(i);
     const double pixel = x.z() * x.z() / (view.focal * view.focal) / std::abs(normal.dot(x / x.z()));
-    truth += pixel;
     quality.area += laplacian.M[i];
     const bool is_inside = isInside(view, i);
     if (is_inside) {
@@ -85,7 +83,7 @@ Quality measure(const View& view, const Points& points, const Laplacian& laplaci
     if (is_inside && diagonal > 0)
       linear.push_back((image - image.dot(normal) * normal).norm() / (diagonal * std::sqrt(pixel)));
   }
-  quality.area = quality.area / truth - 1;
+  quality.area = quality.area / view.area - 1;
   quality.normal = quantile(angles, 0.5);
   quality.worst_normal = quantile(angles, 0.9);
   quality.linear = quantile(linear, 0.5);
@@ -105,6 +103,13 @@ double offSurface(const View& view, const Points& points) {
   return std::sqrt(sum / count);
 }
 
+/// The views of all seeds.
+std::vector<std::vector<View>> seenViews() {
+  std::vector<std::vector<View>> seen;
+  for (std::uint64_t seed = first_view_seed; seed <= last_view_seed; ++seed) seen.push_back(views(seed));
+  return seen;
+}
+
 }  // namespace
 
 void printDepthImages() {
@@ -112,25 +117,26 @@ void printDepthImages() {
       "| view | disparity | by | edges across jumps | area | normals off, median and 90 %% | L x in the plane | "
       "triangles "
       "from all corners |\n|---|---|---|---|---|---|---|---|\n");
-  for (const View& view : views()) {
-    const ScanStructure structure = imageStructure(view.width, view.height);
-    const Eigen::Vector3d sensor = Eigen::Vector3d::Zero();
+  const std::vector<std::vector<View>> seen = seenViews();
+  for (std::size_t v = 0; v < seen.front().size(); ++v) {
     for (const CameraNoise& noise : camera_noises) {
-      const std::uint64_t last = noise.lastSeed();
       for (const bool by_pixels : {false, true}) {
         Quality sum;
-        for (std::uint64_t seed = first_view_seed; seed <= last; ++seed) {
+        for (std::size_t i = 0; i < seen.size(); ++i) {
+          const View& view = seen[i][v];
+          const ScanStructure structure = imageStructure(view.width, view.height);
+          const Eigen::Vector3d sensor = Eigen::Vector3d::Zero();
           CloudOptions options;
           options.viewpoint = &sensor;
           options.keep_cover = false;
           if (by_pixels) options.structure = &structure;
-          const Points points = seenBy(view, noise, seed);
+          const Points points = seenBy(view, noise, first_view_seed + i);
           sum += measure(view, points, pointCloudLaplacian(points, options));
         }
-        const auto n = static_cast<double>(last - first_view_seed + 1);
-        std::printf("| %s | %s | %s | %.0f | %+.1f %% | %.2f, %.2f deg | %.1e | %.1f %% |\n", view.name.c_str(),
-                    noise.name.c_str(), by_pixels ? "pixels" : "tree", sum.across / n, 100 * sum.area / n,
-                    sum.normal / n, sum.worst_normal / n, sum.linear / n, 100 * sum.agreed / n);
+        std::printf("| %s | %s | %s | %.0f | %+.1f %% | %.2f, %.2f deg | %.1e | %.1f %% |\n", seen[0][v].name.c_str(),
+                    noise.name.c_str(), by_pixels ? "pixels" : "tree", sum.across / view_seeds,
+                    100 * sum.area / view_seeds, sum.normal / view_seeds, sum.worst_normal / view_seeds,
+                    sum.linear / view_seeds, 100 * sum.agreed / view_seeds);
         std::fflush(stdout);
       }
     }
@@ -139,19 +145,22 @@ void printDepthImages() {
 
 void printDenoisedImages() {
   std::printf("| view | disparity | off the surface, mm | denoise, by the tree | by pixels |\n|---|---|---|---|---|\n");
-  const std::vector<CameraNoise> noises = {{"exact", 0, 0}, {"steps of 1/8, noise .1 px", 0.125, 0.1}};
-  for (const View& view : views()) {
-    const ScanStructure structure = imageStructure(view.width, view.height);
+  const std::vector<CameraNoise> noises = {
+      {"exact", 0, 0}, {"steps of 1/8, noise .1 px", 0.125, 0.1}, {"timed light, noise 5 mm", 0, 0, 0.005}};
+  const std::vector<std::vector<View>> seen = seenViews();
+  for (std::size_t v = 0; v < seen.front().size(); ++v) {
     for (const CameraNoise& noise : noises) {
       double raw = 0, by_tree = 0, by_pixels = 0;
-      for (std::uint64_t seed = first_view_seed; seed <= last_view_seed; ++seed) {
-        const Points points = seenBy(view, noise, seed);
+      for (std::size_t i = 0; i < seen.size(); ++i) {
+        const View& view = seen[i][v];
+        const ScanStructure structure = imageStructure(view.width, view.height);
+        const Points points = seenBy(view, noise, first_view_seed + i);
         raw += offSurface(view, points);
         by_tree += offSurface(view, denoise(points).positions);
         by_pixels += offSurface(view, denoise(points, {.structure = &structure}).positions);
       }
-      const double scale = 1000.0 / static_cast<double>(last_view_seed - first_view_seed + 1);
-      std::printf("| %s | %s | %.2f | %.2f | %.2f |\n", view.name.c_str(), noise.name.c_str(), scale * raw,
+      const double scale = 1000 / view_seeds;
+      std::printf("| %s | %s | %.2f | %.2f | %.2f |\n", seen[0][v].name.c_str(), noise.name.c_str(), scale * raw,
                   scale * by_tree, scale * by_pixels);
       std::fflush(stdout);
     }

@@ -65,15 +65,13 @@ Errors errorsOf(const Points& points, const CloudOptions& options, const std::ve
 
 void printDepthSpectra() {
   std::printf("| disparity | eigenvalues of the cap, by the tree: largest error, mean | by pixels |\n|---|---|---|\n");
-  const View view = ballView();
-  const ScanStructure structure = imageStructure(view.width, view.height);
   const std::vector<double> truth = eigenvaluesOfCap();
   const Eigen::RowVector3d middle(0, 0, ball_depth);
   for (const CameraNoise& noise : camera_noises) {
     Errors errors[2];
-    const std::uint64_t last_seed = noise.lastSeed();
-    const auto runs = static_cast<double>(last_seed - first_view_seed + 1);
-    for (std::uint64_t seed = first_view_seed; seed <= last_seed; ++seed) {
+    for (std::uint64_t seed = first_view_seed; seed <= last_view_seed; ++seed) {
+      const View view = ballView(seed);
+      const ScanStructure structure = imageStructure(view.width, view.height);
       Points points = seenBy(view, noise, seed);
       for (Eigen::Index i = 0; i < points.rows(); ++i)
         if (!((middle - view.points.row(i)).z() > ball_radius * std::cos(angle)))
@@ -83,8 +81,8 @@ void printDepthSpectra() {
         options.keep_cover = false;
         if (by_pixels) options.structure = &structure;
         const Errors here = errorsOf(points, options, truth);
-        errors[by_pixels ? 1 : 0].largest += here.largest / runs;
-        errors[by_pixels ? 1 : 0].mean += here.mean / runs;
+        errors[by_pixels ? 1 : 0].largest += here.largest / view_seeds;
+        errors[by_pixels ? 1 : 0].mean += here.mean / view_seeds;
       }
     }
     std::printf("| %s | %.2f %%, %+.2f %% | %.2f %%, %+.2f %% |\n", noise.name.c_str(), 100 * errors[0].largest,

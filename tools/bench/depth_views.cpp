@@ -1,5 +1,6 @@
 #include "bench/depth_views.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -33,23 +34,62 @@ struct Body {
   }
 };
 
-View viewOf(const std::string& name, const std::vector<Body>& bodies) {
+/// What is seen along a ray.
+struct Seen {
+  double depth = nothing;
+  Eigen::Vector3d normal = Eigen::Vector3d::Zero();
+  int body = -1;
+
+  /// Of a pixel.
+  double area(const Eigen::Vector3d& ray, double focal) const {
+    return body < 0 ? 0 : depth * depth / (focal * focal) / std::abs(normal.dot(ray));
+  }
+};
+
+Seen seenAlong(const Eigen::Vector3d& ray, const std::vector<Body>& bodies) {
+  Seen seen;
+  for (std::size_t b = 0; b < bodies.size(); ++b) {
+    const auto [t, normal] = bodies[b].meet(ray);
+    if (t > 1e-6 && !(t >= seen.depth)) seen = {t, normal, static_cast<int>(b)};
+  }
+  return seen;
+}
+
+/// Whether a pixel or one beside it is of another body.
+bool isAtEdge(const View& view, int i) {
+  const int row = i / view.width, column = i % view.width;
+  for (int r = std::max(0, row - 1); r <= std::min(view.height - 1, row + 1); ++r)
+    for (int c = std::max(0, column - 1); c <= std::min(view.width - 1, column + 1); ++c)
+      if (view.bodies[r * view.width + c] != view.bodies[i]) return true;
+  return false;
+}
+
+View viewOf(std::uint64_t seed, const std::string& name, const std::vector<Body>& bodies) {
+  constexpr int parts = 32;  // of a pixel at an edge, each way: bodies are seen along their surface there
+  shapes::Random random(seed);
+  const double aside = random.uniform() - 0.5, above = random.uniform() - 0.5;  // pixels
   View view{.name = name, .points = {}, .normals = {}, .bodies = {}};
   const int n = view.width * view.height;
   view.points.setConstant(n, 3, nothing);
   view.normals.setZero(n, 3);
   view.bodies.assign(static_cast<std::size_t>(n), -1);
+  const auto rayOf = [&](int i, double right, double down) {
+    return Eigen::Vector3d((i % view.width - (view.width - 1) / 2.0 + aside + right) / view.focal,
+                           (i / view.width - (view.height - 1) / 2.0 + above + down) / view.focal, 1);
+  };
   for (int i = 0; i < n; ++i) {
-    const Eigen::Vector3d ray((i % view.width - (view.width - 1) / 2.0) / view.focal,
-                              (i / view.width - (view.height - 1) / 2.0) / view.focal, 1);
-    double nearest = std::numeric_limits<double>::infinity();
-    for (std::size_t b = 0; b < bodies.size(); ++b) {
-      const auto [t, normal] = bodies[b].meet(ray);
-      if (!(t > 1e-6 && t < nearest)) continue;
-      nearest = t;
-      view.points.row(i) = (t * ray).transpose();
-      view.normals.row(i) = normal.transpose();
-      view.bodies[i] = static_cast<int>(b);
+    const Eigen::Vector3d ray = rayOf(i, 0, 0);
+    const Seen seen = seenAlong(ray, bodies);
+    if (seen.body < 0) continue;
+    view.points.row(i) = (seen.depth * ray).transpose();
+    view.normals.row(i) = seen.normal.transpose();
+    view.bodies[i] = seen.body;
+  }
+  for (int i = 0; i < n; ++i) {
+    const int each = isAtEdge(view, i) ? parts : 1;
+    for (int part = 0; part < each * each; ++part) {
+      const Eigen::Vector3d ray = rayOf(i, (part % each + 0.5) / each - 0.5, (part / each + 0.5) / each - 0.5);
+      view.area += seenAlong(ray, bodies).area(ray, view.focal) / (each * each);
     }
   }
   return view;
@@ -57,33 +97,39 @@ View viewOf(const std::string& name, const std::vector<Body>& bodies) {
 
 View roomView() {
   const shapes::Cloud cloud = shapes::depthCamera({.depth_step = 0, .max_depth = 100, .dropouts = 0});
-  return {"room", 525, cloud.width, cloud.height, cloud.points, cloud.normals, cloud.labels};
+  View view{"room", 525, cloud.width, cloud.height, cloud.points, cloud.normals, cloud.labels};
+  for (int i = 0; i < cloud.points.rows(); ++i) {
+    const Eigen::Vector3d point = cloud.points.row(i);
+    const Seen seen{point.z(), cloud.normals.row(i), 0};
+    if (std::isfinite(point.z())) view.area += seen.area(point / point.z(), view.focal);
+  }
+  return view;
 }
 
 }  // namespace
 
-View ballView() {
-  return viewOf("ball, 1.2 m", {{Body::Kind::ball, {0, 0, ball_depth}, Eigen::Vector3d::Zero(), ball_radius}});
+View ballView(std::uint64_t seed) {
+  return viewOf(seed, "ball, 1.2 m", {{Body::Kind::ball, {0, 0, ball_depth}, Eigen::Vector3d::Zero(), ball_radius}});
 }
 
-std::vector<View> views() {
+std::vector<View> views(std::uint64_t seed) {
   using enum Body::Kind;
   const auto wall = [](double depth, const Eigen::Vector3d& normal) {
     return Body{plane, {0, 0, depth}, normal.normalized()};
   };
-  return {
-      roomView(),
-      viewOf("near: mug, ball, pole, table, wall", {{cylinder, {0, 0, 0.6}, Eigen::Vector3d::UnitY(), 0.04},
-                                                    {ball, {0.12, 0.02, 0.65}, Eigen::Vector3d::Zero(), 0.05},
-                                                    {cylinder, {-0.1, 0, 0.7}, Eigen::Vector3d::UnitY(), 0.0018},
-                                                    {plane, {0, 0.12, 0}, Eigen::Vector3d(0, -0.9, -0.3).normalized()},
-                                                    wall(0.9, {0, 0, -1})}),
-      ballView(),
-      viewOf("corner, 1.2 m",
-             {{plane, {0, 0.4, 0}, Eigen::Vector3d(0, -0.8, -0.6)}, wall(1.2, {-1, 0, -1}), wall(1.2, {1, 0, -1})}),
-      viewOf("slanted wall, 2.5 m", {wall(2.5, {0.5, -0.3, -0.8})}),
-      viewOf("floor to 6 m", {{plane, {0, 0.8, 0}, Eigen::Vector3d(0, -1, 0)}, wall(6, {0, 0, -1})}),
-      viewOf("wall, 4 m", {wall(4, {0.2, 0.1, -0.97})})};
+  return {roomView(),
+          viewOf(seed, "near: mug, ball, pole, table, wall",
+                 {{cylinder, {0, 0, 0.6}, Eigen::Vector3d::UnitY(), 0.04},
+                  {ball, {0.12, 0.02, 0.65}, Eigen::Vector3d::Zero(), 0.05},
+                  {cylinder, {-0.1, 0, 0.7}, Eigen::Vector3d::UnitY(), 0.0018},
+                  {plane, {0, 0.12, 0}, Eigen::Vector3d(0, -0.9, -0.3).normalized()},
+                  wall(0.9, {0, 0, -1})}),
+          ballView(seed),
+          viewOf(seed, "corner, 1.2 m",
+                 {{plane, {0, 0.4, 0}, Eigen::Vector3d(0, -0.8, -0.6)}, wall(1.2, {-1, 0, -1}), wall(1.2, {1, 0, -1})}),
+          viewOf(seed, "slanted wall, 2.5 m", {wall(2.5, {0.5, -0.3, -0.8})}),
+          viewOf(seed, "floor to 6 m", {{plane, {0, 0.8, 0}, Eigen::Vector3d(0, -1, 0)}, wall(6, {0, 0, -1})}),
+          viewOf(seed, "wall, 4 m", {wall(4, {0.2, 0.1, -0.97})})};
 }
 
 Points seenBy(const View& view, const CameraNoise& noise, std::uint64_t seed) {

@@ -10,7 +10,9 @@
 
 namespace tufted::bench {
 
-constexpr std::uint64_t first_view_seed = 101, last_view_seed = 103;  // of the noise, or where steps begin
+/// Of the noise, of where steps begin, and of what the camera looks at: each turns it by other parts of a pixel.
+constexpr std::uint64_t first_view_seed = 101, last_view_seed = 103;
+constexpr double view_seeds = 1 + last_view_seed - first_view_seed;
 
 /// What a pinhole camera of 640 x 480 pixels would see exactly.
 struct View {
@@ -20,13 +22,14 @@ struct View {
   Points points;
   Points normals;
   std::vector<int> bodies;
+  double area = 0;  ///< that is seen
 };
 
-/// A room, things on a table, a ball, a corner, walls and a floor.
-std::vector<View> views();
+/// A room, things on a table, a ball, a corner, walls and a floor. The seed does not turn the camera in the room.
+std::vector<View> views(std::uint64_t seed);
 
 /// The ball of views().
-View ballView();
+View ballView(std::uint64_t seed);
 constexpr double ball_depth = 1.2, ball_radius = 0.4;  // m
 
 /// Noise of a camera that measures disparities, or of one that times light.
@@ -34,9 +37,6 @@ struct CameraNoise {
   std::string name;
   double step, sigma;   ///< of the disparity, pixels
   double of_range = 0;  ///< m
-
-  /// The last of the seeds over which a mean is taken: all exact images are the same.
-  std::uint64_t lastSeed() const { return step + sigma + of_range > 0 ? last_view_seed : first_view_seed; }
 };
 
 inline const std::vector<CameraNoise> camera_noises = {{"exact", 0, 0},

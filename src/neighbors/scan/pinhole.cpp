@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
-#include <vector>
+#include <span>
 
+#include "base/buffer.h"
 #include "tufted/scan_structure.h"
 
 namespace tufted {
@@ -18,8 +19,8 @@ constexpr double usual_error = 0.5;  // pixels, of half the samples
 constexpr double most_error = 2;     // of 95 % of them
 constexpr double most_share = 0.95;
 
-std::vector<Sighting> takeSightings(const Points& points, int width, int height, const Eigen::Vector3d& origin) {
-  std::vector<Sighting> sightings;
+Buffer<Sighting> takeSightings(const Points& points, int width, int height, const Eigen::Vector3d& origin) {
+  Buffer<Sighting> sightings;
   const std::int64_t stride = std::max<std::int64_t>(1, points.rows() / samples) | 1;  // odd: not always one column
   for (std::int64_t i = 0; i < points.rows(); i += stride) {
     const Eigen::Vector3d ray = points.row(i).transpose() - origin;
@@ -32,7 +33,7 @@ std::vector<Sighting> takeSightings(const Points& points, int width, int height,
 }
 
 /// The camera that sees (x, y, 1) ~ camera ray, by least squares of the linear equations.
-Eigen::Matrix3d fitCamera(const std::vector<Sighting>& sightings) {
+Eigen::Matrix3d fitCamera(std::span<const Sighting> sightings) {
   Eigen::Matrix<double, 9, 9> normal = Eigen::Matrix<double, 9, 9>::Zero();
   for (const Sighting& sighting : sightings) {
     for (int axis = 0; axis < 2; ++axis) {
@@ -51,10 +52,11 @@ Eigen::Matrix3d fitCamera(const std::vector<Sighting>& sightings) {
 
 }  // namespace
 
-std::optional<Eigen::Vector3d> opticalAxis(const std::vector<Sighting>& sightings, int width, int height) {
+std::optional<Eigen::Vector3d> opticalAxis(std::span<const Sighting> sightings, int width, int height) {
   if (width < least_side || height < least_side || std::ssize(sightings) < least_samples) return std::nullopt;
   const Eigen::Matrix3d camera = fitCamera(sightings);
-  std::vector<double> errors;
+  Buffer<double> errors;
+  errors.reserve(sightings.size());
   std::int64_t before = 0;  // points in front of the camera, one way round
   for (const Sighting& sighting : sightings) {
     const Eigen::Vector3d seen = camera * sighting.ray;

@@ -2,7 +2,7 @@
 
 #include <Eigen/Core>
 #include <optional>
-#include <vector>
+#include <span>
 
 namespace tufted {
 
@@ -14,6 +14,6 @@ struct Sighting {
 
 /// The axis of the pinhole camera that has these rays in these pixels, unit length, towards what it sees. Nothing where
 /// there is none, as with fewer than 100 sightings, fewer than 8 rows or columns, or most of the rays two pixels off.
-std::optional<Eigen::Vector3d> opticalAxis(const std::vector<Sighting>& sightings, int width, int height);
+std::optional<Eigen::Vector3d> opticalAxis(std::span<const Sighting> sightings, int width, int height);
 
 }  // namespace tufted
