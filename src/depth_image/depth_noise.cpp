@@ -8,7 +8,6 @@
 #include <numeric>
 #include <optional>
 #include <span>
-#include <utility>
 
 #include "base/buffer.h"
 
@@ -23,7 +22,6 @@ constexpr double spread_at_first = 0.37, spread = 0.62;  // mean square of the s
 constexpr double sum_of_squares = 70;                    // of 1, 4, 6, 4, 1
 
 // How noise grows from far to near, by groups of rows of alike inverse depths.
-constexpr int groups_in_octave = 2;
 constexpr std::ptrdiff_t least_in_group = 200;  // rows of five pixels
 constexpr std::size_t least_groups = 3;
 constexpr double least_power = 0.6;  // of the inverse depth: less is that of a camera that measures disparities
@@ -98,29 +96,35 @@ double noiseOf(std::span<const Five> fives) {
 
 /// Rows of five pixels that lie at about the same inverse depth.
 struct Level {
-  double inverse;  ///< range in the mean
+  double inverse;  ///< depth, in the mean
   double noise;
   double weight;
 };
 
+/// By half octaves of the inverse depth.
 Buffer<Level> levelsOf(const RawBuffer<Five>& fives) {
-  const auto groupOf = [](const Five& w) { return static_cast<int>(std::floor(groups_in_octave * std::log2(w[2]))); };
-  Buffer<std::pair<int, std::size_t>> by_group;
-  by_group.reserve(fives.size());
-  for (std::size_t i = 0; i < fives.size(); ++i)
-    if (!std::isnan(fives[i][0])) by_group.push_back({groupOf(fives[i]), i});
-  std::sort(by_group.begin(), by_group.end());
+  const auto groupOf = [](const Five& w) { return std::ilogb(w[2] * w[2]); };
+  int first = std::numeric_limits<int>::max(), last = std::numeric_limits<int>::min();
+  for (const Five& w : fives) {
+    if (std::isnan(w[0])) continue;
+    first = std::min(first, groupOf(w));
+    last = std::max(last, groupOf(w));
+  }
   Buffer<Level> levels;
-  Buffer<Five> group;
-  for (auto begin = by_group.begin(); begin != by_group.end();) {
-    const int number = begin->first;
-    double sum = 0;
-    group.clear();
-    for (; begin != by_group.end() && begin->first == number; ++begin) {
-      group.push_back(fives[begin->second]);
-      sum += group.back()[2];
-    }
+  if (first > last) return levels;
+  Buffer<std::size_t> begin(static_cast<std::size_t>(last - first) + 2, 0);  // of each group, in the order of groups
+  for (const Five& w : fives)
+    if (!std::isnan(w[0])) ++begin[groupOf(w) - first + 1];
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  RawBuffer<Five> by_group(begin.back());
+  Buffer<std::size_t> next = begin;
+  for (const Five& w : fives)
+    if (!std::isnan(w[0])) by_group[next[groupOf(w) - first]++] = w;
+  for (std::size_t g = 0; g + 1 < begin.size(); ++g) {
+    const std::span<const Five> group(by_group.data() + begin[g], begin[g + 1] - begin[g]);
     if (std::ssize(group) < least_in_group) continue;
+    double sum = 0;
+    for (const Five& w : group) sum += w[2];
     const auto count = static_cast<double>(group.size());
     levels.push_back({sum / count, noiseOf(group), count});
   }
