@@ -14,17 +14,27 @@
 namespace tufted {
 namespace {
 
-constexpr std::array<int, 3> strides = {3, SmoothedRanges::widest_stride, 4};  // pixels apart, pass by pass
+constexpr std::array<int, 4> strides = {3, SmoothedRanges::widest_stride, 5, 2};  // pixels apart, pass by pass
+constexpr int widest_of_bent = 3;
 constexpr std::ptrdiff_t passes_of_rings = 1;
 constexpr double harmless = 0.0004;  // of the squared spacing: a fiftieth of it in noise
 /// A twentieth of the spacing is harmless at edges, where a plane is fitted to a part of a window: values some pixels
 /// apart share errors of the pass before, and the plane carries these on to the edge.
 constexpr double harmless_at_edges = 0.0025;
-constexpr std::int64_t samples = 500;  // packets of pixels, to see what noise smoothed values have
-constexpr double quiet = 0.25;         // of the windows have nothing but noise
-constexpr double usual = 0.75;         // of the windows are of one surface
-constexpr double most_to_usual = 2;    // times the variance that noise leaves, in these
-constexpr double left_at_first = 0.5;  // of the variance of the noise, at most, once it was smoothed
+constexpr std::int64_t samples = 500;     // packets of pixels, to see what noise smoothed values have
+constexpr double quiet = 0.25;            // of the windows have nothing but noise
+constexpr double usual = 0.75;            // of the windows are of one surface
+constexpr double most_to_usual = 2;       // times the variance that noise leaves, in these
+constexpr double left_at_first = 0.5;     // of the variance of the noise, at most, once it was smoothed
+constexpr double left_of_white = 0.06;    // the same where noise is white: what is more is shape
+constexpr double least_of_white = 0.012;  // of that variance, by fits to neighbouring pixels that were smoothed;
+constexpr double most_of_white = 0.045;   // less is left of the steps of a coarse depth
+
+double quantileOf(Buffer<double>& values, double share) {
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
 
 /// Calls work(row, worker) for all rows, those of the border too.
 template <class Work>
@@ -68,6 +78,34 @@ class RangeSmoother {
   /// over the image. Noise of real cameras is alike in neighbouring pixels and survives smoothing, white noise does
   /// not. Steps of a coarse depth are in some windows and not in others.
   double findVariance() {
+    Buffer<double> left = misfits();
+    if (left.empty()) return variance_;
+    const double found = std::max(quantileOf(left, quiet), quantileOf(left, usual) / most_to_usual);
+    variance_ = std::min(variance_, found);
+    return variance_;
+  }
+
+  /// Whether noise differs freely from pixel to pixel, by fits to pixels that are a stride of 1 apart. Smoothing has
+  /// made values of such noise alike over 7 x 7 pixels, so that fits leave a 60th of it; noise of real cameras goes on
+  /// from window to window.
+  bool isWhite() const {
+    Buffer<double> left = misfits();
+    if (left.empty()) return false;
+    const double usually_left = quantileOf(left, quiet);
+    return usually_left >= least_of_white && usually_left <= most_of_white;
+  }
+
+  void smoothRow(int row) const {
+    const std::ptrdiff_t begin = smoothed_.at(row, -SmoothedRanges::border), end = begin + smoothed_.row_step;
+    std::copy(smoothed_.inverse.begin() + begin, smoothed_.inverse.begin() + end, after_.begin() + begin);
+    if (row < 0 || row >= smoothed_.rows) return;
+    for (int column = PixelGrid::margin; column < smoothed_.columns - PixelGrid::margin; column += kernel_packet)
+      smoothSome(smoothed_.at(row, column));
+  }
+
+ private:
+  /// What fits leave in whole windows all over the image, in variances of the noise.
+  Buffer<double> misfits() const {
     const int in_row = (smoothed_.columns - 2 * PixelGrid::margin + kernel_packet - 1) / kernel_packet;
     const std::int64_t packets = std::int64_t{in_row} * (smoothed_.rows - 2 * PixelGrid::margin);
     std::int64_t step = std::max<std::int64_t>(1, packets / samples);
@@ -84,26 +122,9 @@ class RangeSmoother {
           left.push_back(packet.wide.variance[lane] / (noise * noise));
         }
     }
-    if (left.empty()) return variance_;
-    const auto quantile = [&left](double share) {
-      const auto at = left.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(left.size()));
-      std::nth_element(left.begin(), at, left.end());
-      return *at;
-    };
-    const double found = std::max(quantile(quiet), quantile(usual) / most_to_usual);
-    variance_ = std::min(variance_, found);
-    return variance_;
+    return left;
   }
 
-  void smoothRow(int row) const {
-    const std::ptrdiff_t begin = smoothed_.at(row, -SmoothedRanges::border), end = begin + smoothed_.row_step;
-    std::copy(smoothed_.inverse.begin() + begin, smoothed_.inverse.begin() + end, after_.begin() + begin);
-    if (row < 0 || row >= smoothed_.rows) return;
-    for (int column = PixelGrid::margin; column < smoothed_.columns - PixelGrid::margin; column += kernel_packet)
-      smoothSome(smoothed_.at(row, column));
-  }
-
- private:
   /// The windows of a packet of pixels.
   struct Packet {
     unsigned is_wanted = 0, is_whole = 0;
@@ -155,7 +176,7 @@ class RangeSmoother {
         std::uint64_t around = 0;
         for (int i = 0; i < WindowPixels::count; ++i) around |= std::uint64_t{packet.within[i] >> lane & 1U} << i;
         // Windows of 55 pixels hold more than one bend, a third pass gains nothing, and rings lie too far apart.
-        const bool may_bend = stride_ == strides.front() && !smoothed_.goes_round;
+        const bool may_bend = stride_ <= widest_of_bent && !smoothed_.goes_round;
         range = smoothedFurther({rows.at + lane, rows.row_step, rows.column_step}, around, before, variance, may_bend);
       }
       if (!range) continue;
@@ -195,7 +216,8 @@ void SmoothedRanges::clear(const PixelGrid& grid, const Workers& workers) {
 void smoothFurther(SmoothedRanges& smoothed, const RangeNoise& noise, const Workers& workers) {
   RawBuffer<double> after(smoothed.inverse.size());
   std::fill_n(after.end() - kernel_packet, kernel_packet, 0);
-  double variance = left_at_first;
+  const bool is_white = !smoothed.goes_round && RangeSmoother(noise, left_at_first, 1, smoothed, after).isWhite();
+  double variance = is_white ? left_of_white : left_at_first;
   // The rings of a scanner are few rows: 55 of them are most of the image, and no longer one surface.
   const std::ptrdiff_t passes = smoothed.goes_round ? passes_of_rings : std::ssize(strides);
   for (std::ptrdiff_t i = 0; i < passes; ++i) {
