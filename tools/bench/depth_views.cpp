@@ -42,7 +42,7 @@ struct Seen {
 
   /// Of a pixel.
   double area(const Eigen::Vector3d& ray, double focal) const {
-    return body < 0 ? 0 : depth * depth / (focal * focal) / std::abs(normal.dot(ray));
+    return depth * depth / (focal * focal) / std::abs(normal.dot(ray));
   }
 };
 
@@ -53,6 +53,12 @@ Seen seenAlong(const Eigen::Vector3d& ray, const std::vector<Body>& bodies) {
     if (t > 1e-6 && !(t >= seen.depth)) seen = {t, normal, static_cast<int>(b)};
   }
   return seen;
+}
+
+/// How much of a pixel lies between the middles of the outer ones: builds end there.
+double shareOf(const View& view, int i) {
+  const int row = i / view.width, column = i % view.width;
+  return (row == 0 || row == view.height - 1 ? 0.5 : 1) * (column == 0 || column == view.width - 1 ? 0.5 : 1);
 }
 
 /// Whether a pixel or one beside it is of another body.
@@ -68,7 +74,7 @@ View viewOf(std::uint64_t seed, const std::string& name, const std::vector<Body>
   constexpr int parts = 32;  // of a pixel at an edge, each way: bodies are seen along their surface there
   shapes::Random random(seed);
   const double aside = random.uniform() - 0.5, above = random.uniform() - 0.5;  // pixels
-  View view{.name = name, .points = {}, .normals = {}, .bodies = {}};
+  View view{.name = name, .points = {}, .normals = {}, .bodies = {}, .areas = std::vector<double>(bodies.size())};
   const int n = view.width * view.height;
   view.points.setConstant(n, 3, nothing);
   view.normals.setZero(n, 3);
@@ -89,7 +95,8 @@ View viewOf(std::uint64_t seed, const std::string& name, const std::vector<Body>
     const int each = isAtEdge(view, i) ? parts : 1;
     for (int part = 0; part < each * each; ++part) {
       const Eigen::Vector3d ray = rayOf(i, (part % each + 0.5) / each - 0.5, (part / each + 0.5) / each - 0.5);
-      view.area += seenAlong(ray, bodies).area(ray, view.focal) / (each * each);
+      const Seen seen = seenAlong(ray, bodies);
+      if (seen.body >= 0) view.areas[seen.body] += shareOf(view, i) * seen.area(ray, view.focal) / (each * each);
     }
   }
   return view;
@@ -97,11 +104,13 @@ View viewOf(std::uint64_t seed, const std::string& name, const std::vector<Body>
 
 View roomView() {
   const shapes::Cloud cloud = shapes::depthCamera({.depth_step = 0, .max_depth = 100, .dropouts = 0});
-  View view{"room", 525, cloud.width, cloud.height, cloud.points, cloud.normals, cloud.labels};
+  View view{"room", 525, cloud.width, cloud.height, cloud.points, cloud.normals, cloud.labels, {}};
   for (int i = 0; i < cloud.points.rows(); ++i) {
     const Eigen::Vector3d point = cloud.points.row(i);
     const Seen seen{point.z(), cloud.normals.row(i), 0};
-    if (std::isfinite(point.z())) view.area += seen.area(point / point.z(), view.focal);
+    if (!std::isfinite(point.z())) continue;
+    view.areas.resize(std::max<std::size_t>(view.areas.size(), cloud.labels[i] + 1));
+    view.areas[cloud.labels[i]] += shareOf(view, i) * seen.area(point / point.z(), view.focal);
   }
   return view;
 }

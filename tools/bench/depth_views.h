@@ -22,7 +22,7 @@ struct View {
   Points points;
   Points normals;
   std::vector<int> bodies;
-  double area = 0;  ///< that is seen
+  std::vector<double> areas;  ///< that are seen of each body between the middles of the outer pixels
 };
 
 /// A room, things on a table, a ball, a corner, walls and a floor. The seed does not turn the camera in the room.
