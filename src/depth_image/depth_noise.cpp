@@ -8,6 +8,7 @@
 #include <numeric>
 #include <optional>
 #include <span>
+#include <vector>
 
 #include "base/buffer.h"
 
@@ -94,41 +95,49 @@ double noiseOf(std::span<const Five> fives) {
   return noiseOf(fives, likely_jump * at_first, kept, spread);
 }
 
-/// Rows of five pixels that lie at about the same inverse depth.
+/// Rows of five pixels by half octaves of their inverse depth.
+struct Groups {
+  RawBuffer<Five> fives;
+  Buffer<std::size_t> begin;  ///< of each group, in order, and the end
+
+  std::size_t size() const { return begin.size() - 1; }
+  std::span<const Five> operator[](std::size_t i) const { return {fives.data() + begin[i], begin[i + 1] - begin[i]}; }
+};
+
+Groups groupsOf(const RawBuffer<Five>& fives) {
+  constexpr int none = std::numeric_limits<int>::max();
+  Buffer<int> group_of(fives.size(), none);
+  int first = none, last = -none;
+  for (std::size_t i = 0; i < fives.size(); ++i) {
+    if (std::isnan(fives[i][0])) continue;
+    group_of[i] = std::ilogb(fives[i][2] * fives[i][2]);
+    first = std::min(first, group_of[i]);
+    last = std::max(last, group_of[i]);
+  }
+  Groups groups;
+  groups.begin.assign(first > last ? 1 : static_cast<std::size_t>(last - first) + 2, 0);
+  for (const int group : group_of)
+    if (group != none) ++groups.begin[group - first + 1];
+  std::partial_sum(groups.begin.begin(), groups.begin.end(), groups.begin.begin());
+  groups.fives.resize(groups.begin.back());
+  Buffer<std::size_t> next = groups.begin;
+  for (std::size_t i = 0; i < fives.size(); ++i)
+    if (group_of[i] != none) groups.fives[next[group_of[i] - first]++] = fives[i];
+  return groups;
+}
+
+/// What noise a group has.
 struct Level {
   double inverse;  ///< depth, in the mean
   double noise;
   double weight;
 };
 
-/// By half octaves of the inverse depth.
-Buffer<Level> levelsOf(const RawBuffer<Five>& fives) {
-  const auto groupOf = [](const Five& w) { return std::ilogb(w[2] * w[2]); };
-  int first = std::numeric_limits<int>::max(), last = std::numeric_limits<int>::min();
-  for (const Five& w : fives) {
-    if (std::isnan(w[0])) continue;
-    first = std::min(first, groupOf(w));
-    last = std::max(last, groupOf(w));
-  }
-  Buffer<Level> levels;
-  if (first > last) return levels;
-  Buffer<std::size_t> begin(static_cast<std::size_t>(last - first) + 2, 0);  // of each group, in the order of groups
-  for (const Five& w : fives)
-    if (!std::isnan(w[0])) ++begin[groupOf(w) - first + 1];
-  std::partial_sum(begin.begin(), begin.end(), begin.begin());
-  RawBuffer<Five> by_group(begin.back());
-  Buffer<std::size_t> next = begin;
-  for (const Five& w : fives)
-    if (!std::isnan(w[0])) by_group[next[groupOf(w) - first]++] = w;
-  for (std::size_t g = 0; g + 1 < begin.size(); ++g) {
-    const std::span<const Five> group(by_group.data() + begin[g], begin[g + 1] - begin[g]);
-    if (std::ssize(group) < least_in_group) continue;
-    double sum = 0;
-    for (const Five& w : group) sum += w[2];
-    const auto count = static_cast<double>(group.size());
-    levels.push_back({sum / count, noiseOf(group), count});
-  }
-  return levels;
+Level levelOf(std::span<const Five> group) {
+  double sum = 0;
+  for (const Five& w : group) sum += w[2];
+  const auto count = static_cast<double>(group.size());
+  return {sum / count, noiseOf(group), count};
 }
 
 /// The slope of the logarithm of the noise over that of the inverse depth.
@@ -206,10 +215,22 @@ double roundingOf(std::span<const Five> fives, double noise) {
 
 RangeNoise rangeNoise(const PixelGrid& grid, const PointsView& points, const Workers& workers) {
   const RawBuffer<Five> fives = takeFives(grid, points, workers);
-  const double of_inverse = noiseOf(fives);
+  const Groups groups = groupsOf(fives);
+  double of_inverse = 0;
+  Buffer<Level> levels(groups.size(), Level{});
+  // First the noise of all, which takes as long as those of the groups together.
+  workers.forBlocks("windows", std::ssize(levels) + 1, 1, [&](std::int64_t begin, std::int64_t end, int) {
+    for (std::int64_t i = begin; i < end; ++i) {
+      if (i == 0) {
+        of_inverse = noiseOf(fives);
+      } else if (std::ssize(groups[i - 1]) >= least_in_group) {
+        levels[i - 1] = levelOf(groups[i - 1]);
+      }
+    }
+  });
   const double rounding = roundingOf(fives, of_inverse);
   if (rounding > 0) return {std::max(of_inverse, rounding), 0};
-  const Buffer<Level> levels = levelsOf(fives);
+  std::erase_if(levels, [](const Level& level) { return level.weight == 0; });
   const auto isKnown = [](const Level& level) { return level.noise > 0; };
   if (levels.size() >= least_groups && std::all_of(levels.begin(), levels.end(), isKnown) &&
       powerOf(levels) > least_power)

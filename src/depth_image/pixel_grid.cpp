@@ -122,8 +122,8 @@ void findAxis(const PointsView& points, PixelGrid& grid) {
   if (!axis) return;
   grid.axis = axis->transpose();
   for (std::int64_t p = 0; p < points.rows(); ++p) {
-    if (grid.pixel[p] < 0 || grid.depthOf(points.row(p)) >= least_depth * (points.row(p) - grid.origin).norm())
-      continue;
+    const double depth = grid.depthOf(points.row(p)), range_squared = (points.row(p) - grid.origin).squaredNorm();
+    if (grid.pixel[p] < 0 || (depth > 0 && depth * depth >= least_depth * least_depth * range_squared)) continue;
     grid.axis.setZero();
     return;
   }

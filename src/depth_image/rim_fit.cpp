@@ -91,18 +91,35 @@ class RimPixels {
     return sum;
   }
 
-  /// The normal equations for a step.
+  /// The normal equations for a step, those of the left side below the diagonal. The changes of a pixel with the
+  /// unknowns are 1, t, r, s, s t and s t^2, where r is the root, t goes along the rim and 2 r s is the rise.
   void linearize(const Vector& x, Matrix& left, Vector& right) const {
-    left.setZero();
+    double t_sum = 0, tt_sum = 0, r_sum = 0, rt_sum = 0, rr_sum = 0;
+    std::array<double, 4> s_sum{};   // times powers of t
+    std::array<double, 5> ss_sum{};  // the same
     right.setZero();
     for (int i = 0; i < count_; ++i) {
-      const double root = rootOf(x, i), t = along_[i], by_square = x[rise] / (2 * root);
-      Vector change;
-      change << 1, t, root, by_square, by_square * t, by_square * t * t;
-      left.noalias() += change * change.transpose();
-      right += residualOf(x, i, root) * change;
+      const double r = rootOf(x, i), t = along_[i], s = x[rise] / (2 * r), rest = residualOf(x, i, r);
+      t_sum += t;
+      tt_sum += t * t;
+      r_sum += r;
+      rt_sum += r * t;
+      rr_sum += r * r;
+      double power = 1;
+      for (int k = 0; k < 5; ++k, power *= t) {
+        if (k < 4) s_sum[k] += s * power;
+        ss_sum[k] += s * s * power;
+      }
+      right += rest * (Vector() << 1, t, r, s, s * t, s * t * t).finished();
     }
-    left(bend, bend) += bend_weight;
+    const double half = x[rise] / 2;
+    left.setZero();
+    left.row(level)[level] = count_;
+    left.row(slope).head(2) << t_sum, tt_sum;
+    left.row(rise).head(3) << r_sum, rt_sum, rr_sum;
+    left.row(offset).head(4) << s_sum[0], s_sum[1], half * count_, ss_sum[0];
+    left.row(turn).head(5) << s_sum[1], s_sum[2], half * t_sum, ss_sum[1], ss_sum[2];
+    left.row(bend) << s_sum[2], s_sum[3], half * tt_sum, ss_sum[2], ss_sum[3], ss_sum[4] + bend_weight;
     right[bend] -= bend_weight * x[bend];
   }
 
