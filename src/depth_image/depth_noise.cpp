@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <optional>
 #include <span>
@@ -104,13 +105,18 @@ struct Groups {
   std::span<const Five> operator[](std::size_t i) const { return {fives.data() + begin[i], begin[i + 1] - begin[i]}; }
 };
 
+int halfOctaveOf(double inverse_depth) {
+  int octave = 0;
+  return std::frexp(inverse_depth, &octave) < std::numbers::sqrt2 / 2 ? 2 * octave - 1 : 2 * octave;
+}
+
 Groups groupsOf(const RawBuffer<Five>& fives) {
   constexpr int none = std::numeric_limits<int>::max();
   Buffer<int> group_of(fives.size(), none);
   int first = none, last = -none;
   for (std::size_t i = 0; i < fives.size(); ++i) {
     if (std::isnan(fives[i][0])) continue;
-    group_of[i] = std::ilogb(fives[i][2] * fives[i][2]);
+    group_of[i] = halfOctaveOf(fives[i][2]);
     first = std::min(first, group_of[i]);
     last = std::max(last, group_of[i]);
   }
@@ -158,12 +164,12 @@ double powerOf(const Buffer<Level>& levels) {
 std::optional<RangeNoise> fitOf(const Buffer<Level>& levels) {
   double aa = 0, ab = 0, bb = 0, a = 0, b = 0;
   for (const Level& level : levels) {
-    const double of_inverse = 1 / level.noise, of_range = level.inverse * level.inverse / level.noise;
+    const double of_inverse = 1 / level.noise, of_depth = level.inverse * level.inverse / level.noise;
     aa += level.weight * of_inverse * of_inverse;
-    ab += level.weight * of_inverse * of_range;
-    bb += level.weight * of_range * of_range;
+    ab += level.weight * of_inverse * of_depth;
+    bb += level.weight * of_depth * of_depth;
     a += level.weight * of_inverse;
-    b += level.weight * of_range;
+    b += level.weight * of_depth;
   }
   const double determinant = aa * bb - ab * ab;
   RangeNoise noise{(bb * a - ab * b) / determinant, (aa * b - ab * a) / determinant};
@@ -173,7 +179,7 @@ std::optional<RangeNoise> fitOf(const Buffer<Level>& levels) {
     misfit += level.weight * std::pow(noise.atInverse(level.inverse) / level.noise - 1, 2);
     weight += level.weight;
   }
-  if (!(noise.of_range >= 0 && misfit <= most_misfit * most_misfit * weight)) return std::nullopt;
+  if (!(noise.of_depth >= 0 && misfit <= most_misfit * most_misfit * weight)) return std::nullopt;
   return noise;
 }
 

@@ -308,6 +308,7 @@ class JumpFollower {
     }
     smoothed_.inverse[at] = range.inverse;
     smoothed_.variance[at] = range.variance;
+    windows_.at_rim[grid_.rank[pixel]] = range.at_rim ? 1 : 0;
   }
 
   const PixelGrid& grid_;

@@ -187,7 +187,8 @@ class ImageStarBuilder {
     const Eigen::Vector3d sight = (image_.points.row(p) - image_.grid.origin).transpose();
     const bool is_low = std::abs(sight.dot(frame.normal)) < low_angle * sight.norm();
     const bool at_rim = !image_.windows.at_rim.empty() && image_.windows.at_rim[p] != 0;
-    const double noise = image_.test.tolerance.atRange(sight.norm(), sight.norm()) * (at_rim ? left_at_rims : 1);
+    const double noise = image_.test.tolerance.atRange(sight.norm(), image_.grid.depthOf(image_.points.row(p))) *
+                         (at_rim ? left_at_rims : 1);
     if (is_low && noise <= frame.radius) return most_rings;
     return is_exact_ ? most_certain_rings : WindowPixels::reach;
   }

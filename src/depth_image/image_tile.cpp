@@ -131,7 +131,7 @@ bool ImageTile::take(const PixelGrid& grid, const PointsView& points, int top, i
   }
   const PixelSteps steps{steps_down, ways.down_shift.data(), (grid.goes_round ? ways.most_of_rings : ways.most).data()};
   for (int row = 0; row < all_rows; ++row)
-    kernels().joinPixels(pixelsAt(row * pixels_in_word), steps, tolerance.of_inverse, tolerance.of_range,
+    kernels().joinPixels(pixelsAt(row * pixels_in_word), steps, tolerance.of_inverse, tolerance.of_depth,
                          joined_[row].data());
   if (grid.goes_round) {
     findSlopes(grid, points, top, left);

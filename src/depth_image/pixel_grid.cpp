@@ -15,6 +15,7 @@ namespace {
 constexpr std::int64_t most_pixels = 1 << 24;  // of an image that holds few points
 constexpr std::int64_t pixels_per_point = 64;
 constexpr std::int64_t axis_samples = 2000;  // rays that the axis is found by
+constexpr double most_aside = 0.05;          // of the points may lie elsewhere than in front of the camera
 constexpr double least_depth = 0.2;          // of the range: no pinhole camera sees farther aside than 78 degrees
 
 /// The rows or the columns of an image that hold points, numbered without the empty ones.
@@ -35,6 +36,13 @@ class Lines {
     return held;
   }
   int numberOf(std::int64_t line) const { return number_[line - first_]; }
+  /// Those that hold points.
+  Buffer<std::int64_t> held() const {
+    Buffer<std::int64_t> lines;
+    for (std::int64_t i = 0; i < std::ssize(number_); ++i)
+      if (number_[i] >= 0) lines.push_back(first_ + i);
+    return lines;
+  }
 
  private:
   std::int64_t first_ = std::numeric_limits<std::int64_t>::max(), end_ = 0;
@@ -52,17 +60,24 @@ void repeatBeyondSeam(PixelGrid& grid) {
 }
 
 std::optional<Eigen::Vector3d> axisOfCamera(const PointsView& points, const PixelGrid& grid) {
-  const int width = grid.columnsInImage(), height = grid.rows - 2 * PixelGrid::margin;
+  if (grid.row_line.empty()) return std::nullopt;
+  const auto place = [](const Buffer<std::int64_t>& lines, int number) {
+    const auto line = static_cast<double>(lines[number - PixelGrid::margin] - lines.front());
+    return 2 * line / static_cast<double>(lines.back() - lines.front()) - 1;
+  };
+  const auto extent = [](const Buffer<std::int64_t>& lines) {
+    return static_cast<int>(std::min<std::int64_t>(lines.back() - lines.front() + 1, std::numeric_limits<int>::max()));
+  };
   Buffer<Sighting> sightings;
   const std::int64_t stride = std::max<std::int64_t>(1, points.rows() / axis_samples) | 1;
   for (std::int64_t p = 0; p < points.rows(); p += stride) {
     const Eigen::Vector3d ray = (points.row(p) - grid.origin).transpose();
     if (grid.pixel[p] < 0 || ray.isZero(0)) continue;
-    const int row = grid.rowOf(static_cast<int>(p)) - PixelGrid::margin,
-              column = grid.columnOf(static_cast<int>(p)) - PixelGrid::margin;
-    sightings.push_back({{2.0 * column / (width - 1) - 1, 2.0 * row / (height - 1) - 1}, ray.normalized()});
+    const int number = static_cast<int>(p);
+    sightings.push_back({{place(grid.column_line, grid.columnOf(number)), place(grid.row_line, grid.rowOf(number))},
+                         ray.stableNormalized()});
   }
-  return opticalAxis(sightings, width, height);
+  return opticalAxis(sightings, extent(grid.column_line), extent(grid.row_line));
 }
 
 }  // namespace
@@ -103,6 +118,8 @@ PixelGrid pixelGrid(const RankedScan& scan, int around) {
   grid.origin = scan.origin.transpose();
   grid.rows = rows.count() + 2 * PixelGrid::margin;
   grid.columns = columns.count() + 2 * PixelGrid::margin;
+  grid.row_line = rows.held();
+  grid.column_line = columns.held();
   grid.rank.assign(static_cast<std::size_t>(grid.rows) * grid.columns, -1);
   grid.pixel.assign(static_cast<std::size_t>(n), -1);
   forEachPlace([&](int p, std::int64_t row, std::int64_t column) {
@@ -121,11 +138,21 @@ void findAxis(const PointsView& points, PixelGrid& grid) {
   const auto axis = grid.goes_round ? std::optional(Eigen::Vector3d::UnitZ().eval()) : axisOfCamera(points, grid);
   if (!axis) return;
   grid.axis = axis->transpose();
-  for (std::int64_t p = 0; p < points.rows(); ++p) {
+  const auto isAside = [&](std::int64_t p) {
     const double depth = grid.depthOf(points.row(p)), range_squared = (points.row(p) - grid.origin).squaredNorm();
-    if (grid.pixel[p] < 0 || (depth > 0 && depth * depth >= least_depth * least_depth * range_squared)) continue;
+    return grid.pixel[p] >= 0 && !(depth > 0 && depth * depth >= least_depth * least_depth * range_squared);
+  };
+  Buffer<int> aside;
+  for (std::int64_t p = 0; p < points.rows(); ++p)
+    if (isAside(p)) aside.push_back(static_cast<int>(p));
+  const double most = grid.goes_round ? 0 : most_aside * static_cast<double>(points.rows());
+  if (static_cast<double>(aside.size()) > most) {
     grid.axis.setZero();
     return;
+  }
+  for (const int p : aside) {
+    grid.rank[grid.pixel[p]] = -1;
+    grid.pixel[p] = -1;
   }
 }
 

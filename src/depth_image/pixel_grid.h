@@ -20,10 +20,11 @@ namespace tufted {
 struct PixelGrid {
   static constexpr int margin = 3;
 
-  int rows = 0, columns = 0;   ///< with margins
-  Buffer<int> rank;            ///< rows x columns, -1: no point
-  Buffer<std::int64_t> pixel;  ///< n, -1: no pixel, or one that a point of a smaller rank has
-  Eigen::RowVector3d origin;   ///< of the rays, in units of the cloud
+  int rows = 0, columns = 0;                   ///< with margins
+  Buffer<int> rank;                            ///< rows x columns, -1: no point
+  Buffer<std::int64_t> pixel;                  ///< n, -1: no pixel, or one that a point of a smaller rank has
+  Buffer<std::int64_t> row_line, column_line;  ///< of the caller, by row and column without margins
+  Eigen::RowVector3d origin;                   ///< of the rays, in units of the cloud
   /// Of a pinhole camera, or around which a scanner spins; unit length, zero where the image is of neither.
   Eigen::RowVector3d axis = Eigen::RowVector3d::Zero();
   bool goes_round = false;  ///< the last column is a neighbour of the first, as around a spinning scanner
@@ -66,8 +67,8 @@ struct PixelGrid {
 /// at the sides
 PixelGrid pixelGrid(const RankedScan& scan, int around = 0);
 
-/// Sets the axis of a scanner, which is that of z, or of the pinhole camera if there is one. All points must lie well
-/// in front of it, or beside it.
+/// Sets the axis of a scanner, which is that of z, or of the pinhole camera if there is one. Of a camera's points the
+/// few that do not lie well in front of it, as missing ones that are stored as 0, lose their pixels.
 void findAxis(const PointsView& points, PixelGrid& grid);
 
 }  // namespace tufted

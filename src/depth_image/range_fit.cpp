@@ -177,8 +177,8 @@ std::optional<PartFit> fitQuadratic(const PixelRows& ranges, std::uint64_t aroun
   return PartFit{ranges.at[0] + value, variance, leverage};
 }
 
-/// The surface that ends at a rim, where pixels are missing down a steep slope, the silhouette is found between the
-/// last pixel and the next, and a quadratic explains hardly more. On flat surfaces, which may end there as well, a
+/// The surface that ends at a rim, where pixels are missing down a steep slope, the silhouette is found no
+/// farther than the next pixel, and a quadratic explains hardly more. On flat surfaces, which may end there as well, a
 /// quadratic has less noise than what is found by chance.
 std::optional<PartFit> fitAtRim(const PixelRows& ranges, std::uint64_t around, const PlaneFit& plane,
                                 const PartFit& quadratic, double known) {

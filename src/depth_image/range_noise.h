@@ -2,20 +2,20 @@
 
 namespace tufted {
 
-/// The standard deviation of the noise of a depth image along its rays. Cameras that measure disparities have the same
-/// everywhere in inverse depths, sensors that time light the same in ranges; what lies between is a sum of both.
+/// The standard deviation of the noise of a depth image. Cameras that measure disparities have the same everywhere in
+/// inverse depths, sensors that time light about the same in depths; what lies between is a sum of both.
 struct RangeNoise {
   double of_inverse = 0;  ///< in the inverse unit of the cloud
-  double of_range = 0;    ///< in the unit of the cloud
+  double of_depth = 0;    ///< in the unit of the cloud, see PixelGrid::depthOf()
 
-  /// Of an inverse depth, see PixelGrid::depthOf().
-  double atInverse(double inverse_depth) const { return of_inverse + of_range * inverse_depth * inverse_depth; }
-  /// Of a range.
-  double atRange(double range, double depth) const { return of_inverse * range * depth + of_range; }
+  /// Of an inverse depth.
+  double atInverse(double inverse_depth) const { return of_inverse + of_depth * inverse_depth * inverse_depth; }
+  /// Of a range, along the ray.
+  double atRange(double range, double depth) const { return (of_inverse * depth * depth + of_depth) * range / depth; }
 };
 
 inline RangeNoise operator*(double factor, const RangeNoise& noise) {
-  return {factor * noise.of_inverse, factor * noise.of_range};
+  return {factor * noise.of_inverse, factor * noise.of_depth};
 }
 
 }  // namespace tufted

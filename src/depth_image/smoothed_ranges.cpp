@@ -175,7 +175,7 @@ class RangeSmoother {
       } else if (before.variance > harmless_at_edges * smoothed_.spacing_squared[at + lane]) {
         std::uint64_t around = 0;
         for (int i = 0; i < WindowPixels::count; ++i) around |= std::uint64_t{packet.within[i] >> lane & 1U} << i;
-        // Windows of 55 pixels hold more than one bend, a third pass gains nothing, and rings lie too far apart.
+        // Wide windows hold more than one bend, and rings lie too far apart.
         const bool may_bend = stride_ <= widest_of_bent && !smoothed_.goes_round;
         range = smoothedFurther({rows.at + lane, rows.row_step, rows.column_step}, around, before, variance, may_bend);
       }

@@ -54,7 +54,7 @@ struct JumpTest {
   /// @param most the square of the tangent, see steepestOf()
   bool joins(double squared_step, double range_a, double range_b, double most = steepest) const {
     const double along = std::abs(range_a - range_b);
-    const double more = along - tolerance.of_inverse * range_a * range_b - tolerance.of_range;
+    const double more = along - tolerance.of_inverse * range_a * range_b - tolerance.of_depth;
     // Without branches, so that many are tested at once.
     return (static_cast<int>(more <= 0) | static_cast<int>(more * more <= most * (squared_step - along * along))) != 0;
   }
@@ -64,7 +64,7 @@ struct JumpTest {
   bool joins(double squared_step, double range_a, double range_b, double most, const Rise& rise) const {
     const double product = range_a * range_b, along = range_a - range_b;
     const double beyond = std::max({0.0, along - rise.most * product, rise.least * product - along});
-    const double more = beyond - tolerance.of_inverse * product - tolerance.of_range;
+    const double more = beyond - tolerance.of_inverse * product - tolerance.of_depth;
     return more <= 0 || more * more <= most * (squared_step - along * along);
   }
 

@@ -233,8 +233,8 @@ struct Kernels {
   void (*fitSquares5)(const PixelRows& rows, SquareFits& fits);
   void (*fitSquares7)(const PixelRows& rows, SquareFits& fits);
   /// For each step whether JumpTest joins each pixel of a row with the one that the step leads to: bits of 64 pixels.
-  /// @param of_inverse,of_range its tolerance
-  void (*joinPixels)(const PixelPoints& pixels, const PixelSteps& steps, double of_inverse, double of_range,
+  /// @param of_inverse,of_depth its tolerance
+  void (*joinPixels)(const PixelPoints& pixels, const PixelSteps& steps, double of_inverse, double of_depth,
                      std::uint64_t* joined);
   /// The mean squared spacing, in inverse depth, between each of eight pixels and those beside it that are chosen; 0
   /// where none is.

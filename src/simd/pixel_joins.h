@@ -11,7 +11,7 @@ TUFTED_INLINE Part differenceOf(const double* values, int shift, int at) {
 }
 
 /// JumpTest of depth_image/surface_windows.h.
-void joinPixels(const PixelPoints& pixels, const PixelSteps& steps, double of_inverse, double of_range,
+void joinPixels(const PixelPoints& pixels, const PixelSteps& steps, double of_inverse, double of_depth,
                 std::uint64_t* joined) {
   const PixelPoints given = pixels;  // a copy, which what is written below cannot change
   for (int s = 0; s < steps.count; ++s) joined[s] = 0;
@@ -22,7 +22,7 @@ void joinPixels(const PixelPoints& pixels, const PixelSteps& steps, double of_in
       const Part x = differenceOf(given.x, shift, at), y = differenceOf(given.y, shift, at),
                  z = differenceOf(given.z, shift, at);
       const Part there = loadPart(given.range + shift + at), along = absolute(range - there);
-      const Part more = along - allowed * there - broadcastPart(of_range);
+      const Part more = along - allowed * there - broadcastPart(of_depth);
       const Part across = x * x + y * y + z * z - along * along;
       const unsigned are_near = bitsOf(isAtMost(more, broadcastPart(0)));
       const unsigned are_flat = bitsOf(isAtMost(more * more, broadcastPart(steps.most[s]) * across));

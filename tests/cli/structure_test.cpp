@@ -38,7 +38,8 @@ TEST_F(Structures, FindsNeighborsByTheStructureItIsTold) {
   EXPECT_EQ(both.code, 2);
   EXPECT_EQ(both.err, "tufted: --neighbors 20 excludes --structure image, which takes the pixels around a point\n");
   // Ten rows at one depth are what a camera sees, but not from aside.
-  const std::string rays = "\nrays            of no pinhole camera at 1, 2, 0, which the file has as its viewpoint\n";
+  const std::string rays =
+      "\nrays            of no pinhole camera at 1, 2, 0, the viewpoint of the file or 0 without one\n";
   std::string header = "VERSION .7\nFIELDS x y z\nSIZE 4 4 4\nTYPE F F F\nCOUNT 1 1 1\nWIDTH 60\nHEIGHT 10\n";
   header += "VIEWPOINT 1 2 0 1 0 0 0\nPOINTS 600\nDATA ascii\n";
   std::string curved;

@@ -45,6 +45,19 @@ TEST(Axis, IsNoneWhereThereIsNoPinhole) {
   EXPECT_TRUE(axisOf(fisheye).isZero(0));
 }
 
+TEST(Axis, IsFoundWhereMissingPointsAreStoredAsZeroAndColumnsAreLeftOut) {
+  const auto depth = [](int column, int row) {
+    return column > 30 && column < 40 ? std::nan("") : 2 + std::sin(0.7 * column) + 0.3 * std::cos(2.0 * row);
+  };
+  Points points = imageOf(depth);
+  points.row(25 * width + 20).setZero();
+  EXPECT_LT((axisOf(points) - Eigen::RowVector3d::UnitZ()).norm(), 1e-9);
+  const Image image(points);
+  int missing = 0;
+  for (const std::int64_t pixel : image.grid().pixel) missing += pixel < 0 ? 1 : 0;
+  EXPECT_EQ(missing, 1);
+}
+
 // A wall through an image with a bar in front of it, so that all windows of the wall end at a jump. Inverse ranges of a
 // plane bend over the image, inverse depths do not: fits of planes to parts of windows then have no bias.
 TEST(Axis, LetsAWallNextToJumpsStayWhereItIs) {

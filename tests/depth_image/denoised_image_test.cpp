@@ -60,6 +60,13 @@ TEST(DenoisedImage, OfExactPointsIsTheSameBitForBit) {
   EXPECT_EQ(done.report.noise, 0);
 }
 
+TEST(DenoisedImage, TakesPointsAtTheSensor) {
+  const ScanStructure structure = imageStructure(width, height);
+  Points points = noisyPlane(2e-3);
+  for (int i = 0; i < 6; ++i) points.row(25 * width + 20 + i) *= 1e-160;
+  EXPECT_TRUE(denoise(points, {.structure = &structure}).positions.allFinite());
+}
+
 double rootMeanSquare(const Points& a, const Points& b) {
   return std::sqrt((a - b).squaredNorm() / static_cast<double>(a.rows()));
 }

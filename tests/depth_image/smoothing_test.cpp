@@ -30,12 +30,12 @@ RangeNoise lawOf(const Points& points) {
   const Image image(points);
   const Progress silent;
   const RangeNoise noise = rangeNoise(image.grid(), image.cloud().points, Workers(2, silent));
-  return {std::ldexp(noise.of_inverse, -image.cloud().exponent), std::ldexp(noise.of_range, image.cloud().exponent)};
+  return {std::ldexp(noise.of_inverse, -image.cloud().exponent), std::ldexp(noise.of_depth, image.cloud().exponent)};
 }
 
 double noiseOf(const Points& points) {
   const RangeNoise noise = lawOf(points);
-  EXPECT_EQ(noise.of_range, 0);
+  EXPECT_EQ(noise.of_depth, 0);
   return noise.of_inverse;
 }
 
@@ -74,11 +74,11 @@ Points noisyFloor(double noise, double power, int seed) {
 TEST(RangeNoise, OfASensorThatTimesLightIsThatOfRanges) {
   for (int seed = 1; seed <= 3; ++seed) {
     const RangeNoise timed = lawOf(noisyFloor(2e-3, 0, seed));
-    EXPECT_NEAR(timed.of_range, 2e-3, 2e-4) << seed;
+    EXPECT_NEAR(timed.of_depth, 2e-3, 2e-4) << seed;
     EXPECT_LT(timed.of_inverse, 2e-5) << seed;
     const RangeNoise disparities = lawOf(noisyFloor(2e-3, 2, seed));
     EXPECT_NEAR(disparities.of_inverse, 2e-3, 2e-4) << seed;
-    EXPECT_EQ(disparities.of_range, 0) << seed;
+    EXPECT_EQ(disparities.of_depth, 0) << seed;
   }
 }
 
@@ -94,7 +94,7 @@ TEST(RangeNoise, OfACoarseDepthIsThatOfInverseRanges) {
   const double step = 0.004;
   const Points coarse = imageOf(
       [&](int column, int row) { return 1 / (step * std::round(1 / floorDepth(column, row + column / 20) / step)); });
-  EXPECT_EQ(lawOf(coarse).of_range, 0);
+  EXPECT_EQ(lawOf(coarse).of_depth, 0);
 }
 
 TEST(RangeNoise, IsNotJumps) {

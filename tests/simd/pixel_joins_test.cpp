@@ -50,7 +50,7 @@ TEST(PixelJoins, AreThoseOfTheTestForTwoPoints) {
     for (const Kernels* kernel : {&kernels(), &portableKernels()}) {
       std::array<std::uint64_t, steps.size()> joined;
       const PixelSteps all{steps.size(), shift.data(), most.data()};
-      kernel->joinPixels(image.at(first), all, test.tolerance.of_inverse, test.tolerance.of_range, joined.data());
+      kernel->joinPixels(image.at(first), all, test.tolerance.of_inverse, test.tolerance.of_depth, joined.data());
       for (std::size_t s = 0; s < steps.size(); ++s) {
         EXPECT_NE(joined[s], 0U);
         EXPECT_NE(~joined[s], 0U);

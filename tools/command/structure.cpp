@@ -16,8 +16,9 @@ std::string doubtOf(const tufted::Geometry& geometry, Structure structure) {
   if (structure != Structure::image || structureFor(geometry) == Structure::image) return "";
   const auto& at = geometry.viewpoint;
   char text[160];
-  std::snprintf(text, sizeof text, "of no pinhole camera at %.6g, %.6g, %.6g, which the file has as its viewpoint",
-                at[0], at[1], at[2]);
+  std::snprintf(text, sizeof text,
+                "of no pinhole camera at %.6g, %.6g, %.6g, the viewpoint of the file or 0 without one", at[0], at[1],
+                at[2]);
   return text;
 }
 
