@@ -70,6 +70,7 @@ tufted::Laplacian buildLaplacian(const tufted::Geometry& geometry, const Input& 
       throw tufted::IoError(input.name() + ": has no normals, which --normals asks for");
     build.cloud.normals = &geometry.normals;
   }
+  build.doubt = doubtOf(geometry, build.structure);
   if (build.structure == Structure::automatic) {
     // Who names neighbours or has rings wants a search.
     const bool may_be_image = build.neighbors->count() == 0 && build.preset != tufted::Preset::lidar;
@@ -80,7 +81,6 @@ tufted::Laplacian buildLaplacian(const tufted::Geometry& geometry, const Input& 
     throw tufted::InvalidInput("--neighbors " + std::to_string(build.cloud.neighbors) +
                                " excludes --structure image, which takes the pixels around a point");
   build.scan = structureOf(geometry, build.structure, input.name());
-  build.doubt = doubtOf(geometry, build.structure);
   if (build.scan) build.cloud.structure = &*build.scan;
   build.cloud.steps = tufted::cloudSteps(build.preset);
   const bool is_image = build.structure == Structure::image;

@@ -72,9 +72,9 @@ int runDenoise(Settings& settings) {
   checkColor(settings.look, geometry, {"noise"});
   if (interrupted()) throw tufted::Cancelled("cancelled");
   bar.setPoints(geometry.points.rows());
+  const std::string doubt = doubtOf(geometry, settings.structure);
   if (settings.structure == Structure::automatic) settings.structure = structureFor(geometry);
   const auto scan = structureOf(geometry, settings.structure, settings.input.name());
-  const std::string doubt = doubtOf(geometry, settings.structure);
   const tufted::DenoisedPoints denoised = tufted::denoise(
       geometry.points, {.structure = scan ? &*scan : nullptr, .threads = settings.threads, .progress = progress});
   bar.setPoints(0);

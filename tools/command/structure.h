@@ -20,7 +20,7 @@ inline const std::map<std::string, Structure> structures = {{"automatic", Struct
 Structure structureFor(const tufted::Geometry& geometry);
 
 /// What to say of an image that was asked for where no pinhole camera at the file's viewpoint has its rays, along which
-/// jumps and noise are looked for; else empty.
+/// jumps and noise are looked for; else empty, as for `automatic`, which takes no such image.
 std::string doubtOf(const tufted::Geometry& geometry, Structure structure);
 
 /// The value of --structure.
