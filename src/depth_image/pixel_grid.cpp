@@ -36,7 +36,7 @@ class Lines {
     return held;
   }
   int numberOf(std::int64_t line) const { return number_[line - first_]; }
-  /// Those that hold points.
+  /// The lines that hold points, ascending, as the caller numbers them.
   Buffer<std::int64_t> held() const {
     Buffer<std::int64_t> lines;
     for (std::int64_t i = 0; i < std::ssize(number_); ++i)

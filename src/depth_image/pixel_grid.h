@@ -25,7 +25,8 @@ struct PixelGrid {
   Buffer<std::int64_t> pixel;                  ///< n, -1: no pixel, or one that a point of a smaller rank has
   Buffer<std::int64_t> row_line, column_line;  ///< of the caller, by row and column without margins
   Eigen::RowVector3d origin;                   ///< of the rays, in units of the cloud
-  /// Of a pinhole camera, or around which a scanner spins; unit length, zero where the image is of neither.
+  /// The axis of a pinhole camera, or the one around which a scanner spins: unit length, zero where the image is of
+  /// neither.
   Eigen::RowVector3d axis = Eigen::RowVector3d::Zero();
   bool goes_round = false;  ///< the last column is a neighbour of the first, as around a spinning scanner
 

@@ -8,9 +8,9 @@ struct RangeNoise {
   double of_inverse = 0;  ///< in the inverse unit of the cloud
   double of_depth = 0;    ///< in the unit of the cloud, see PixelGrid::depthOf()
 
-  /// Of an inverse depth.
+  /// The standard deviation of an inverse depth.
   double atInverse(double inverse_depth) const { return of_inverse + of_depth * inverse_depth * inverse_depth; }
-  /// Of a range, along the ray.
+  /// The standard deviation of a range, along its ray.
   double atRange(double range, double depth) const { return (of_inverse * depth * depth + of_depth) * range / depth; }
 };
 

@@ -40,7 +40,7 @@ struct Seen {
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   int body = -1;
 
-  /// Of a pixel.
+  /// The area of what a pixel sees along this ray.
   double area(const Eigen::Vector3d& ray, double focal) const {
     return depth * depth / (focal * focal) / std::abs(normal.dot(ray));
   }

@@ -10,7 +10,7 @@
 
 namespace tufted::bench {
 
-/// Of the noise, of where steps begin, and of what the camera looks at: each turns it by other parts of a pixel.
+/// Each seed draws the noise, where steps begin, and by which parts of a pixel the camera is turned.
 constexpr std::uint64_t first_view_seed = 101, last_view_seed = 103;
 constexpr double view_seeds = 1 + last_view_seed - first_view_seed;
 

@@ -46,7 +46,7 @@ one or two points, or all on lines: whether any of their points is active shows 
 // Whole build over the search for neighbours, and bytes per point at its peak, as tufted_bench measures them.
 constexpr double build_over_search = 3.5;
 constexpr double bytes_per_point = 1000;
-// The same for depth images, which are built by their pixels. Of five with 640 x 480 pixels of cameras the build took
+// Both figures for depth images, which are built by their pixels. Of five with 640 x 480 pixels of cameras a build took
 // from 0.4 to 1.2 of what the search for neighbours would, and from 360 to 470 bytes.
 constexpr double pixels_over_search = 0.8;
 constexpr double bytes_per_pixel = 500;
