@@ -236,7 +236,7 @@ double SurfaceImage::noiseOfMoved(const PointsView& points) const {
 SurfaceImage surfaceImage(PixelGrid grid, const PointsView& points, bool smooths, const Workers& workers) {
   SurfaceImage image;
   image.grid = std::move(grid);
-  findAxis(points, image.grid);
+  findAxis(points, workers, image.grid);
   image.unplaced = std::count(image.grid.pixel.begin(), image.grid.pixel.end(), -1);
   image.noise = rangeNoise(image.grid, points, workers);
   image.windows = findSurfaceWindows(image.grid, points, image.noise, smooths, workers);

@@ -133,18 +133,15 @@ PixelGrid pixelGrid(const RankedScan& scan, int around) {
   return grid;
 }
 
-void findAxis(const PointsView& points, PixelGrid& grid) {
+void findAxis(const PointsView& points, const Workers& workers, PixelGrid& grid) {
   grid.axis.setZero();
   const auto axis = grid.goes_round ? std::optional(Eigen::Vector3d::UnitZ().eval()) : axisOfCamera(points, grid);
   if (!axis) return;
   grid.axis = axis->transpose();
-  const auto isAside = [&](std::int64_t p) {
+  const Buffer<int> aside = numbersWhere("windows", static_cast<int>(points.rows()), workers, [&](int p) {
     const double depth = grid.depthOf(points.row(p)), range_squared = (points.row(p) - grid.origin).squaredNorm();
     return grid.pixel[p] >= 0 && !(depth > 0 && depth * depth >= least_depth * least_depth * range_squared);
-  };
-  Buffer<int> aside;
-  for (std::int64_t p = 0; p < points.rows(); ++p)
-    if (isAside(p)) aside.push_back(static_cast<int>(p));
+  });
   const double most = grid.goes_round ? 0 : most_aside * static_cast<double>(points.rows());
   if (static_cast<double>(aside.size()) > most) {
     grid.axis.setZero();

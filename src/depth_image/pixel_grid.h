@@ -7,6 +7,7 @@
 #include <cstdlib>
 
 #include "base/buffer.h"
+#include "base/parallel.h"
 #include "base/point_buffer.h"
 #include "base/stage_clock.h"
 #include "depth_image/window_pixels.h"
@@ -70,6 +71,6 @@ PixelGrid pixelGrid(const RankedScan& scan, int around = 0);
 
 /// Sets the axis of a scanner, which is that of z, or of the pinhole camera if there is one. Of a camera's points the
 /// few that do not lie well in front of it, as missing ones that are stored as 0, lose their pixels.
-void findAxis(const PointsView& points, PixelGrid& grid);
+void findAxis(const PointsView& points, const Workers& workers, PixelGrid& grid);
 
 }  // namespace tufted

@@ -16,8 +16,7 @@ constexpr double harmless = 1e-4;   // of the squared spacing; a hundredth of it
 constexpr double rounding = 1e-10;  // of an inverse depth; less is no noise, as from a sensor that is far away
 constexpr double most_misfit = 3;   // variance of residuals, in variances of the noise
 // Values that were smoothed before have bounds of their own, in variances of what noise they still have.
-constexpr double most_misfit_apart = 16;          // of a quadratic over 7 x 7 values
-constexpr double most_misfit_apart_nearer = 8;    // of one over 5 x 5
+constexpr double most_misfit_apart = 8;           // of a quadratic over 7 x 7 or 5 x 5 values
 constexpr double most_misfit_of_planes = 4;       // of planes over a part of either
 constexpr double further_share = 1.0 / 8;         // of the variance that a fit to values apart leaves
 constexpr double further_share_nearer = 1.0 / 4;  // over 5 x 5
@@ -235,7 +234,7 @@ std::optional<SmoothedRange> smoothedFurther(const SquareFit& wide, const Smooth
 
 std::optional<SmoothedRange> smoothedNearer(const SquareFit& narrow, const SmoothedRange& before,
                                             double noise_variance) {
-  if (!(narrow.variance <= most_misfit_apart_nearer * noise_variance)) return std::nullopt;
+  if (!(narrow.variance <= most_misfit_apart * noise_variance)) return std::nullopt;
   return SmoothedRange{narrow.value, before.variance * further_share_nearer};
 }
 

@@ -16,7 +16,6 @@ namespace {
 
 constexpr std::array<int, 4> strides = {3, SmoothedRanges::widest_stride, 5, 2};  // pixels apart, pass by pass
 constexpr int widest_of_bent = 3;
-constexpr std::ptrdiff_t passes_of_rings = 1;
 constexpr double harmless = 0.0004;  // of the squared spacing: a fiftieth of it in noise
 /// A twentieth of the spacing is harmless at edges, where a plane is fitted to a part of a window: values some pixels
 /// apart share errors of the pass before, and the plane carries these on to the edge.
@@ -25,10 +24,12 @@ constexpr std::int64_t samples = 500;     // packets of pixels, to see what nois
 constexpr double quiet = 0.25;            // of the windows have nothing but noise
 constexpr double usual = 0.75;            // of the windows are of one surface
 constexpr double most_to_usual = 2;       // times the variance that noise leaves, in these
-constexpr double left_at_first = 0.5;     // of the variance of the noise, at most, once it was smoothed
-constexpr double left_of_white = 0.06;    // the same where noise is white: what is more is shape
-constexpr double least_of_white = 0.012;  // of that variance, by fits to neighbouring pixels that were smoothed;
-constexpr double most_of_white = 0.045;   // less is left of the steps of a coarse depth
+constexpr double left_at_first = 1;       // of the variance of the noise, at most, once it was smoothed
+constexpr double least_of_white = 0.012;  // of that variance, by fits to neighbouring pixels that were smoothed: less
+                                          // is left of the steps of a coarse depth
+// White noise is known and not estimated: half of what fits leave of it bounds shapes more closely.
+constexpr double left_of_white = 0.03;  // of its variance, once it was smoothed
+constexpr double share_of_white = 0.4;  // of the variance of smoothed values
 
 double quantileOf(Buffer<double>& values, double share) {
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
@@ -59,70 +60,86 @@ void repeatBeyondSeam(SmoothedRanges& image, const Workers& workers) {
   });
 }
 
+/// What variance fits to values around a pixel leave where these are of one surface.
+struct VarianceLeft {
+  double least = 0, most = 0;  ///< in variances of the noise
+  double share = 0;            ///< of the variance that the value of the pixel has
+
+  /// A pixel that no pass has smoothed yet has neighbours that none has smoothed either. Right at an edge its value
+  /// alone varies more, so that there is a bound.
+  double at(double variance, double noise_squared) const {
+    return std::max(least * noise_squared, std::min(most * noise_squared, share * variance));
+  }
+};
+
 /// Smooths an image again by values that are some pixels apart: those around a pixel that differ from its own by no
 /// more than a slope and noise explain may be of one surface with it.
 class RangeSmoother {
  public:
-  /// @param variance that values have before, at most, in variances of the noise
   /// @param[out] after inverse depths
-  RangeSmoother(const RangeNoise& noise, double variance, int stride, SmoothedRanges& smoothed,
-                RawBuffer<double>& after)
-      : noise_(noise), variance_(variance), stride_(stride), smoothed_(smoothed), after_(after) {
+  RangeSmoother(const RangeNoise& noise, int stride, SmoothedRanges& smoothed, RawBuffer<double>& after)
+      : noise_(noise), stride_(stride), smoothed_(smoothed), after_(after) {
     for (int i = 0; i < WindowPixels::count; ++i) {
       const PixelStep& step = window_pixels.step[i];
       shift_[i] = stride * (step.row * smoothed.row_step + step.column);
     }
   }
 
-  /// The variance of the noise that values still have, in variances of the noise, by what fits leave in windows all
-  /// over the image. Noise of real cameras is alike in neighbouring pixels and survives smoothing, white noise does
-  /// not. Steps of a coarse depth are in some windows and not in others.
-  double findVariance() {
-    Buffer<double> left = misfits();
-    if (left.empty()) return variance_;
-    const double found = std::max(quantileOf(left, quiet), quantileOf(left, usual) / most_to_usual);
-    variance_ = std::min(variance_, found);
-    return variance_;
+  /// Finds by fits all over the image what noise leaves, which is no more than before. Noise of real cameras is alike
+  /// in neighbouring pixels and survives smoothing, white noise does not. Steps of a coarse depth are in some windows
+  /// and not in others.
+  void find(VarianceLeft& left) const {
+    Samples samples = takeSamples();
+    if (samples.left.empty()) return;
+    const double quietly_left = quantileOf(samples.left, quiet);
+    left.least = std::min(left.least, std::max(quietly_left, quantileOf(samples.left, usual) / most_to_usual));
+    left.share = left.least / quantileOf(samples.before, 0.5);
   }
 
-  /// Whether noise differs freely from pixel to pixel, by fits to pixels that are a stride of 1 apart. Smoothing has
-  /// made values of such noise alike over 7 x 7 pixels, so that fits leave a 60th of it; noise of real cameras goes on
-  /// from window to window.
-  bool isWhite() const {
-    Buffer<double> left = misfits();
-    if (left.empty()) return false;
-    const double usually_left = quantileOf(left, quiet);
-    return usually_left >= least_of_white && usually_left <= most_of_white;
+  /// Whether fits to pixels a stride of 1 apart leave as much as white noise has them leave: smoothing has made its
+  /// values alike over 7 x 7 pixels, so that this is a 60th of it.
+  bool leavesNoise() const {
+    Samples samples = takeSamples();
+    return !samples.left.empty() && quantileOf(samples.left, quiet) >= least_of_white;
   }
 
-  void smoothRow(int row) const {
+  /// @param left of windows around each pixel
+  void smoothRow(int row, const VarianceLeft& left) const {
     const std::ptrdiff_t begin = smoothed_.at(row, -SmoothedRanges::border), end = begin + smoothed_.row_step;
     std::copy(smoothed_.inverse.begin() + begin, smoothed_.inverse.begin() + end, after_.begin() + begin);
     if (row < 0 || row >= smoothed_.rows) return;
     for (int column = PixelGrid::margin; column < smoothed_.columns - PixelGrid::margin; column += kernel_packet)
-      smoothSome(smoothed_.at(row, column));
+      smoothSome(smoothed_.at(row, column), left);
   }
 
  private:
-  /// What fits leave in whole windows all over the image, in variances of the noise.
-  Buffer<double> misfits() const {
+  /// In variances of the noise, of whole windows all over the image.
+  struct Samples {
+    Buffer<double> left;    ///< what fits leave
+    Buffer<double> before;  ///< variance of the value in the middle
+  };
+
+  Samples takeSamples() const {
     const int in_row = (smoothed_.columns - 2 * PixelGrid::margin + kernel_packet - 1) / kernel_packet;
     const std::int64_t packets = std::int64_t{in_row} * (smoothed_.rows - 2 * PixelGrid::margin);
     std::int64_t step = std::max<std::int64_t>(1, packets / samples);
     while (std::gcd(step, in_row) > 1) ++step;  // or samples would lie in a few columns
-    Buffer<double> left;
-    left.reserve(static_cast<std::size_t>((packets / step + 1) * kernel_packet));
+    Samples taken;
+    for (Buffer<double>* const values : {&taken.left, &taken.before})
+      values->reserve(static_cast<std::size_t>((packets / step + 1) * kernel_packet));
     for (std::int64_t i = 0; i < packets; i += step) {
       const int row = PixelGrid::margin + static_cast<int>(i / in_row);
       const int column = PixelGrid::margin + static_cast<int>(i % in_row) * kernel_packet;
       const Packet packet = fit(smoothed_.at(row, column));
       for (int lane = 0; lane < kernel_packet; ++lane)
         if (((packet.is_wanted & packet.is_whole) >> lane & 1U) != 0) {
-          const double noise = noise_.atInverse(smoothed_.inverse[smoothed_.at(row, column) + lane]);
-          left.push_back(packet.wide.variance[lane] / (noise * noise));
+          const std::ptrdiff_t at = smoothed_.at(row, column) + lane;
+          const double noise = noise_.atInverse(smoothed_.inverse[at]);
+          taken.left.push_back(packet.wide.variance[lane] / (noise * noise));
+          taken.before.push_back(smoothed_.variance[at] / (noise * noise));
         }
     }
-    return left;
+    return taken;
   }
 
   /// The windows of a packet of pixels.
@@ -154,7 +171,7 @@ class RangeSmoother {
     return packet;
   }
 
-  void smoothSome(std::ptrdiff_t at) const {
+  void smoothSome(std::ptrdiff_t at, const VarianceLeft& left) const {
     const Packet packet = fit(at);
     if (packet.is_wanted == 0) return;
     const PixelRows rows = rowsAt(at);
@@ -163,7 +180,7 @@ class RangeSmoother {
     for (int lane = 0; lane < kernel_packet; ++lane) {
       if ((packet.is_wanted >> lane & 1U) == 0) continue;
       const SmoothedRange before{rows.at[lane], smoothed_.variance[at + lane]};
-      const double noise = noise_.atInverse(before.inverse), variance = variance_ * noise * noise;
+      const double noise = noise_.atInverse(before.inverse), variance = left.at(before.variance, noise * noise);
       std::optional<SmoothedRange> range;
       if ((packet.is_whole >> lane & 1U) != 0) {
         range = smoothedFurther({packet.wide.value[lane], packet.wide.variance[lane]}, before, variance);
@@ -186,7 +203,6 @@ class RangeSmoother {
   }
 
   RangeNoise noise_;
-  double variance_;  ///< of the values, in variances of the noise
   int stride_;
   SmoothedRanges& smoothed_;
   RawBuffer<double>& after_;
@@ -213,19 +229,21 @@ void SmoothedRanges::clear(const PixelGrid& grid, const Workers& workers) {
   std::fill_n(spacing_squared.end() - kernel_packet, kernel_packet, 0);
 }
 
-void smoothFurther(SmoothedRanges& smoothed, const RangeNoise& noise, const Workers& workers) {
+void smoothFurther(const RangeNoise& noise, bool changes_sides, const Workers& workers, SmoothedRanges& smoothed) {
   RawBuffer<double> after(smoothed.inverse.size());
   std::fill_n(after.end() - kernel_packet, kernel_packet, 0);
-  const bool is_white = !smoothed.goes_round && RangeSmoother(noise, left_at_first, 1, smoothed, after).isWhite();
-  double variance = is_white ? left_of_white : left_at_first;
-  // The rings of a scanner are few rows: 55 of them are most of the image, and no longer one surface.
-  const std::ptrdiff_t passes = smoothed.goes_round ? passes_of_rings : std::ssize(strides);
-  for (std::ptrdiff_t i = 0; i < passes; ++i) {
-    const int stride = strides[i];
+  const bool is_white = changes_sides && RangeSmoother(noise, 1, smoothed, after).leavesNoise();
+  VarianceLeft left{.least = left_at_first};
+  if (is_white) left = {.most = left_of_white, .share = share_of_white};
+  for (const int stride : strides) {
+    // The rings of a scanner are few rows: 55 of them are most of the image, and no longer one surface.
+    if (smoothed.goes_round && (stride == SmoothedRanges::widest_stride || (stride != strides[0] && !is_white)))
+      continue;
     if (smoothed.goes_round) repeatBeyondSeam(smoothed, workers);
-    RangeSmoother smoother(noise, variance, stride, smoothed, after);
-    variance = smoother.findVariance();
-    forEachRow(smoothed, workers, [&](int row, int) { smoother.smoothRow(row); });
+    const RangeSmoother smoother(noise, stride, smoothed, after);
+    if (!is_white) smoother.find(left);
+    if (stride == strides[0] && !is_white) left.most = left.least;
+    forEachRow(smoothed, workers, [&](int row, int) { smoother.smoothRow(row, left); });
     smoothed.inverse.swap(after);
   }
 }

@@ -37,9 +37,10 @@ struct SmoothedRanges {
 
 /// Where what is left of the noise is not small against the spacing of the pixels, as on walls far away, smooths again
 /// over pixels that are 3 apart, then 9: over 19 pixels, then 55, and more by what was smoothed before. Two more
-/// passes, 5 and 2 apart, take what noise lies between those distances. The rings of a scanner get the first alone.
-/// What noise the values still have is told by the image.
-void smoothFurther(SmoothedRanges& smoothed, const RangeNoise& noise, const Workers& workers);
+/// passes, 5 and 2 apart, take what noise lies between those distances. The rings of a scanner get all but the second
+/// where noise is white, and else the first alone. What noise the values still have is told by the image.
+/// @param changes_sides see changesSidesFreely()
+void smoothFurther(const RangeNoise& noise, bool changes_sides, const Workers& workers, SmoothedRanges& smoothed);
 
 /// Moves each point along its ray to the smoothed depth: sets displacements, places and how many move.
 void moveAlongRays(const PixelGrid& grid, const PointsView& points, const SmoothedRanges& smoothed,

@@ -8,6 +8,7 @@
 #include "depth_image/image_tile.h"
 #include "depth_image/missing_pixels.h"
 #include "depth_image/smoothed_ranges.h"
+#include "depth_image/white_noise.h"
 
 namespace tufted {
 namespace {
@@ -119,7 +120,7 @@ SurfaceWindows findSurfaceWindows(const PixelGrid& grid, const PointsView& point
   if (!smooths) return windows;
   cutFaintJumps(grid, points, noise, windows, smoothed);
   fillMissingPixels(grid, noise, workers, smoothed);
-  smoothFurther(smoothed, noise, workers);
+  smoothFurther(noise, changesSidesFreely(grid, points, smoothed), workers, smoothed);
   moveAlongRays(grid, points, smoothed, workers, windows);
   return windows;
 }

@@ -47,10 +47,11 @@ class Image {
   Image(const Points& points, const ScanStructure& structure, double noise = 0, bool smooths = false)
       : cloud_(rankPoints(points, status_, representative_)) {
     surface_.grid = pixelGrid(rankScan(structure, cloud_, status_, representative_));
-    findAxis(cloud_.points, surface_.grid);
-    surface_.noise = {noise, 0};
     const Progress silent;
-    surface_.windows = findSurfaceWindows(surface_.grid, cloud_.points, surface_.noise, smooths, Workers(1, silent));
+    const Workers workers(1, silent);
+    findAxis(cloud_.points, workers, surface_.grid);
+    surface_.noise = {noise, 0};
+    surface_.windows = findSurfaceWindows(surface_.grid, cloud_.points, surface_.noise, smooths, workers);
   }
 
   const RankedCloud& cloud() const { return cloud_; }

@@ -102,7 +102,7 @@ SmoothedRange smoothedRange(const Joined& window, const SmoothedRange& before, d
   const bool is_whole = window.size() == 49;
   const int terms = is_whole ? 6 : 3;
   const WindowFit wide = fitOf(window, terms, 3), narrow = fitOf(window, terms, 2);
-  if (wide.variance <= (is_whole ? 16 : 4) * variance) return {wide.value, before.variance / 8};
+  if (wide.variance <= (is_whole ? 8 : 4) * variance) return {wide.value, before.variance / 8};
   if (narrow.variance <= (is_whole ? 8 : 4) * variance) return {narrow.value, before.variance / 4};
   if (may_bend && !is_whole && window.size() >= 28 && narrow.variance <= 24 * variance &&
       wide.slope_squared <= 64 * variance) {
@@ -116,7 +116,7 @@ SmoothedRange smoothedRange(const Joined& window, const SmoothedRange& before, d
   return before;
 }
 
-TEST(SmoothedFurther, IsThatOfALoopOverPixelsForImagesOfAnySize) {
+void expectThatOfALoopOverPixels(bool is_white) {
   Counts counts;
   for (const auto& size : {std::pair{70, 61}, {64, 20}, {61, 58}, {13, 90}, {1, 30}, {9, 7}, {57, 1}}) {
     const int width = size.first, height = size.second;
@@ -129,32 +129,38 @@ TEST(SmoothedFurther, IsThatOfALoopOverPixelsForImagesOfAnySize) {
         for (int column = 0; column < image.grid.columns; ++column) visit(row, column, expected.at(row, column));
     };
     const int moved_before = counts.moved;
-    double variance = noise * noise / 2;
+    double least = is_white ? 0 : noise * noise, most = is_white ? 0.03 * noise * noise : 0, share = is_white ? 0.4 : 0;
     for (const int stride : {3, 9, 5, 2}) {
       const RawBuffer<double> before = expected.inverse;
       const auto isWanted = [&](std::ptrdiff_t at) {
         return expected.variance[at] > 0.0025 * expected.spacing_squared[at];
       };
-      std::vector<double> left;
+      std::vector<double> left, variances;
       forEachPixelOfImage([&](int row, int column, std::ptrdiff_t at) {
         if (!isWanted(at)) return;
         const Joined window = windowOf(expected, before, row, column, stride);
-        if (window.size() == 49) left.push_back(fitOf(window, 6, 3).variance);
+        if (window.size() != 49) return;
+        left.push_back(fitOf(window, 6, 3).variance);
+        variances.push_back(expected.variance[at]);
       });
-      if (!left.empty()) {
+      if (!left.empty() && !is_white) {
         std::sort(left.begin(), left.end());
-        variance = std::min(variance, std::max(left[left.size() / 4], left[3 * left.size() / 4] / 2));
+        std::sort(variances.begin(), variances.end());
+        least = std::min(least, std::max(left[left.size() / 4], left[3 * left.size() / 4] / 2));
+        share = least / variances[variances.size() / 2];
       }
+      if (stride == 3 && !is_white) most = least;
       forEachPixelOfImage([&](int row, int column, std::ptrdiff_t at) {
         if (!isWanted(at)) return;
         const Joined window = windowOf(expected, before, row, column, stride);
+        const double variance = std::max(least, std::min(most, share * expected.variance[at]));
         const SmoothedRange after =
             smoothedRange(window, {before[at], expected.variance[at]}, variance, stride <= 3, counts);
         expected.inverse[at] = after.inverse;
         expected.variance[at] = after.variance;
       });
     }
-    smoothFurther(image.smoothed, {noise, 0}, workers);
+    smoothFurther({noise, 0}, is_white, workers, image.smoothed);
     forEachPixelOfImage([&](int row, int column, std::ptrdiff_t at) {
       const double value = image.smoothed.inverse[at];
       ASSERT_EQ(std::isnan(value), std::isnan(expected.inverse[at])) << row << ' ' << column;
@@ -165,6 +171,13 @@ TEST(SmoothedFurther, IsThatOfALoopOverPixelsForImagesOfAnySize) {
     EXPECT_TRUE(counts.moved > moved_before || width < 13 || height < 7);
   }
   EXPECT_GT(counts.bent, 50);
+}
+
+TEST(SmoothedFurther, IsThatOfALoopOverPixelsForImagesOfAnySize) {
+  expectThatOfALoopOverPixels(false);
+}
+TEST(SmoothedFurther, WhereNoiseIsWhiteIsThatOfALoopOverPixels) {
+  expectThatOfALoopOverPixels(true);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <numbers>
+#include <numeric>
 #include <string>
 #include <vector>
 
@@ -47,10 +48,11 @@ double quantile(std::vector<double>& values, double share) {
 
 /// What is measured on one build.
 struct Quality {
-  double area = 0, normal = 0, worst_normal = 0, linear = 0, across = 0, agreed = 0;
+  double area = 0, local_area = 0, normal = 0, worst_normal = 0, linear = 0, across = 0, agreed = 0;
 
   Quality& operator+=(const Quality& other) {
     area += other.area;
+    local_area += other.local_area;
     normal += other.normal;
     worst_normal += other.worst_normal;
     linear += other.linear;
@@ -67,7 +69,7 @@ Quality measure(const View& view, const Points& points, const Laplacian& laplaci
     if (!std::isfinite(points(i, 0))) continue;
     const Eigen::Vector3d x = view.points.row(i), normal = view.normals.row(i);
     const double pixel = x.z() * x.z() / (view.focal * view.focal) / std::abs(normal.dot(x / x.z()));
-    areas[view.bodies[i]] += laplacian.M[i];
+    areas[view.areaOf(i, view.bodies[i])] += laplacian.M[i];
     const bool is_inside = isInside(view, i);
     if (is_inside) {
       const double cosine = std::abs(normal.dot(laplacian.frames.normals.row(i).transpose()));
@@ -83,13 +85,16 @@ Quality measure(const View& view, const Points& points, const Laplacian& laplaci
     if (is_inside && diagonal > 0)
       linear.push_back((image - image.dot(normal) * normal).norm() / (diagonal * std::sqrt(pixel)));
   }
-  // What one body has too much does not make up for what another misses.
-  double seen = 0;
-  for (std::size_t body = 0; body < areas.size(); ++body) {
-    quality.area += std::abs(areas[body] - view.areas[body]);
-    seen += view.areas[body];
+  // What one body has too much does not make up for what another misses, nor one patch for the next.
+  const double seen = std::accumulate(view.areas.begin(), view.areas.end(), 0.0);
+  for (int body = 0; body < view.body_count; ++body) {
+    double error = 0;
+    for (std::size_t i = body; i < areas.size(); i += view.body_count) {
+      error += areas[i] - view.areas[i];
+      quality.local_area += std::abs(areas[i] - view.areas[i]) / seen;
+    }
+    quality.area += std::abs(error) / seen;
   }
-  quality.area /= seen;
   quality.normal = quantile(angles, 0.5);
   quality.worst_normal = quantile(angles, 0.9);
   quality.linear = quantile(linear, 0.5);
@@ -120,7 +125,8 @@ std::vector<std::vector<View>> seenViews() {
 
 void printDepthImages() {
   std::printf(
-      "| view | disparity | by | edges across jumps | area off, body by body | normals off, median and 90 %% | L x in "
+      "| view | disparity | by | edges across jumps | area off, body by body, patch by patch | normals off, median and "
+      "90 %% | L x in "
       "the plane | "
       "triangles "
       "from all corners |\n|---|---|---|---|---|---|---|---|\n");
@@ -140,10 +146,10 @@ void printDepthImages() {
           const Points points = seenBy(view, noise, first_view_seed + i);
           sum += measure(view, points, pointCloudLaplacian(points, options));
         }
-        std::printf("| %s | %s | %s | %.0f | %.1f %% | %.2f, %.2f deg | %.1e | %.1f %% |\n", seen[0][v].name.c_str(),
-                    noise.name.c_str(), by_pixels ? "pixels" : "tree", sum.across / view_seeds,
-                    100 * sum.area / view_seeds, sum.normal / view_seeds, sum.worst_normal / view_seeds,
-                    sum.linear / view_seeds, 100 * sum.agreed / view_seeds);
+        std::printf("| %s | %s | %s | %.0f | %.1f %%, %.1f %% | %.2f, %.2f deg | %.1e | %.1f %% |\n",
+                    seen[0][v].name.c_str(), noise.name.c_str(), by_pixels ? "pixels" : "tree", sum.across / view_seeds,
+                    100 * sum.area / view_seeds, 100 * sum.local_area / view_seeds, sum.normal / view_seeds,
+                    sum.worst_normal / view_seeds, sum.linear / view_seeds, 100 * sum.agreed / view_seeds);
         std::fflush(stdout);
       }
     }

@@ -74,7 +74,9 @@ View viewOf(std::uint64_t seed, const std::string& name, const std::vector<Body>
   constexpr int parts = 32;  // of a pixel at an edge, each way: bodies are seen along their surface there
   shapes::Random random(seed);
   const double aside = random.uniform() - 0.5, above = random.uniform() - 0.5;  // pixels
-  View view{.name = name, .points = {}, .normals = {}, .bodies = {}, .areas = std::vector<double>(bodies.size())};
+  View view{.name = name, .points = {}, .normals = {}, .bodies = {}, .areas = {}};
+  view.body_count = static_cast<int>(bodies.size());
+  view.areas.resize(bodies.size() * view.patches());
   const int n = view.width * view.height;
   view.points.setConstant(n, 3, nothing);
   view.normals.setZero(n, 3);
@@ -96,7 +98,8 @@ View viewOf(std::uint64_t seed, const std::string& name, const std::vector<Body>
     for (int part = 0; part < each * each; ++part) {
       const Eigen::Vector3d ray = rayOf(i, (part % each + 0.5) / each - 0.5, (part / each + 0.5) / each - 0.5);
       const Seen seen = seenAlong(ray, bodies);
-      if (seen.body >= 0) view.areas[seen.body] += shareOf(view, i) * seen.area(ray, view.focal) / (each * each);
+      if (seen.body < 0) continue;
+      view.areas[view.areaOf(i, seen.body)] += shareOf(view, i) * seen.area(ray, view.focal) / (each * each);
     }
   }
   return view;
@@ -104,13 +107,14 @@ View viewOf(std::uint64_t seed, const std::string& name, const std::vector<Body>
 
 View roomView() {
   const shapes::Cloud cloud = shapes::depthCamera({.depth_step = 0, .max_depth = 100, .dropouts = 0});
-  View view{"room", 525, cloud.width, cloud.height, cloud.points, cloud.normals, cloud.labels, {}};
+  View view{"room", 525, cloud.width, cloud.height, cloud.points, cloud.normals, cloud.labels, 0, {}};
+  view.body_count = 1 + *std::max_element(cloud.labels.begin(), cloud.labels.end());
+  view.areas.resize(static_cast<std::size_t>(view.body_count) * view.patches());
   for (int i = 0; i < cloud.points.rows(); ++i) {
     const Eigen::Vector3d point = cloud.points.row(i);
     const Seen seen{point.z(), cloud.normals.row(i), 0};
     if (!std::isfinite(point.z())) continue;
-    view.areas.resize(std::max<std::size_t>(view.areas.size(), cloud.labels[i] + 1));
-    view.areas[cloud.labels[i]] += shareOf(view, i) * seen.area(point / point.z(), view.focal);
+    view.areas[view.areaOf(i, cloud.labels[i])] += shareOf(view, i) * seen.area(point / point.z(), view.focal);
   }
   return view;
 }

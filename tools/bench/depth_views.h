@@ -22,7 +22,18 @@ struct View {
   Points points;
   Points normals;
   std::vector<int> bodies;
-  std::vector<double> areas;  ///< that are seen of each body between the middles of the outer pixels
+  int body_count = 0;
+  /// That are seen of each body in each patch, between the middles of the outer pixels of the image.
+  std::vector<double> areas;
+
+  static constexpr int patch = 16;  ///< pixels, each way
+  int patchesInRow() const { return (width + patch - 1) / patch; }
+  int patches() const { return patchesInRow() * ((height + patch - 1) / patch); }
+  /// Where the area of a body is that a pixel shows.
+  std::size_t areaOf(int pixel, int body) const {
+    const int at = pixel / width / patch * patchesInRow() + pixel % width / patch;
+    return static_cast<std::size_t>(at) * body_count + body;
+  }
 };
 
 /// A room, things on a table, a ball, a corner, walls and a floor. The seed does not turn the camera in the room.
