@@ -74,7 +74,7 @@ struct PathSolver::State {
   int checked(const char* name, int point) const;
   std::vector<Strip> firstPath(int from, int to, const Workers& workers) const;
   Points pointsOf(const SegmentList& path, int from) const;
-  SurfacePath straightened(int from, int to, const Workers& workers) const;
+  SurfacePath straightened(int from, const std::vector<Strip>& strips, const Workers& workers) const;
 };
 
 PathSolver::PathSolver(PathSolver&&) noexcept = default;
@@ -135,10 +135,10 @@ Points PathSolver::State::pointsOf(const SegmentList& path, int from) const {
   return points;
 }
 
-/// The shortest path of those that are near the one from `from` down the distance to `to`.
-SurfacePath PathSolver::State::straightened(int from, int to, const Workers& workers) const {
+/// The shortest path of those that are near some strips from `from` on.
+SurfacePath PathSolver::State::straightened(int from, const std::vector<Strip>& strips, const Workers& workers) const {
   SegmentList path;
-  for (const Strip& strip : firstPath(from, to, workers)) {
+  for (const Strip& strip : strips) {
     std::vector<Segment> segments = straighten(faces, strip);
     path.insert(path.end(), std::make_move_iterator(segments.begin()), std::make_move_iterator(segments.end()));
   }
@@ -155,14 +155,17 @@ SurfacePath PathSolver::path(int from, int to, const Progress& progress) const {
   to = state.checked("to", to);
   const Workers workers(state.threads, progress);
   if (from == to) return {state.positions.row(from), 0, 0};
-  SurfacePath there = state.straightened(from, to, workers);
+  SurfacePath there = state.straightened(from, state.firstPath(from, to, workers), workers);
   // From the other end the first path may pass handles and hills on the other side.
-  SurfacePath back = state.straightened(to, from, workers);
-  const int shortenings = there.shortenings + back.shortenings;
+  SurfacePath back = state.straightened(to, state.firstPath(to, from, workers), workers);
+  // Near a rim both may lead over it onto the back, where a path is locally shortest, too. One along edges does not.
+  SurfacePath along = state.straightened(from, stripsAlongEdges(state.faces, from, to), workers);
+  const int shortenings = there.shortenings + back.shortenings + along.shortenings;
   if (back.length < there.length) {
     there = std::move(back);
     there.points = there.points.colwise().reverse().eval();
   }
+  if (along.length < (1 - least_gain) * there.length) there = std::move(along);
   there.shortenings = shortenings;
   return there;
 }

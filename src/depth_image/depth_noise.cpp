@@ -47,7 +47,7 @@ RawBuffer<Five> takeFives(const PixelGrid& grid, const PointsView& points, const
     const int p = grid.rank[pixel];
     return p < 0 ? unknown : 1 / grid.depthOf(points.row(p));
   };
-  const std::int64_t pixels = std::ssize(grid.rank), stride = std::max<std::int64_t>(1, pixels / samples) | 1;
+  const std::int64_t pixels = std::ssize(grid.rank), stride = sampleStride(pixels, samples, grid.columns);
   const std::int64_t first = 2 * std::int64_t{grid.columns},
                      count = std::max<std::int64_t>(0, (pixels - 2 * first + stride - 1) / stride);
   // The rings of a scanner do not fire at the same azimuths, so that a column leads from side to side.

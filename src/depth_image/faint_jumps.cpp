@@ -283,9 +283,7 @@ class JumpFollower {
            (isCut(above, down) || isCut(left + row_shift, right));
   }
 
-  std::ptrdiff_t smoothedAt(std::int64_t pixel) const {
-    return smoothed_.at(static_cast<int>(pixel / grid_.columns), static_cast<int>(pixel % grid_.columns));
-  }
+  std::ptrdiff_t smoothedAt(std::int64_t pixel) const { return smoothed_.atPixel(grid_, pixel); }
 
   void smoothAgain(std::int64_t pixel, std::uint64_t around) {
     constexpr int side = WindowPixels::side(), row_step = side + kernel_packet;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "depth_image/steep_rim.h"
 #include "depth_image/surface_windows.h"
 
 namespace tufted {
@@ -136,6 +137,8 @@ bool ImageTile::take(const PixelGrid& grid, const PointsView& points, int top, i
   if (grid.goes_round) {
     findSlopes(grid, points, top, left);
     for (int row = 0; row < all_rows; ++row) joinAlongSlopes(row, tolerance);
+  } else {
+    for (int row = 0; row < all_rows; ++row) joinToRims(grid, points, JumpTest{tolerance}, row);
   }
   return true;
 }
@@ -175,6 +178,20 @@ void ImageTile::joinAlongSlopes(int row, const RangeNoise& tolerance) {
       const Rise rise = riseBetween(slope_[a], slope_[b], step);
       const bool joins = test.joins(x * x + y * y + z * z, range_[a], range_[b], ways.most_of_rings[i], rise);
       more |= std::uint64_t{joins} << column;
+    });
+    joined_[row][i] |= more;
+  }
+}
+
+void ImageTile::joinToRims(const PixelGrid& grid, const PointsView& points, const JumpTest& test, int row) {
+  for (int i = 0; i < steps_down; ++i) {
+    const PixelStep& step = ways.down[i];
+    if (row + step.row >= all_rows) continue;
+    const std::uint64_t both = is_filled_[row] & stepped(is_filled_[row + step.row], step.column);
+    std::uint64_t more = 0;
+    forEachPixel(both & ~joined_[row][i], [&](int column) {
+      const int a = row * pixels_in_word + column;
+      more |= std::uint64_t{goesOnToRim(grid, points, test, rank_[a], rank_[a + ways.down_shift[i]])} << column;
     });
     joined_[row][i] |= more;
   }

@@ -59,6 +59,8 @@ class ImageTile {
   void findSlopes(const PixelGrid& grid, const PointsView& points, int top, int left);
   /// Joins pixels of a row with others as well where the step between them is steep and the slope goes on.
   void joinAlongSlopes(int row, const RangeNoise& tolerance);
+  /// The same up to rims, see goesOnToRim().
+  void joinToRims(const PixelGrid& grid, const PointsView& points, const JumpTest& test, int row);
 
   std::array<int, all_pixels> rank_{};
   Values x_{}, y_{}, z_{}, range_{}, inverse_{};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <string>
 
@@ -131,6 +132,12 @@ PixelGrid pixelGrid(const RankedScan& scan, int around) {
   });
   if (grid.goes_round) repeatBeyondSeam(grid);
   return grid;
+}
+
+std::int64_t sampleStride(std::int64_t pixels, std::int64_t samples, std::int64_t row) {
+  std::int64_t stride = std::max<std::int64_t>(1, pixels / samples);
+  while (std::gcd(stride, row) > 1) ++stride;
+  return stride;
 }
 
 void findAxis(const PointsView& points, const Workers& workers, PixelGrid& grid) {

@@ -69,6 +69,9 @@ struct PixelGrid {
 /// at the sides
 PixelGrid pixelGrid(const RankedScan& scan, int around = 0);
 
+/// How far samples of so many pixels, row by row, are apart, so that they lie in all columns.
+std::int64_t sampleStride(std::int64_t pixels, std::int64_t samples, std::int64_t row);
+
 /// Sets the axis of a scanner, which is that of z, or of the pinhole camera if there is one. Of a camera's points the
 /// few that do not lie well in front of it, as missing ones that are stored as 0, lose their pixels.
 void findAxis(const PointsView& points, const Workers& workers, PixelGrid& grid);

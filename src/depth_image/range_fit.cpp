@@ -15,7 +15,7 @@ namespace {
 constexpr double harmless = 1e-4;   // of the squared spacing; a hundredth of it does not matter for L
 constexpr double rounding = 1e-10;  // of an inverse depth; less is no noise, as from a sensor that is far away
 constexpr double most_misfit = 3;   // variance of residuals, in variances of the noise
-// Values that were smoothed before have bounds of their own, in variances of what noise they still have.
+// Values that were smoothed before have bounds of their own, in the variance that their noise is expected to leave.
 constexpr double most_misfit_apart = 8;           // of a quadratic over 7 x 7 or 5 x 5 values
 constexpr double most_misfit_of_planes = 4;       // of planes over a part of either
 constexpr double further_share = 1.0 / 8;         // of the variance that a fit to values apart leaves

@@ -40,7 +40,7 @@ std::optional<SmoothedRange> smoothedInverseDepth(const PixelRows& ranges, std::
 /// Smooths a range again, by a fit to values that were smoothed before, of pixels some distance apart: a quadratic over
 /// a whole window of 7 x 7, or of 5 x 5, or a plane over a part of it.
 /// @param around which of the pixels are of one surface with the middle one
-/// @param noise_variance of what noise these values have
+/// @param noise_variance that fits to these values are expected to leave
 /// @param may_bend where no plane fits to a part of a window, by little, a quadratic may
 /// @returns nothing where they do not fit as well as noise allows
 std::optional<SmoothedRange> smoothedFurther(const SquareFit& wide, const SmoothedRange& before, double noise_variance);

@@ -60,13 +60,13 @@ void repeatBeyondSeam(SmoothedRanges& image, const Workers& workers) {
   });
 }
 
-/// What variance fits to values around a pixel leave where these are of one surface.
+/// The variance that fits to values around a pixel are expected to leave where these are of one surface.
 struct VarianceLeft {
   double least = 0, most = 0;  ///< in variances of the noise
   double share = 0;            ///< of the variance that the value of the pixel has
 
-  /// A pixel that no pass has smoothed yet has neighbours that none has smoothed either. Right at an edge its value
-  /// alone varies more, so that there is a bound.
+  /// A pixel that no pass has smoothed yet has neighbours that none has smoothed either. At edges the value of a pixel
+  /// has more variance than those of its neighbours, so that there is a bound.
   double at(double variance, double noise_squared) const {
     return std::max(least * noise_squared, std::min(most * noise_squared, share * variance));
   }
@@ -90,14 +90,16 @@ class RangeSmoother {
   /// and not in others.
   void find(VarianceLeft& left) const {
     Samples samples = takeSamples();
-    if (samples.left.empty()) return;
-    const double quietly_left = quantileOf(samples.left, quiet);
-    left.least = std::min(left.least, std::max(quietly_left, quantileOf(samples.left, usual) / most_to_usual));
-    left.share = left.least / quantileOf(samples.before, 0.5);
+    if (!samples.left.empty()) {
+      const double quietly_left = quantileOf(samples.left, quiet);
+      left.least = std::min(left.least, std::max(quietly_left, quantileOf(samples.left, usual) / most_to_usual));
+      left.share = left.least / quantileOf(samples.before, 0.5);
+    }
+    if (left.most == 0) left.most = left.least;  // that of the first pass
   }
 
-  /// Whether fits to pixels a stride of 1 apart leave as much as white noise has them leave: smoothing has made its
-  /// values alike over 7 x 7 pixels, so that this is a 60th of it.
+  /// Whether fits to pixels a stride of 1 apart leave at least what white noise has them leave: smoothing has made its
+  /// values alike over 7 x 7 pixels, so that this is a 60th of it. Shape leaves more.
   bool leavesNoise() const {
     Samples samples = takeSamples();
     return !samples.left.empty() && quantileOf(samples.left, quiet) >= least_of_white;
@@ -122,8 +124,7 @@ class RangeSmoother {
   Samples takeSamples() const {
     const int in_row = (smoothed_.columns - 2 * PixelGrid::margin + kernel_packet - 1) / kernel_packet;
     const std::int64_t packets = std::int64_t{in_row} * (smoothed_.rows - 2 * PixelGrid::margin);
-    std::int64_t step = std::max<std::int64_t>(1, packets / samples);
-    while (std::gcd(step, in_row) > 1) ++step;  // or samples would lie in a few columns
+    const std::int64_t step = sampleStride(packets, samples, in_row);
     Samples taken;
     for (Buffer<double>* const values : {&taken.left, &taken.before})
       values->reserve(static_cast<std::size_t>((packets / step + 1) * kernel_packet));
@@ -236,13 +237,13 @@ void smoothFurther(const RangeNoise& noise, bool changes_sides, const Workers& w
   VarianceLeft left{.least = left_at_first};
   if (is_white) left = {.most = left_of_white, .share = share_of_white};
   for (const int stride : strides) {
-    // The rings of a scanner are few rows: 55 of them are most of the image, and no longer one surface.
-    if (smoothed.goes_round && (stride == SmoothedRanges::widest_stride || (stride != strides[0] && !is_white)))
-      continue;
-    if (smoothed.goes_round) repeatBeyondSeam(smoothed, workers);
+    if (smoothed.goes_round) {
+      // The rings of a scanner are few rows: 55 of them are most of the image, and no longer one surface.
+      if (stride == SmoothedRanges::widest_stride || (stride != strides[0] && !is_white)) continue;
+      repeatBeyondSeam(smoothed, workers);
+    }
     const RangeSmoother smoother(noise, stride, smoothed, after);
     if (!is_white) smoother.find(left);
-    if (stride == strides[0] && !is_white) left.most = left.least;
     forEachRow(smoothed, workers, [&](int row, int) { smoother.smoothRow(row, left); });
     smoothed.inverse.swap(after);
   }

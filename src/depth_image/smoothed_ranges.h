@@ -29,6 +29,10 @@ struct SmoothedRanges {
   RawBuffer<double> spacing_squared;  ///< of neighbouring pixels, in inverse depth
 
   std::ptrdiff_t at(int row, int column) const { return (row + border) * row_step + column + border; }
+  /// Where a pixel of the grid is.
+  std::ptrdiff_t atPixel(const PixelGrid& grid, std::int64_t pixel) const {
+    return at(static_cast<int>(pixel / grid.columns), static_cast<int>(pixel % grid.columns));
+  }
   /// The largest change of a surface with each pixel.
   double steepestSlope(std::ptrdiff_t pixel) const { return steepest * std::sqrt(spacing_squared[pixel]); }
   /// Makes room for an image, in which no pixel holds a point.
@@ -38,7 +42,8 @@ struct SmoothedRanges {
 /// Where what is left of the noise is not small against the spacing of the pixels, as on walls far away, smooths again
 /// over pixels that are 3 apart, then 9: over 19 pixels, then 55, and more by what was smoothed before. Two more
 /// passes, 5 and 2 apart, take what noise lies between those distances. The rings of a scanner get all but the second
-/// where noise is white, and else the first alone. What noise the values still have is told by the image.
+/// where noise is white, and else the first alone. What noise the values still have is known where it is white, and
+/// else told by the image.
 /// @param changes_sides see changesSidesFreely()
 void smoothFurther(const RangeNoise& noise, bool changes_sides, const Workers& workers, SmoothedRanges& smoothed);
 

@@ -2,42 +2,66 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
+
+#include "base/buffer.h"
 
 namespace tufted {
 namespace {
 
-constexpr std::int64_t samples = 8000;
+constexpr std::int64_t samples = 32000;
+/// Of the pixels, by the variance that fits left there: where shape left more, neighbours lie on one side.
+constexpr double quiet = 0.25;
+constexpr double alike = 1 + 1e-9;  // variances that differ by rounding
 /// Of neighbours on one side: .47 for white noise about a quadratic over 7 x 7 pixels, .5 about the surface.
-constexpr double least_on_one_side = 0.45, most_on_one_side = 0.53;
+constexpr double least_on_one_side = 0.45, most_on_one_side = 0.56;
+
+/// The side of the surface on which a pixel lies: 1 behind it, -1 in front of it, 0 where nothing was smoothed.
+int sideOf(const PixelGrid& grid, const PointsView& points, const SmoothedRanges& smoothed, std::int64_t pixel) {
+  const std::ptrdiff_t at = smoothed.atPixel(grid, pixel);
+  if (smoothed.variance[at] == 0) return 0;
+  return 1 / grid.depthOf(points.row(grid.rank[pixel])) < smoothed.inverse[at] ? 1 : -1;
+}
 
 }  // namespace
 
-bool changesSidesFreely(const PixelGrid& grid, const PointsView& points, const SmoothedRanges& smoothed) {
-  // 1 behind the surface, -1 in front of it, 0 where nothing was smoothed.
-  const auto sideOf = [&](std::int64_t pixel) {
-    const int p = grid.rank[pixel];
-    if (p < 0) return 0;
-    const auto row = static_cast<int>(pixel / grid.columns), column = static_cast<int>(pixel % grid.columns);
-    const std::ptrdiff_t at = smoothed.at(row, column);
-    if (smoothed.variance[at] == 0) return 0;
-    return 1 / grid.depthOf(points.row(p)) < smoothed.inverse[at] ? 1 : -1;
-  };
-  std::array<std::int64_t, 2> pairs{}, on_one_side{};  // along rows, along columns
+bool changesSidesFreely(const PixelGrid& grid, const PointsView& points, const SmoothedRanges& smoothed,
+                        const RangeNoise& noise) {
   const std::int64_t end = std::ssize(grid.rank) - grid.columns;
-  const std::int64_t stride = std::max<std::int64_t>(1, end / samples) | 1;
+  const std::int64_t stride = sampleStride(end, samples, grid.columns);
+  const auto varianceAt = [&](std::int64_t pixel) {
+    const std::ptrdiff_t at = smoothed.atPixel(grid, pixel);
+    return smoothed.variance[at] / std::pow(noise.atInverse(smoothed.inverse[at]), 2);
+  };
+  Buffer<double> variances;
+  variances.reserve(static_cast<std::size_t>(end / stride + 1));
+  for (std::int64_t pixel = 0; pixel < end; pixel += stride)
+    if (const double variance = varianceAt(pixel); variance > 0) variances.push_back(variance);
+  if (variances.empty()) return false;
+  const auto place = variances.begin() + static_cast<std::ptrdiff_t>(quiet * static_cast<double>(variances.size()));
+  std::nth_element(variances.begin(), place, variances.end());
+  const double most_variance = *place * alike;
+
+  struct Pairs {
+    std::int64_t step;
+    double all = 0, on_one_side = 0;
+  };
+  std::array<Pairs, 2> directions = {{{1}, {grid.columns}}};
   for (std::int64_t pixel = 0; pixel < end; pixel += stride) {
-    const int side = sideOf(pixel);
-    if (side == 0) continue;
-    for (const int direction : {0, 1}) {
-      const int next = sideOf(pixel + (direction == 0 ? 1 : grid.columns));
-      pairs[direction] += next != 0 ? 1 : 0;
-      on_one_side[direction] += next == side ? 1 : 0;
+    const double variance = varianceAt(pixel);
+    if (!(variance > 0 && variance <= most_variance)) continue;
+    const int side = sideOf(grid, points, smoothed, pixel);
+    for (Pairs& pairs : directions) {
+      const int next = sideOf(grid, points, smoothed, pixel + pairs.step);
+      pairs.all += next != 0 ? 1 : 0;
+      pairs.on_one_side += next == side ? 1 : 0;
     }
   }
-  return std::ranges::all_of(std::array{0, 1}, [&](int direction) {
-    const auto all = static_cast<double>(pairs[direction]), same = static_cast<double>(on_one_side[direction]);
-    return all > 0 && same >= least_on_one_side * all && same <= most_on_one_side * all;
+  return std::ranges::all_of(directions, [](const Pairs& pairs) {
+    const double by_chance = std::sqrt(pairs.all);  // two standard deviations
+    return pairs.all > 0 && pairs.on_one_side >= least_on_one_side * pairs.all - by_chance &&
+           pairs.on_one_side <= most_on_one_side * pairs.all + by_chance;
   });
 }
 

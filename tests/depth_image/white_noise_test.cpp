@@ -45,7 +45,7 @@ bool changesSides(const std::function<double(int, int)>& measured) {
       smoothed.variance[at] = 1;
     }
   }
-  return changesSidesFreely(grid, points, smoothed);
+  return changesSidesFreely(grid, points, smoothed, {deviation, 0});
 }
 
 std::vector<double> normals() {

@@ -2,6 +2,8 @@
 #include <CGAL/Surface_mesh.h>
 #include <CGAL/convex_hull_3.h>
 
+#include <algorithm>
+#include <array>
 #include <map>
 
 #include "oracles/oracles.h"
@@ -20,15 +22,20 @@ Triangles convexHullMesh(const Points& points) {
   CGAL::Surface_mesh<Point> hull;
   CGAL::convex_hull_3(input.begin(), input.end(), hull);
 
-  Triangles triangles(hull.number_of_faces(), 3);
-  Eigen::Index row = 0;
+  // CGAL's order of faces depends on where memory lies, and results of a mesh on that of its triangles.
+  std::vector<std::array<int, 3>> sorted;
   for (const auto face : hull.faces()) {
+    std::array<int, 3> corners;
     int corner = 0;
-    for (const auto vertex : hull.vertices_around_face(hull.halfedge(face))) {
-      triangles(row, corner++) = index.at(hull.point(vertex));
-    }
-    ++row;
+    for (const auto vertex : hull.vertices_around_face(hull.halfedge(face)))
+      corners[corner++] = index.at(hull.point(vertex));
+    std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());
+    sorted.push_back(corners);
   }
+  std::sort(sorted.begin(), sorted.end());
+  Triangles triangles(std::ssize(sorted), 3);
+  for (Eigen::Index row = 0; row < triangles.rows(); ++row)
+    for (int corner = 0; corner < 3; ++corner) triangles(row, corner) = sorted[row][corner];
   return triangles;
 }
 
