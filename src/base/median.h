@@ -1,18 +1,24 @@
 #pragma once
 
 #include <algorithm>
-#include <iterator>
+#include <cstddef>
 
 #include "base/buffer.h"
 
 namespace tufted {
 
+/// The value that so large a share of the others comes before. Changes their order.
+/// @param values not empty
+/// @param share below 1
+inline double quantileOf(Buffer<double>& values, double share) {
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
 /// The median of the values. Of an even number it is the upper one of the two in the middle, and of no values it is 0.
 inline double medianOf(Buffer<double> values) {
-  if (values.empty()) return 0;
-  const auto middle = values.begin() + std::ssize(values) / 2;
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
+  return values.empty() ? 0 : quantileOf(values, 0.5);
 }
 
 }  // namespace tufted

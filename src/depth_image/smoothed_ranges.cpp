@@ -8,6 +8,7 @@
 #include <numeric>
 #include <optional>
 
+#include "base/median.h"
 #include "depth_image/window_pixels.h"
 #include "simd/kernels.h"
 
@@ -30,12 +31,6 @@ constexpr double least_of_white = 0.012;  // of that variance, by fits to neighb
 // White noise is known and not estimated: half of what fits leave of it bounds shapes more closely.
 constexpr double left_of_white = 0.03;  // of its variance, once it was smoothed
 constexpr double share_of_white = 0.4;  // of the variance of smoothed values
-
-double quantileOf(Buffer<double>& values, double share) {
-  const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
-  std::nth_element(values.begin(), at, values.end());
-  return *at;
-}
 
 /// Calls work(row, worker) for all rows, those of the border too.
 template <class Work>

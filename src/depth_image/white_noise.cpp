@@ -6,15 +6,18 @@
 #include <cstdint>
 
 #include "base/buffer.h"
+#include "base/median.h"
 
 namespace tufted {
 namespace {
 
 constexpr std::int64_t samples = 32000;
-/// Of the pixels, by the variance that fits left there: where shape left more, neighbours lie on one side.
+/// Only this share of the pixels is looked at, where fits left the least variance. Where shape left more, neighbours
+/// lie on one side of the surface.
 constexpr double quiet = 0.25;
 constexpr double alike = 1 + 1e-9;  // variances that differ by rounding
-/// Of neighbours on one side: .47 for white noise about a quadratic over 7 x 7 pixels, .5 about the surface.
+/// Noise is white if this share of neighbours lies on one side of the surface. It has .47 about a quadratic over 7 x 7
+/// pixels and .5 about the surface itself.
 constexpr double least_on_one_side = 0.45, most_on_one_side = 0.56;
 
 /// The side of the surface on which a pixel lies: 1 behind it, -1 in front of it, 0 where nothing was smoothed.
@@ -39,9 +42,7 @@ bool changesSidesFreely(const PixelGrid& grid, const PointsView& points, const S
   for (std::int64_t pixel = 0; pixel < end; pixel += stride)
     if (const double variance = varianceAt(pixel); variance > 0) variances.push_back(variance);
   if (variances.empty()) return false;
-  const auto place = variances.begin() + static_cast<std::ptrdiff_t>(quiet * static_cast<double>(variances.size()));
-  std::nth_element(variances.begin(), place, variances.end());
-  const double most_variance = *place * alike;
+  const double most_variance = quantileOf(variances, quiet) * alike;
 
   struct Pairs {
     std::int64_t step;
