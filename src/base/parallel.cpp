@@ -46,31 +46,42 @@ int mostThreads() {
   return std::max(16, 4 * offeredThreads());
 }
 
-/// Calls run(0) to run(team - 1), the first on this thread. TBB's threads sleep where there is nothing to do, and where
-/// other programs leave them no processor this thread does the work of all; OpenMP's would wait for each other, awake.
-template <class Run>
-void runOnThreads(int team, const Run& run) {
-  tbb::task_arena arena(std::min(team, offeredThreads()));  // TBB warns on stderr of more
-  arena.execute([&] {
-    tbb::task_group others;
-    handOver(&others);
-    for (int worker = 1; worker < team; ++worker) {
-      others.run([&run, &others, worker] {
-        takeOver(&others);
-        run(worker);
-        handOver(&others);
-      });
-    }
-    run(0);
-    others.wait();
-    takeOver(&others);
-  });
-}
-
 }  // namespace
 
+/// The threads of a build. TBB's sleep where there is nothing to do, and where other programs leave them no processor
+/// the caller's thread does the work of all; OpenMP's would wait for each other, awake. Between two loops they stay
+/// with the team for a while: with a team for each loop it takes a tenth of a millisecond until they have come.
+struct Workers::Team : InWorkspace {
+  explicit Team(int count) : arena(std::min(count, offeredThreads())) {}  // TBB warns on stderr of more
+
+  /// Calls run(0) to run(count - 1), the first on this thread.
+  template <class Run>
+  void run(int count, const Run& run) {
+    arena.execute([&] {
+      tbb::task_group others;
+      handOver(&others);
+      for (int worker = 1; worker < count; ++worker) {
+        others.run([&run, &others, worker] {
+          takeOver(&others);
+          run(worker);
+          handOver(&others);
+        });
+      }
+      run(0);
+      others.wait();
+      takeOver(&others);
+    });
+  }
+
+  tbb::task_arena arena;
+};
+
 Workers::Workers(int threads, const Progress& progress)
-    : count_(std::max(1, std::min(threads > 0 ? threads : offeredThreads(), mostThreads()))), progress_(progress) {}
+    : count_(std::max(1, std::min(threads > 0 ? threads : offeredThreads(), mostThreads()))),
+      progress_(progress),
+      team_(count_ > 1 ? std::make_unique<Team>(count_) : nullptr) {}
+
+Workers::~Workers() = default;
 
 void Workers::report(std::string_view stage, double fraction) const {
   if (progress_ && !progress_(stage, fraction)) {
@@ -103,7 +114,7 @@ void Workers::runBlocks(std::string_view stage, std::int64_t size, std::int64_t 
   if (team <= 1) {
     run(0);
   } else {
-    runOnThreads(team, run);
+    team_->run(team, run);
   }
   if (error) std::rethrow_exception(error);
   report(stage, 1);  // other workers may have done it all before the caller's thread had a turn

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <string_view>
 
 #include "base/buffer.h"
@@ -26,6 +27,7 @@ class Workers {
   /// @param threads at most this many, and at most four per processor (16 if that is more); 0 for one per processor
   ///   that this process may use
   Workers(int threads, const Progress& progress);
+  ~Workers();
 
   int count() const { return count_; }
 
@@ -51,8 +53,11 @@ class Workers {
   void runBlocks(std::string_view stage, std::int64_t size, std::int64_t block, RunBlock run_block,
                  const void* work) const;
 
+  struct Team;
+
   int count_;
   const Progress& progress_;
+  std::unique_ptr<Team> team_;  ///< null: one thread
 };
 
 /// All numbers in [0, size) that pass the test, ascending.

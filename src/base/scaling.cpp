@@ -1,10 +1,10 @@
 #include "base/scaling.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <cstdint>
-#include <numeric>
+#include <limits>
+#include <utility>
 
 #include "base/buffer.h"
 
@@ -14,31 +14,73 @@ namespace {
 constexpr double farthest_spreads = 1e70;   // in median spreads; squares and fourth powers of it still fit a double
 constexpr double largest_distance = 1e152;  // in the caller's unit; an area still fits a double
 
-constexpr std::size_t few = 1 << 15;  // values, of which one is chosen as fast without counting
+constexpr std::int64_t samples = 2048;  // values, near whose median that of all lies
+constexpr std::ptrdiff_t beside = 100;  // of the sorted samples: four deviations of their median's place
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
-/// Grows with x.
-std::uint64_t ordinalOf(double x) {
-  constexpr std::uint64_t sign = std::uint64_t{1} << 63;
-  const auto bits = std::bit_cast<std::uint64_t>(x);
-  return (bits & sign) != 0 ? ~bits : bits | sign;
+struct Extent {
+  double largest = 0;  ///< coordinate, without its sign
+  Eigen::Array3d lowest = Eigen::Array3d::Constant(infinity);
+
+  void widen(const Eigen::Array3d& point) {
+    largest = std::max(largest, point.abs().maxCoeff());
+    lowest = lowest.min(point);
+  }
+  void widen(const Extent& other) {
+    largest = std::max(largest, other.largest);
+    lowest = lowest.min(other.lowest);
+  }
+};
+
+/// The values within some bounds, and how many others are below and above.
+struct Within {
+  Buffer<double> values;
+  std::size_t below = 0, above = 0;
+};
+
+template <class ValueOf>
+Within valuesWithin(double least, double most, std::int64_t n, const ValueOf& valueOf, const Workers& workers) {
+  Buffer<Within> blocks(static_cast<std::size_t>((n + cheapest_block - 1) / cheapest_block));
+  workers.forBlocks("scale", n, cheapest_block, [&](std::int64_t begin, std::int64_t end, int) {
+    Within here;
+    for (std::int64_t i = begin; i < end; ++i) {
+      const double value = valueOf(i);
+      here.below += value < least ? 1 : 0;
+      here.above += value > most ? 1 : 0;
+      if (value >= least && value <= most) here.values.push_back(value);
+    }
+    blocks[begin / cheapest_block] = std::move(here);
+  });
+  Within all;
+  for (const Within& block : blocks) {
+    all.values.insert(all.values.end(), block.values.begin(), block.values.end());
+    all.below += block.below;
+    all.above += block.above;
+  }
+  return all;
 }
 
-/// The value that `rank` others come before. Overwrites the values.
-double select(RawBuffer<double>& values, std::size_t rank) {
-  // By the leading bits first, which takes two passes and leaves few.
-  auto last = values.end();
-  if (values.size() > few) {
-    constexpr int bits = 16;
-    const auto leading = [](double x) { return ordinalOf(x) >> (64 - bits); };
-    Buffer<std::uint32_t> count(std::size_t{1} << bits);
-    for (const double x : values) ++count[leading(x)];
-    std::uint64_t chosen = 0;
-    for (; rank >= count[chosen]; ++chosen) rank -= count[chosen];
-    last = std::remove_if(values.begin(), values.end(), [&](double x) { return leading(x) != chosen; });
-  }
-  const auto place = values.begin() + static_cast<std::ptrdiff_t>(rank);
-  std::nth_element(values.begin(), place, last);
-  return *place;
+/// The median of those of n values that are not NaN. Of an even number it is the upper one of the two in the middle,
+/// and of no values it is 0.
+template <class ValueOf>
+double medianOf(std::int64_t n, const ValueOf& valueOf, const Workers& workers) {
+  Buffer<double> some;
+  for (std::int64_t i = 0; i < n; i += std::max<std::int64_t>(1, n / samples))
+    if (const double value = valueOf(i); !std::isnan(value)) some.push_back(value);
+  std::sort(some.begin(), some.end());
+  const auto middle = some.begin() + std::ssize(some) / 2;
+  const bool has_bounds = std::ssize(some) > 2 * beside + 1;
+  Within found = valuesWithin(has_bounds ? middle[-beside] : -infinity, has_bounds ? middle[beside] : infinity, n,
+                              valueOf, workers);
+  const std::size_t rank = (found.below + found.values.size() + found.above) / 2;
+  // Where the samples are not like the others.
+  if (rank < found.below || rank >= found.below + found.values.size())
+    found = valuesWithin(-infinity, infinity, n, valueOf, workers);
+  if (found.values.empty()) return 0;
+  const auto at = found.values.begin() + static_cast<std::ptrdiff_t>(rank - found.below);
+  std::nth_element(found.values.begin(), at, found.values.end());
+  return *at;
 }
 
 }  // namespace
@@ -46,51 +88,47 @@ double select(RawBuffer<double>& values, std::size_t rank) {
 Scaling measureScaling(const PointsRef& points, std::vector<PointStatus>& status, const Workers& workers) {
   const Eigen::Index n = points.rows();
   status.resize(static_cast<std::size_t>(n));
-  const auto forAll = [&](const auto& visit) {
-    workers.forBlocks("scale", n, cheapest_block, [&](std::int64_t begin, std::int64_t end, int worker) {
-      for (std::int64_t i = begin; i < end; ++i) visit(i, worker);
-    });
-  };
-  Buffer<std::size_t> usable_of(workers.count());
-  forAll([&](std::int64_t i, int worker) {
-    const bool is_finite = points.row(i).allFinite();
-    status[i] = is_finite ? PointStatus::active : PointStatus::not_finite;
-    usable_of[worker] += is_finite ? 1 : 0;
+  const auto forBlocks = [&](const auto& work) { workers.forBlocks("scale", n, cheapest_block, work); };
+  forBlocks([&](std::int64_t begin, std::int64_t end, int) {
+    for (std::int64_t i = begin; i < end; ++i)
+      status[i] = points.row(i).allFinite() ? PointStatus::active : PointStatus::not_finite;
   });
-  const std::size_t usable = std::accumulate(usable_of.begin(), usable_of.end(), std::size_t{0});
-  Scaling scaling;
-  if (usable == 0) return scaling;
 
-  workers.forBlocks("scale", 3, 1, [&](std::int64_t axis, std::int64_t, int) {
-    RawBuffer<double> values;
-    values.reserve(usable);
-    for (Eigen::Index i = 0; i < n; ++i)
-      if (status[i] == PointStatus::active) values.push_back(points(i, axis));
-    scaling.center[axis] = select(values, usable / 2);
-  });
+  Scaling scaling;
+  const auto isUsable = [&](std::int64_t i) { return status[i] == PointStatus::active; };
+  for (int axis = 0; axis < 3; ++axis)
+    scaling.center[axis] = medianOf(
+        n, [&](std::int64_t i) { return isUsable(i) ? points(i, axis) : no_value; }, workers);
 
   const auto deviation = [&](Eigen::Index i) {
     return (points.row(i) - scaling.center.transpose()).cwiseAbs().maxCoeff();
   };
-  RawBuffer<double> values(static_cast<std::size_t>(n));
-  forAll([&](std::int64_t i, int) { values[i] = status[i] == PointStatus::active ? deviation(i) : 0; });
   // Points at the centre itself say nothing about the spread; many copies of one point must not make it 0.
-  const auto zeros = static_cast<std::size_t>(std::count(values.begin(), values.end(), 0.0));
-  const double spread = zeros < values.size() ? select(values, zeros + (values.size() - zeros) / 2) : 0;
+  const auto deviationOfOther = [&](std::int64_t i) {
+    const double distance = isUsable(i) ? deviation(i) : 0;
+    return distance > 0 ? distance : no_value;
+  };
+  const double spread = medianOf(n, deviationOfOther, workers);
   if (spread > 0 && std::isfinite(spread)) std::frexp(spread, &scaling.exponent);
   const PowerOfTwo to_spreads(-scaling.exponent);
-  Buffer<double> largest_of(workers.count());  // coordinate of a usable point
-  forAll([&](std::int64_t i, int worker) {
-    if (status[i] != PointStatus::active) return;
-    // Relative to 2^exponent, so that the bound itself cannot overflow.
-    const double distance = deviation(i);
-    if (to_spreads.times(distance) <= farthest_spreads && distance <= largest_distance) {
-      largest_of[worker] = std::max(largest_of[worker], points.row(i).cwiseAbs().maxCoeff());
-    } else {
-      status[i] = PointStatus::not_finite;
+  Buffer<Extent> extent_of(workers.count());
+  forBlocks([&](std::int64_t begin, std::int64_t end, int worker) {
+    Extent here;  // of its own, as workers would write to one line of the cache in turn
+    for (std::int64_t i = begin; i < end; ++i) {
+      if (!isUsable(i)) continue;
+      // Relative to 2^exponent, so that the bound itself cannot overflow.
+      const double distance = deviation(i);
+      if (to_spreads.times(distance) <= farthest_spreads && distance <= largest_distance)
+        here.widen(points.row(i).transpose());
+      else
+        status[i] = PointStatus::not_finite;
     }
+    extent_of[worker].widen(here);
   });
-  const double largest = *std::max_element(largest_of.begin(), largest_of.end());
+  Extent extent;
+  for (const Extent& part : extent_of) extent.widen(part);
+  scaling.lowest = extent.lowest;
+  const double largest = extent.largest;
   // A tiny cloud very far away: its scaled coordinates must stay finite.
   if (largest > 0) scaling.exponent = std::max(scaling.exponent, std::ilogb(largest) - 1000);
   return scaling;

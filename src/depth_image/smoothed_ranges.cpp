@@ -255,19 +255,21 @@ void moveAlongRays(const PixelGrid& grid, const PointsView& points, const Smooth
   };
   forEachRow(smoothed, workers, [&](int row, int worker) {
     if (row < 0 || row >= grid.rows) return;
+    std::int64_t moved_here = 0;
     for (int column = PixelGrid::margin; column < grid.columns - PixelGrid::margin; ++column) {
       const int p = grid.rank[std::int64_t{row} * grid.columns + column];
       if (p < 0) continue;
       const std::ptrdiff_t at = smoothed.at(row, column);
       const double share = 1 / (grid.depthOf(points.row(p)) * smoothed.inverse[at]) - 1;
       const bool moves = smoothed.variance[at] > 0 && share != 0 && std::isfinite(share);
-      moved[worker] += moves ? 1 : 0;
+      moved_here += moves ? 1 : 0;
       if (moves) {
         move(p, share * (points.row(p) - grid.origin));
       } else {
         move(p, Eigen::RowVector3d::Zero());
       }
     }
+    moved[worker] += moved_here;
   });
   for (int p = 0; p < static_cast<int>(points.rows()); ++p)
     if (grid.pixel[p] < 0) move(p, Eigen::RowVector3d::Zero());

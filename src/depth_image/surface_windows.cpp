@@ -120,7 +120,7 @@ SurfaceWindows findSurfaceWindows(const PixelGrid& grid, const PointsView& point
   if (!smooths) return windows;
   cutFaintJumps(grid, points, noise, windows, smoothed);
   fillMissingPixels(grid, noise, workers, smoothed);
-  smoothFurther(noise, changesSidesFreely(grid, points, smoothed, noise), workers, smoothed);
+  smoothFurther(noise, changesSidesFreely(grid, points, smoothed, noise, workers), workers, smoothed);
   moveAlongRays(grid, points, smoothed, workers, windows);
   return windows;
 }

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <iterator>
 
 #include "base/buffer.h"
 #include "base/median.h"
@@ -27,43 +28,64 @@ int sideOf(const PixelGrid& grid, const PointsView& points, const SmoothedRanges
   return 1 / grid.depthOf(points.row(grid.rank[pixel])) < smoothed.inverse[at] ? 1 : -1;
 }
 
+/// Samples and their neighbours, along the row and along the column.
+struct Pairs {
+  std::array<std::int64_t, 2> all{}, on_one_side{};
+
+  Pairs& operator+=(const Pairs& other) {
+    for (const int direction : {0, 1}) {
+      all[direction] += other.all[direction];
+      on_one_side[direction] += other.on_one_side[direction];
+    }
+    return *this;
+  }
+  bool changeSidesFreely(int direction) const {
+    const auto of_all = static_cast<double>(all[direction]), of_one_side = static_cast<double>(on_one_side[direction]);
+    const double by_chance = std::sqrt(of_all);  // two standard deviations
+    return of_all > 0 && of_one_side >= least_on_one_side * of_all - by_chance &&
+           of_one_side <= most_on_one_side * of_all + by_chance;
+  }
+};
+
 }  // namespace
 
 bool changesSidesFreely(const PixelGrid& grid, const PointsView& points, const SmoothedRanges& smoothed,
-                        const RangeNoise& noise) {
+                        const RangeNoise& noise, const Workers& workers) {
   const std::int64_t end = std::ssize(grid.rank) - grid.columns;
   const std::int64_t stride = sampleStride(end, samples, grid.columns);
-  const auto varianceAt = [&](std::int64_t pixel) {
-    const std::ptrdiff_t at = smoothed.atPixel(grid, pixel);
-    return smoothed.variance[at] / std::pow(noise.atInverse(smoothed.inverse[at]), 2);
+  RawBuffer<double> variance(static_cast<std::size_t>((end + stride - 1) / stride));  // of each sample
+  const auto forSamples = [&](const auto& visit) {
+    workers.forBlocks("windows", std::ssize(variance), usual_block, visit);
   };
+  forSamples([&](std::int64_t first, std::int64_t last, int) {
+    for (std::int64_t i = first; i < last; ++i) {
+      const std::ptrdiff_t at = smoothed.atPixel(grid, i * stride);
+      variance[i] = smoothed.variance[at] / std::pow(noise.atInverse(smoothed.inverse[at]), 2);
+    }
+  });
   Buffer<double> variances;
-  variances.reserve(static_cast<std::size_t>(end / stride + 1));
-  for (std::int64_t pixel = 0; pixel < end; pixel += stride)
-    if (const double variance = varianceAt(pixel); variance > 0) variances.push_back(variance);
+  variances.reserve(variance.size());
+  std::copy_if(variance.begin(), variance.end(), std::back_inserter(variances), [](double of) { return of > 0; });
   if (variances.empty()) return false;
   const double most_variance = quantileOf(variances, quiet) * alike;
 
-  struct Pairs {
-    std::int64_t step;
-    double all = 0, on_one_side = 0;
-  };
-  std::array<Pairs, 2> directions = {{{1}, {grid.columns}}};
-  for (std::int64_t pixel = 0; pixel < end; pixel += stride) {
-    const double variance = varianceAt(pixel);
-    if (!(variance > 0 && variance <= most_variance)) continue;
-    const int side = sideOf(grid, points, smoothed, pixel);
-    for (Pairs& pairs : directions) {
-      const int next = sideOf(grid, points, smoothed, pixel + pairs.step);
-      pairs.all += next != 0 ? 1 : 0;
-      pairs.on_one_side += next == side ? 1 : 0;
+  Buffer<Pairs> pairs_of(workers.count());
+  forSamples([&](std::int64_t first, std::int64_t last, int worker) {
+    Pairs here;
+    for (std::int64_t i = first; i < last; ++i) {
+      if (!(variance[i] > 0 && variance[i] <= most_variance)) continue;
+      const int side = sideOf(grid, points, smoothed, i * stride);
+      for (const int direction : {0, 1}) {
+        const int next = sideOf(grid, points, smoothed, i * stride + (direction == 0 ? 1 : grid.columns));
+        here.all[direction] += next != 0 ? 1 : 0;
+        here.on_one_side[direction] += next == side ? 1 : 0;
+      }
     }
-  }
-  return std::ranges::all_of(directions, [](const Pairs& pairs) {
-    const double by_chance = std::sqrt(pairs.all);  // two standard deviations
-    return pairs.all > 0 && pairs.on_one_side >= least_on_one_side * pairs.all - by_chance &&
-           pairs.on_one_side <= most_on_one_side * pairs.all + by_chance;
+    pairs_of[worker] += here;
   });
+  Pairs pairs;
+  for (const Pairs& part : pairs_of) pairs += part;
+  return pairs.changeSidesFreely(0) && pairs.changeSidesFreely(1);
 }
 
 }  // namespace tufted

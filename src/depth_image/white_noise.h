@@ -11,6 +11,6 @@ namespace tufted {
 /// @param smoothed once
 /// @returns false where no two neighbours were smoothed
 bool changesSidesFreely(const PixelGrid& grid, const PointsView& points, const SmoothedRanges& smoothed,
-                        const RangeNoise& noise);
+                        const RangeNoise& noise, const Workers& workers);
 
 }  // namespace tufted

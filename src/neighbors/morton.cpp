@@ -134,8 +134,8 @@ RankedCloud rankPoints(const PointsRef& points, std::vector<PointStatus>& status
                                    [&](int i) { return status[i] != PointStatus::not_finite; });
   const std::int64_t size = std::ssize(cloud.input_index);
   const auto forAll = [&](const auto& visit) {
-    workers.forBlocks("order", size, usual_block, [&](std::int64_t begin, std::int64_t end, int worker) {
-      for (std::int64_t i = begin; i < end; ++i) visit(i, worker);
+    workers.forBlocks("order", size, usual_block, [&](std::int64_t begin, std::int64_t end, int) {
+      for (std::int64_t i = begin; i < end; ++i) visit(i);
     });
   };
 
@@ -144,17 +144,13 @@ RankedCloud rankPoints(const PointsRef& points, std::vector<PointStatus>& status
     const auto times = [&](double x) { return to_scaled.times(x) + 0.0; };  // no -0: equal have equal bits
     return {times(points(i, 0)), times(points(i, 1)), times(points(i, 2))};
   };
-  Buffer<Eigen::Array3d> lowest(workers.count(), Eigen::Array3d::Constant(INFINITY));
-  forAll([&](std::int64_t i, int worker) { lowest[worker] = lowest[worker].min(scaled(cloud.input_index[i])); });
   // The grid starts at a corner of the data, but not further than 16 spreads from its middle.
   Eigen::Array3d corner;
-  for (int axis = 0; axis < 3; ++axis) corner[axis] = to_scaled.times(scaling.center[axis]) - 16;
-  const Eigen::Array3d all_lowest = std::accumulate(lowest.begin(), lowest.end(), lowest.front(),
-                                                    [](const auto& a, const auto& b) { return a.min(b).eval(); });
-  corner = corner.max(all_lowest);
+  for (int axis = 0; axis < 3; ++axis)
+    corner[axis] = std::max(to_scaled.times(scaling.center[axis]) - 16, to_scaled.times(scaling.lowest[axis]));
 
   RawBuffer<Key> keys(cloud.input_index.size());
-  forAll([&](std::int64_t i, int) {
+  forAll([&](std::int64_t i) {
     const int index = cloud.input_index[i];
     keys[i] = {mortonCode(scaled(index) - corner), index};
   });
@@ -169,7 +165,7 @@ RankedCloud rankPoints(const PointsRef& points, std::vector<PointStatus>& status
     return a.index < b.index;
   });
   cloud.points.resize(size);
-  forAll([&](std::int64_t rank, int) {
+  forAll([&](std::int64_t rank) {
     cloud.input_index[rank] = keys[rank].index;
     cloud.points.row(rank) = scaled(keys[rank].index).matrix().transpose();
   });

@@ -64,12 +64,14 @@ std::int64_t countOutliers(const NeighborGraph& graph, const Workers& workers) {
   workers.forBlocks("outliers", static_cast<std::int64_t>(graph.distance.size()), usual_block,
                     [&](std::int64_t begin, std::int64_t end, int worker) {
                       Buffer<double> around(graph.k);
+                      std::int64_t here = 0;
                       for (std::int64_t p = begin; p < end; ++p) {
                         for (int j = 0; j < graph.k; ++j) around[j] = graph.distance[graph.nearest[p * graph.k + j]];
                         const auto middle = around.begin() + graph.k / 2;
                         std::nth_element(around.begin(), middle, around.end());
-                        counts[worker] += graph.distance[p] > outlier_ratio * *middle ? 1 : 0;
+                        here += graph.distance[p] > outlier_ratio * *middle ? 1 : 0;
                       }
+                      counts[worker] += here;
                     });
   return std::accumulate(counts.begin(), counts.end(), std::int64_t{0});
 }

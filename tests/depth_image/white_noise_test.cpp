@@ -29,7 +29,7 @@ bool changesSides(const std::function<double(int, int)>& measured) {
   grid.axis = {0, 0, 1};
   grid.rank.assign(static_cast<std::size_t>(grid.rows) * grid.columns, -1);
   const Progress silent;
-  const Workers workers(1, silent);
+  const Workers workers(2, silent);
   SmoothedRanges smoothed;
   smoothed.clear(grid, workers);
   Points points(rows * columns, 3);
@@ -45,7 +45,7 @@ bool changesSides(const std::function<double(int, int)>& measured) {
       smoothed.variance[at] = 1;
     }
   }
-  return changesSidesFreely(grid, points, smoothed, {deviation, 0});
+  return changesSidesFreely(grid, points, smoothed, {deviation, 0}, workers);
 }
 
 std::vector<double> normals() {
