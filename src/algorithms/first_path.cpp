@@ -26,15 +26,6 @@ struct Step {
   double left;      ///< how far the target is from there
 };
 
-/// The corner at one end of an edge, in the face of its side `enter`.
-/// @param corner that end in the face of the side `leave`
-int cornerBeyond(const MarchFaces& faces, int corner, int leave, int enter) {
-  const int next = nextSide(enter);
-  return faces.vertexAt(next) == faces.vertexAt(corner) && faces.endAt(enter, next) == faces.endAt(leave, corner)
-             ? next
-             : previousSide(enter);
-}
-
 /// A face in the plane, seen from one of its slots: the side from (0, 0) to (length, 0) and the corner above it.
 struct Layout {
   Vector2d after, before, own;
@@ -146,7 +137,7 @@ void goOn(const MarchFaces& faces, const Step& step, Strip& strip) {
   if (step.to < faces.vertices && step.end != enter) {  // along the side to one of its ends
     strip.end = cornerBeyond(faces, step.end, enter, leave);
   } else {
-    strip.doors.push_back({leave, enter, cornerBeyond(faces, nextSide(leave), leave, enter)});
+    strip.doors.push_back(doorBetween(faces, leave, enter));
     strip.end = step.end;
   }
 }

@@ -200,6 +200,17 @@ double cornerAngle(const MarchFaces& faces, int slot) {
   return std::atan2(faces.faces[slot / 3].double_area, (b * b + (c - a) * (c + a)) / 2);
 }
 
+int cornerBeyond(const MarchFaces& faces, int corner, int leave, int enter) {
+  const int next = nextSide(enter);
+  return faces.vertexAt(next) == faces.vertexAt(corner) && faces.endAt(enter, next) == faces.endAt(leave, corner)
+             ? next
+             : previousSide(enter);
+}
+
+Strip::Door doorBetween(const MarchFaces& faces, int leave, int enter) {
+  return {leave, enter, cornerBeyond(faces, nextSide(leave), leave, enter)};
+}
+
 void trim(Strip& strip) {
   while (!strip.doors.empty() && strip.end != strip.doors.back().enter) {
     strip.end = strip.doors.back().before(strip.end);

@@ -32,6 +32,13 @@ struct Strip {
   bool isEdge() const { return doors.empty(); }
 };
 
+/// The corner at one end of an edge, in the face of its side `enter`.
+/// @param corner that end in the face of the side `leave`
+int cornerBeyond(const MarchFaces& faces, int corner, int leave, int enter);
+
+/// The door from one side of an edge to another.
+Strip::Door doorBetween(const MarchFaces& faces, int leave, int enter);
+
 /// Drops the triangles at both ends that the way only enters to come to a corner of the door.
 void trim(Strip& strip);
 

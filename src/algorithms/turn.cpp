@@ -7,13 +7,17 @@
 #include <limits>
 #include <numbers>
 #include <queue>
+#include <span>
 #include <utility>
+
+#include "algorithms/straight_way.h"
 
 namespace tufted {
 namespace {
 
 /// Angles that miss half a circle by less are straight.
 constexpr double straight = 1e-9;
+constexpr int most_faces_by_doors = 8;  // of a piece
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// An edge at a point. One that leads back to it is there twice, by its ends.
@@ -57,10 +61,8 @@ class Link {
       const auto [angle, node] = queue_.top();
       queue_.pop();
       if (angle > nodes_[node].angle) continue;
-      const std::size_t end = node + 1 < std::ssize(nodes_) ? nodes_[node + 1].first : sides_.size();
-      for (std::size_t i = nodes_[node].first; i < end; ++i) {
-        const int slot = sides_[i].slot;
-        const int other = nodeOf(edgeEnd(faces_, thirdSlot(slot, sides_[i].side), slot));
+      for (const auto& [edge, slot, side] : sidesOf(node)) {
+        const int other = nodeOf(edgeEnd(faces_, thirdSlot(slot, side), slot));
         const double reached = angle + cornerAngle(faces_, slot);
         if (!(reached < nodes_[other].angle)) continue;
         nodes_[other].angle = reached;
@@ -74,6 +76,16 @@ class Link {
     const int node = nodeOf(edge);
     return node < 0 ? infinity : nodes_[node].angle;
   }
+  struct Side {
+    EdgeEnd edge;
+    int slot, side;  ///< of a corner at the point, and of the edge in the same triangle
+    bool operator<(const Side& other) const { return std::pair(edge, side) < std::pair(other.edge, other.side); }
+  };
+  /// The triangles at an edge.
+  std::span<const Side> sidesAt(const EdgeEnd& edge) const {
+    const int node = nodeOf(edge);
+    return node < 0 ? std::span<const Side>() : sidesOf(node);
+  }
   /// The edges and, between them, the corners of the triangles on the way to an edge.
   void wayTo(const EdgeEnd& edge, std::vector<EdgeEnd>& edges, std::vector<int>& slots) const {
     for (int node = nodeOf(edge); node >= 0; node = nodes_[node].before) {
@@ -85,11 +97,6 @@ class Link {
   }
 
  private:
-  struct Side {
-    EdgeEnd edge;
-    int slot, side;
-    bool operator<(const Side& other) const { return std::pair(edge, side) < std::pair(other.edge, other.side); }
-  };
   struct Node {
     EdgeEnd edge;
     std::size_t first;  ///< of its sides
@@ -101,6 +108,11 @@ class Link {
     const auto found = std::lower_bound(nodes_.begin(), nodes_.end(), edge,
                                         [](const Node& node, const EdgeEnd& wanted) { return node.edge < wanted; });
     return found != nodes_.end() && found->edge == edge ? static_cast<int>(found - nodes_.begin()) : -1;
+  }
+
+  std::span<const Side> sidesOf(int node) const {
+    const std::size_t end = node + 1 < std::ssize(nodes_) ? nodes_[node + 1].first : sides_.size();
+    return std::span(sides_).subspan(nodes_[node].first, end - nodes_[node].first);
   }
 
   const MarchFaces& faces_;
@@ -120,9 +132,11 @@ EdgeEnd edgeOf(const MarchFaces& faces, const Strip& strip, int slot) {
 }
 
 /// Puts the triangles around the point between those of the pieces.
-/// @param edges,slots the way around it, see Link::wayTo()
-Strip join(const MarchFaces& faces, const Strip& before, const Strip& after, const std::vector<EdgeEnd>& edges,
-           std::vector<int> slots) {
+/// @param goal the edge at the start of the second piece to which the way around the point leads
+Strip join(const MarchFaces& faces, const Link& link, const Strip& before, const Strip& after, const EdgeEnd& goal) {
+  std::vector<EdgeEnd> edges;
+  std::vector<int> slots;
+  link.wayTo(goal, edges, slots);
   if (!before.isEdge()) slots.insert(slots.begin(), before.end);
   if (!after.isEdge()) slots.push_back(after.start);
   Strip strip{before.start, after.end, before.doors};
@@ -139,6 +153,28 @@ Strip join(const MarchFaces& faces, const Strip& before, const Strip& after, con
   strip.doors.insert(strip.doors.end(), after.doors.begin(), after.doors.end());
   trim(strip);
   return strip;
+}
+
+/// The way around the point where the triangles there lie over one another: at a rim those that lie on front and back
+/// and their mirror images. No edge leads from one into the other, but the second piece may run as well through
+/// triangles to which the way is shorter.
+std::optional<std::vector<Segment>> shortcutThroughOthers(const MarchFaces& faces, const Link& link,
+                                                          const Strip& before, const Segment& after) {
+  const int start = after.strip.start;
+  const int most_faces = most_faces_by_doors * static_cast<int>(after.strip.doors.size() + 1);
+  for (const int i : {0, 1}) {
+    const double angle = after.at_start[i];
+    for (const Link::Side& at : link.sidesAt(edgeEnd(faces, i == 0 ? nextSide(start) : previousSide(start), start))) {
+      const double rest = cornerAngle(faces, at.slot) - angle;
+      const EdgeEnd beyond = edgeEnd(faces, thirdSlot(at.slot, at.side), at.slot);
+      if (at.slot == start || !(rest > 0 && link.angleTo(beyond) + rest < std::numbers::pi - straight)) continue;
+      const double from_first = at.side == previousSide(at.slot) ? angle : rest;
+      const std::optional<Strip> other =
+          straightWay(faces, at.slot, from_first, after.length, faces.vertexAt(after.strip.end), most_faces);
+      if (other) return straighten(faces, join(faces, link, before, *other, beyond));
+    }
+  }
+  return {};
 }
 
 }  // namespace
@@ -177,11 +213,9 @@ std::optional<std::vector<Segment>> shortcutAt(const MarchFaces& faces, const Se
     offer(edgeEnd(faces, nextSide(second.start), second.start), after.at_start[0]);
     offer(edgeEnd(faces, previousSide(second.start), second.start), after.at_start[1]);
   }
-  if (!(least < std::numbers::pi - straight)) return {};
-  std::vector<EdgeEnd> edges;
-  std::vector<int> slots;
-  link.wayTo(goal, edges, slots);
-  return straighten(faces, join(faces, first, second, edges, std::move(slots)));
+  if (least < std::numbers::pi - straight) return straighten(faces, join(faces, link, first, second, goal));
+  if (second.isEdge()) return {};
+  return shortcutThroughOthers(faces, link, first, after);
 }
 
 }  // namespace tufted
