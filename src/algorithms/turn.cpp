@@ -131,6 +131,13 @@ EdgeEnd edgeOf(const MarchFaces& faces, const Strip& strip, int slot) {
   return edgeEnd(faces, thirdSlot(strip.start, strip.end), slot);
 }
 
+/// Joins pieces that meet in one triangle.
+Strip joinInTriangle(const Strip& before, const Strip& after) {
+  Strip strip{before.start, after.end, before.doors};
+  strip.doors.insert(strip.doors.end(), after.doors.begin(), after.doors.end());
+  return strip;
+}
+
 /// Puts the triangles around the point between those of the pieces.
 /// @param goal the edge at the start of the second piece to which the way around the point leads
 Strip join(const MarchFaces& faces, const Link& link, const Strip& before, const Strip& after, const EdgeEnd& goal) {
@@ -167,11 +174,15 @@ std::optional<std::vector<Segment>> shortcutThroughOthers(const MarchFaces& face
     for (const Link::Side& at : link.sidesAt(edgeEnd(faces, i == 0 ? nextSide(start) : previousSide(start), start))) {
       const double rest = cornerAngle(faces, at.slot) - angle;
       const EdgeEnd beyond = edgeEnd(faces, thirdSlot(at.slot, at.side), at.slot);
-      if (at.slot == start || !(rest > 0 && link.angleTo(beyond) + rest < std::numbers::pi - straight)) continue;
+      const bool is_with_first = !before.isEdge() && before.end == at.slot;
+      const double way = is_with_first ? 0 : link.angleTo(beyond) + rest;
+      if (at.slot == start || !(rest > 0 && way < std::numbers::pi - straight)) continue;
       const double from_first = at.side == previousSide(at.slot) ? angle : rest;
       const std::optional<Strip> other =
           straightWay(faces, at.slot, from_first, after.length, faces.vertexAt(after.strip.end), most_faces);
-      if (other) return straighten(faces, join(faces, link, before, *other, beyond));
+      if (!other) continue;
+      return straighten(faces,
+                        is_with_first ? joinInTriangle(before, *other) : join(faces, link, before, *other, beyond));
     }
   }
   return {};
@@ -187,9 +198,7 @@ std::optional<std::vector<Segment>> shortcutAt(const MarchFaces& faces, const Se
   if (!first.isEdge() && !second.isEdge() && first.end == second.start) {
     // Both in one triangle.
     if (!(std::abs(before.at_end[0] - after.at_start[0]) < std::numbers::pi - straight)) return {};
-    Strip strip{first.start, second.end, first.doors};
-    strip.doors.insert(strip.doors.end(), second.doors.begin(), second.doors.end());
-    return straighten(faces, strip);
+    return straighten(faces, joinInTriangle(first, second));
   }
   Link link(faces, faces.vertexAt(slot));
   if (first.isEdge()) {
