@@ -32,13 +32,6 @@ constexpr int between_reports = 64;
 
 using SegmentList = std::list<Segment>;
 
-template <class Pieces>
-double lengthOf(const Pieces& pieces) {
-  double length = 0;
-  for (const Segment& piece : pieces) length += piece.length;
-  return length;
-}
-
 /// Leads a path around points while that makes it shorter.
 /// @returns how often
 int shorten(const MarchFaces& faces, SegmentList& path, const Workers& workers) {

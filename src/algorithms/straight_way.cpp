@@ -12,10 +12,6 @@ using Eigen::Vector2d;
 
 constexpr double at_target = 1e-9;  // of the length
 
-double cross(const Vector2d& a, const Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 /// A side that the way leaves a face through, in the plane.
 struct Exit {
   int leave;  ///< its slot

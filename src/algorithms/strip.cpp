@@ -14,10 +14,6 @@ namespace {
 
 using Eigen::Vector2d;
 
-double cross(const Vector2d& a, const Vector2d& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
 /// A door in the plane, as who goes through it sees its ends.
 struct OpenDoor {
   Vector2d left, right;

@@ -53,6 +53,13 @@ struct Segment {
   std::array<double, 2> at_start, at_end;
 };
 
+template <class Segments>
+double lengthOf(const Segments& segments) {
+  double length = 0;
+  for (const Segment& segment : segments) length += segment.length;
+  return length;
+}
+
 /// Whether the ends of all edges of a face can be told apart.
 bool hasClearEdges(const MarchFaces& faces, int face);
 

@@ -131,11 +131,23 @@ EdgeEnd edgeOf(const MarchFaces& faces, const Strip& strip, int slot) {
   return edgeEnd(faces, thirdSlot(strip.start, strip.end), slot);
 }
 
-/// Joins pieces that meet in one triangle.
-Strip joinInTriangle(const Strip& before, const Strip& after) {
+/// Straightens pieces that meet in one triangle, without the triangles that the first enters and the second goes back
+/// through.
+std::vector<Segment> straightenTogether(const MarchFaces& faces, const Strip& before, const Strip& after) {
   Strip strip{before.start, after.end, before.doors};
-  strip.doors.insert(strip.doors.end(), after.doors.begin(), after.doors.end());
-  return strip;
+  auto rest = after.doors.begin();
+  while (!strip.doors.empty() && rest != after.doors.end() && strip.doors.back().enter == rest->leave) {
+    const int leave = strip.doors.back().leave, enter = rest->enter;
+    strip.doors.pop_back();
+    ++rest;
+    if (leave == enter) continue;
+    strip.doors.push_back(doorBetween(faces, leave, enter));
+    break;
+  }
+  strip.doors.insert(strip.doors.end(), rest, after.doors.end());
+  trim(strip);
+  if (strip.isEdge() && strip.start == strip.end) return {};
+  return straighten(faces, strip);
 }
 
 /// Puts the triangles around the point between those of the pieces.
@@ -162,30 +174,35 @@ Strip join(const MarchFaces& faces, const Link& link, const Strip& before, const
   return strip;
 }
 
-/// The way around the point where the triangles there lie over one another: at a rim those that lie on front and back
-/// and their mirror images. No edge leads from one into the other, but the second piece may run as well through
-/// triangles to which the way is shorter.
+/// At a rim triangles that edges were flipped over lie over one another. The second piece, which starts in one of them,
+/// is laid through each of the others to which the angle around the point is less than half a circle.
+/// @returns the shortest way, if it is shorter than both pieces
 std::optional<std::vector<Segment>> shortcutThroughOthers(const MarchFaces& faces, const Link& link,
-                                                          const Strip& before, const Segment& after) {
-  const int start = after.strip.start;
+                                                          const Segment& before, const Segment& after) {
+  const Strip& first = before.strip;
+  const int start = after.strip.start, target = faces.vertexAt(after.strip.end);
   const int most_faces = most_faces_by_doors * static_cast<int>(after.strip.doors.size() + 1);
+  std::optional<std::vector<Segment>> best;
+  double least = before.length + after.length;
   for (const int i : {0, 1}) {
     const double angle = after.at_start[i];
     for (const Link::Side& at : link.sidesAt(edgeEnd(faces, i == 0 ? nextSide(start) : previousSide(start), start))) {
       const double rest = cornerAngle(faces, at.slot) - angle;
       const EdgeEnd beyond = edgeEnd(faces, thirdSlot(at.slot, at.side), at.slot);
-      const bool is_with_first = !before.isEdge() && before.end == at.slot;
-      const double way = is_with_first ? 0 : link.angleTo(beyond) + rest;
-      if (at.slot == start || !(rest > 0 && way < std::numbers::pi - straight)) continue;
+      const bool is_with_first = !first.isEdge() && first.end == at.slot;
+      const double around = is_with_first ? 0 : link.angleTo(beyond) + rest;
+      if (at.slot == start || !(rest > 0 && around < std::numbers::pi - straight)) continue;
       const double from_first = at.side == previousSide(at.slot) ? angle : rest;
-      const std::optional<Strip> other =
-          straightWay(faces, at.slot, from_first, after.length, faces.vertexAt(after.strip.end), most_faces);
+      const std::optional<Strip> other = straightWay(faces, at.slot, from_first, after.length, target, most_faces);
       if (!other) continue;
-      return straighten(faces,
-                        is_with_first ? joinInTriangle(before, *other) : join(faces, link, before, *other, beyond));
+      std::vector<Segment> pieces = is_with_first ? straightenTogether(faces, first, *other)
+                                                  : straighten(faces, join(faces, link, first, *other, beyond));
+      if (!(lengthOf(pieces) < least)) continue;
+      least = lengthOf(pieces);
+      best = std::move(pieces);
     }
   }
-  return {};
+  return best;
 }
 
 }  // namespace
@@ -198,7 +215,7 @@ std::optional<std::vector<Segment>> shortcutAt(const MarchFaces& faces, const Se
   if (!first.isEdge() && !second.isEdge() && first.end == second.start) {
     // Both in one triangle.
     if (!(std::abs(before.at_end[0] - after.at_start[0]) < std::numbers::pi - straight)) return {};
-    return straighten(faces, joinInTriangle(first, second));
+    return straightenTogether(faces, first, second);
   }
   Link link(faces, faces.vertexAt(slot));
   if (first.isEdge()) {
@@ -224,7 +241,7 @@ std::optional<std::vector<Segment>> shortcutAt(const MarchFaces& faces, const Se
   }
   if (least < std::numbers::pi - straight) return straighten(faces, join(faces, link, first, second, goal));
   if (second.isEdge()) return {};
-  return shortcutThroughOthers(faces, link, first, after);
+  return shortcutThroughOthers(faces, link, before, after);
 }
 
 }  // namespace tufted

@@ -21,7 +21,7 @@ constexpr std::int64_t cheapest_block = 16384;  ///< where each takes a few oper
 ///
 /// Work is cut into blocks whose size does not depend on the number of threads, and every block writes only its
 /// own part of the output. So the result has the same bits for any number of threads. All threads use the caller's
-/// workspace.
+/// workspace. It is for one thread of the caller, and for loops one after the other.
 class Workers {
  public:
   /// @param threads at most this many, and at most four per processor (16 if that is more); 0 for one per processor

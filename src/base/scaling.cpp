@@ -53,6 +53,9 @@ Within valuesWithin(double least, double most, std::int64_t n, const ValueOf& va
     blocks[begin / cheapest_block] = std::move(here);
   });
   Within all;
+  std::size_t count = 0;
+  for (const Within& block : blocks) count += block.values.size();
+  all.values.reserve(count);
   for (const Within& block : blocks) {
     all.values.insert(all.values.end(), block.values.begin(), block.values.end());
     all.below += block.below;
@@ -64,7 +67,7 @@ Within valuesWithin(double least, double most, std::int64_t n, const ValueOf& va
 /// The median of those of n values that are not NaN. Of an even number it is the upper one of the two in the middle,
 /// and of no values it is 0.
 template <class ValueOf>
-double medianOf(std::int64_t n, const ValueOf& valueOf, const Workers& workers) {
+double medianOfAll(std::int64_t n, const ValueOf& valueOf, const Workers& workers) {
   Buffer<double> some;
   for (std::int64_t i = 0; i < n; i += std::max<std::int64_t>(1, n / samples))
     if (const double value = valueOf(i); !std::isnan(value)) some.push_back(value);
@@ -97,7 +100,7 @@ Scaling measureScaling(const PointsRef& points, std::vector<PointStatus>& status
   Scaling scaling;
   const auto isUsable = [&](std::int64_t i) { return status[i] == PointStatus::active; };
   for (int axis = 0; axis < 3; ++axis)
-    scaling.center[axis] = medianOf(
+    scaling.center[axis] = medianOfAll(
         n, [&](std::int64_t i) { return isUsable(i) ? points(i, axis) : no_value; }, workers);
 
   const auto deviation = [&](Eigen::Index i) {
@@ -108,7 +111,7 @@ Scaling measureScaling(const PointsRef& points, std::vector<PointStatus>& status
     const double distance = isUsable(i) ? deviation(i) : 0;
     return distance > 0 ? distance : no_value;
   };
-  const double spread = medianOf(n, deviationOfOther, workers);
+  const double spread = medianOfAll(n, deviationOfOther, workers);
   if (spread > 0 && std::isfinite(spread)) std::frexp(spread, &scaling.exponent);
   const PowerOfTwo to_spreads(-scaling.exponent);
   Buffer<Extent> extent_of(workers.count());

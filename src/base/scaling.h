@@ -13,7 +13,7 @@ namespace tufted {
 /// Computed from differences only: moving the points by an exact offset moves `center` and changes nothing else.
 struct Scaling {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< median of each coordinate
-  Eigen::Array3d lowest = Eigen::Array3d::Zero();    ///< of each coordinate of points that count
+  Eigen::Array3d lowest = Eigen::Array3d::Zero();    ///< of each coordinate of active points; infinite without any
   int exponent = 0;                                  ///< 2^exponent is just above the median spread
 
   /// Multiplies by 2^-exponent.

@@ -39,7 +39,7 @@ struct Pairs {
     }
     return *this;
   }
-  bool changeSidesFreely(int direction) const {
+  bool areFree(int direction) const {
     const auto of_all = static_cast<double>(all[direction]), of_one_side = static_cast<double>(on_one_side[direction]);
     const double by_chance = std::sqrt(of_all);  // two standard deviations
     return of_all > 0 && of_one_side >= least_on_one_side * of_all - by_chance &&
@@ -85,7 +85,7 @@ bool changesSidesFreely(const PixelGrid& grid, const PointsView& points, const S
   });
   Pairs pairs;
   for (const Pairs& part : pairs_of) pairs += part;
-  return pairs.changeSidesFreely(0) && pairs.changeSidesFreely(1);
+  return pairs.areFree(0) && pairs.areFree(1);
 }
 
 }  // namespace tufted

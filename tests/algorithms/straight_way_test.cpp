@@ -8,6 +8,7 @@
 #include <numbers>
 #include <optional>
 
+#include "algorithms/turn.h"
 #include "oracles/planar.h"
 #include "shapes/random.h"
 #include "shapes/shapes.h"
@@ -72,19 +73,25 @@ TEST(StraightWay, LeadsFromVertexToVertexOfAPlane) {
   EXPECT_GE(found, 180);
 }
 
-TEST(StraightWay, PassesAnEdgeOfThreePages) {
-  // Pages x > 0 in the directions 0, 120 and 240 degrees about the z axis, each of one triangle with the spine.
+/// Pages in the directions 0, 120 and 240 degrees about the z axis, each of one triangle with the spine from 0 to 1.
+/// @param height of the points 2, 3 and 4, which are 1 away from it
+shapes::Mesh book(double height) {
   shapes::Mesh book;
   book.points.resize(5, 3);
   book.points.row(0) << 0, 0, 0;
   book.points.row(1) << 0, 0, 1;
   for (int page = 0; page < 3; ++page) {
     const double turn = page * 2 * std::numbers::pi / 3;
-    book.points.row(2 + page) << std::cos(turn), std::sin(turn), 0.5;
+    book.points.row(2 + page) << std::cos(turn), std::sin(turn), height;
   }
   book.triangles.resize(3, 3);
   book.triangles << 0, 1, 2, 0, 1, 3, 0, 1, 4;
-  const MarchFaces faces = facesOf(book.points, book.triangles);
+  return book;
+}
+
+TEST(StraightWay, PassesAnEdgeOfThreePages) {
+  const shapes::Mesh pages = book(0.5);
+  const MarchFaces faces = facesOf(pages.points, pages.triangles);
   for (const int to : {3, 4}) {
     const int slot = faces.corner_slots[faces.corner_offset[2]];
     const double half = cornerAngle(faces, slot) / 2;
@@ -96,12 +103,45 @@ TEST(StraightWay, PassesAnEdgeOfThreePages) {
   }
 }
 
+// From page to page by the corner of a third one.
+TEST(StraightWay, TakesThePlaceOfPiecesThatMeetInATriangle) {
+  for (const double height : {0.1, 0.5, 0.9}) {
+    const shapes::Mesh pages = book(height);
+    const MarchFaces faces = facesOf(pages.points, pages.triangles);
+    const auto cornerOf = [&](int vertex) { return faces.corner_slots[faces.corner_offset[vertex]]; };
+    const auto pieceTo = [&](int from, int to) {
+      const int leave = cornerOf(from), enter = cornerOf(to);
+      const auto pieces = straighten(faces, {leave, enter, {doorBetween(faces, leave, enter)}});
+      EXPECT_EQ(pieces.size(), 1U);
+      return pieces.front();
+    };
+    for (const int to : {3, 4}) {
+      const auto pieces = shortcutAt(faces, pieceTo(3, 2), pieceTo(2, to));
+      ASSERT_TRUE(pieces) << height;
+      EXPECT_NEAR(lengthOf(*pieces), to == 3 ? 0 : 2, 1e-12) << height;
+    }
+  }
+}
+
 TEST(StraightWay, EndsAtARim) {
-  const shapes::Mesh grid = shapes::gridSquare(3);
-  const MarchFaces faces = facesOf(grid.points, grid.triangles);
-  for (std::size_t slot = 0; slot < 3 * faces.faces.size(); ++slot)
-    for (int target = 0; target < faces.vertices; ++target)
-      EXPECT_FALSE(straightWay(faces, static_cast<int>(slot), 0.3, 100, target, many));
+  // A square from which a quarter is cut.
+  const oracles::PlanarMesh mesh = oracles::obtuseSquare(400, 1, 102);
+  std::vector<int> kept;
+  for (int t = 0; t < mesh.triangles.rows(); ++t) {
+    const Eigen::RowVector3d middle = mesh.points(mesh.triangles.row(t), Eigen::all).colwise().mean();
+    if (!(middle.x() > 0.5 && middle.y() > 0.5)) kept.push_back(t);
+  }
+  const MarchFaces faces = facesOf(mesh.points, mesh.triangles(kept, Eigen::all));
+  int out = 0;
+  for (int from = 0; from < mesh.points.rows(); ++from) {
+    for (int to = 0; to < mesh.points.rows(); to += 7) {
+      const Eigen::RowVector3d middle = (mesh.points.row(from) + mesh.points.row(to)) / 2;
+      if (!(middle.x() > 0.6 && middle.y() > 0.6)) continue;
+      ++out;
+      EXPECT_FALSE(wayTo(faces, mesh.points, from, to, (mesh.points.row(to) - mesh.points.row(from)).norm()));
+    }
+  }
+  EXPECT_GE(out, 1000);
 }
 
 }  // namespace

@@ -33,6 +33,18 @@ TEST(Workers, PassOnTheFirstException) {
   }
 }
 
+TEST(Workers, GoOnAfterALoopThatThrew) {
+  const Progress silent;
+  const Workers workers(3, silent);
+  for (int loop = 0; loop < 50; ++loop) {
+    EXPECT_THROW(workers.forBlocks("", 20, 1, [](std::int64_t, std::int64_t, int) { throw InvalidInput("stop"); }),
+                 InvalidInput);
+    std::atomic<int> visits{0};
+    workers.forBlocks("", 100, 1, [&](std::int64_t, std::int64_t, int) { ++visits; });
+    EXPECT_EQ(visits, 100);
+  }
+}
+
 TEST(Workers, StopWhenTheCallerSaysSo) {
   const Progress stop = [](std::string_view, double fraction) { return fraction < 0.1; };
   for (const int threads : {1, 2}) {

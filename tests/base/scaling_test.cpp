@@ -70,9 +70,30 @@ TEST(Scaling, LeavesOutPointsThatAreNotFinite) {
 // Points at regular intervals, such as those it looks at first, lie elsewhere than all others.
 TEST(Scaling, IsThatOfAllPointsWhereTheFirstOnesSeenAreUnlikeThem) {
   for (const int interval : {4, 19, 20}) {
-    Points points = randomPoints(2048 * interval, 103);
-    for (int i = 0; i < points.rows(); i += interval) points.row(i).array() += 1000;
-    expectMedians(points);
+    for (const double away : {-1000, 1000}) {
+      Points points = randomPoints(2048 * interval, 103);
+      for (int i = 0; i < points.rows(); i += interval) points.row(i).array() += away;
+      expectMedians(points);
+    }
+  }
+}
+
+TEST(Scaling, IsThatOfAllPointsWhereHalfAreOneOrFarAway) {
+  Points points = randomPoints(30000, 104);
+  points.topRows(15000).setConstant(0.5);
+  expectMedians(points);
+  points = randomPoints(30000, 105);
+  for (int i = 0; i < 30000; i += 7) points(i, i % 3) = i % 2 == 0 ? 1e60 : -1e60;
+  expectMedians(points);
+}
+
+TEST(Scaling, OfNoPointsIsThatOfTheUnit) {
+  const Progress silent;
+  for (const Points& points : {Points(0, 3), Points(Points::Constant(30000, 3, nan))}) {
+    std::vector<PointStatus> status;
+    const Scaling scaling = measureScaling(points, status, Workers(2, silent));
+    EXPECT_EQ(scaling.center, Eigen::Vector3d::Zero());
+    EXPECT_EQ(scaling.exponent, 0);
   }
 }
 
@@ -82,6 +103,7 @@ TEST(Scaling, OfPointsThatAreOneIsThere) {
   const Scaling scaling = measureScaling(Points::Constant(30000, 3, 7), status, Workers(2, silent));
   EXPECT_EQ(scaling.center, Eigen::Vector3d::Constant(7));
   EXPECT_EQ(scaling.exponent, 0);
+  EXPECT_EQ((scaling.lowest - 7).abs().maxCoeff(), 0);
 }
 
 }  // namespace
