@@ -18,7 +18,7 @@ namespace tufted {
 /// For the cover of a cloud that was built from stars, masses are compared with the areas of the stars; on meshes and
 /// with Mass::cover, with the areas of the cover. If the stars no longer exist, as with other gluings and after reading
 /// from files, single masses cannot be compared. The sum of M must then lie within what areas of stars can be: between
-/// 3/40 of and 30 times the area of the cover without Report::mollify_area.
+/// 3/40 of and 30 times the area of the cover without Report::area_added.
 struct SurfaceCheck {
   double weight_error = 0;         ///< greatest |L_ij - L'_ij| over the larger diagonal of L' at i and j
   double area_error = 0;           ///< greatest relative error of cover_areas, 0 where these are not known

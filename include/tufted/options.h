@@ -45,6 +45,12 @@ enum class Preset {
 /// The steps for a kind of cloud, to change single ones of (see cloud_steps.h).
 CloudSteps cloudSteps(Preset preset);
 
+/// What stands for the intrinsic mollification of Sharp and Crane (2020, Section 4.5), 0 to 1: no edge is shorter than
+/// this times the longest side of the smaller of its two triangles, and triangles that flips leave flat but for
+/// rounding get a height of about 1e-7 of their longest side. Only edges that need it are lengthened, see
+/// Report::area_added. 0 lengthens nothing: what is flat contributes nothing, and rounding may break the guarantees.
+constexpr double default_mollify = 1e-9;
+
 /// Options of pointCloudLaplacian().
 struct CloudOptions {
   int neighbors = 30;                  ///< k >= 3, far fewer than N; larger than N - 1 is clamped and reported
@@ -53,8 +59,7 @@ struct CloudOptions {
   FaceOrder order = FaceOrder::angle;  ///< of the faces around an edge
   std::uint64_t seed = 0;              ///< for FaceOrder::random
   Delaunay delaunay = Delaunay::star;  ///< how the stars are found
-  double mollify = 1e-5;   ///< delta (Sharp and Crane 2020, Section 4.5) in mean edge lengths, 0 to 1; 0 leaves flat
-                           ///< triangles flat, and then rounding may break the guarantees
+  double mollify = default_mollify;
   int threads = 0;         ///< at most this many; 0: one per processor
   bool keep_cover = true;  ///< false frees what the cover is built from (about 100 bytes per point, up to 700 on noise)
   const Points* normals = nullptr;               ///< N x 3, any length, instead of the PCA's; keep their sign; borrowed
@@ -73,9 +78,7 @@ CloudOptions cloudOptions(Preset preset);
 struct MeshOptions {
   FaceOrder order = FaceOrder::angle;  ///< of the faces around an edge
   std::uint64_t seed = 0;              ///< for FaceOrder::random
-  double mollify = 1e-6;   ///< delta (Sharp and Crane 2020, Section 4.5) in mean edge lengths; see CloudOptions. Below
-                           ///< 3e-7 rounding may break the guarantees on needles, above it needles gain area, see
-                           ///< Report::mollify_area
+  double mollify = default_mollify;
   int threads = 0;         ///< at most this many; 0: one per processor
   bool keep_cover = true;  ///< false frees the cover (96 bytes per triangle)
   Progress progress = {};  ///< called during the build

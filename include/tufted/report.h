@@ -57,13 +57,16 @@ struct Report {
 
   // Cover
   std::int64_t triangles = 0;    ///< triangles under the cover, all copies counted; the cover has twice as many
-  double mean_edge = 0;          ///< mean length over the triangles' sides, before mollification
+  double mean_edge = 0;          ///< mean length over the triangles' sides, before any is lengthened
   double mean_squared_edge = 0;  ///< mean squared length over the triangles' sides, the unit of smoothing's time step
-  double mollify_length = 0;     ///< length added to every edge (Sharp and Crane 2020, Section 4.5)
-  double mollify_area = 0;       ///< area that mollification has added to the cover, before flips, in length^2
-  std::int64_t degenerate_faces = 0;  ///< cover faces of no area even after mollification; they contribute nothing
+  std::int64_t lengthened_edges = 0;  ///< edges of the cover that were lengthened, see MeshOptions::mollify
+  double area_added = 0;              ///< `cover_area` less the area of the triangles by their corners, in length^2: by
+                                      ///< lengthened edges, and by rounding where triangles are thin; 0 unless flat
+                                      ///< triangles or a mesh lead over the whole cover
+  std::int64_t degenerate_faces = 0;  ///< cover faces of no area in spite of that; they contribute nothing
   std::int64_t flips = 0;             ///< intrinsic edge flips
-  std::int64_t flip_failures = 0;     ///< times an edge was given up after 100 flips; 0 unless something is wrong
+  std::int64_t flip_failures = 0;     ///< edges that were not Delaunay when flips were given up; 0 unless something is
+                                      ///< wrong
 
   // Operator
   double area = 0;                   ///< sum of M
@@ -82,5 +85,62 @@ struct Report {
   int threads = 1;                ///< that the build had
   std::vector<StageCost> stages;  ///< in the order of the build
 };
+
+/// Calls visit(name, member) for each number of a Report but those of `votes` and `stages`: what report.json, Python
+/// and saved results have of it.
+/// @param report a Report, or a constant one
+template <class AnyReport, class Visit>
+void visitNumbers(AnyReport& report, const Visit& visit) {
+  visit("points", report.points);
+  visit("active", report.active);
+  visit("not_finite", report.not_finite);
+  visit("coincident", report.coincident);
+  visit("isolated", report.isolated);
+  visit("rim_points", report.rim_points);
+  visit("jump_points", report.jump_points);
+  visit("lost_points", report.lost_points);
+  visit("neighbors", report.neighbors);
+  visit("neighbors_clamped", report.neighbors_clamped);
+  visit("rejected_normals", report.rejected_normals);
+  visit("rejected_neighbors", report.rejected_neighbors);
+  visit("unplaced", report.unplaced);
+  visit("cut_neighbors", report.cut_neighbors);
+  visit("grown_neighborhoods", report.grown_neighborhoods);
+  visit("split_neighborhoods", report.split_neighborhoods);
+  visit("isolated_by_sheets", report.isolated_by_sheets);
+  visit("outliers", report.outliers);
+  visit("denoised", report.denoised);
+  visit("noise", report.noise);
+  visit("grown_stars", report.grown_stars);
+  visit("closed_stars", report.closed_stars);
+  visit("open_stars", report.open_stars);
+  visit("dropped_triangles", report.dropped_triangles);
+  visit("repeated_vertex_triangles", report.repeated_vertex_triangles);
+  visit("not_finite_triangles", report.not_finite_triangles);
+  visit("boundary_edges", report.boundary_edges);
+  visit("nonmanifold_edges", report.nonmanifold_edges);
+  visit("triangles", report.triangles);
+  visit("mean_edge", report.mean_edge);
+  visit("mean_squared_edge", report.mean_squared_edge);
+  visit("lengthened_edges", report.lengthened_edges);
+  visit("area_added", report.area_added);
+  visit("degenerate_faces", report.degenerate_faces);
+  visit("flips", report.flips);
+  visit("flip_failures", report.flip_failures);
+  visit("area", report.area);
+  visit("cover_area", report.cover_area);
+  visit("star_masses", report.star_masses);
+  visit("cover_masses", report.cover_masses);
+  visit("bounded_masses", report.bounded_masses);
+  visit("nonzeros", report.nonzeros);
+  visit("components", report.components);
+  visit("clamped_weights", report.clamped_weights);
+  visit("clamped_large", report.clamped_large);
+  visit("largest_clamped", report.largest_clamped);
+  visit("threads", report.threads);
+}
+
+/// What a user must know of a build, one sentence each; empty if all is well. The command, Python and PCL say it.
+std::vector<std::string> warnings(const Report& report);
 
 }  // namespace tufted

@@ -206,9 +206,19 @@ void measure(const Eigenproblem& problem, const SpectrumOptions& options, Spectr
   SpectrumReport& report = spectrum.report;
   const Progress silent;
   const Workers workers(1, silent);
-  const MatrixXd gram = innerProducts(spectrum.vectors, problem.mass, spectrum.vectors, workers);
-  report.orthogonality =
-      (gram - MatrixXd::Identity(gram.rows(), gram.cols())).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+  const auto innerProductsOfPairs = [&] {
+    MatrixXd gram = innerProducts(spectrum.vectors, problem.mass, spectrum.vectors, workers);
+    report.orthogonality =
+        (gram - MatrixXd::Identity(gram.rows(), gram.cols())).cwiseAbs().maxCoeff<Eigen::PropagateNaN>();
+    return gram;
+  };
+  const MatrixXd gram = innerProductsOfPairs();
+  // Weights of very different sizes, as those of a thin plate, cost digits, which Gram and Schmidt give back.
+  if (report.orthogonality > large_residual && report.orthogonality < 1e-3) {
+    const Eigen::LLT<MatrixXd> factor(gram);
+    factor.matrixU().solveInPlace<Eigen::OnTheRight>(spectrum.vectors);
+    innerProductsOfPairs();
+  }
   if (!(report.orthogonality <= large_residual))
     throw SolverFailure("spectrum: X^T M X differs from the identity by " + numberText(report.orthogonality) +
                         ", must be at most " + numberText(large_residual) + "; ask for fewer eigenvalues");

@@ -7,6 +7,7 @@
 #include "base/buffer.h"
 #include "base/parallel.h"
 #include "base/point_buffer.h"
+#include "cover/edge_lengths.h"
 #include "tufted/intrinsic_triangulation.h"
 #include "tufted/options.h"
 #include "tufted/report.h"
@@ -89,19 +90,34 @@ struct MeanLengths {
 MeanLengths measureLengths(IntrinsicTriangulation& cover, const PointsView& points, const PointsView& displacement,
                            const Workers& workers);
 
-/// What mollification has added.
-struct Mollification {
-  double length = 0;  ///< to each edge
-  double area = 0;    ///< to all faces together
-};
+/// Gives every edge at least `delta` times the longest side of the smaller of its two faces (in place of Section 4.5).
+/// Other faces stay as they are, and no triangle inequality breaks.
+/// @returns how many edges were shorter
+std::int64_t lengthenShortEdges(IntrinsicTriangulation& cover, double delta, const Workers& workers);
 
-/// Section 4.5: adds to all lengths the least amount that leaves every triangle inequality a slack of `delta`.
-Mollification mollify(IntrinsicTriangulation& cover, double delta, const Workers& workers);
+/// Gives faces that are flat but for rounding a slack: each edge grows by a length at each of its two ends, which is 0
+/// but at vertices between the two shorter sides of such a face.
+/// @returns how many edges have grown
+std::int64_t lengthenAtFlatFaces(IntrinsicTriangulation& cover, const Workers& workers);
 
 struct FlipCounts {
   std::int64_t flips = 0;
-  std::int64_t failures = 0;  ///< edges given up after 100 flips
+  std::int64_t failures = 0;  ///< edges that were not Delaunay when flipping was given up
+
+  FlipCounts& operator+=(const FlipCounts& other) {
+    flips += other.flips;
+    failures += other.failures;
+    return *this;
+  }
 };
+
+/// Algorithm 2 in long double, if any face is so thin that rounding of double lengths changes it; else nothing.
+/// Vertices that coincide are joined by edges as lengthenShortEdges() makes them first.
+/// @param lengths between the vertices
+/// @param delta of lengthenShortEdges(), 0: nothing is lengthened
+/// @param[in,out] lengthened grows by the number of these edges
+FlipCounts flipThinFaces(IntrinsicTriangulation& cover, const EdgeLengths& lengths, double delta,
+                         std::int64_t& lengthened, const Workers& workers);
 
 /// Algorithm 2: flips edges until all are intrinsic Delaunay.
 FlipCounts flipToDelaunay(IntrinsicTriangulation& cover, const Workers& workers);

@@ -8,15 +8,14 @@
 
 namespace tufted {
 
-/// Lengths of edges between moved points, with what mollification adds (Section 4.5).
+/// Lengths of edges between moved points.
 struct EdgeLengths {
   PointsView points;        ///< by vertex
   PointsView displacement;  ///< added to `points`; 0 x 3: nothing
-  double added = 0;
 
   double operator()(int a, int b) const {
     const auto [x, y, z] = offset(a, b);
-    return std::sqrt(x * x + y * y + z * z) + added;
+    return std::sqrt(x * x + y * y + z * z);
   }
 
   /// From b to a; the other way round the same bits but for the sign.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 #include <utility>
 
 #include "base/buffer.h"
@@ -16,45 +17,54 @@ namespace tufted {
 
 constexpr double flip_below = -1e-10;  // on cot + cot; ties of cocircular quadrilaterals stay
 
-/// Equation 2. An edge with both sides in one triangle is Delaunay: its two opposite angles sum to less than pi. So is
-/// one without an obtuse angle, which takes no roots to see.
+/// Whether the sum of two cotangents is further below 0 than rounding may bring it, which grows with them.
+template <class Real>
+bool isBeyondRounding(Real here, Real there) {
+  return here + there < flip_below - cotan_rounding * std::min(std::abs(here), std::abs(there));
+}
+
+/// Equation 2, but for rounding, which could flip an edge there and back for ever. An edge with both sides in one
+/// triangle is Delaunay: its two opposite angles sum to less than pi. So is one without an obtuse angle, which takes no
+/// roots to see.
 template <class Triangulation>
 bool isDelaunay(const Triangulation& t, int side, int mate) {
   return side / 3 == mate / 3 || !(isOppositeObtuse(t, side) || isOppositeObtuse(t, mate)) ||
-         !(oppositeCotan(t, side) + oppositeCotan(t, mate) < flip_below);
+         !isBeyondRounding(oppositeCotan(t, side), oppositeCotan(t, mate));
 }
 
 /// Length of the other diagonal, from a layout of both triangles in the plane with the common edge on the x axis
 /// (Fisher et al. 2007): it stays accurate where the law of cosines cancels.
 template <class Triangulation>
-double flippedLength(const Triangulation& t, int side, int mate) {
-  const double base = t.length[side];
+auto flippedLength(const Triangulation& t, int side, int mate) {
+  const auto base = t.length[side];
+  using Real = std::remove_const_t<decltype(base)>;
   // Apex of a triangle over the base from (0, 0), given the distances to its start and end.
-  const auto apex = [&](double from_start, double from_end) {
-    const double x = ((from_start - from_end) * (from_start + from_end) / base + base) / 2;
-    const double y = 2 * triangleArea(base, from_start, from_end) / base;
-    return std::array<double, 2>{x, y};
+  const auto apex = [&](Real from_start, Real from_end) {
+    const Real x = ((from_start - from_end) * (from_start + from_end) / base + base) / 2;
+    const Real y = 2 * triangleArea<Real>(base, from_start, from_end) / base;
+    return std::array<Real, 2>{x, y};
   };
   const auto above = apex(t.length[previousSide(side)], t.length[nextSide(side)]);
   const auto below = apex(t.length[nextSide(mate)], t.length[previousSide(mate)]);
   return std::hypot(above[0] - below[0], above[1] + below[1]);
 }
 
-/// `length` or up to 2^-42 of it less, so that an edge with this length is Delaunay in two triangles whose other sides
-/// are `outer`, the first two and the last two.
+/// `length` or up to 1024 roundings of it less, so that an edge with this length is Delaunay in two triangles whose
+/// other sides are `outer`, the first two and the last two.
 ///
 /// In exact arithmetic an edge that was flipped is Delaunay. But an angle near pi turns fast with the length opposite:
 /// rounding that in the last bit changes its cotangent by about epsilon cot^3. The shorter the edge, the more Delaunay.
-inline double delaunayLength(double length, const std::array<double, 4>& outer) {
-  constexpr double most_ulps = 1024;
-  const auto isFine = [&outer](double l) {
+template <class Real>
+Real delaunayLength(Real length, const std::array<Real, 4>& outer) {
+  constexpr int most_ulps = 1024;
+  const auto isFine = [&outer](Real l) {
     return !(cotanNumerator(l, outer[0], outer[1]) < 0 || cotanNumerator(l, outer[2], outer[3]) < 0) ||
            !(oppositeCotan(l, outer[0], outer[1]) + oppositeCotan(l, outer[2], outer[3]) < flip_below);
   };
-  double rounded = length;
-  for (double ulps = 1; !isFine(rounded); ulps *= 2) {
+  Real rounded = length;
+  for (int ulps = 1; !isFine(rounded); ulps *= 2) {
     if (ulps > most_ulps) return length;
-    rounded = length * (1 - ulps * std::numeric_limits<double>::epsilon());
+    rounded = length * (1 - ulps * std::numeric_limits<Real>::epsilon());
   }
   return rounded;
 }
@@ -66,14 +76,15 @@ void flip(Triangulation& t, int side, int mate) {
   const int jk = nextSide(side), ki = previousSide(side);
   const int im = nextSide(mate), mj = previousSide(mate);
   const int i = tail(t, side), j = head(t, side), k = head(t, jk), m = head(t, im);
-  const double flipped =
-      delaunayLength(flippedLength(t, side, mate), {t.length[ki], t.length[im], t.length[mj], t.length[jk]});
+  using Real = std::decay_t<decltype(t.length[0])>;
+  const Real flipped =
+      delaunayLength<Real>(flippedLength(t, side, mate), {t.length[ki], t.length[im], t.length[mj], t.length[jk]});
 
   // New places of the four outer sides: k i after `side`, then i m; m j after `mate`, then j k.
   const std::array<int, 4> from = {ki, im, mj, jk};
   const std::array<int, 4> to = {jk, ki, im, mj};
   std::array<int, 4> outer_mate;
-  std::array<double, 4> outer_length;
+  std::array<Real, 4> outer_length;
   for (int e = 0; e < 4; ++e) {
     outer_mate[e] = t.glue[from[e]];
     outer_length[e] = t.length[from[e]];
@@ -109,57 +120,64 @@ struct SideRange {
 template <class Cover>
 class RangeFlipper {
  public:
-  /// @param queue scratch
+  /// @param queues scratch
   /// @param left what has to be looked at in a wider range is added here
-  RangeFlipper(Cover& cover, SideRange range, Buffer<int>& queue, Buffer<int>& left)
-      : cover_(cover), range_(range), queue_(queue), left_(left) {
-    queue_.clear();
+  RangeFlipper(Cover& cover, SideRange range, std::array<Buffer<int>, 2>& queues, Buffer<int>& left)
+      : cover_(cover), range_(range), round_(queues[0]), next_round_(queues[1]), left_(left) {
+    round_.clear();
+    next_round_.clear();
   }
 
   void push(int side) {
     if (!isInside(side)) return left_.push_back(side);
     const int edge = std::min(side, cover_.triangulation().glue[side]);
     std::uint8_t& state = cover_.state(edge);
-    if ((state & queued_flag) != 0) return;
-    state |= queued_flag;
-    queue_.push_back(edge);
+    if (state != 0) return;
+    state = 1;  // queued
+    next_round_.push_back(edge);
   }
 
+  /// First in, first out: last in, first out takes thousands of flips at a place of a long thin bar.
   /// @param report called with the share that is done, now and then
   template <class Report>
   FlipCounts run(const Report& report) {
-    auto& t = cover_.triangulation();
     FlipCounts counts;
-    while (!queue_.empty()) {  // depth first
-      const int side = queue_.back(), mate = t.glue[side];
-      queue_.pop_back();
-      cover_.state(side) &= static_cast<std::uint8_t>(~queued_flag);
-      if (isDelaunay(t, side, mate)) continue;
-      if (cover_.state(side) >= most_flips) {
-        ++counts.failures;
-        continue;
+    for (int rounds = 0; !next_round_.empty(); ++rounds) {
+      std::swap(round_, next_round_);
+      next_round_.clear();
+      for (const int side : round_) {
+        cover_.state(side) = 0;
+        if (rounds < most_rounds)
+          flipUnlessDelaunay(side, counts, report);
+        else
+          counts.failures += isDelaunay(cover_.triangulation(), side, cover_.triangulation().glue[side]) ? 0 : 1;
       }
-      const std::array<int, 4> outer = {nextSide(side), previousSide(side), nextSide(mate), previousSide(mate)};
-      if (!std::all_of(outer.begin(), outer.end(), [this](int o) { return isInside(o); })) {
-        left_.push_back(side);
-        continue;
-      }
-      flip(t, side, mate);
-      cover_.flipped(side, mate);
-      ++cover_.state(side);  // not where it was before, if faces were added
-      if (++counts.flips % report_every == 0)
-        report(1 - static_cast<double>(queue_.size()) / static_cast<double>(t.glue.size()));
-      for (const int o : outer) push(o);
     }
     return counts;
   }
 
  private:
-  // A flip moves its outer edges to other places and queues them anew, so no edge is missed, and the bound per place
-  // ends the loop whatever the lengths are.
-  static constexpr std::uint8_t most_flips = 100;    // per place of an edge
-  static constexpr std::uint8_t queued_flag = 0x80;  // beside their count
-  static constexpr std::int64_t report_every = 1 << 16;
+  // In exact arithmetic flips end. Rounding might make some go in circles, which this ends: a place is flipped at most
+  // once in a round, and 300 times in all on the longest fans that were tried.
+  static constexpr int most_rounds = 1 << 20;
+  static constexpr std::int64_t report_every = 1 << 16;  // flips
+
+  template <class Report>
+  void flipUnlessDelaunay(int side, FlipCounts& counts, const Report& report) {
+    auto& t = cover_.triangulation();
+    const int mate = t.glue[side];
+    if (isDelaunay(t, side, mate)) return;
+    const std::array<int, 4> outer = {nextSide(side), previousSide(side), nextSide(mate), previousSide(mate)};
+    if (!std::all_of(outer.begin(), outer.end(), [this](int o) { return isInside(o); })) {
+      left_.push_back(side);
+      return;
+    }
+    flip(t, side, mate);
+    cover_.flipped(side, mate);
+    if (++counts.flips % report_every == 0)
+      report(1 - static_cast<double>(round_.size()) / static_cast<double>(t.glue.size()));
+    for (const int o : outer) push(o);
+  }
 
   /// Whether the side, which is, is glued to one that is; only such may move.
   bool isInside(int side) const {
@@ -168,7 +186,7 @@ class RangeFlipper {
 
   Cover& cover_;
   const SideRange range_;
-  Buffer<int>& queue_;
+  Buffer<int>&round_, &next_round_;
   Buffer<int>& left_;
 };
 
@@ -180,12 +198,13 @@ class RangeFlipper {
 ///   start(block, push)                      calls push(side) for the sides to begin with
 ///   resolve(int side, const SideRange&)     sees to it that the side is glued; may add faces, but within the range
 ///                                           alone, else false
-///   state(int side)                         a reference to a byte, 0 at first
+///   state(int side)                         a reference to a byte, 0 at first and at the end
 ///   flipped(int side, int mate)             hears of each flip
 template <class Cover>
 FlipCounts flipEdges(Cover& cover, const Workers& workers) {
   constexpr std::int64_t growth = 8;
-  Buffer<Buffer<int>> queues(workers.count()), left;
+  Buffer<std::array<Buffer<int>, 2>> queues(workers.count());
+  Buffer<Buffer<int>> left;
   FlipCounts sum;
   for (std::int64_t merged = 1;; merged *= growth) {  // blocks in one
     const std::int64_t count = (cover.blocks() + merged - 1) / merged;
@@ -206,10 +225,7 @@ FlipCounts flipEdges(Cover& cover, const Workers& workers) {
         flipBlock(b, cover.sidesOf(b * merged, std::min((b + 1) * merged, cover.blocks())), worker, [](double) {});
       });
     }
-    for (const FlipCounts& part : counts) {
-      sum.flips += part.flips;
-      sum.failures += part.failures;
-    }
+    for (const FlipCounts& part : counts) sum += part;
     if (std::all_of(left.begin(), left.end(), [](const auto& part) { return part.empty(); })) return sum;
   }
 }

@@ -1,6 +1,6 @@
 #pragma once
 
-// Angles, areas and flips from edge lengths alone (Sections 3.2 and 3.3).
+// Angles, areas and flips from edge lengths alone (Sections 3.2 and 3.3), in double or long double.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -12,8 +12,13 @@
 
 namespace tufted {
 
+/// A triangle with less slack than this, in its longest side, is flat: at 2^-46 rounding of the three lengths changes
+/// the slack by 1/128, and the height is about 1e-7 of the longest side.
+constexpr double flat_slack = 0x1p-46;
+
 /// Slack of the triangle inequality, shortest + middle - longest, in an order that loses nothing to rounding.
-inline double triangleSlack(double a, double b, double c) {
+template <class Real>
+Real triangleSlack(Real a, Real b, Real c) {
   if (a < b) std::swap(a, b);
   if (b < c) std::swap(b, c);
   if (a < b) std::swap(a, b);
@@ -21,28 +26,35 @@ inline double triangleSlack(double a, double b, double c) {
 }
 
 /// Heron's formula after Kahan, accurate for needles; 0 where the lengths fail the triangle inequality.
-inline double triangleArea(double a, double b, double c) {
+template <class Real>
+Real triangleArea(Real a, Real b, Real c) {
   if (a < b) std::swap(a, b);
   if (b < c) std::swap(b, c);
   if (a < b) std::swap(a, b);
-  const double square = (a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c));
-  return square > 0 ? 0.25 * std::sqrt(square) : 0;
+  const Real square = (a + (b + c)) * (c - (a - b)) * (c + (a - b)) * (a + (b - c));
+  return square > 0 ? std::sqrt(square) / 4 : 0;
 }
 
 /// b^2 + c^2 - a^2; negative exactly where the angle opposite a is obtuse, and the same bits with b and c exchanged.
-inline double cotanNumerator(double a, double b, double c) {
-  const double shorter = std::min(b, c), longer = std::max(b, c);
+template <class Real>
+Real cotanNumerator(Real a, Real b, Real c) {
+  const Real shorter = std::min(b, c), longer = std::max(b, c);
   return shorter * shorter + (longer - a) * (longer + a);
 }
 
+/// Share of the smaller cotangent by which the sum of two at an edge may miss 0. The weight is then within 1e-10 of a
+/// diagonal, a tenth of what counts as rounding there.
+constexpr double cotan_rounding = 1e-10;
+
 /// Cotangent of the angle opposite a. Infinite or NaN in a triangle of no area.
-inline double oppositeCotan(double a, double b, double c) {
+template <class Real>
+Real oppositeCotan(Real a, Real b, Real c) {
   return cotanNumerator(a, b, c) / (4 * triangleArea(a, b, c));
 }
 
 /// Cotangent of the angle opposite `side` in its face. Infinite or NaN in a face of no area.
 template <class Triangulation>
-double oppositeCotan(const Triangulation& t, int side) {
+auto oppositeCotan(const Triangulation& t, int side) {
   return oppositeCotan(t.length[side], t.length[nextSide(side)], t.length[previousSide(side)]);
 }
 

@@ -1,43 +1,46 @@
-// Section 4.5 of the paper: intrinsic mollification.
+// Intrinsic mollification, which Section 4.5 of the paper does with one length for all edges. One length that a single
+// flat triangle needs ruins a thin mesh: of slack e it makes a height of about sqrt(e l). So only edges and vertices
+// whose faces need it are lengthened here, and only by what they need.
 #include <algorithm>
-#include <numeric>
 
 #include "base/buffer.h"
 #include "cover/cover.h"
 #include "cover/geometry.h"
+#include "cover/short_edges.h"
 
 namespace tufted {
 namespace {
 
-/// The area of all faces, summed in blocks, so that it does not depend on the number of threads.
-double sumAreas(const IntrinsicTriangulation& cover, const Workers& workers) {
-  Buffer<double> sums((cover.size() + cheapest_block - 1) / cheapest_block);
-  workers.forBlocks("mollify", cover.size(), cheapest_block, [&](std::int64_t begin, std::int64_t end, int) {
-    double sum = 0;
-    for (std::int64_t f = begin; f < end; ++f) sum += faceArea(cover, static_cast<int>(f));
-    sums[begin / cheapest_block] = sum;
-  });
-  return std::accumulate(sums.begin(), sums.end(), 0.0);
-}
+constexpr double enough_slack = 2 * flat_slack;  // so that rounding cannot make a face flat again
 
 }  // namespace
 
-Mollification mollify(IntrinsicTriangulation& cover, double delta, const Workers& workers) {
-  const std::int64_t triangles = cover.size() / 2;
-  Buffer<double> missing((triangles + cheapest_block - 1) / cheapest_block);
-  workers.forBlocks("mollify", triangles, cheapest_block, [&](std::int64_t begin, std::int64_t end, int) {
-    double most = 0;
-    for (std::int64_t t = begin; t < end; ++t) {  // front and back have the same lengths
-      const double* length = cover.length.data() + 6 * t;
-      most = std::max(most, delta - triangleSlack(length[0], length[1], length[2]));
-    }
-    missing[begin / cheapest_block] = most;
-  });
-  const double added = missing.empty() ? 0 : *std::max_element(missing.begin(), missing.end());
-  if (!(added > 0)) return {};
-  const double before = sumAreas(cover, workers);
-  for (double& length : cover.length) length += added;
-  return {added, sumAreas(cover, workers) - before};
+std::int64_t lengthenShortEdges(IntrinsicTriangulation& cover, double delta, const Workers& workers) {
+  return lengthenEdgesBelow(cover, delta, workers);
+}
+
+std::int64_t lengthenAtFlatFaces(IntrinsicTriangulation& cover, const Workers& workers) {
+  const auto missingAt = [&cover](int side) {  // slack at the corner opposite `side`
+    const double across = cover.length[side], a = cover.length[nextSide(side)], b = cover.length[previousSide(side)];
+    const double longer = std::max(a, b), longest = std::max(across, longer);
+    const double slack = std::min(a, b) - (across - longer);
+    return slack < flat_slack * longest ? enough_slack * longest - slack : 0;
+  };
+  const Buffer<int> sides = numbersWhere("mollify", static_cast<int>(cover.glue.size()), workers,
+                                         [&](int side) { return missingAt(side) > 0; });
+  if (sides.empty()) return 0;
+  Buffer<double> radius(static_cast<std::size_t>(cover.vertices), 0.0);
+  for (const int side : sides) {
+    double& at_corner = radius[head(cover, nextSide(side))];
+    at_corner = std::max(at_corner, missingAt(side) / 2);
+  }
+  std::int64_t lengthened = 0;
+  for (int side = 0; side < static_cast<int>(cover.glue.size()); ++side) {
+    const double added = radius[tail(cover, side)] + radius[head(cover, side)];
+    cover.length[side] += added;
+    lengthened += added > 0 ? 1 : 0;
+  }
+  return lengthened / 2;
 }
 
 }  // namespace tufted

@@ -9,12 +9,11 @@ namespace tufted {
 namespace {
 
 /// Equation 2 for the cotangents opposite an edge. Where their sum is no number a face has no area, and there is no
-/// telling. Other sums are as far below 0 as the tolerance and a few roundings of the sum itself.
+/// telling. Other sums are as far below 0 as the tolerance and the rounding that flips leave.
 bool isDelaunay(double here, double there, double tolerance) {
-  constexpr double rounding = 16 * std::numeric_limits<double>::epsilon();
   const double sum = here + there;
   if (std::isinf(sum)) return sum > 0;
-  return !(sum < -tolerance - rounding * (std::abs(here) + std::abs(there)));
+  return !(sum < -tolerance - 1.01 * cotan_rounding * std::min(std::abs(here), std::abs(there)));
 }
 
 }  // namespace

@@ -55,7 +55,6 @@ class SeedFinder {
 
   /// cotanAt() to within 1e-11, with fewer roots where the triangle allows it.
   double roughCotan(const StarSide& side) const {
-    if (length_.added > 0) return cotanAt(side);
     const auto [ux, uy, uz] = length_.offset(tail(stars_, side), apex(stars_, side));
     const auto [vx, vy, vz] = length_.offset(head(stars_, side), apex(stars_, side));
     const double x = uy * vz - uz * vy, y = uz * vx - ux * vz, z = ux * vy - uy * vx;

@@ -1,4 +1,4 @@
-// Lengths, cotangents and areas of stars; cover/cover.cpp and cover/mollify.cpp are the reference.
+// Lengths, cotangents and areas of stars; cover/cover.cpp is the reference.
 #include "direct/star_metric.h"
 
 #include <algorithm>
@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "base/buffer.h"
+#include "cover/geometry.h"
 #include "direct/triangle_fans.h"
 
 namespace tufted {
@@ -14,8 +15,9 @@ namespace {
 
 /// Sums over one block of stars, so that they have the same bits for any number of threads.
 struct BlockSums {
-  double length = 0, square = 0, least_slack = std::numeric_limits<double>::infinity();
+  double length = 0, square = 0;
   std::int64_t triangles = 0;
+  bool has_flat = false;
 };
 
 class StarMeasurer {
@@ -45,16 +47,16 @@ class StarMeasurer {
       metric_.cotan_sum[i] = before + fans.cotan_at_next[at];
       before = fans.cotan_at_own[at];
       area += fans.area[at];
-      is_flat |= !(fans.area[at] > 0);
       const double own = fans.spoke[at], next = fans.spoke[at + 1], rim = fans.rim[at];
       sums.length += own + next + rim;
       sums.square += own * own + next * next + rim * rim;
-      sums.least_slack = std::min(sums.least_slack, fans.slack[at]);
+      is_flat |= !(fans.area[at] > 0) || fans.slack[at] < flat_slack * std::max({own, next, rim});
       ++sums.triangles;
     }
     if (begin < end) metric_.cotan_sum[begin] = before + first;  // the triangle before the first spoke is the last
     metric_.area[p] = area;
     metric_.is_flat[p] = is_flat ? 1 : 0;
+    sums.has_flat |= is_flat;
   }
 
   const Stars& stars_;
@@ -84,9 +86,8 @@ StarMetric measureStars(const Stars& stars, const EdgeLengths& length, RawBuffer
     all.length += sum.length;
     all.square += sum.square;
     all.triangles += sum.triangles;
-    all.least_slack = std::min(all.least_slack, sum.least_slack);
+    metric.has_flat |= sum.has_flat;
   }
-  metric.least_slack = all.least_slack;
   if (all.triangles > 0) {
     const auto sides = static_cast<double>(3 * all.triangles);
     metric.mean = {all.length / sides, all.square / sides};

@@ -15,8 +15,8 @@ namespace tufted {
 struct StarMetric {
   RawBuffer<double> cotan_sum;      ///< per link entry: of the two angles opposite the spoke, NaN without two triangles
   RawBuffer<double> area;           ///< n, of the star's triangles
-  RawBuffer<std::uint8_t> is_flat;  ///< n, 1 where a triangle of the star has no area
-  double least_slack = 0;           ///< of the triangle inequality, over all triangles
+  RawBuffer<std::uint8_t> is_flat;  ///< n, 1 where a triangle of the star is flat, see flat_slack
+  bool has_flat = false;            ///< whether any is
   MeanLengths mean;                 ///< over all sides of all triangles
 };
 

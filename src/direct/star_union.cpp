@@ -1,6 +1,5 @@
 #include "direct/star_union.h"
 
-#include <numeric>
 #include <utility>
 
 #include "base/power_of_two.h"
@@ -8,14 +7,6 @@
 #include "direct/star_rows.h"
 
 namespace tufted {
-namespace {
-
-/// The area of the surface by the cover: each triangle has two faces, and each face counts a sixth.
-double sumAreas(const StarMetric& metric) {
-  return std::accumulate(metric.area.begin(), metric.area.end(), 0.0) / 3;
-}
-
-}  // namespace
 
 StarUnion::StarUnion(Stars stars, Buffer<std::uint8_t> disagrees, RankedCloud cloud, int size, bool has_own_areas,
                      const Workers& workers)
@@ -28,18 +19,10 @@ StarUnion::StarUnion(Stars stars, Buffer<std::uint8_t> disagrees, RankedCloud cl
       cycles_(stars_, disagrees_, cloud_.points, workers),
       cover_(stars_, length_, cycles_) {}
 
-StarMetric StarUnion::measure(double delta, RawBuffer<double> memory, const Workers& workers, OwnAreas* own) {
+StarMetric StarUnion::measure(RawBuffer<double> memory, const Workers& workers, OwnAreas* own) {
   StarAreas areas;
   StarMetric metric = measureStars(stars_, length_, std::move(memory), workers, own != nullptr ? &areas : nullptr);
   if (own != nullptr) *own = chooseAreas(stars_, std::move(areas), workers);
-  const double missing = delta * metric.mean.length - metric.least_slack;
-  if (!(missing > 0)) return metric;
-  length_.added = missing;
-  const MeanLengths mean = metric.mean;
-  const double area = sumAreas(metric);
-  metric = measureStars(stars_, length_, std::move(metric.cotan_sum), workers);
-  metric.mean = mean;
-  mollify_area_ = sumAreas(metric) - area;
   return metric;
 }
 

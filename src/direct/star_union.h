@@ -35,11 +35,10 @@ class StarUnion final : public CoverSource {
   StarUnion(Stars stars, Buffer<std::uint8_t> disagrees, RankedCloud cloud, int size, bool has_own_areas,
             const Workers& workers);
 
-  /// Lengths, mollified (Section 4.5), and the cotangents and areas that follow.
-  /// @param delta least slack in mean edge lengths
+  /// Lengths, and the cotangents and areas that follow.
   /// @param memory is used again
   /// @param[out] own if given, ownAreas()
-  StarMetric measure(double delta, RawBuffer<double> memory, const Workers& workers, OwnAreas* own);
+  StarMetric measure(RawBuffer<double> memory, const Workers& workers, OwnAreas* own);
 
   /// Algorithm 2.
   FlipCounts flip(const StarMetric& metric, const Workers& workers);
@@ -54,10 +53,6 @@ class StarUnion final : public CoverSource {
   bool appendFacesNear(const std::vector<Ball>& balls, std::vector<std::array<int, 3>>& faces,
                        std::vector<double>& length) const override;
 
-  /// What mollification has added to each edge.
-  double mollifyLength() const { return length_.added; }
-  /// What it has added to the area of the cover.
-  double mollifyArea() const { return mollify_area_; }
   std::size_t bytes() const { return cover_.bytes(); }
 
  private:
@@ -67,7 +62,6 @@ class StarUnion final : public CoverSource {
   const int size_, threads_;
   const bool has_own_areas_;
   EdgeLengths length_{cloud_.points, stars_.displacement};
-  double mollify_area_ = 0;
   RadialCycles cycles_;
   CoverNearFlips cover_;
   mutable std::once_flag once_;

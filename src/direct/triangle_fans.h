@@ -75,7 +75,7 @@ void forEachTriangleFan(const Stars& stars, const EdgeLengths& length, const Seq
     const auto first = i;
     buffer.clear();
     for (; i < size && buffer.count() < batch; ++i) buffer.add(stars, length, numbers[i]);
-    if (buffer.count() > 0) kernel.measureTriangleFans(buffer.fans(), length.added);
+    if (buffer.count() > 0) kernel.measureTriangleFans(buffer.fans());
     int at = 0;
     for (auto j = first; j < i; ++j) {
       const int p = numbers[j];

@@ -2,6 +2,7 @@
 #include <limits>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "io/cover_file.h"
@@ -31,14 +32,15 @@ std::vector<double> readArray(const Path& path, std::size_t length) {
   return io::numbersOf(array, path);
 }
 
-/// Members of the report that algorithms and validate() look at. Integers must fit; where a real number is missing, it
-/// was not finite.
+/// The numbers of the report. Integers must fit; where a real number is missing, it was not finite.
 void readReport(const Json& json, const Path& path, Report& report) {
-  const auto take = [&](const char* name, auto& value) {
+  visitNumbers(report, [&](const char* name, auto& value) {
     using Value = std::decay_t<decltype(value)>;
     const auto member = json.find(name);
     if (member == json.end() || member->is_null()) return;
-    if constexpr (std::is_integral_v<Value>) {
+    if constexpr (std::is_same_v<Value, bool>) {
+      if (member->is_boolean()) value = member->template get<bool>();
+    } else if constexpr (std::is_integral_v<Value>) {
       // What is read as no unsigned number is negative or no integer.
       if (!member->is_number_unsigned() ||
           member->template get<std::uint64_t>() > static_cast<std::uint64_t>(std::numeric_limits<Value>::max()))
@@ -48,31 +50,8 @@ void readReport(const Json& json, const Path& path, Report& report) {
     } else if (member->is_number()) {
       value = member->template get<Value>();
     }
-  };
-  take("points", report.points);
-  take("active", report.active);
-  take("not_finite", report.not_finite);
-  take("coincident", report.coincident);
-  take("isolated", report.isolated);
-  take("rim_points", report.rim_points);
-  take("jump_points", report.jump_points);
-  take("lost_points", report.lost_points);
-  take("neighbors", report.neighbors);
-  take("triangles", report.triangles);
-  take("mean_edge", report.mean_edge);
-  take("mean_squared_edge", report.mean_squared_edge);
-  take("mollify_area", report.mollify_area);
-  take("star_masses", report.star_masses);
-  take("area", report.area);
-  take("cover_area", report.cover_area);
-  take("flips", report.flips);
-  take("flip_failures", report.flip_failures);
-  take("nonzeros", report.nonzeros);
+  });
   if (!json.contains("star_masses")) report.star_masses = report.active;  // of a version that did not say
-  take("components", report.components);
-  take("clamped_weights", report.clamped_weights);
-  take("clamped_large", report.clamped_large);
-  take("largest_clamped", report.largest_clamped);
 }
 
 /// Directories of before there was `kind` have the options of the build, if the command wrote them.

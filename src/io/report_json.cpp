@@ -16,57 +16,12 @@ Json reportObject(const Report& report) {
   Json stages = Json::array();
   for (const StageCost& stage : report.stages)
     stages.push_back({{"name", stage.name}, {"seconds", stage.seconds}, {"bytes", stage.bytes}});
-  return {
-      {"points", report.points},
-      {"active", report.active},
-      {"not_finite", report.not_finite},
-      {"coincident", report.coincident},
-      {"isolated", report.isolated},
-      {"rim_points", report.rim_points},
-      {"jump_points", report.jump_points},
-      {"lost_points", report.lost_points},
-      {"neighbors", report.neighbors},
-      {"neighbors_clamped", report.neighbors_clamped},
-      {"rejected_normals", report.rejected_normals},
-      {"rejected_neighbors", report.rejected_neighbors},
-      {"unplaced", report.unplaced},
-      {"cut_neighbors", report.cut_neighbors},
-      {"grown_neighborhoods", report.grown_neighborhoods},
-      {"split_neighborhoods", report.split_neighborhoods},
-      {"isolated_by_sheets", report.isolated_by_sheets},
-      {"outliers", report.outliers},
-      {"denoised", report.denoised},
-      {"noise", report.noise},
-      {"grown_stars", report.grown_stars},
-      {"closed_stars", report.closed_stars},
-      {"open_stars", report.open_stars},
-      {"dropped_triangles", report.dropped_triangles},
-      {"votes", report.votes},
-      {"repeated_vertex_triangles", report.repeated_vertex_triangles},
-      {"not_finite_triangles", report.not_finite_triangles},
-      {"boundary_edges", report.boundary_edges},
-      {"nonmanifold_edges", report.nonmanifold_edges},
-      {"triangles", report.triangles},
-      {"mean_edge", report.mean_edge},
-      {"mean_squared_edge", report.mean_squared_edge},
-      {"mollify_length", report.mollify_length},
-      {"mollify_area", report.mollify_area},
-      {"degenerate_faces", report.degenerate_faces},
-      {"flips", report.flips},
-      {"flip_failures", report.flip_failures},
-      {"area", report.area},
-      {"cover_area", report.cover_area},
-      {"star_masses", report.star_masses},
-      {"cover_masses", report.cover_masses},
-      {"bounded_masses", report.bounded_masses},
-      {"nonzeros", report.nonzeros},
-      {"components", report.components},
-      {"clamped_weights", report.clamped_weights},
-      {"clamped_large", report.clamped_large},
-      {"largest_clamped", report.largest_clamped},
-      {"threads", report.threads},
-      {"stages", std::move(stages)},
-  };
+  Json json;
+  visitNumbers(report, [&json](const char* name, const auto& value) { json[name] = value; });
+  json["votes"] = report.votes;
+  json["warnings"] = warnings(report);
+  json["stages"] = std::move(stages);
+  return json;
 }
 
 Json conventionsObject(const std::vector<io::Convention>& conventions) {

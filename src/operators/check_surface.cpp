@@ -151,8 +151,8 @@ void compareMasses(const Laplacian& laplacian, const Assembly& assembly, Surface
     if (own.size() != M.size()) {
       double sum = 0;
       for (Index i = 0; i < M.size(); ++i) sum += laplacian.status[i] == PointStatus::active ? expected[i] : 0;
-      // The sum without the area that mollification added may be nearly 0: its rounding must not count.
-      const double least = least_star_share * (sum * (1 - 1e-9) - laplacian.report.mollify_area);
+      // The sum without the area that lengthened edges added may be nearly 0: its rounding must not count.
+      const double least = least_star_share * (sum * (1 - 1e-9) - laplacian.report.area_added);
       const double most = most_star_share * sum * (1 + 1e-9);
       if (!(M.sum() >= least - smallest_area && M.sum() <= most + smallest_area)) {
         Promise mass("mass");

@@ -1,25 +1,64 @@
 #include "pipeline/from_cover.h"
 
+#include <cmath>
+#include <numeric>
 #include <utility>
 
 #include "cover/assemble.h"
 #include "cover/cover.h"
+#include "cover/edge_lengths.h"
 #include "cover/face_scale.h"
+#include "cover/geometry.h"
 #include "pipeline/result.h"
 
 namespace tufted {
+namespace {
+
+constexpr int most_rounds = 8;  // of lengthening and flips; one is usual where any is needed
+
+/// The sum of value(f) for f in [0, size), with the same bits for any number of threads.
+template <class Value>
+double sumOfBlocks(std::int64_t size, const Workers& workers, const Value& value) {
+  Buffer<double> sums(static_cast<std::size_t>((size + cheap_block - 1) / cheap_block));
+  workers.forBlocks("lengths", size, cheap_block, [&](std::int64_t begin, std::int64_t end, int) {
+    double sum = 0;
+    for (std::int64_t f = begin; f < end; ++f) sum += value(static_cast<int>(f));
+    sums[begin / cheap_block] = sum;
+  });
+  return std::accumulate(sums.begin(), sums.end(), 0.0);
+}
+
+/// The area of all faces by the positions of their corners, which is right for thin triangles too.
+double trianglesArea(const IntrinsicTriangulation& cover, const EdgeLengths& length, const Workers& workers) {
+  return sumOfBlocks(cover.size(), workers, [&](int f) {
+    const auto [ux, uy, uz] = length.offset(cover.faces[f][1], cover.faces[f][0]);
+    const auto [vx, vy, vz] = length.offset(cover.faces[f][2], cover.faces[f][0]);
+    return std::hypot(uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx) / 2;
+  });
+}
+
+}  // namespace
 
 void finishFromCover(std::shared_ptr<IntrinsicTriangulation> cover, const CoverVertices& vertices, double delta,
                      bool keep_cover, const Workers& workers, StageClock& clock, Laplacian& result) {
   const double scale = faceScale(result.kind);
   BuildFigures figures{.mean = measureLengths(*cover, vertices.points, vertices.displacement, workers)};
-  const Mollification mollified = mollify(*cover, delta * figures.mean.length, workers);
-  figures.mollify_length = mollified.length;
-  figures.mollify_area = scale * mollified.area;
   figures.triangles = cover->size() / 2;
+  const EdgeLengths lengths{vertices.points, vertices.displacement};
+  const double area = trianglesArea(*cover, lengths, workers);
   clock.finish("lengths", 0);
 
-  figures.flips = flipToDelaunay(*cover, workers);
+  // Most flat faces of a thin mesh are flipped away; only what is flat after that is lengthened, and flipped again.
+  figures.flips = flipThinFaces(*cover, lengths, delta, figures.lengthened_edges, workers);
+  for (int round = 0; round < most_rounds; ++round) {
+    const std::int64_t lengthened =
+        delta > 0 ? lengthenShortEdges(*cover, delta, workers) + lengthenAtFlatFaces(*cover, workers) : 0;
+    if (round > 0 && lengthened == 0) break;
+    figures.lengthened_edges += lengthened;
+    const FlipCounts counts = flipToDelaunay(*cover, workers);
+    figures.flips = {figures.flips.flips + counts.flips, counts.failures};
+  }
+  figures.area_added = scale * (sumOfBlocks(cover->size(), workers, [&](int f) { return faceArea(*cover, f); }) - area);
   clock.finish("flips", 0);
 
   const int size = static_cast<int>(result.status.size());

@@ -10,8 +10,8 @@
 
 namespace tufted {
 
-OwnAreas finishFromStars(SurfaceStars built, RankedCloud cloud, const CloudOptions& options, const Workers& workers,
-                         StageClock& clock, Laplacian& result) {
+std::optional<OwnAreas> finishFromStars(SurfaceStars built, RankedCloud cloud, const CloudOptions& options,
+                                        const Workers& workers, StageClock& clock, Laplacian& result) {
   const int exponent = cloud.exponent;
   RawBuffer<double> memory = std::move(built.support.radius);
   BuildFigures figures{.triangles = built.stars.triangles()};
@@ -22,11 +22,9 @@ OwnAreas finishFromStars(SurfaceStars built, RankedCloud cloud, const CloudOptio
   clock.finish("cover", 0);
 
   OwnAreas own;
-  const StarMetric metric =
-      stars_and_cover->measure(options.mollify, std::move(memory), workers, has_own_areas ? &own : nullptr);
+  const StarMetric metric = stars_and_cover->measure(std::move(memory), workers, has_own_areas ? &own : nullptr);
+  if (metric.has_flat && options.mollify > 0) return std::nullopt;
   figures.mean = metric.mean;
-  figures.mollify_length = stars_and_cover->mollifyLength();
-  figures.mollify_area = stars_and_cover->mollifyArea();
   clock.finish("lengths", bytesOf(metric.cotan_sum) + bytesOf(metric.area));
 
   figures.flips = stars_and_cover->flip(metric, workers);

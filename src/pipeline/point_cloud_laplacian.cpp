@@ -1,4 +1,5 @@
 #include <memory>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -99,16 +100,18 @@ void buildCloudLaplacian(const PointsRef& points, const CloudOptions& options, C
   const Buffer<int> input_index = has_own_areas ? cloud.input_index : Buffer<int>();
   const int exponent = cloud.exponent;
   const bool stars_agree = options.gluing == Gluing::star && options.order == FaceOrder::angle;
-  OwnAreas own;
+  std::optional<OwnAreas> own;
   if (stars_agree && build == CloudBuild::automatic) {
     result.stored_cover.reset();
     own = finishFromStars(std::move(built), std::move(cloud), options, workers, clock, result);
+    // Flat triangles are so rare in stars that starting anew costs less than what it would take to keep the stars.
+    if (!own) return buildCloudLaplacian(points, options, CloudBuild::whole_cover, result);
   } else {
     own = finishFromWholeCover(std::move(built), cloud, options, workers, clock, result);
   }
 
   // With Mass::star a point's area is what belongs to it in its own star.
-  if (has_own_areas) setOwnAreas(own, input_index, exponent, result);
+  if (has_own_areas) setOwnAreas(*own, input_index, exponent, result);
   setTangents(workers, result);
   clock.finish("tangents", static_cast<std::size_t>(result.frames.tangents.size()) * sizeof(double));
   workers.report("done", 1);

@@ -76,8 +76,8 @@ void finishResult(const BuildFigures& figures, int exponent, Laplacian& result) 
   report.triangles = figures.triangles;
   report.mean_edge = std::ldexp(figures.mean.length, exponent);
   report.mean_squared_edge = std::ldexp(figures.mean.square, 2 * exponent);
-  report.mollify_length = std::ldexp(figures.mollify_length, exponent);
-  report.mollify_area = std::ldexp(figures.mollify_area, 2 * exponent);
+  report.lengthened_edges = figures.lengthened_edges;
+  report.area_added = area_unit.times(figures.area_added);
   report.flips = figures.flips.flips;
   report.flip_failures = figures.flips.failures;
 }

@@ -23,8 +23,8 @@ std::shared_ptr<IntrinsicTriangulation> takeCover(Laplacian& result);
 /// What a build knows beside L and M, in units of the points that it worked on.
 struct BuildFigures {
   MeanLengths mean = {};
-  double mollify_length = 0;
-  double mollify_area = 0;
+  std::int64_t lengthened_edges = 0;
+  double area_added = 0;
   FlipCounts flips = {};
   std::int64_t triangles = 0;
 };

@@ -8,10 +8,10 @@
 #include "python/arrays.h"
 #include "python/build_options.h"
 #include "python/module.h"
-#include "python/report.h"
 #include "python/running.h"
 #include "tufted/components.h"
 #include "tufted/dummy_values.h"
+#include "tufted/report.h"
 
 namespace py = pybind11;
 
@@ -49,6 +49,7 @@ py::dict dictOf(const Report& report) {
   py::dict dict;
   visitNumbers(report, [&](const char* name, const auto& value) { dict[name] = value; });
   dict["votes"] = report.votes;
+  dict["warnings"] = warnings(report);
   py::list stages;
   for (const StageCost& stage : report.stages)
     stages.append(

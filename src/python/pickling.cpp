@@ -5,8 +5,8 @@
 
 #include "python/arrays.h"
 #include "python/module.h"
-#include "python/report.h"
 #include "tufted/check.h"
+#include "tufted/report.h"
 
 namespace py = pybind11;
 

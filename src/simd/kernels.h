@@ -222,8 +222,8 @@ struct Kernels {
   void (*findSmallest)(const Covariances& covariances, SmallestAxes& axes);
   /// The offsets, at most PlanarOffsets::most, times `unit` along the axes x and y.
   void (*project)(const Offsets& offsets, double unit, const double* x, const double* y, PlanarOffsets& planar);
-  /// The triangles of the fans, with `added` to all lengths; the formulas of cover/geometry.h.
-  void (*measureTriangleFans)(const TriangleFans& fans, double added);
+  /// The triangles of the fans, by the formulas of cover/geometry.h.
+  void (*measureTriangleFans)(const TriangleFans& fans);
   /// See wrapInverted().
   StarKind (*wrapInverted)(const PlanarOffsets& planar, InvertedStar& star);
   /// The plane through the points around each pixel, as fitFrame() has it, and the star where it is made of ring 1.

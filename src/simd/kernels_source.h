@@ -288,13 +288,13 @@ TUFTED_INLINE Part cotanNumerator(Part a, Part b, Part c) {
   return shorter * shorter + (longer - a) * (longer + a);
 }
 
-void measureTriangleFans(const TriangleFans& given, double added) {
+void measureTriangleFans(const TriangleFans& given) {
   const TriangleFans fans = given;  // a copy, which what is written below cannot change
   for (int i = 0; i < fans.count + 1; i += part_size)
-    store(lengthOf(fans.spoke_x + i, fans.spoke_y + i, fans.spoke_z + i) + broadcastPart(added), fans.spoke + i);
+    store(lengthOf(fans.spoke_x + i, fans.spoke_y + i, fans.spoke_z + i), fans.spoke + i);
   for (int i = 0; i < fans.count; i += part_size) {
     const Part own = loadPart(fans.spoke + i), next = loadPart(fans.spoke + i + 1);
-    const Part rim = lengthOf(fans.rim_x + i, fans.rim_y + i, fans.rim_z + i) + broadcastPart(added);
+    const Part rim = lengthOf(fans.rim_x + i, fans.rim_y + i, fans.rim_z + i);
     const Part longer = max(own, next), shorter = min(own, next), rest = min(longer, rim);
     const Part a = max(longer, rim), b = max(shorter, rest), c = min(shorter, rest);
     const Part slack = c - (a - b);

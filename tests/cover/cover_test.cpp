@@ -91,24 +91,45 @@ TEST(TuftedCover, IsClosedManifoldAndOrientedForEveryMeshAndOrder) {
   }
 }
 
-TEST(Mollify, LeavesGoodTrianglesAlone) {
-  const shapes::Mesh sphere = shapes::icosphere(2);
-  IntrinsicTriangulation cover = coverOf(sphere.points, sphere.triangles);
-  const std::vector<double> before = cover.length;
-  EXPECT_EQ(mollify(cover, 1e-4 * before[0], workers).length, 0);
-  EXPECT_EQ(cover.length, before);
+TEST(Mollify, LeavesGoodTrianglesAndThinOnesAlone) {
+  shapes::Mesh thin = shapes::icosphere(2);
+  thin.points.col(2) *= 1e-6;
+  for (const shapes::Mesh& mesh : {shapes::icosphere(2), thin}) {
+    IntrinsicTriangulation cover = coverOf(mesh.points, mesh.triangles);
+    const std::vector<double> before = cover.length;
+    EXPECT_EQ(lengthenShortEdges(cover, default_mollify, workers), 0);
+    EXPECT_EQ(lengthenAtFlatFaces(cover, workers), 0);
+    EXPECT_EQ(cover.length, before);
+  }
 }
 
-TEST(Mollify, AddsTheLeastLengthThatLeavesDeltaOfSlack) {
-  Points points(3, 3);
-  points << 0, 0, 0, 2, 0, 0, 1, 0, 0;  // flat
-  Triangles triangle(1, 3);
-  triangle << 0, 1, 2;
-  IntrinsicTriangulation cover = coverOf(points, triangle);
-  const Mollification added = mollify(cover, 0.01, workers);
-  EXPECT_DOUBLE_EQ(added.length, 0.01);
-  EXPECT_DOUBLE_EQ(added.area, 2 * triangleArea(2.01, 1.01, 1.01));  // there was none
-  EXPECT_NEAR(triangleSlack(cover.length[0], cover.length[1], cover.length[2]), 0.01, 1e-15);
+TEST(Mollify, ChangesOnlyTheLengthsAtTheCornerOfAFlatTriangle) {
+  // A square grid of two rows, and a flat triangle over one of its edges.
+  Points points(7, 3);
+  points << 0, 0, 0, 1, 0, 0, 2, 0, 0, 0, 1, 0, 1, 1, 0, 2, 1, 0, 0.4, 1, 0;
+  Triangles triangles(5, 3);
+  triangles << 0, 1, 4, 0, 4, 3, 1, 2, 5, 1, 5, 4, 3, 4, 6;
+  IntrinsicTriangulation cover = coverOf(points, triangles);
+  const std::vector<double> before = cover.length;
+  EXPECT_EQ(lengthenAtFlatFaces(cover, workers), 2);  // of front and back together, which share their edges
+  for (int side = 0; side < static_cast<int>(before.size()); ++side) {
+    const bool is_at_corner = tail(cover, side) == 6 || head(cover, side) == 6;
+    EXPECT_EQ(cover.length[side] > before[side], is_at_corner);
+    EXPECT_LE(cover.length[side], before[side] + 0x1p-44);
+  }
+  for (int f = 0; f < cover.size(); ++f) EXPECT_GT(faceArea(cover, f), 0);
+}
+
+TEST(Mollify, GivesEdgesOfLengthZeroTheLeastLengthAndNothingElse) {
+  Points points(4, 3);
+  points << 0, 0, 0, 0, 0, 0, 3, 0, 0, -2, 1, 0;  // the first two coincide
+  Triangles triangles(2, 3);
+  triangles << 0, 1, 2, 1, 0, 3;
+  IntrinsicTriangulation cover = coverOf(points, triangles);
+  const std::vector<double> before = cover.length;
+  EXPECT_EQ(lengthenShortEdges(cover, 1e-8, workers), 2);
+  for (int side = 0; side < static_cast<int>(before.size()); ++side)
+    EXPECT_EQ(cover.length[side], before[side] > 0 ? before[side] : 1e-8 * std::sqrt(5.0));  // of the smaller triangle
 }
 
 TEST(Flips, KeepAreaVerticesAndEveryPromiseOfTheCover) {

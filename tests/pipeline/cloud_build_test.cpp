@@ -39,9 +39,10 @@ void expectSame(const std::string& name, const Points& points, const CloudOption
   EXPECT_EQ(fast.report.components, plain.report.components) << name;
   EXPECT_EQ(fast.report.degenerate_faces, plain.report.degenerate_faces) << name;
   EXPECT_NEAR(fast.report.mean_edge, plain.report.mean_edge, 1e-12 * plain.report.mean_edge) << name;
-  EXPECT_NEAR(fast.report.mollify_area, plain.report.mollify_area, 1e-12 * plain.report.cover_area) << name;
+  // Rounding in the lengths of thin triangles, which the short cut does not sum.
+  EXPECT_NEAR(fast.report.area_added, plain.report.area_added, 1e-12 * plain.report.cover_area) << name;
   EXPECT_EQ(fast.report.star_masses, plain.report.star_masses) << name;
-  EXPECT_NEAR(fast.report.mollify_length, plain.report.mollify_length, 1e-12 * plain.report.mean_edge) << name;
+  EXPECT_EQ(fast.report.lengthened_edges, plain.report.lengthened_edges) << name;
   const CoverCheck check = validate(fast.cover());
   EXPECT_TRUE(check.ok()) << name;
   EXPECT_EQ(fast.cover().size(), plain.cover().size()) << name;

@@ -22,7 +22,7 @@ double straightEdges(const Laplacian& laplacian, const Points& positions) {
   for (std::size_t f = 0; f < cover.faces.size(); ++f) {
     for (int i = 0; i < 3; ++i, ++edges) {
       const double chord = (positions.row(cover.faces[f][i]) - positions.row(cover.faces[f][(i + 1) % 3])).norm();
-      straight += std::abs(cover.length[3 * f + i] - chord) <= 1e-9 * chord + laplacian.report.mollify_length ? 1 : 0;
+      straight += std::abs(cover.length[3 * f + i] - chord) <= 1e-9 * chord ? 1 : 0;
     }
   }
   return static_cast<double>(straight) / edges;

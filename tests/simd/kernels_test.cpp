@@ -253,7 +253,6 @@ TEST(Kernels, ReachAlongEachNormalWhatIsReachedAlongItAlone) {
 
 TEST(Kernels, MeasureTrianglesByTheFormulasOfGeometry) {
   constexpr int count = 37;
-  constexpr double added = 0.25;
   constexpr std::size_t room = 64;
   shapes::Random random(6);
   std::array<std::vector<double>, 6> given, found, portable;
@@ -265,33 +264,30 @@ TEST(Kernels, MeasureTrianglesByTheFormulasOfGeometry) {
     given[axis][4] = given[axis][3];  // a triangle of no area
     for (int i = 0; i < count; ++i) given[3 + axis][i] = given[axis][i + 1] - given[axis][i];
   }
-  const auto measure = [&](const Kernels& kernel, double more, auto& result) {
+  const auto measure = [&](const Kernels& kernel, auto& result) {
     for (auto& values : result) values.assign(room, 0);
-    kernel.measureTriangleFans(
-        {count, given[0].data(), given[1].data(), given[2].data(), given[3].data(), given[4].data(), given[5].data(),
-         result[0].data(), result[1].data(), result[2].data(), result[3].data(), result[4].data(), result[5].data()},
-        more);
+    kernel.measureTriangleFans({count, given[0].data(), given[1].data(), given[2].data(), given[3].data(),
+                                given[4].data(), given[5].data(), result[0].data(), result[1].data(), result[2].data(),
+                                result[3].data(), result[4].data(), result[5].data()});
   };
-  for (const double more : {0.0, added}) {
-    measure(kernels(), more, found);
-    measure(portableKernels(), more, portable);
-    for (int i = 0; i < count; ++i) {
-      const auto length = [&](int from, int at) {
-        const double x = given[from][at], y = given[from + 1][at], z = given[from + 2][at];
-        return std::sqrt(x * x + y * y + z * z) + more;
-      };
-      const double own = length(0, i), next = length(0, i + 1), rim = length(3, i), area = triangleArea(own, next, rim);
-      EXPECT_EQ(found[0][i], own);
-      EXPECT_EQ(found[1][i], rim);
-      EXPECT_EQ(found[2][i], area);
-      EXPECT_EQ(found[3][i], triangleSlack(own, next, rim));
-      EXPECT_EQ(area == 0, more == 0 && i == 3);
-      for (int r = 0; r < 4; ++r) EXPECT_EQ(found[r][i], portable[r][i]) << r << " " << i;
-      if (area == 0) continue;  // NaN
-      EXPECT_EQ(found[4][i], cotanNumerator(own, next, rim) * (1 / (4 * area)));
-      EXPECT_EQ(found[5][i], cotanNumerator(next, own, rim) * (1 / (4 * area)));
-      for (int r = 4; r < 6; ++r) EXPECT_EQ(found[r][i], portable[r][i]) << r << " " << i;
-    }
+  measure(kernels(), found);
+  measure(portableKernels(), portable);
+  for (int i = 0; i < count; ++i) {
+    const auto length = [&](int from, int at) {
+      const double x = given[from][at], y = given[from + 1][at], z = given[from + 2][at];
+      return std::sqrt(x * x + y * y + z * z);
+    };
+    const double own = length(0, i), next = length(0, i + 1), rim = length(3, i), area = triangleArea(own, next, rim);
+    EXPECT_EQ(found[0][i], own);
+    EXPECT_EQ(found[1][i], rim);
+    EXPECT_EQ(found[2][i], area);
+    EXPECT_EQ(found[3][i], triangleSlack(own, next, rim));
+    EXPECT_EQ(area == 0, i == 3);
+    for (int r = 0; r < 4; ++r) EXPECT_EQ(found[r][i], portable[r][i]) << r << " " << i;
+    if (area == 0) continue;  // NaN
+    EXPECT_EQ(found[4][i], cotanNumerator(own, next, rim) * (1 / (4 * area)));
+    EXPECT_EQ(found[5][i], cotanNumerator(next, own, rim) * (1 / (4 * area)));
+    for (int r = 4; r < 6; ++r) EXPECT_EQ(found[r][i], portable[r][i]) << r << " " << i;
   }
 }
 

@@ -58,7 +58,7 @@ void addRareBuildOptions(CLI::App& command, Build& build) {
        addChoice(command, "--delaunay", build.cloud.delaunay, backends, "Who finds the stars, clouds only (star)")});
   addChoice(command, "--order", build.cloud.order, orders, "Order of the faces around an edge (angle)");
   addNumber(command, "--mollify", build.mollify, 0.0, 1.0,
-            "Mollification in mean edge lengths, at most 1 (1e-5 clouds, 1e-6 meshes)")
+            "Shortest edge, in the longest side of the smaller of its triangles; 0: flat triangles stay flat (1e-9)")
       ->type_name("D");
 }
 

@@ -8,7 +8,6 @@
 
 #include "command.h"
 #include "console.h"
-#include "inactive.h"
 #include "input.h"
 #include "interrupt.h"
 #include "options.h"
@@ -17,6 +16,7 @@
 #include "tufted/describe.h"
 #include "tufted/errors.h"
 #include "tufted/laplacian.h"
+#include "warnings.h"
 
 namespace info_command {
 namespace {

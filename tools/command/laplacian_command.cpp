@@ -14,7 +14,6 @@
 #include "build.h"
 #include "command.h"
 #include "console.h"
-#include "inactive.h"
 #include "input.h"
 #include "interrupt.h"
 #include "look.h"
@@ -28,6 +27,7 @@
 #include "tufted/io/read.h"
 #include "tufted/io/write.h"
 #include "tufted/laplacian.h"
+#include "warnings.h"
 
 namespace laplacian_command {
 namespace {
@@ -163,9 +163,6 @@ Summary summarize(const Settings& settings, const tufted::Geometry& geometry, co
       static_cast<double>(report.nonzeros) / static_cast<double>(std::max<std::int64_t>(report.active, 1)));
   summary.addDetail("flips", "%lld", count(report.flips));
   summary.addDetail("clamped", "%lld weights", count(report.clamped_weights + report.clamped_large));
-  if (report.flip_failures + report.clamped_large > 0)
-    summary.add("failures", "%lld edges not flipped, %lld large weights clamped", count(report.flip_failures),
-                count(report.clamped_large));
   summary.add("took", "%.3g s, peak memory %.0f MB", seconds, peakMemory());
   summary.add("written to", "%s", settings.out.c_str());
   addLook(settings.look, summary);
@@ -201,9 +198,7 @@ int runLaplacian(Settings& settings) {
       settings.look, geometry, [&] { return sceneOf(title, geometry, laplacian, {}); },
       [&] { tufted::writeLaplacian(settings.out, laplacian, geometry, write); });
   bar.clear();
-  std::vector<std::string> warnings;
-  if (const std::string nothing = nothingActive(laplacian); !nothing.empty())
-    warnings.push_back(settings.input.name() + ": " + nothing);
+  const std::vector<std::string> warnings = warningsOf(settings.input.name(), laplacian.report);
   for (const std::string& warning : warnings) warn(bar, warning);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   sayResults(settings.console, summarize(settings, geometry, laplacian, seconds.count()), settings.out, warnings);

@@ -10,7 +10,6 @@
 #include <optional>
 #include <system_error>
 
-#include "inactive.h"
 #include "interrupt.h"
 #include "options.h"
 #include "output.h"
@@ -18,6 +17,7 @@
 #include "progress_bar.h"
 #include "scene_fields.h"
 #include "tufted/errors.h"
+#include "warnings.h"
 
 namespace {
 
@@ -201,6 +201,7 @@ int runWithOperator(OperatorSettings& settings, std::vector<std::string> files, 
   source.moved = std::move(settings.build.moved);
   bar.setPoints(0);
   checkpoint();
+  std::vector<std::string> warnings = warningsOf(source.name, source.laplacian.report);
   Results chosen;
   chooseComponents(settings.components, source, chosen);
   Results results = blameData(source, [&] { return compute(source); });
@@ -209,9 +210,7 @@ int runWithOperator(OperatorSettings& settings, std::vector<std::string> files, 
       settings.look, source.geometry, [&] { return shownScene(settings, source, results); },
       [&] { write(settings, source, results); });
   bar.clear();
-  std::vector<std::string> warnings = results.warnings;
-  if (const std::string why = whyNothing(source); !why.empty())
-    warnings.insert(warnings.begin(), source.name + ": " + why);
+  warnings.insert(warnings.end(), results.warnings.begin(), results.warnings.end());
   for (const std::string& warning : warnings) warn(bar, warning);
   Summary summary = chosen.summary;
   summary.append(results.summary);

@@ -35,7 +35,8 @@ class PointCloud(Surface):
     image: (width, height) of a depth image: pixels take the place of neighbours, noise is smoothed along the rays.
     rings: N numbers of the scanner's ring that a point lies on, or "find"; the rings then give the neighbours.
     neighborhoods: N x k indices used as they are; negative ones are padding.
-    mollify: in mean edge lengths, 0 to 1.
+    mollify: no edge is shorter than this times the longest side of the smaller of its triangles, 0 to 1; 0: flat
+    triangles stay flat.
     gluing: "star" or "vertex-pair". order: "angle", "area" or "random" (by seed). delaunay: "star" or "cgal".
     threads: at most this many; 0: all. solver: "automatic", "cholesky" or "multigrid". memory_limit: bytes for factors,
     0: half of what is available. These three are for all methods, too.
@@ -43,7 +44,7 @@ class PointCloud(Surface):
     """
 
     def __init__(self, points, preset="scan", neighbors=30, normals=None, *, viewpoint=None, image=None, rings=None,
-                 neighborhoods=None, mollify=1e-5, gluing="star", order="angle", seed=0, delaunay="star", threads=0,
+                 neighborhoods=None, mollify=_tufted.default_mollify, gluing="star", order="angle", seed=0, delaunay="star", threads=0,
                  solver="automatic", memory_limit=0, progress=None):
         name = "PointCloud"
         solving = _solving(name, threads, solver, memory_limit)
@@ -67,6 +68,7 @@ class PointCloud(Surface):
         laplacian = _tufted.build_cloud(points, options, normals, neighborhoods, structure,
                                         check.callback(name, progress))
         super().__init__(laplacian, points, None, solving, options)
+        self._warn()
 
     @staticmethod
     def _structure(name, points, image, rings, viewpoint):
@@ -99,10 +101,10 @@ class Mesh(Surface):
     """The Laplacian of a triangle mesh of any connectivity, which is built at once.
 
     points: V x 3, float32 or float64 (not copied if contiguous). faces: F x 3, integers of any type.
-    mollify: in mean edge lengths, 0 to 1. order, seed, threads, solver, memory_limit, progress: as in PointCloud.
+    mollify, order, seed, threads, solver, memory_limit, progress: as in PointCloud.
     """
 
-    def __init__(self, points, faces, *, mollify=1e-6, order="angle", seed=0, threads=0, solver="automatic",
+    def __init__(self, points, faces, *, mollify=_tufted.default_mollify, order="angle", seed=0, threads=0, solver="automatic",
                  memory_limit=0, progress=None):
         name = "Mesh"
         solving = _solving(name, threads, solver, memory_limit)
@@ -112,6 +114,7 @@ class Mesh(Surface):
                    "mollify": check.number(name, "mollify", mollify), "threads": solving["threads"]}
         laplacian = _tufted.build_mesh(points, faces, options, check.callback(name, progress))
         super().__init__(laplacian, points, faces, solving, options)
+        self._warn()
 
     @property
     def faces(self):
@@ -229,4 +232,5 @@ def load(directory, *, threads=0, solver="automatic", memory_limit=0, progress=N
     surface = PointCloud.__new__(PointCloud) if laplacian.is_cloud else Mesh.__new__(Mesh)
     faces = None if laplacian.is_cloud else np.ascontiguousarray(geometry.triangles)
     Surface.__init__(surface, laplacian, geometry.points, faces, solving, None, None, directory)
+    surface._warn()
     return surface

@@ -17,11 +17,11 @@ def _matrices(surface, dummy, return_mass):
     return (L, scipy.sparse.diags(areas, format="csc")) if return_mass else L
 
 
-def point_cloud_laplacian(points, mollify_factor=1e-5, n_neighbors=30, return_mass=True, *, preset="scan", dummy=True,
+def point_cloud_laplacian(points, mollify_factor=_tufted.default_mollify, n_neighbors=30, return_mass=True, *, preset="scan", dummy=True,
                           threads=0, progress=None):
     """L and M of a point cloud, as robust_laplacian.point_cloud_laplacian.
 
-    points: N x 3. mollify_factor: in mean edge lengths. n_neighbors: k >= 3. return_mass: False returns L alone.
+    points: N x 3. mollify_factor: `mollify` of PointCloud. n_neighbors: k >= 3. return_mass: False returns L alone.
     preset: "scan", "clean" or "lidar", see PointCloud.
     dummy: whether points that take no part get 1 on the diagonal of L and a small mass, so that solvers never meet a
     singular matrix; otherwise they have zeros.
@@ -33,7 +33,7 @@ def point_cloud_laplacian(points, mollify_factor=1e-5, n_neighbors=30, return_ma
     return _matrices(cloud, dummy, return_mass)
 
 
-def mesh_laplacian(verts, faces, mollify_factor=1e-5, return_mass=True, *, dummy=True, threads=0, progress=None):
+def mesh_laplacian(verts, faces, mollify_factor=_tufted.default_mollify, return_mass=True, *, dummy=True, threads=0, progress=None):
     """L and M of a triangle mesh, as robust_laplacian.mesh_laplacian.
 
     verts: V x 3. faces: F x 3. All else as in point_cloud_laplacian().

@@ -1,5 +1,6 @@
 """What clouds and meshes have in common: L and M, and all that is computed from them."""
 import html
+import warnings
 
 import numpy as np
 
@@ -13,6 +14,10 @@ from ._tufted import InvalidInput
 
 # Points that a notebook shows: a page of more would make its file larger than some ten megabytes.
 _LARGEST_PAGE = 500_000
+
+
+class TuftedWarning(UserWarning):
+    """Something about the data or the build that a user must know; the report's "warnings" have it as well."""
 
 
 class Surface(Spectral, Distances, Equations, Shape):
@@ -86,6 +91,11 @@ class Surface(Spectral, Distances, Equations, Shape):
     def report(self):
         """What happened in the build: counts, lengths, areas and stages, as a dict."""
         return self._laplacian.report
+
+    def _warn(self):
+        """Warns of what a user must know of the build, once it is made or loaded."""
+        for sentence in self.report["warnings"]:
+            warnings.warn(f"{self._source or type(self).__name__}: {sentence}", TuftedWarning, stacklevel=3)
 
     def __len__(self):
         return len(self._points)

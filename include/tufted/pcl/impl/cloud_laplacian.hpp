@@ -1,5 +1,6 @@
 #pragma once
 
+#include <pcl/console/print.h>
 #include <pcl/point_cloud.h>
 #include <pcl/search/search.h>
 
@@ -106,6 +107,12 @@ Laplacian cloudLaplacian(const typename pcl::PointCloud<PointT>::ConstPtr& cloud
     options.neighborhoods = nullptr;
   }
   return pointCloudLaplacian(points, options);
+}
+
+/// Says what a user must know of a build on PCL's console.
+inline void sayWarnings(const std::string& class_name, const Report& report) {
+  for (const std::string& sentence : warnings(report))
+    PCL_WARN("[tufted::%s] %s\n", class_name.c_str(), sentence.c_str());
 }
 
 }  // namespace tufted::detail

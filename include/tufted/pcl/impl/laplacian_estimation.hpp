@@ -18,6 +18,7 @@ void tufted::LaplacianEstimation<PointT>::compute(Laplacian& result) {
     const Eigen::Vector3d sensor = input_->sensor_origin_.template head<3>().template cast<double>();
     if (options.viewpoint == nullptr && input_->isOrganized()) options.viewpoint = &sensor;
     result = detail::cloudLaplacian<PointT>(input_, *indices_, points, search_, organized_, options);
+    detail::sayWarnings(getClassName(), result.report);
   } catch (const std::exception& error) {
     PCL_ERROR("[tufted::%s::compute] %s\n", getClassName().c_str(), error.what());
   }

@@ -24,6 +24,7 @@ void tufted::LaplacianSmoothing<PointT>::applyFilter(PointCloud& output) {
     const Points points = detail::toPoints(*input_, all);
     const Laplacian laplacian = detail::cloudLaplacian<PointT>(input_, all, points, search_, organized_, options_);
     report_ = laplacian.report;
+    detail::sayWarnings(getClassName(), report_);
     const Points smoothed =
         smooth(laplacian, points,
                {.time_step = time_step_, .iterations = iterations_, .fixed = &fixed, .threads = options_.threads});

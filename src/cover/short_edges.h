@@ -1,0 +1,39 @@
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <cstdint>
+#include <type_traits>
+
+#include "base/buffer.h"
+#include "base/parallel.h"
+
+namespace tufted {
+
+/// lengthenShortEdges() with lengths in double or long double.
+template <class Triangulation>
+std::int64_t lengthenEdgesBelow(Triangulation& cover, double delta, const Workers& workers) {
+  using Real = std::decay_t<decltype(cover.length[0])>;
+  Buffer<Real> longest(static_cast<std::size_t>(cover.size()));  // side of each face
+  workers.forBlocks("mollify", cover.size(), cheapest_block, [&](std::int64_t begin, std::int64_t end, int) {
+    for (std::int64_t f = begin; f < end; ++f)
+      longest[f] = std::max({cover.length[3 * f], cover.length[3 * f + 1], cover.length[3 * f + 2]});
+  });
+  std::atomic<std::int64_t> lengthened = 0;
+  workers.forBlocks("mollify", cover.size(), cheapest_block, [&](std::int64_t begin, std::int64_t end, int) {
+    std::int64_t here = 0;
+    for (std::int64_t side = 3 * begin; side < 3 * end; ++side) {
+      const Real own = longest[side / 3], other = longest[cover.glue[side] / 3];
+      // The smaller face decides, as many long faces may end at a part of a mesh that is small. A face that is a point
+      // has no say.
+      const Real least = delta * (std::min(own, other) > 0 ? std::min(own, other) : std::max(own, other));
+      if (cover.length[side] >= least) continue;
+      cover.length[side] = least;
+      ++here;
+    }
+    lengthened += here;
+  });
+  return lengthened / 2;
+}
+
+}  // namespace tufted

@@ -1,0 +1,50 @@
+#include <cmath>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "tufted/report.h"
+
+namespace tufted {
+namespace {
+
+constexpr double much_area =
+    1e-3;  // of the area of the triangles, so much that results differ by more than a plot shows
+
+std::string percent(double share) {
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2g %%", 100 * share);
+  return text;
+}
+
+}  // namespace
+
+std::vector<std::string> warnings(const Report& report) {
+  std::vector<std::string> all;
+  const auto add = [&all](bool holds, const std::string& sentence) {
+    if (holds) all.push_back(sentence);
+  };
+  const auto count = [](std::int64_t number) { return std::to_string(number); };
+  if (report.active == 0)
+    return {report.points == 0 ? "no point is active, there are none"
+                               : "no point is active: " + count(report.not_finite) + " not finite, " +
+                                     count(report.coincident) + " coincident, " + count(report.isolated) + " isolated"};
+  const double right = report.cover_area - report.area_added;
+  add(std::abs(report.area_added) > much_area * right,
+      "the surface has " +
+          (right > 0 ? percent(std::abs(report.area_added) / right) + (report.area_added > 0 ? " more" : " less")
+                     : std::string("more")) +
+          " area than its triangles, which are too thin for the lengths of their edges to say their shape (" +
+          count(report.lengthened_edges) + " edges lengthened)");
+  add(report.flip_failures > 0, "flips did not finish: " + count(report.flip_failures) + " edges are not Delaunay");
+  add(report.clamped_large > 0,
+      count(report.clamped_large) + " weights of edges were negative by more than rounding and are set to 0");
+  add(report.isolated > report.active, count(report.isolated) + " of " + count(report.points) +
+                                           " points take no part: no triangle has them as a corner");
+  add(report.neighbors_clamped,
+      "the neighbourhood of each point is the whole cloud, so that areas mean little: fewer neighbours than " +
+          count(report.neighbors) + " may do better");
+  return all;
+}
+
+}  // namespace tufted

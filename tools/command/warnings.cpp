@@ -1,0 +1,29 @@
+#include "warnings.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <iterator>
+
+std::string nothingActive(const tufted::Laplacian& laplacian) {
+  tufted::Report counts{.points = std::ssize(laplacian.status)};
+  for (const tufted::PointStatus status : laplacian.status) {
+    if (status == tufted::PointStatus::active) return "";
+    counts.not_finite += status == tufted::PointStatus::not_finite ? 1 : 0;
+    counts.coincident += status == tufted::PointStatus::coincident ? 1 : 0;
+    counts.isolated += status == tufted::PointStatus::isolated ? 1 : 0;
+  }
+  return tufted::warnings(counts).front();
+}
+
+std::vector<std::string> warningsOf(const std::string& file, const tufted::Report& report) {
+  std::vector<std::string> lines = tufted::warnings(report);
+  for (std::string& line : lines) line = file + ": " + line;
+  return lines;
+}
+
+void warn(ProgressBar& bar, const std::string& line) {
+  bar.clear();
+  std::string text = "tufted: " + line;
+  std::replace(text.begin(), text.end(), '\n', ' ');
+  std::fprintf(stderr, "%s\n", text.c_str());
+}
