@@ -52,6 +52,13 @@ struct Gradients {
 /// @throws InvalidInput for indices out of range
 Frames meshFrames(const PointsRef& points, const TrianglesRef& triangles);
 
+/// As above for a mesh whose equal vertices are joined (MeshOptions::weld): joined vertices share the frame of all
+/// their triangles.
+/// @param points N x 3, of the mesh that the Laplacian was built from
+/// @param triangles F x 3, of the mesh that the Laplacian was built from
+/// @throws InvalidInput for indices out of range and arrays of the wrong size
+Frames meshFrames(const Laplacian& laplacian, const PointsRef& points, const TrianglesRef& triangles);
+
 /// Gradients by least squares with equal weights: at each point, the slope of the linear function with a constant that
 /// fits u best at the point and its neighbours, in the plane that fits their positions best. So the coordinates x, y
 /// and z, as functions on the points, have the gradients that the plane says: for any points, the parts of the axes

@@ -106,7 +106,7 @@ struct Laplacian {
 Laplacian pointCloudLaplacian(const PointsRef& points, const CloudOptions& options = {});
 
 /// Builds the mesh Laplacian (Sharp and Crane 2020, Algorithm 3), for triangles of any connectivity.
-/// @param points V x 3; coincident vertices stay separate.
+/// @param points V x 3; coincident vertices stay separate unless MeshOptions::weld joins them.
 /// @param triangles F x 3 indices into `points`; triangles with a repeated vertex are dropped and counted.
 /// @throws InvalidInput for indices or options out of range, more than 357 million triangles or 2^31 entries of L
 /// @throws Cancelled when `options.progress` returns false

@@ -81,6 +81,9 @@ struct MeshOptions {
   double mollify = default_mollify;
   int threads = 0;         ///< at most this many; 0: one per processor
   bool keep_cover = true;  ///< false frees the cover (96 bytes per triangle)
+  /// Whether vertices of equal position are joined. All keep their index: the later ones become
+  /// PointStatus::coincident, and the first of each position stands for them.
+  bool weld = false;
   Progress progress = {};  ///< called during the build
 };
 

@@ -34,7 +34,7 @@ enum class Kind : std::uint8_t {
 enum class PointStatus : std::uint8_t {
   active = 0,      ///< has a positive diagonal in L
   not_finite = 1,  ///< NaN, infinite, or more than 1e70 median spreads or 1e152 away from the rest
-  coincident = 2,  ///< equals an earlier point of the cloud, its `representative`
+  coincident = 2,  ///< equals an earlier point, its `representative`; of meshes with MeshOptions::weld
   isolated = 3,    ///< no triangle: too few neighbours, all collinear or of other sheets, an outlier, or a vertex that
                    ///< no triangle names
 };

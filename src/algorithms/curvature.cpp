@@ -34,6 +34,10 @@ constexpr double exact_below = 1e-6;
 /// What fits of four rings leave over, by that of two. A smooth surface leaves over eight times as much or more, noise
 /// about as much.
 constexpr double noisy_below = 4;
+/// Slope of the fitted surface over its plane from which on the plane is turned to be tangent, and the heights are
+/// measured anew. The quadratic terms of a fit hold up to the square of the slope, as directions in the plane are no
+/// longer those on the surface.
+constexpr double most_slope = 0.1;
 /// Half the width of a confidence interval, in standard deviations of independent errors.
 constexpr double confidence = 1;
 /// The same for noise, whose errors are not independent: what is left of it after denoising spans some spacings.
@@ -42,6 +46,7 @@ constexpr double noisy_confidence = 10;
 /// A fit, with lengths in the caller's unit.
 struct Window {
   SurfaceFit fit;
+  Eigen::RowVector3d normal, x;  ///< of the plane over which heights were measured, and an axis in it
   double radius;
   int rings;
 };
@@ -127,6 +132,8 @@ class Fitter {
 
   void start(int p) {
     rings_.start(p);
+    normal_ = frames_.normals.row(p);
+    x_ = frames_.tangents.row(p);
     samples_.clear();
     farthest_ = 0;
   }
@@ -135,14 +142,26 @@ class Fitter {
     takeNewPoints(p);
     const double radius = wider * std::sqrt(farthest_);
     if (!(radius > 0) || !std::isfinite(radius)) return std::nullopt;
-    const std::optional<SurfaceFit> fit = fitHeights(samples_, radius);
-    return fit ? std::optional(Window{*fit, radius * unit_, rings_.count()}) : std::nullopt;
+    std::optional<SurfaceFit> fit = fitHeights(samples_, radius);
+    if (fit && fit->coefficients.segment<2>(1).norm() > most_slope) {
+      turnPlane(fit->coefficients[1], fit->coefficients[2]);
+      samples_.clear();
+      takeNewPoints(p);
+      fit = fitHeights(samples_, radius);
+    }
+    return fit ? std::optional(Window{*fit, normal_, x_, radius * unit_, rings_.count()}) : std::nullopt;
+  }
+
+  /// Makes the plane the one in which the fitted surface rises by b along x and by c along the other axis.
+  void turnPlane(double b, double c) {
+    const Eigen::RowVector3d tangent = (x_ + b * normal_).normalized();
+    normal_ = (normal_ - b * x_ - c * normal_.cross(x_)).normalized();
+    x_ = tangent;
   }
 
   /// Makes samples of the points that the rings have gained since the last window.
   void takeNewPoints(int p) {
-    const Eigen::RowVector3d center = positions_.row(p), normal = frames_.normals.row(p), x = frames_.tangents.row(p);
-    const Eigen::RowVector3d y = normal.cross(x);
+    const Eigen::RowVector3d center = positions_.row(p), y = normal_.cross(x_);
     const std::vector<int>& points = rings_.points();
     if (samples_.u.empty()) {
       double extent = 0;
@@ -152,7 +171,7 @@ class Fitter {
     for (std::size_t i = samples_.u.size(); i < points.size(); ++i) {
       const Eigen::RowVector3d offset = (positions_.row(points[i]) - center) / unit_;
       farthest_ = std::max(farthest_, offset.squaredNorm());
-      samples_.add(offset.dot(x), offset.dot(y), offset.dot(normal));
+      samples_.add(offset.dot(x_), offset.dot(y), offset.dot(normal_));
     }
   }
 
@@ -163,20 +182,21 @@ class Fitter {
   const Frames& frames_;
   double noise_;
   Rings rings_;
-  HeightSamples samples_;  ///< of the points of the rings, in units of `unit_`
-  double unit_ = 1;        ///< a power of two near the extent of the first window, in the caller's unit
-  double farthest_ = 0;    ///< squared distance of the farthest sample
+  Eigen::RowVector3d normal_, x_;  ///< of the plane of the samples; see Window
+  HeightSamples samples_;          ///< of the points of the rings, in units of `unit_`
+  double unit_ = 1;                ///< a power of two near the extent of the first window, in the caller's unit
+  double farthest_ = 0;            ///< squared distance of the farthest sample
 };
 
 /// Curvatures of the fitted surface at the point.
-void setCurvatures(int p, const Window& window, const Frames& frames, Curvatures& result) {
+void setCurvatures(int p, const Window& window, Curvatures& result) {
   const auto& c = window.fit.coefficients;
   const double b = c[1], e = c[2], length = std::sqrt(1 + b * b + e * e);
   Eigen::Matrix2d second;
   second << c[3], c[4], c[4], c[5];
   second *= -1 / length;  // positive where heights fall on all sides
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(second);
-  const Eigen::RowVector3d normal = frames.normals.row(p), x = frames.tangents.row(p), y = normal.cross(x);
+  const Eigen::RowVector3d normal = window.normal, x = window.x, y = normal.cross(x);
   const Eigen::Vector2d k = solver.eigenvalues() / window.radius;  // ascending
   // Plus 0, as that of a plane is no -0.
   result.principal.row(p) << k[1] + 0.0, k[0] + 0.0;
@@ -212,7 +232,7 @@ Curvatures fitCurvatures(const Laplacian& laplacian, const Frames& frames, const
       if (laplacian.status[p] != PointStatus::active) continue;
       const std::optional<Window> window = fitter->fit(p, residuals);
       if (!window) continue;
-      setCurvatures(p, *window, frames, result);
+      setCurvatures(p, *window, result);
       rings[p] = window->rings;
     }
   });

@@ -29,9 +29,11 @@ constexpr const char* function_name = "orientedFrames";
 constexpr double smooth_cosine = 0.7;
 /// What an edge across a crease counts for, beside one between two points of a smooth surface.
 constexpr double crease_share = 0.5;
-/// A component whose normals point out by less than this part of its extent encloses no volume; one that is open may be
-/// a plane with noise.
-constexpr double flat_share = 1e-6, flat_share_of_open = 1e-3;
+/// A closed component whose normals point out by less than this part of its extent encloses no volume.
+constexpr double flat_share = 1e-6;
+/// An open sheet that bulges by less than this part of its extent is flat: terrain has at most 0.024, one view of a body
+/// 0.1.
+constexpr double flat_share_of_open = 0.05;
 /// Parts of fewer points, by those of the largest, lie within a joint.
 constexpr double small_part = 0.05;
 /// Rings of neighbours around normals that disagree, within which bodies that touch are joined.
@@ -157,14 +159,23 @@ Sides sidesOf(const Laplacian& laplacian, const Components& components, const Po
   return {std::move(outward), std::move(mean)};
 }
 
-/// Whether each component of normals that agree points inwards.
-std::vector<bool> inwardComponents(const Laplacian& laplacian, const Components& components, const Points& normals) {
+/// Whether each component of normals that agree points inwards, or an open one away from `up`.
+/// @param up null: open ones are closed by their shadow, if they bulge
+/// @param open gets the number of open ones
+std::vector<bool> inwardComponents(const Laplacian& laplacian, const Components& components, const Points& normals,
+                                   const Eigen::Vector3d* up, std::int64_t& open) {
   const auto [outward, mean] = sidesOf(laplacian, components, normals);
   std::vector<bool> inward(components.count);
   for (int c = 0; c < components.count; ++c) {
     Eigen::Index axis = 0;
     mean[c].cwiseAbs().maxCoeff(&axis);
-    const double flat = mean[c].norm() < most_mean ? flat_share : flat_share_of_open;
+    const bool is_open = mean[c].norm() >= most_mean;
+    open += is_open ? 1 : 0;
+    if (is_open && up != nullptr) {
+      inward[c] = mean[c].dot(up->stableNormalized()) < 0;
+      continue;
+    }
+    const double flat = is_open ? flat_share_of_open : flat_share;
     inward[c] = std::abs(outward[c]) > flat ? outward[c] < 0 : mean[c][axis] < 0;
   }
   return inward;
@@ -245,25 +256,25 @@ void turnBodies(const Laplacian& laplacian, const std::vector<Edge>& edges, Poin
   settleJoints(laplacian, edges, joint, normals);
 }
 
-/// Turns whole components outwards.
-/// @returns how many there are
-int turnOutwards(const Laplacian& laplacian, Points& normals) {
+/// Turns whole components outwards, open ones upwards.
+void turnOutwards(const Laplacian& laplacian, const Eigen::Vector3d* up, Points& normals, OrientationReport& report) {
   const Components components = findComponents(laplacian);
-  const std::vector<bool> inward = inwardComponents(laplacian, components, normals);
+  const std::vector<bool> inward = inwardComponents(laplacian, components, normals, up, report.open);
   for (const int i : components.points)
     if (inward[components.of[i]]) normals.row(i) *= -1;
-  return components.count;
+  report.components = components.count;
 }
 
 /// Normals alike between neighbours, and outwards.
-void orientAlike(const Laplacian& laplacian, const Progress& progress, Points& normals, OrientationReport& report) {
-  const Workers workers(1, progress);
+void orientAlike(const Laplacian& laplacian, const OrientationOptions& options, Points& normals,
+                 OrientationReport& report) {
+  const Workers workers(1, options.progress);
   const std::vector<Edge> edges = edgesOf(laplacian, normals);
   SignedSets sets(static_cast<int>(normals.rows()));
   Contraction(edges, sets).run(workers);
   for (int i = 0; i < sets.size(); ++i)
     if (sets.isTurned(i)) normals.row(i) *= -1;
-  report.components = turnOutwards(laplacian, normals);
+  turnOutwards(laplacian, options.up, normals, report);
   turnBodies(laplacian, edges, normals);
   for (const Edge& edge : edges) report.disagreeing_edges += disagrees(edge, normals, laplacian.positions) ? 1 : 0;
 }
@@ -279,6 +290,8 @@ Frames orientedFrames(const Laplacian& laplacian, const Frames& frames, const Or
   checkFrames(function_name, laplacian, frames);
   if (options.viewpoint != nullptr && !options.viewpoint->allFinite())
     throw InvalidInput(std::string(function_name) + ": viewpoint is not finite, must be");
+  if (options.up != nullptr && !(options.up->allFinite() && !options.up->isZero(0)))
+    throw InvalidInput(std::string(function_name) + ": up is 0 or not finite, must be a direction");
   const Stopwatch watch;
   OrientationReport made;
   Frames result = frames;
@@ -289,9 +302,9 @@ Frames orientedFrames(const Laplacian& laplacian, const Frames& frames, const Or
       if (result.normals.row(i).dot(viewpoint - laplacian.positions.row(i) / 2) < 0) result.normals.row(i) *= -1;
     }
   } else if (laplacian.kind == Kind::mesh && frames.orientation == Orientation::given) {
-    made.components = turnOutwards(laplacian, result.normals);  // its triangles say what is one side
+    turnOutwards(laplacian, options.up, result.normals, made);  // its triangles say what is one side
   } else {
-    orientAlike(laplacian, options.progress, result.normals, made);
+    orientAlike(laplacian, options, result.normals, made);
   }
   for (Eigen::Index i = 0; i < result.normals.rows(); ++i) {
     const int source = laplacian.representative[i];

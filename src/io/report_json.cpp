@@ -108,7 +108,10 @@ std::string io::reportJson(const Laplacian& laplacian, const Geometry& geometry,
     json["orientation"] = orientation_names.at(static_cast<std::size_t>(laplacian.frames.orientation));
   json["input"] = {{"polygons", geometry.polygons}, {"merged_vertices", geometry.merged_vertices}};
   if (options.cloud) json["cloud_options"] = optionsObject(*options.cloud);
-  if (options.mesh) json["mesh_options"] = commonOptions(*options.mesh);
+  if (options.mesh) {
+    json["mesh_options"] = commonOptions(*options.mesh);
+    json["mesh_options"]["weld"] = options.mesh->weld;
+  }
   json["write_options"] = {
       {"files", resultFiles(options.formats)}, {"sign", name(options.sign)}, {"dummy", options.dummy}};
   json["conventions"] = conventionsObject(conventions);

@@ -6,6 +6,7 @@
 #include "io/errors.h"
 #include "io/formats.h"
 #include "io/line_scanner.h"
+#include "io/weld.h"
 
 namespace tufted::io {
 namespace {

@@ -1,18 +1,12 @@
 #pragma once
 
-#include <vector>
-
 #include "tufted/io/read.h"
 
 namespace tufted::io {
 
-/// Which points share a position.
-struct Welding {
-  std::vector<int> vertex;  ///< N: the new number of each point
-  std::vector<int> kept;    ///< the point that each new number stands for, the first of its position
-};
-
-/// Finds points of equal position; those that are not finite stay apart.
-Welding findEqual(const Points& points);
+/// Gives equal corners of a soup of triangles one number, in the order in which they come, and counts the others as
+/// `merged_vertices`. Corners that are not finite stay apart.
+/// @param geometry a mesh of points and triangles alone
+void weld(Geometry& geometry);
 
 }  // namespace tufted::io

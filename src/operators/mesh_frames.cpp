@@ -8,11 +8,22 @@
 #include <vector>
 
 #include "stars/tangent_frame.h"
+#include "tufted/check.h"
 #include "tufted/errors.h"
 #include "tufted/gradient.h"
 
 namespace tufted {
 namespace {
+
+constexpr const char* function_name = "meshFrames";
+
+void checkCorners(const TrianglesRef& triangles, Eigen::Index points) {
+  for (Eigen::Index f = 0; f < triangles.rows(); ++f)
+    for (const int corner : triangles.row(f))
+      if (corner < 0 || corner >= points)
+        throw InvalidInput(std::string(function_name) + ": corner " + std::to_string(corner) + " of triangle " +
+                           std::to_string(f) + ", must lie in [0, " + std::to_string(points) + ")");
+}
 
 /// Whether triangles are on one side of the surface: no two run along an edge in one direction.
 /// @param directed edges of all triangles, each from its first to its second corner; overwritten
@@ -24,16 +35,12 @@ bool agree(std::vector<std::uint64_t>& directed) {
 }  // namespace
 
 Frames meshFrames(const PointsRef& points, const TrianglesRef& triangles) {
+  checkCorners(triangles, points.rows());
   std::vector<Eigen::Matrix3d> moments(points.rows(), Eigen::Matrix3d::Zero());
   Points sums = Points::Zero(points.rows(), 3);
   std::vector<std::uint64_t> directed;
   directed.reserve(3 * static_cast<std::size_t>(triangles.rows()));
   for (Eigen::Index f = 0; f < triangles.rows(); ++f) {
-    for (int k = 0; k < 3; ++k) {
-      if (triangles(f, k) >= 0 && triangles(f, k) < points.rows()) continue;
-      throw InvalidInput("meshFrames: corner " + std::to_string(triangles(f, k)) + " of triangle " + std::to_string(f) +
-                         ", must lie in [0, " + std::to_string(points.rows()) + ")");
-    }
     const Eigen::RowVector3d a = points.row(triangles(f, 0));
     const Eigen::RowVector3d u = points.row(triangles(f, 1)) - a, v = points.row(triangles(f, 2)) - a;
     const double size = std::max(u.cwiseAbs().maxCoeff(), v.cwiseAbs().maxCoeff());
@@ -60,6 +67,22 @@ Frames meshFrames(const PointsRef& points, const TrianglesRef& triangles) {
     }
     frames.normals.row(i) = normal;
     frames.tangents.row(i) = tangentOf(normal);
+  }
+  return frames;
+}
+
+Frames meshFrames(const Laplacian& laplacian, const PointsRef& points, const TrianglesRef& triangles) {
+  checkSizes(function_name, laplacian);
+  if (points.rows() != std::ssize(laplacian.status))
+    throw InvalidInput(std::string(function_name) + ": points has " + std::to_string(points.rows()) +
+                       " rows, must have " + std::to_string(laplacian.status.size()) + ", as the Laplacian");
+  checkCorners(triangles, points.rows());
+  Triangles joined = triangles;
+  for (int& corner : joined.reshaped()) corner = laplacian.representative[corner];
+  Frames frames = meshFrames(points, joined);
+  for (Eigen::Index i = 0; i < points.rows(); ++i) {
+    frames.normals.row(i) = frames.normals.row(laplacian.representative[i]);
+    frames.tangents.row(i) = frames.tangents.row(laplacian.representative[i]);
   }
   return frames;
 }

@@ -10,6 +10,7 @@
 #include "base/scaling.h"
 #include "base/stage_clock.h"
 #include "cover/cover.h"
+#include "neighbors/morton.h"
 #include "pipeline/build.h"
 #include "pipeline/from_cover.h"
 #include "pipeline/result.h"
@@ -21,18 +22,19 @@ namespace {
 constexpr const char* function_name = "meshLaplacian";
 
 /// Indices of the triangles that can be used; the others are counted.
-Buffer<int> usableTriangles(const PointsRef& points, const TrianglesRef& triangles,
-                            const std::vector<PointStatus>& status, Report& report) {
+Buffer<int> usableTriangles(const TrianglesRef& triangles, const std::vector<PointStatus>& status,
+                            const std::vector<int>& representative, Report& report) {
   Buffer<int> usable;
   usable.reserve(static_cast<std::size_t>(triangles.rows()));
   for (Eigen::Index t = 0; t < triangles.rows(); ++t) {
-    const int i = triangles(t, 0), j = triangles(t, 1), k = triangles(t, 2);
-    for (const int v : {i, j, k}) {
-      if (v < 0 || v >= points.rows()) {
+    for (const int v : triangles.row(t)) {
+      if (v < 0 || v >= std::ssize(status)) {
         throw InvalidInput(std::string(function_name) + ": triangle " + std::to_string(t) + " names vertex " +
-                           std::to_string(v) + ", must lie in [0, " + std::to_string(points.rows()) + ")");
+                           std::to_string(v) + ", must lie in [0, " + std::to_string(status.size()) + ")");
       }
     }
+    const int i = representative[triangles(t, 0)], j = representative[triangles(t, 1)],
+              k = representative[triangles(t, 2)];
     const auto isOdd = [&](int v) { return status[v] == PointStatus::not_finite; };
     if (i == j || j == k || k == i) {
       ++report.repeated_vertex_triangles;
@@ -71,19 +73,23 @@ void buildMeshLaplacian(const PointsRef& points, const TrianglesRef& triangles, 
     for (int axis = 0; axis < 3; ++axis)
       scaled.row(i)[axis] = to_scaled.times(points(i, axis)) + 0.0;  // no -0: equal have equal bits
   }
-  result.representative.resize(n);
-  std::iota(result.representative.begin(), result.representative.end(), 0);
+  if (options.weld) {
+    rankPoints(points, result.status, result.representative, workers);
+  } else {
+    result.representative.resize(n);
+    std::iota(result.representative.begin(), result.representative.end(), 0);
+  }
   result.boundary.assign(n, Boundary::none);
   result.frames = {};
   result.positions = points;
-  const Buffer<int> usable = usableTriangles(points, triangles, result.status, report);
+  const Buffer<int> usable = usableTriangles(triangles, result.status, result.representative, report);
   clock.finish("scale", static_cast<std::size_t>(n) * 3 * sizeof(double) + bytesOf(usable));
 
   std::shared_ptr<IntrinsicTriangulation> cover = takeCover(result);
   resizeCover(*cover, n, static_cast<std::int64_t>(usable.size()));
   for (std::size_t t = 0; t < usable.size(); ++t) {
-    const auto corner = triangles.row(usable[t]);
-    addTriangle(*cover, static_cast<int>(t), corner[0], corner[1], corner[2]);
+    const auto corner = [&](int k) { return result.representative[triangles(usable[t], k)]; };
+    addTriangle(*cover, static_cast<int>(t), corner(0), corner(1), corner(2));
   }
   const EdgeCounts edges = glueEdges(*cover, scaled, {options.order, options.seed}, workers, &result.boundary);
   report.boundary_edges = edges.boundary;

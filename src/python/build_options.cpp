@@ -43,6 +43,7 @@ MeshOptions meshOptionsOf(const py::dict& given) {
   MeshOptions options;
   options.order = orderOf("Mesh: order", given);
   takeCommon(given, options);
+  options.weld = given["weld"].cast<bool>();
   return options;
 }
 

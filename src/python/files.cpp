@@ -41,14 +41,13 @@ py::dict fieldsOf(const Geometry& geometry) {
   return fields;
 }
 
-Geometry readFile(const std::filesystem::path& path, const std::string& kind, bool welded, const py::object& progress) {
+Geometry readFile(const std::filesystem::path& path, const std::string& kind, bool weld, const py::object& progress) {
   const auto as = chosen<ReadAs>("read: kind", kind,
                                  {{"automatic", ReadAs::automatic}, {"cloud", ReadAs::cloud}, {"mesh", ReadAs::mesh}});
   Geometry geometry =
       run(progress, [&](const Progress& called) { return read(path, as, FileFormat::automatic, called); });
-  if (welded && !geometry.is_mesh)
+  if (weld && !geometry.is_mesh)
     throw InvalidInput("read: weld = True, must be False for a cloud, whose coincident points are merged in any case");
-  if (welded) weld(geometry);
   return geometry;
 }
 

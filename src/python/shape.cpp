@@ -28,10 +28,13 @@ py::tuple tupleOf(Frames frames) {
 }
 
 py::tuple oriented(const Laplacian& laplacian, Points normals, Points tangents, int orientation,
-                   const std::optional<Eigen::Vector3d>& viewpoint, const py::object& progress) {
+                   const std::optional<Eigen::Vector3d>& viewpoint, const std::optional<Eigen::Vector3d>& up,
+                   const py::object& progress) {
   const Frames frames = framesFrom(std::move(normals), std::move(tangents), orientation);
   return tupleOf(run(progress, [&](const Progress& called) {
-    return orientedFrames(laplacian, frames, {.viewpoint = viewpoint ? &*viewpoint : nullptr, .progress = called});
+    return orientedFrames(
+        laplacian, frames,
+        {.viewpoint = viewpoint ? &*viewpoint : nullptr, .up = up ? &*up : nullptr, .progress = called});
   }));
 }
 
@@ -67,12 +70,12 @@ py::tuple segmentsOf(const Laplacian& laplacian, const std::string& method, int 
 }  // namespace
 
 void addShape(py::module_& module) {
-  module.def("mesh_frames", [](const Doubles& points, const Integers& faces) {
+  module.def("mesh_frames", [](const Laplacian& laplacian, const Doubles& points, const Integers& faces) {
     const auto view = pointsOf(points);
     const auto triangles = trianglesOf(faces);
     Frames frames = [&] {
       const py::gil_scoped_release release;
-      return meshFrames(view, triangles);
+      return meshFrames(laplacian, view, triangles);
     }();
     const auto orientation = static_cast<int>(frames.orientation);
     return py::make_tuple(tupleOf(std::move(frames)), orientation);

@@ -157,6 +157,30 @@ TEST(Curvature, HasTheSameBitsForAnyNumberOfThreads) {
   EXPECT_EQ(one.first, many.first);
 }
 
+// Normals that a caller brings along may lean by some tens of degrees, as those of coarse estimates do.
+TEST(Curvature, IsThatOfTheSurfaceWhereNormalsLean) {
+  for (const auto& [shape, noise] :
+       {std::pair(torus(4000, 0, 101), 0.0), std::pair(cylinder(4000), 0.0), std::pair(torus(8000, 0.01, 102), 0.01)}) {
+    const Laplacian laplacian = pointCloudLaplacian(shape.cloud.points);
+    const Frames upright = framesLike(laplacian, shape.cloud.normals);
+    Frames leaning = upright;
+    const double angle = 29 * M_PI / 180;
+    for (Eigen::Index i = 0; i < leaning.normals.rows(); ++i) {
+      const Eigen::Vector3d normal = upright.normals.row(i), x = upright.tangents.row(i), y = normal.cross(x);
+      const double where = 0.7 * static_cast<double>(i);
+      const Eigen::Vector3d axis = std::cos(where) * x + std::sin(where) * y;
+      const Eigen::AngleAxisd turn(angle, axis);
+      leaning.normals.row(i) = turn * normal;
+      leaning.tangents.row(i) = turn * x;
+    }
+    const double right = error(laplacian, curvatures(laplacian, upright).principal, shape);
+    EXPECT_LE(error(laplacian, curvatures(laplacian, leaning).principal, shape), 1.1 * right) << noise;
+    const Laplacian built = pointCloudLaplacian(shape.cloud.points, {.normals = &leaning.normals});
+    EXPECT_LE(error(built, curvatures(built, framesLike(built, shape.cloud.normals)).principal, shape), 1.1 * right)
+        << noise;
+  }
+}
+
 TEST(Curvature, OfMeshes) {
   const shapes::Mesh ball = shapes::icosphere(4);
   const Laplacian laplacian = meshLaplacian(ball.points, ball.triangles);

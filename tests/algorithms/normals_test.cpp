@@ -84,6 +84,51 @@ TEST(OrientedFrames, OfAPlanePointUp) {
   for (Eigen::Index i = 0; i < plane.rows(); ++i) EXPECT_GT(frames.normals(i, 2), 0.99);
 }
 
+// A valley and a hill are one open sheet seen from either side: neither has an outside.
+TEST(OrientedFrames, OfOpenSheetsPointUpWhereUpIsGiven) {
+  const Points square = shapes::square(2000).points;
+  for (const double rise : {-0.5, -0.05, 0.0, 0.05, 0.5}) {
+    Points sheet = square;
+    for (Eigen::Index i = 0; i < sheet.rows(); ++i)
+      sheet(i, 2) = rise * (std::pow(sheet(i, 0) - 0.5, 2) + std::pow(sheet(i, 1) - 0.5, 2));
+    const Laplacian laplacian = pointCloudLaplacian(sheet);
+    for (const Eigen::Vector3d& up : {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0.1, 0.2, -1e200)}) {
+      OrientationReport report;
+      const Frames frames = orientedFrames(laplacian, {.up = &up}, &report);
+      EXPECT_EQ(report.open, 1);
+      EXPECT_GT((frames.normals * up.stableNormalized()).minCoeff(), 0.5) << rise;
+    }
+    OrientationReport report;
+    const Frames frames = orientedFrames(laplacian, {}, &report);
+    EXPECT_EQ(report.open, 1);
+    // To where it bulges, and as a plane where it hardly does.
+    EXPECT_GT(frames.normals.col(2).mean() * (rise > 0.1 ? -1 : 1), 0.5) << rise;
+  }
+}
+
+TEST(OrientedFrames, OfClosedSurfacesPointOutwardsWhateverIsUp) {
+  const Eigen::Vector3d up(0, 0, 1);
+  for (const shapes::Cloud& cloud : {shapes::sphere(3000), shapes::torus(3000)}) {
+    const Laplacian laplacian = pointCloudLaplacian(cloud.points);
+    OrientationReport report;
+    const Frames frames = orientedFrames(laplacian, {.up = &up}, &report);
+    EXPECT_EQ(report.open, 0);
+    EXPECT_EQ(outwardShare(laplacian, frames.normals, cloud.normals), 1);
+  }
+}
+
+TEST(OrientedFrames, OfOpenMeshesPointUpWhereUpIsGiven) {
+  const shapes::Mesh grid = shapes::gridSquare(6);
+  const Laplacian laplacian = meshLaplacian(grid.points, grid.triangles);
+  for (const double z : {1.0, -1.0}) {
+    const Eigen::Vector3d up(0, 0, z);
+    OrientationReport report;
+    const Frames frames = orientedFrames(laplacian, meshFrames(grid.points, grid.triangles), {.up = &up}, &report);
+    EXPECT_EQ(report.open, 1);
+    EXPECT_GT((z * frames.normals.col(2)).minCoeff(), 0.99);
+  }
+}
+
 TEST(OrientedFrames, DisagreeSomewhereOnAMoebiusStrip) {
   const shapes::Mesh strip = shapes::moebius(12);
   const Laplacian laplacian = meshLaplacian(strip.points, strip.triangles);

@@ -181,7 +181,9 @@ TEST_F(Command, PolygonsAndMergedCornersAreStated) {
       "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 1 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid\n");
   const Result two = runTufted({"laplacian", corners, "--out", out()});
   ASSERT_EQ(two.code, 0) << two.err;
-  EXPECT_NE(two.out.find("merged          2 equal corners\n"), std::string::npos) << two.out;
+  EXPECT_NE(two.out.find("merged          2 equal corners; indices and rows are those of points.ply\n"),
+            std::string::npos)
+      << two.out;
   EXPECT_EQ(two.out.find("polygons"), std::string::npos);
   EXPECT_NE(readAll(dir_ / "out/report.json").find("\"merged_vertices\": 2"), std::string::npos);
 }

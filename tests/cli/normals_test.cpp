@@ -44,6 +44,35 @@ TEST_F(Normals, PointOutwardsAndFaceTheSensorWhereItIsKnown) {
   EXPECT_EQ(outward(values("out/normals.npy"), points), 1);
 }
 
+TEST_F(Normals, OfAnOpenSheetAreSaidToHaveNoOutsideAndUpDecides) {
+  std::string valley;
+  for (int i = 0; i < 40; ++i)
+    for (int j = 0; j < 40; ++j)
+      valley += std::to_string(i + 0.1 * (j % 3)) + ' ' + std::to_string(j) + ' ' +
+                std::to_string(0.02 * j * j - 0.8 * j) + '\n';
+  const std::string file = dir_.write("valley.xyz", valley);
+  const auto upward = [&] {
+    int count = 0;
+    const std::vector<double> normals = values("out/normals.npy");
+    for (std::size_t i = 2; i < normals.size(); i += 3) count += normals[i] > 0 ? 1 : 0;
+    return count;
+  };
+  const std::string text = run({"normals", file, "--out", in("out")}).out;
+  EXPECT_TRUE(contains(text, "alike on 1 open component without an outside (--up or, of a scan, --viewpoint decides)"))
+      << text;
+  EXPECT_FALSE(contains(text, "outwards")) << text;
+  EXPECT_EQ(report("out")["orientation"]["open"], 1);
+  EXPECT_TRUE(contains(run({"normals", file, "--up", "z", "--out", in("out")}).out, "upwards on 1 open component"));
+  EXPECT_EQ(upward(), 1600);
+  run({"normals", file, "--up", "-z", "--out", in("out")});
+  EXPECT_EQ(upward(), 0);
+  run({"curvature", file, "--up", "z", "--out", in("out")});
+  const double below = values("out/curvature.npy")[4 * 820];
+  run({"curvature", file, "--up", "-z", "--out", in("out")});
+  EXPECT_EQ(values("out/curvature.npy")[4 * 820], -below);
+  EXPECT_LT(below, 0);
+}
+
 TEST_F(Normals, OfMeshesAreThoseOfTheirTriangles) {
   const std::string file = dir_.write("tetrahedron.off", tetrahedron);
   run({"normals", file, "--out", in("out")});

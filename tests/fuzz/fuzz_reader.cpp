@@ -61,9 +61,7 @@ extern "C" int LLVMFuzzerInitialize(int* count, char*** arguments) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   try {
-    tufted::Geometry geometry = tufted::parse({reinterpret_cast<const char*>(data), size}, name);
-    checkGeometry(geometry);
-    tufted::weld(geometry);
+    const tufted::Geometry geometry = tufted::parse({reinterpret_cast<const char*>(data), size}, name);
     checkGeometry(geometry);
   } catch (const tufted::IoError& error) {
     const std::string_view message = error.what();

@@ -434,3 +434,36 @@ def test_structures_of_scans():
     by_number = tufted.PointCloud(points, "lidar", rings=numbers)
     assert by_number.report["components"] == 1
     assert same(tufted.PointCloud(points, "lidar", rings="find").L, by_number.L)
+
+
+def test_normals_of_an_open_sheet_point_up_where_up_is_given():
+    x, y = np.random.default_rng(2).uniform(-1, 1, size=(2, 2000))
+    valley = tufted.PointCloud(np.stack([x, y, 0.4 * x * x], axis=1), viewpoint=[0, 0, -9])
+    assert (valley.normals()[:, 2] < 0).all() and (valley.normals(up=[0, 0, 2])[:, 2] > 0).all()
+    with pytest.raises(tufted.InvalidInput, match="viewpoint and up"):
+        valley.normals(up=[0, 0, 1], viewpoint=[0, 0, 1])
+
+
+def test_welded_vertices_keep_their_indices_and_rows(mesh, tmp_path):
+    points, faces = torus_mesh(60, 30)
+    order = np.random.default_rng(1).permutation(faces.size)
+    torn = np.empty((faces.size, 3))
+    torn[order] = points[faces.ravel()]
+    torn_faces = order.reshape(-1, 3)
+    vertex = np.empty(faces.size, int)  # by torn vertex, that of the mesh
+    vertex[order] = faces.ravel()
+    path = tmp_path / "torn.obj"
+    path.write_text("".join("v %r %r %r\n" % tuple(map(float, p)) for p in torn)
+                    + "".join("f %d %d %d\n" % tuple(f + 1) for f in torn_faces))
+    built = tufted.Mesh(torn, torn_faces, weld=True)
+    for welded in (built, tufted.read(path, weld=True), pickle.loads(pickle.dumps(built))):
+        assert len(welded.points) == len(welded.M) == faces.size and welded.report["components"] == 1
+        a, b = np.flatnonzero(welded.status == 2)[[5, 2000]]
+        for found, known in ((welded.distance(a), mesh.distance(vertex[a])),
+                             (welded.distance(faces=[7], barycentric=[[0.2, 0.2, 0.6]]),
+                              mesh.distance(faces=[7], barycentric=[[0.2, 0.2, 0.6]])),
+                             (welded.harmonic([a, b], [1.0, 2]), mesh.harmonic(vertex[[a, b]], [1.0, 2])),
+                             (welded.normals(), mesh.normals()), (welded.curvature().mean, mesh.curvature().mean)):
+            np.testing.assert_allclose(found, known[vertex], atol=1e-8)
+        assert welded.path(a, b).length == pytest.approx(mesh.path(vertex[a], vertex[b]).length, abs=1e-12)
+    assert tufted.Mesh(torn, torn_faces).report["components"] == len(faces)

@@ -100,6 +100,7 @@ tufted::Laplacian buildLaplacian(const tufted::Geometry& geometry, const Input& 
   build.mesh.threads = build.cloud.threads;
   build.mesh.progress = progress;
   build.mesh.keep_cover = keep_cover;
+  build.mesh.weld = input.weld;
   if (build.mollify) build.cloud.mollify = build.mesh.mollify = *build.mollify;
   if (geometry.is_mesh) return tufted::meshLaplacian(geometry.points, geometry.triangles, build.mesh);
   tufted::Laplacian laplacian = tufted::pointCloudLaplacian(geometry.points, build.cloud);

@@ -132,7 +132,7 @@ void addMesh(const tufted::Report& report, Json& info) {
 }
 
 /// One sentence per thing that a user should know before trusting the result.
-std::vector<std::string> findOddities(const Json& info) {
+std::vector<std::string> findOddities(const Json& info, bool joins_equal) {
   std::vector<std::string> odd;
   const auto add = [&](const char* member, const char* text) {
     if (info.contains(member) && info[member].get<std::int64_t>() > 0)
@@ -140,8 +140,9 @@ std::vector<std::string> findOddities(const Json& info) {
   };
   if (info["points"] == 0) odd.emplace_back("the file holds no points");
   add("not_finite", "points that are not finite and take no part");
-  add("coincident", info["kind"] == "mesh" ? "vertices that equal another one and stay separate (--weld joins them)"
-                                           : "points that equal an earlier one and take no part");
+  add("coincident", info["kind"] == "cloud" ? "points that equal an earlier one and take no part"
+                    : joins_equal           ? "vertices that equal an earlier one, which stands for them"
+                                            : "vertices that equal another one and stay separate (--weld joins them)");
   add("outliers",
       "points whose nearest neighbour is five times as far as is usual around them; most take part all the same");
   add("isolated", "vertices without a triangle");
@@ -189,7 +190,7 @@ void print(const Json& info) {
   std::printf("\n");
   printFields(info);
   if (info["merged_vertices"].get<std::int64_t>() > 0)
-    std::printf("%-15s %lld equal vertices\n", "merged", integer("merged_vertices"));
+    std::printf("%-15s %lld equal corners\n", "merged", integer("merged_vertices"));
   if (info["viewpoint"] != Json(tufted::Geometry().viewpoint))
     std::printf("%-15s %s\n", "viewpoint", info["viewpoint"].dump().c_str());
   printTriple("lowest", info["lowest"]);
@@ -234,8 +235,10 @@ int runInfo(Settings settings) {
   addExtent(points, info);
   std::string nothing;
   if (geometry.is_mesh) {
-    const tufted::MeshOptions options = {
-        .threads = settings.cloud.threads, .keep_cover = false, .progress = settings.cloud.progress};
+    const tufted::MeshOptions options = {.threads = settings.cloud.threads,
+                                         .keep_cover = false,
+                                         .weld = settings.input.weld,
+                                         .progress = settings.cloud.progress};
     const tufted::Laplacian laplacian = tufted::meshLaplacian(geometry.points, geometry.triangles, options);
     addMesh(laplacian.report, info);
     nothing = nothingActive(laplacian);
@@ -245,7 +248,7 @@ int runInfo(Settings settings) {
     addCloud(points, settings.cloud.neighbors, structure, info);
     nothing = findNothing(settings, geometry, points);
   }
-  info["odd"] = findOddities(info);
+  info["odd"] = findOddities(info, settings.input.weld);
   bar.clear();
   if (!nothing.empty()) warn(bar, settings.input.name() + ": " + nothing);
   if (settings.console.json)

@@ -21,7 +21,8 @@ CLI::Option* addInput(CLI::App& command, Input& input) {
 }
 
 void addWeld(CLI::App& command, Input& input) {
-  command.add_flag("--weld", input.weld, "Give the vertices of a mesh that coincide one number, meshes only");
+  command.add_flag("--weld", input.weld,
+                   "Join the vertices of a mesh that coincide; all keep their index and row; meshes only");
 }
 
 namespace {
@@ -43,10 +44,14 @@ tufted::Geometry readAny(const Input& input, const tufted::Progress& progress) {
 
 tufted::Geometry readInput(const Input& input, const tufted::Progress& progress) {
   tufted::Geometry geometry = readAny(input, progress);
-  if (!input.weld) return geometry;
-  if (!geometry.is_mesh)
+  if (input.weld && !geometry.is_mesh)
     throw tufted::InvalidInput("--weld applies to meshes, and " + input.name() +
                                " holds a point cloud, whose coincident points are merged in any case");
-  tufted::weld(geometry);
   return geometry;
+}
+
+void addMerged(const tufted::Geometry& geometry, Summary& summary) {
+  if (geometry.merged_vertices > 0)
+    summary.add("merged", "%lld equal corners; indices and rows are those of points.ply",
+                static_cast<long long>(geometry.merged_vertices));
 }

@@ -149,7 +149,7 @@ Summary summarize(const Settings& settings, const tufted::Geometry& geometry, co
   Summary summary;
   summary.add("file", "%s (%s)", settings.input.name().c_str(), geometry.is_mesh ? "mesh" : "cloud");
   if (geometry.polygons > 0) summary.add("polygons", "%lld cut into triangles", count(geometry.polygons));
-  if (geometry.merged_vertices > 0) summary.add("merged", "%lld equal corners", count(geometry.merged_vertices));
+  addMerged(geometry, summary);
   summary.add("points", "%s", pointsText(report).c_str());
   if (report.rim_points + report.jump_points + report.lost_points > 0)
     summary.add("boundary", "%lld points on rims, %lld at depth jumps, %lld where triangles are missing",

@@ -208,7 +208,8 @@ void addPictureOptions(CLI::App& command, Look& look) {
       .add_option_function<std::string>("--camera", set_camera,
                                         "From where, in degrees around and above, and how near (chosen)")
       ->type_name("AZIMUTH,ELEVATION[,ZOOM]");
-  addChoice(command, "--up", look.picture.camera.up, axes, "The axis that is up (chosen)");
+  addChoice(command, "--up", look.picture.camera.up, axes,
+            "The axis that is up, in pictures (chosen) and for the normals of open sheets");
   const auto set_size = [&look](const std::string& text) { parseSize(text, look.picture.width, look.picture.height); };
   command.add_option_function<std::string>("--size", set_size, "Size of the picture (1200x900)")
       ->check(checkSize)

@@ -16,7 +16,8 @@ constexpr const char* footer =
 Normals are those of the planes through each point's neighbours; of a mesh, those of its triangles.
 Where the sensor's position is known, each faces it: --viewpoint, VIEWPOINT of a PCD file, or the origin of a depth
 image. Otherwise, and with --consistent, normals agree with their neighbours' on each component, and point outwards
-where it encloses a volume. On a plane the largest coordinate of the mean normal is positive.
+where it encloses a volume. An open sheet has no outside: --up AXIS, or else the side to which it bulges, decides. On a
+plane the largest coordinate of the mean normal is positive.
 
 Writes into DIR, renamed one after the other when all are complete:
   normals.npy  N x 3, float64, unit length; not finite points: 0

@@ -176,6 +176,7 @@ int runWithOperator(OperatorSettings& settings, std::vector<std::string> files, 
   source.name = settings.name();
   source.solving = settings.solving;
   source.threads = settings.build.cloud.threads;
+  source.up = settings.look.picture.camera.up;
   source.progress = showOn(bar);
   const auto checkpoint = [] {
     if (interrupted()) throw tufted::Cancelled("cancelled");
@@ -212,7 +213,9 @@ int runWithOperator(OperatorSettings& settings, std::vector<std::string> files, 
   bar.clear();
   warnings.insert(warnings.end(), results.warnings.begin(), results.warnings.end());
   for (const std::string& warning : warnings) warn(bar, warning);
-  Summary summary = chosen.summary;
+  Summary summary;
+  addMerged(source.geometry, summary);
+  summary.append(chosen.summary);
   summary.append(results.summary);
   addBuild(source.laplacian.report, settings.build, summary);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;

@@ -61,7 +61,8 @@ struct Operator {
   /// The component of each point before options left some out, and the option that did; empty: all are there.
   std::vector<int> all_components = {};
   std::string chosen_by = {};
-  tufted::Points moved;  ///< where --denoise has moved the points; 0 x 3 without it
+  tufted::Points moved;                          ///< where --denoise has moved the points; 0 x 3 without it
+  Eigen::Vector3d up = Eigen::Vector3d::Zero();  ///< as the options state it; 0: they do not
 
   /// From where a command moves the points.
   const tufted::Points& startingPoints() const { return moved.rows() > 0 ? moved : geometry.points; }

@@ -56,9 +56,10 @@ Results compute(Settings& settings, Operator& source) {
   fitting.threads = source.threads;
   fitting.progress = source.progress;
   const tufted::Gradients gradients =
-      geometry.is_mesh ? tufted::gradients(source.laplacian, geometry.points,
-                                           tufted::meshFrames(geometry.points, geometry.triangles), fitting)
-                       : tufted::gradients(source.laplacian, geometry.points, fitting);
+      geometry.is_mesh
+          ? tufted::gradients(source.laplacian, geometry.points,
+                              tufted::meshFrames(source.laplacian, geometry.points, geometry.triangles), fitting)
+          : tufted::gradients(source.laplacian, geometry.points, fitting);
   const tufted::Spectrum spectrum = firstPairs(settings.pairs, source);
   Results results;
   const auto count = static_cast<int>(spectrum.values.size());

@@ -35,7 +35,7 @@ void checkPositions(const Operator& source) {
 
 tufted::Frames framesOf(const Operator& source) {
   if (!source.geometry.is_mesh) return source.laplacian.frames;
-  return tufted::meshFrames(source.geometry.points, source.geometry.triangles);
+  return tufted::meshFrames(source.laplacian, source.geometry.points, source.geometry.triangles);
 }
 
 tufted::Frames orientedFrames(const Orienting& orienting, const Operator& source, Results& results) {
@@ -47,14 +47,23 @@ tufted::Frames orientedFrames(const Orienting& orienting, const Operator& source
     return frames;
   }
   tufted::OrientationReport made;
-  frames = tufted::orientedFrames(laplacian, frames, {.progress = source.progress}, &made);
+  frames = tufted::orientedFrames(
+      laplacian, frames, {.up = source.up.isZero(0) ? nullptr : &source.up, .progress = source.progress}, &made);
   results.report["orientation"] = {{"towards", "outside"},
                                    {"components", made.components},
+                                   {"open", made.open},
                                    {"turned", made.turned},
                                    {"disagreeing_edges", made.disagreeing_edges},
                                    {"seconds", made.seconds}};
-  results.summary.add("normals", "outwards on %s, %lld turned, %lld pairs of neighbours disagree",
-                      countText(made.components, "component").c_str(), static_cast<long long>(made.turned),
-                      static_cast<long long>(made.disagreeing_edges));
+  const std::string rest = std::to_string(made.turned) + " turned, " + std::to_string(made.disagreeing_edges) +
+                           " pairs of neighbours disagree";
+  if (made.open < made.components)
+    results.summary.add("normals", "outwards on %s, %s", countText(made.components - made.open, "component").c_str(),
+                        rest.c_str());
+  if (made.open > 0)
+    results.summary.add("normals", "%s on %s without an outside%s%s", source.up.isZero(0) ? "alike" : "upwards",
+                        countText(made.open, "open component").c_str(),
+                        source.up.isZero(0) ? " (--up or, of a scan, --viewpoint decides)" : "",
+                        made.open == made.components ? (", " + rest).c_str() : "");
   return frames;
 }

@@ -42,7 +42,7 @@ struct Geometry {
   bool is_mesh = false;              ///< false: a cloud
   Triangles triangles;               ///< F x 3; polygons are triangulated, in order
   std::int64_t polygons = 0;         ///< faces of more than three corners that were triangulated
-  std::int64_t merged_vertices = 0;  ///< vertices merged with an equal earlier one: the corners of an STL, or by weld()
+  std::int64_t merged_vertices = 0;  ///< corners of an STL that became one vertex with an equal earlier one
 };
 
 /// Whether to read a file as a cloud or as a mesh.
@@ -78,10 +78,6 @@ Geometry read(std::istream& stream, const std::string& name, ReadAs as = ReadAs:
 /// @param name stands for the path; its extension counts as that of a path does.
 Geometry parse(std::string_view bytes, const std::filesystem::path& name, ReadAs as = ReadAs::automatic,
                FileFormat format = FileFormat::automatic, const Progress& progress = {});
-
-/// Gives vertices of equal position one number, that of the first; their other values are dropped, the triangles
-/// renumbered and `merged_vertices` counted. Vertices that are not finite stay apart. Organized clouds become one row.
-void weld(Geometry& geometry);
 
 /// Whether `read` knows this type of file. Looks at the extension alone.
 bool isReadable(const std::filesystem::path& path);

@@ -102,16 +102,19 @@ class Mesh(Surface):
 
     points: V x 3, float32 or float64 (not copied if contiguous). faces: F x 3, integers of any type.
     mollify, order, seed, threads, solver, memory_limit, progress: as in PointCloud.
+    weld: whether vertices of equal position are joined; all keep their index and row, and the first of each position
+    stands for them.
     """
 
-    def __init__(self, points, faces, *, mollify=_tufted.default_mollify, order="angle", seed=0, threads=0, solver="automatic",
-                 memory_limit=0, progress=None):
+    def __init__(self, points, faces, *, mollify=_tufted.default_mollify, order="angle", seed=0, weld=False, threads=0,
+                 solver="automatic", memory_limit=0, progress=None):
         name = "Mesh"
         solving = _solving(name, threads, solver, memory_limit)
         points = check.rows_of_three(name, "points", points)
         faces = check.triangles(name, "faces", faces)
         options = {"order": order, "seed": check.whole(name, "seed", seed, 0),
-                   "mollify": check.number(name, "mollify", mollify), "threads": solving["threads"]}
+                   "mollify": check.number(name, "mollify", mollify), "weld": bool(weld),
+                   "threads": solving["threads"]}
         laplacian = _tufted.build_mesh(points, faces, options, check.callback(name, progress))
         super().__init__(laplacian, points, faces, solving, options)
         self._warn()
@@ -127,7 +130,7 @@ class Mesh(Surface):
 
     def _mesh_frames(self):
         """Normals and tangents, and whether the triangles say which side they are on."""
-        return self._keep("mesh frames", lambda: _tufted.mesh_frames(self._points, self._faces))
+        return self._keep("mesh frames", lambda: _tufted.mesh_frames(self._laplacian, self._points, self._faces))
 
     def _frame_parts(self):
         return self._mesh_frames()[0]
@@ -172,7 +175,7 @@ def read(path, *, kind="automatic", weld=False, image=None, rings=None, normals=
 
     path: PCD, PLY, LAS, text in columns, NPY, OBJ, OFF or STL.
     kind: "automatic", "cloud" (faces are ignored) or "mesh" (a file without faces is an error).
-    weld: whether vertices of a mesh that coincide get one number.
+    weld: as in Mesh; clouds join equal points in any case.
     image: whether the pixels of an organized cloud give the neighbours; None: where a pinhole camera saw it from the
     file's viewpoint, unless neighbors, neighborhoods, rings or preset="lidar" is given.
     rings: True: the rings of a spinning scanner give the neighbours, by the file's fields `ring` and `azimuth`, or for
@@ -189,7 +192,8 @@ def read(path, *, kind="automatic", weld=False, image=None, rings=None, normals=
         for name, value in (("image", image), ("rings", has_rings), ("normals", normals)):
             if value:
                 raise InvalidInput(f"read: {name} is asked for, must not be for a mesh")
-        return _set_geometry(Mesh(geometry.points, geometry.triangles, progress=progress, **options), geometry, path)
+        return _set_geometry(Mesh(geometry.points, geometry.triangles, weld=weld, progress=progress, **options),
+                             geometry, path)
     position = np.array(geometry.viewpoint[:3])
     if geometry.height > 1 or position.any():
         options.setdefault("viewpoint", position)

@@ -8,13 +8,15 @@ from ._tufted import InvalidInput
 
 
 class Shape:
-    def normals(self, *, viewpoint=None, progress=None):
+    def normals(self, *, viewpoint=None, up=None, progress=None):
         """Normals of one sign on each component: as their neighbours' and outwards, or towards a viewpoint.
 
         viewpoint: 3 values; None: the one that the cloud was built with, if any.
+        up: 3 values: which way the normals of open sheets point, in the mean. These have no outside; None: to where
+        they bulge. Where it is given, the viewpoint that the cloud was built with is left out of account.
         Returns N x 3, unit length.
         """
-        return self._signed_frames(viewpoint, progress)[0]
+        return self._signed_frames(viewpoint, progress, up)[0]
 
     def curvature(self, *, method="fit", progress=None):
         """Curvature at each point, with the normals of normals().

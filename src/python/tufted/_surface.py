@@ -216,17 +216,23 @@ class Surface(Spectral, Distances, Equations, Shape):
         """Normals and tangents."""
         return self._laplacian.normals, self._laplacian.tangents
 
-    def _signed_frames(self, viewpoint=None, progress=None):
+    def _signed_frames(self, viewpoint=None, progress=None, up=None):
         """Normals and tangents whose signs agree."""
         orientation = self._orientation()
-        if viewpoint is None and orientation == 2:  # towards the sensor
+        if viewpoint is not None and up is not None:
+            raise InvalidInput("normals: viewpoint and up are both given, must be one at most")
+        if viewpoint is None and up is None and orientation == 2:  # towards the sensor
             return self._frame_parts()
         progress = check.callback("normals", progress)
         if viewpoint is not None:
             viewpoint = check.vector_of_three("normals", "viewpoint", viewpoint)
-            return _tufted.oriented_frames(self._laplacian, *self._frame_parts(), orientation, viewpoint, progress)
-        return self._keep("signed frames", lambda: _tufted.oriented_frames(
-            self._laplacian, *self._frame_parts(), orientation, None, progress))
+        if up is not None:
+            up = check.vector_of_three("normals", "up", up)
+
+        def oriented():
+            return _tufted.oriented_frames(self._laplacian, *self._frame_parts(), orientation, viewpoint, up, progress)
+
+        return self._keep("signed frames", oriented) if viewpoint is None and up is None else oriented()
 
     def _orientation(self):
         return self._laplacian.orientation
