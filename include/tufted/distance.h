@@ -19,9 +19,10 @@ struct SurfacePoint {
   std::array<int, 3> corners;       ///< points of the Laplacian; a vertex has its own index thrice
   std::array<double, 3> weights;    ///< barycentric coordinates, >= 0, sum 1; a vertex has 1, 0, 0
   std::array<double, 3> distances;  ///< distances of the point from the corners, along the triangle
+  std::array<double, 3> sides = {};  ///< lengths of the triangle's sides, each opposite the corner; a vertex has 0
 
   /// The point of that index.
-  static SurfacePoint vertex(int index) { return {{index, index, index}, {1, 0, 0}, {0, 0, 0}}; }
+  static SurfacePoint vertex(int index) { return {{index, index, index}, {1, 0, 0}, {0, 0, 0}, {0, 0, 0}}; }
 
   /// A point inside a triangle.
   /// @param points N x 3, of the mesh that the Laplacian was built from
@@ -156,7 +157,8 @@ class DistanceSolver {
   VectorXd query(const std::vector<int>& sources, DistanceReport* report = nullptr,
                  const Progress& progress = {}) const;
   /// Distance from the nearest of the sources, any points of the surface; values and errors are as in query(). The
-  /// corners around a source have their distance along the triangle.
+  /// corners around a source have their distance along the triangle. Flips may have removed that from the cover.
+  /// @throws InvalidInput also for a source inside a triangle that the surface does not have
   VectorXd queryAt(const std::vector<SurfacePoint>& sources, DistanceReport* report = nullptr,
                    const Progress& progress = {}) const;
   /// The nearest of the sources, and how far away it is: the geodesic Voronoi cells of the sources. Marching finds both

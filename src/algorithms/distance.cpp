@@ -12,6 +12,7 @@
 #include "algorithms/greater.h"
 #include "algorithms/heat_distance.h"
 #include "algorithms/marching_distance.h"
+#include "algorithms/place_in_cover.h"
 #include "base/number_text.h"
 #include "base/stage_clock.h"
 #include "operators/check_cover.h"
@@ -50,6 +51,10 @@ void checkSource(const SurfacePoint& source, int n) {
       throw InvalidInput(name + "distance of a source from a corner = " + numberText(source.distances[k]) +
                          ", must be finite and at least 0");
     }
+    if (!(source.sides[k] >= 0 && std::isfinite(source.sides[k]))) {
+      throw InvalidInput(name + "side of a source's triangle = " + numberText(source.sides[k]) +
+                         ", must be finite and at least 0");
+    }
   }
 }
 
@@ -59,6 +64,7 @@ struct DistanceSolver::State {
   Components components;
   std::vector<int> representative;
   std::vector<PointStatus> status;
+  std::shared_ptr<const IntrinsicTriangulation> cover;  ///< shared with the Laplacian or what has built it
   double maximum = infinity;
   std::optional<MarchingDistance> marching;
   std::optional<HeatDistance> heat;
@@ -66,7 +72,7 @@ struct DistanceSolver::State {
 
   bool isActive(int point) const { return components.of[point] >= 0; }
   std::vector<SurfacePoint> checked(const std::vector<SurfacePoint>& sources) const;
-  NearestSources nearestByHeat(const std::vector<SurfacePoint>& sources, const Progress& progress,
+  NearestSources nearestByHeat(const std::vector<PlaceInCover>& places, const Progress& progress,
                                DistanceReport& made) const;
   void finish(const std::vector<SurfacePoint>& sources, NearestSources& found) const;
 };
@@ -95,6 +101,9 @@ DistanceSolver::DistanceSolver(const Laplacian& laplacian, const DistanceOptions
   state->components = findComponents(laplacian);
   state->representative = laplacian.representative;
   state->status = laplacian.status;
+  state->cover = laplacian.stored_cover
+                     ? laplacian.stored_cover
+                     : std::shared_ptr<const IntrinsicTriangulation>(laplacian.cover_source, &laplacian.cover());
   state->maximum = options.maximum;
   if (options.method == DistanceMethod::marching)
     state->report = state->marching.emplace(laplacian, split, options).report();
@@ -151,20 +160,24 @@ void DistanceSolver::State::finish(const std::vector<SurfacePoint>& sources, Nea
   }
 }
 
-NearestSources DistanceSolver::State::nearestByHeat(const std::vector<SurfacePoint>& sources, const Progress& progress,
+NearestSources DistanceSolver::State::nearestByHeat(const std::vector<PlaceInCover>& places, const Progress& progress,
                                                     DistanceReport& made) const {
   const auto n = static_cast<Eigen::Index>(representative.size());
   NearestSources found{VectorXd::Constant(n, infinity), std::vector<int>(representative.size(), -1)};
-  for (std::size_t s = 0; s < sources.size(); ++s) {
-    const auto& corners = sources[s].corners;
+  std::vector<PlaceInCover> here;  // of one source
+  for (std::size_t first = 0; first < places.size(); first += here.size()) {
+    const int s = places[first].source;
+    here.clear();
+    for (std::size_t i = first; i < places.size() && places[i].source == s; ++i) here.push_back(places[i]);
+    const auto& corners = here[0].point.corners;
     if (std::none_of(corners.begin(), corners.end(), [this](int corner) { return isActive(corner); })) continue;
     DistanceReport one;
-    const VectorXd distance = heat->query(query_name, {sources[s]}, progress, one);
+    const VectorXd distance = heat->query(query_name, here, progress, one);
     made.add(one);
     for (const int i : components.points) {
       if (!(distance[i] < found.distance[i])) continue;
       found.distance[i] = distance[i];
-      found.source[i] = static_cast<int>(s);
+      found.source[i] = s;
     }
   }
   return found;
@@ -184,7 +197,8 @@ VectorXd DistanceSolver::queryAt(const std::vector<SurfacePoint>& sources, Dista
   const Stopwatch watch;
   const std::vector<SurfacePoint> known = state_->checked(sources);
   DistanceReport made;
-  NearestSources found{state_->heat->query(query_name, known, progress, made), {}};
+  const std::vector<PlaceInCover> places = placesInCover(query_name, *state_->cover, known);
+  NearestSources found{state_->heat->query(query_name, places, progress, made), {}};
   state_->finish(known, found);
   made.seconds = watch.seconds();
   if (report != nullptr) *report = made;
@@ -197,8 +211,9 @@ NearestSources DistanceSolver::nearest(const std::vector<SurfacePoint>& sources,
   const State& state = *state_;
   const std::vector<SurfacePoint> known = state.checked(sources);
   DistanceReport made;
-  NearestSources found = state.marching ? state.marching->query(known, state.components.of, progress, made)
-                                        : state.nearestByHeat(known, progress, made);
+  const std::vector<PlaceInCover> places = placesInCover(query_name, *state.cover, known);
+  NearestSources found = state.marching ? state.marching->query(places, state.components.of, progress, made)
+                                        : state.nearestByHeat(places, progress, made);
   state.finish(known, found);
   made.seconds = watch.seconds();
   if (report != nullptr) *report = made;
@@ -229,14 +244,18 @@ SurfacePoint SurfacePoint::inFace(const Points& points, const Triangles& triangl
   }
   if (!(sum > 0 && std::isfinite(sum)))
     throw InvalidInput(name + "barycentric coordinates sum to " + numberText(sum) + ", must be above 0");
-  SurfacePoint result{{triangles(face, 0), triangles(face, 1), triangles(face, 2)}, {}, {}};
+  SurfacePoint result{{triangles(face, 0), triangles(face, 1), triangles(face, 2)}, {}, {}, {}};
   const Eigen::RowVector3d origin = points.row(result.corners[0]);
   Eigen::RowVector3d place = Eigen::RowVector3d::Zero();  // from the first corner
   for (int k = 0; k < 3; ++k) {
     result.weights[k] = barycentric[k] / sum;
     place += result.weights[k] * (points.row(result.corners[k]) - origin);
   }
-  for (int k = 0; k < 3; ++k) result.distances[k] = (place - (points.row(result.corners[k]) - origin)).norm();
+  for (int k = 0; k < 3; ++k) {
+    result.distances[k] = (place - (points.row(result.corners[k]) - origin)).stableNorm();
+    const int next = result.corners[(k + 1) % 3], last = result.corners[(k + 2) % 3];
+    result.sides[k] = (points.row(next) - points.row(last)).stableNorm();
+  }
   return result;
 }
 

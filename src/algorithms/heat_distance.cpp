@@ -55,7 +55,7 @@ struct HeatDistance::State {
   std::optional<const LinearSystem> poisson;
   SolverReport report;
 
-  Sources locate(const std::vector<SurfacePoint>& sources) const;
+  Sources locate(const std::vector<PlaceInCover>& places) const;
   std::vector<std::uint8_t> facesInside(const Sources& sources) const;
   void shift(const Sources& sources, VectorXd& distance) const;
 };
@@ -98,16 +98,20 @@ const SolverReport& HeatDistance::report() const {
   return state_->report;
 }
 
-Sources HeatDistance::State::locate(const std::vector<SurfacePoint>& sources) const {
+Sources HeatDistance::State::locate(const std::vector<PlaceInCover>& places) const {
   const auto n = L.rows();
   Sources found{VectorXd::Constant(n, infinity), VectorXd::Zero(n)};
-  for (const SurfacePoint& source : sources) {
+  for (const PlaceInCover& place : places) {
+    const SurfacePoint& point = place.point;
     for (int k = 0; k < 3; ++k) {
-      const int i = source.corners[k];
+      const int i = point.corners[k];
       if (components.of[i] < 0) continue;
+      found.distance[i] = std::min(found.distance[i], std::ldexp(point.distances[k], -surface.exponent));
+      double heat = 0;  // after flips a face may have a corner twice
+      for (int m = 0; m < 3; ++m)
+        if (point.corners[m] == i) heat += point.weights[m];
       // The greater heat and not the sum, so that a source counts once.
-      found.distance[i] = std::min(found.distance[i], std::ldexp(source.distances[k], -surface.exponent));
-      found.heat[i] = std::max(found.heat[i], source.weights[k]);
+      found.heat[i] = std::max(found.heat[i], heat);
     }
   }
   return found;
@@ -144,10 +148,10 @@ void HeatDistance::State::shift(const Sources& sources, VectorXd& distance) cons
   }
 }
 
-VectorXd HeatDistance::query(const char* function, const std::vector<SurfacePoint>& sources, const Progress& progress,
+VectorXd HeatDistance::query(const char* function, const std::vector<PlaceInCover>& places, const Progress& progress,
                              DistanceReport& report) const {
   const State& state = *state_;
-  const Sources known = state.locate(sources);
+  const Sources known = state.locate(places);
   const HeatProblem problem{state.surface, state.L, state.components, state.heat};
   VectorXd distance =
       divergenceOfHeat(function, problem, known.heat, state.facesInside(known), state.threads, progress, report);

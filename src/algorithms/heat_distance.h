@@ -3,6 +3,7 @@
 #include <memory>
 #include <vector>
 
+#include "algorithms/place_in_cover.h"
 #include "tufted/distance.h"
 
 namespace tufted {
@@ -17,10 +18,10 @@ class HeatDistance {
   HeatDistance(const Laplacian& laplacian, const Components& components, const DistanceOptions& options);
   ~HeatDistance();
 
-  /// @param sources of which all corners are representatives, at least one on a component
+  /// @param places of which all corners are representatives, at least one on a component
   /// @param report a new one
   /// @return N distances in the points' unit; those of coincident points are not set
-  VectorXd query(const char* function, const std::vector<SurfacePoint>& sources, const Progress& progress,
+  VectorXd query(const char* function, const std::vector<PlaceInCover>& places, const Progress& progress,
                  DistanceReport& report) const;
   double timeStep() const;
   const SolverReport& report() const;

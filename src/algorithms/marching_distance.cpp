@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <span>
 
 #include "algorithms/apex.h"
@@ -14,9 +15,8 @@
 namespace tufted {
 namespace {
 
-/// The distances of a point from the corners of a face may differ from those in the plane of the face by this part of
-/// its longest side, by mollification; otherwise it is not the face of the source.
-constexpr double same_face = 1e-3;
+/// A source lies on a side of a face if it is no farther from it than this part of the longest one.
+constexpr double on_side = 1e-9;
 
 using Plane = std::array<Eigen::Vector2d, 3>;
 
@@ -33,11 +33,11 @@ bool hasCorner(const MarchFace& face, int vertex) {
 
 }  // namespace
 
-/// A face of the cover that is cut once or twice.
+/// A face of the cover.
 struct MarchingDistance::CoverFace {
-  MarchFace face;                    ///< without its edges
-  std::array<int, 3> middle;         ///< the vertex in the middle of each side
-  std::span<const MarchFace> parts;  ///< what is stored of it
+  MarchFace face;                    ///< without its edges, if cut twice
+  std::array<int, 3> middle;         ///< the vertex in the middle of each side, of which there is one if cut
+  std::span<const MarchFace> parts;  ///< the four that are stored of it, if cut twice
 };
 
 MarchingDistance::MarchingDistance(const Laplacian& laplacian, int split, const DistanceOptions& options)
@@ -56,8 +56,8 @@ MarchingDistance::MarchingDistance(const Laplacian& laplacian, int split, const 
 /// @param face a stored one
 MarchingDistance::CoverFace MarchingDistance::coverFace(int face) const {
   const MarchFace& stored = faces_.faces[face];
-  CoverFace result = {stored, {}, {&stored, 1}};
-  if (split_ == 1) {
+  CoverFace result = {stored, {}, {}};
+  if (split_ < 2) {
     for (int k = 0; k < 3; ++k) result.middle[k] = vertices_ + stored.edges[k];
     return result;
   }
@@ -65,81 +65,109 @@ MarchingDistance::CoverFace MarchingDistance::coverFace(int face) const {
   const MarchFace* const part = &faces_.faces[face / 4 * 4];
   result.parts = {part, 4};
   result.face.double_area = 4 * part[3].double_area;
+  const auto& middles = part[3].corners;
   for (int k = 0; k < 3; ++k) {
-    const auto& corners = part[k].corners;
-    result.face.corners[k] = *std::min_element(corners.begin(), corners.end());  // points come before middles
-    for (int i = 0; i < 3; ++i) {
-      if (hasCorner(part[k], part[3].corners[i])) continue;
-      result.middle[k] = part[3].corners[i];
-      result.face.opposite[k] = 2 * part[3].opposite[i];
-    }
+    // Corners of a part ascend, and points come before middles.
+    result.face.corners[k] = part[k].corners[0];
+    result.face.opposite[k] = 2 * part[k].opposite[0];
+    const auto found =
+        std::find_if(middles.begin(), middles.end(), [&](int middle) { return !hasCorner(part[k], middle); });
+    // Where two sides are one edge, the middle of that is twice in the last part, and in all others.
+    result.middle[k] = found != middles.end() ? *found : middles[1];
   }
   return result;
 }
 
-/// All vertices in and around the face that a source lies in are as far as they are in the plane of the face.
-/// @param source with corners numbered as in `faces_`
-void MarchingDistance::startInFace(const SurfacePoint& source, int number, std::vector<MarchStart>& starts) const {
-  const int first = source.corners[0];
-  for (int s = faces_.corner_offset[first]; s < faces_.corner_offset[first + 1]; ++s) {
-    const CoverFace whole = coverFace(faces_.corner_slots[s] / 3);
-    const MarchFace& face = whole.face;
-    if (face.corners[0] == face.corners[1] || face.corners[1] == face.corners[2] || face.corners[2] == face.corners[0])
-      continue;  // after flips; the source lies in another face of its corners
-    const Plane corner = layOut(face);
-    Eigen::Vector2d place = Eigen::Vector2d::Zero();
-    std::array<int, 3> number_of{};  // corner of the source, by corner of the face
-    bool is_same = true;
-    for (int k = 0; k < 3; ++k) {
-      const auto found = std::find(source.corners.begin(), source.corners.end(), face.corners[k]);
-      is_same &= found != source.corners.end();
-      if (!is_same) break;
-      number_of[k] = static_cast<int>(found - source.corners.begin());
-      place += source.weights[number_of[k]] * corner[k];
+/// All vertices in and around a face that a source lies in are as far as they are in the plane of the face.
+/// @param weights of the source, by corner of the face
+void MarchingDistance::startIn(const CoverFace& whole, const std::array<double, 3>& weights, int source,
+                               std::vector<MarchStart>& starts) const {
+  const Plane corner = layOut(whole.face);
+  Eigen::Vector2d point = Eigen::Vector2d::Zero();
+  for (int k = 0; k < 3; ++k) point += weights[k] * corner[k];
+  const auto middle = [](const Plane& plane, int k) -> Eigen::Vector2d {
+    return (plane[(k + 1) % 3] + plane[(k + 2) % 3]) / 2;
+  };
+  for (int k = 0; k < 3; ++k) starts.push_back({whole.face.corners[k], (point - corner[k]).norm(), source});
+  if (split_ == 0) return;
+  for (int k = 0; k < 3; ++k) starts.push_back({whole.middle[k], (point - middle(corner, k)).norm(), source});
+  for (int p = 0; p < std::ssize(whole.parts); ++p) {
+    const auto& [ends, edges, lengths, area] = whole.parts[p];
+    if (ends[0] == ends[1] || ends[1] == ends[2] || ends[2] == ends[0]) continue;
+    Plane plane;
+    for (int i = 0; i < 3; ++i) {
+      int k = p == 0 ? 1 : 0;
+      while (k < 2 && (k == p || whole.middle[k] != ends[i])) ++k;
+      plane[i] = ends[i] < vertices_ ? corner[p] : middle(corner, k);
     }
-    const double longest = *std::max_element(face.opposite.begin(), face.opposite.end());
-    for (int k = 0; is_same && k < 3; ++k) {
-      const double given = std::ldexp(source.distances[number_of[k]], -faces_.exponent);
-      is_same = std::abs((place - corner[k]).norm() - given) <= same_face * longest;
-    }
-    if (!is_same) continue;
-    const auto middle = [](const Plane& plane, int k) -> Eigen::Vector2d {
-      return (plane[(k + 1) % 3] + plane[(k + 2) % 3]) / 2;
-    };
-    for (int k = 0; k < 3; ++k) starts.push_back({whole.middle[k], (place - middle(corner, k)).norm(), number});
-    const auto at = [&](int vertex) -> Eigen::Vector2d {
-      const auto found = std::find(face.corners.begin(), face.corners.end(), vertex);
-      if (found != face.corners.end()) return corner[found - face.corners.begin()];
-      return middle(
-          corner, static_cast<int>(std::find(whole.middle.begin(), whole.middle.end(), vertex) - whole.middle.begin()));
-    };
-    for (const MarchFace& part : whole.parts) {
-      const Plane plane = {at(part.corners[0]), at(part.corners[1]), at(part.corners[2])};
-      for (int i = 0; i < 3; ++i)
-        starts.push_back({faces_.vertices + part.edges[i], (place - middle(plane, i)).norm(), number});
-    }
-    return;
+    for (int i = 0; i < 3; ++i)
+      starts.push_back({faces_.vertices + edges[i], (point - middle(plane, i)).norm(), source});
   }
 }
 
-void MarchingDistance::startAt(const SurfacePoint& source, int number, const std::vector<int>& component,
+/// Starts in the face of a place and, from a point on one of its sides, in all faces that meet there: none of them sees
+/// the others through that side.
+/// @param place in a face, with corners numbered as in `faces_`
+void MarchingDistance::startInFaces(const PlaceInCover& place, std::vector<MarchStart>& starts) const {
+  // The corners of the place in the order that the face has them in.
+  std::array<int, 3> order = {0, 1, 2};
+  std::array<double, 3> opposite, weights;
+  for (int k = 0; k < 3; ++k) opposite[k] = std::ldexp(place.point.sides[k], -faces_.exponent);
+  std::sort(order.begin(), order.end(), [&](int a, int b) {
+    return std::pair(place.point.corners[a], opposite[a]) < std::pair(place.point.corners[b], opposite[b]);
+  });
+  for (int k = 0; k < 3; ++k) weights[k] = place.point.weights[order[k]];
+  const auto forFacesAt = [&](int vertex, const auto& visit) {
+    for (int s = faces_.corner_offset[vertex]; s < faces_.corner_offset[vertex + 1]; ++s)
+      visit(coverFace(faces_.corner_slots[s] / 3));
+  };
+  const auto isFaceOfPlace = [&](const MarchFace& face) {
+    for (int k = 0; k < 3; ++k)
+      if (face.corners[k] != place.point.corners[order[k]] || face.opposite[k] != opposite[order[k]]) return false;
+    return true;
+  };
+  std::optional<CoverFace> home;
+  forFacesAt(place.point.corners[order[0]], [&](const CoverFace& whole) {
+    if (!home && isFaceOfPlace(whole.face)) home = whole;
+  });
+  if (!home) return;
+  startIn(*home, weights, place.source, starts);
+  const auto& [corners, edges, sides, double_area] = home->face;
+  for (int k = 0; k < 3; ++k) {
+    const int first = (k + 1) % 3, second = (k + 2) % 3;
+    const double longest = *std::max_element(sides.begin(), sides.end());
+    if (corners[first] == corners[second] || !(weights[k] * double_area <= on_side * longest * sides[k])) continue;
+    forFacesAt(corners[first], [&](const CoverFace& other) {
+      for (int j = 0; j < 3; ++j) {
+        if (other.middle[j] != home->middle[k]) continue;
+        std::array<double, 3> on_edge = {0, 0, 0};
+        const int begin = other.face.corners[(j + 1) % 3] == corners[first] ? (j + 1) % 3 : (j + 2) % 3;
+        on_edge[begin] = weights[first] / (weights[first] + weights[second]);
+        on_edge[3 - j - begin] = 1 - on_edge[begin];
+        startIn(other, on_edge, place.source, starts);
+      }
+    });
+  }
+}
+
+void MarchingDistance::startAt(const PlaceInCover& place, const std::vector<int>& component,
                                std::vector<MarchStart>& starts) const {
-  SurfacePoint place = source;
+  PlaceInCover numbered = place;
   bool all_active = true;
   for (int k = 0; k < 3; ++k) {
-    place.corners[k] = number_[source.corners[k]];
-    all_active &= component[source.corners[k]] >= 0;
-    if (component[source.corners[k]] >= 0)
-      starts.push_back({place.corners[k], std::ldexp(source.distances[k], -faces_.exponent), number});
+    const int corner = place.point.corners[k];
+    numbered.point.corners[k] = number_[corner];
+    all_active &= component[corner] >= 0;
+    if (component[corner] >= 0)
+      starts.push_back({number_[corner], std::ldexp(place.point.distances[k], -faces_.exponent), place.source});
   }
-  const auto& [a, b, c] = place.corners;
-  if (split_ > 0 && all_active && a != b && b != c && c != a) startInFace(place, number, starts);
+  if (all_active && place.face >= 0) startInFaces(numbered, starts);
 }
 
-NearestSources MarchingDistance::query(const std::vector<SurfacePoint>& sources, const std::vector<int>& component,
+NearestSources MarchingDistance::query(const std::vector<PlaceInCover>& places, const std::vector<int>& component,
                                        const Progress& progress, DistanceReport& report) const {
   std::vector<MarchStart> starts;
-  for (std::size_t s = 0; s < sources.size(); ++s) startAt(sources[s], static_cast<int>(s), component, starts);
+  for (const PlaceInCover& place : places) startAt(place, component, starts);
   const Workers workers(threads_, progress);
   MarchResult found = march(faces_, split_ > 0, starts, std::ldexp(maximum_, -faces_.exponent), workers);
   report.split = split_;

@@ -4,6 +4,7 @@
 
 #include "algorithms/march.h"
 #include "algorithms/march_faces.h"
+#include "algorithms/place_in_cover.h"
 #include "tufted/distance.h"
 
 namespace tufted {
@@ -15,19 +16,20 @@ class MarchingDistance {
   /// @param split see checkedSplit()
   MarchingDistance(const Laplacian& laplacian, int split, const DistanceOptions& options);
 
-  /// @param sources of which all corners are representatives
-  /// @param component N; corners of sources that have none, -1, are ignored
+  /// @param places of sources, of which all corners are representatives
+  /// @param component N; corners of places that have none, -1, are ignored
   /// @return distances in the points' unit and sources, wherever the faces of the cover lead; those of coincident
   /// points are not set
-  NearestSources query(const std::vector<SurfacePoint>& sources, const std::vector<int>& component,
+  NearestSources query(const std::vector<PlaceInCover>& places, const std::vector<int>& component,
                        const Progress& progress, DistanceReport& report) const;
   const SolverReport& report() const { return report_; }
 
  private:
-  void startAt(const SurfacePoint& source, int number, const std::vector<int>& component,
-               std::vector<MarchStart>& starts) const;
-  void startInFace(const SurfacePoint& source, int number, std::vector<MarchStart>& starts) const;
+  void startAt(const PlaceInCover& place, const std::vector<int>& component, std::vector<MarchStart>& starts) const;
+  void startInFaces(const PlaceInCover& place, std::vector<MarchStart>& starts) const;
   struct CoverFace;
+  void startIn(const CoverFace& whole, const std::array<double, 3>& weights, int source,
+               std::vector<MarchStart>& starts) const;
   CoverFace coverFace(int face) const;
 
   std::vector<int> number_;  ///< of each point in `faces_`
