@@ -34,7 +34,7 @@ struct SurfacePoint {
                              const std::array<double, 3>& barycentric);
 };
 
-/// The unit of the time step of the heat equation.
+/// The unit of the time step of the heat equation, on each component by itself.
 enum class TimeUnit {
   mean_edge,     ///< the mean squared length of the cover's edges
   adapted_edge,  ///< the mean squared length of the cover's edges, each face weighted by its area: for very uneven
@@ -166,7 +166,7 @@ class DistanceSolver {
   NearestSources nearest(const std::vector<SurfacePoint>& sources, DistanceReport* report = nullptr,
                          const Progress& progress = {}) const;
 
-  /// The time step t in use, in the points' unit squared; 0 for marching.
+  /// The time step t in use, in the points' unit squared, on the component that has the most points; 0 for marching.
   double timeStep() const;
 
   /// What the constructor did: all systems together, and its seconds; of marching `method`, `unknowns` (points and

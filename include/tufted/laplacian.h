@@ -27,6 +27,13 @@ struct Frames {
   Orientation orientation = Orientation::arbitrary;  ///< of the normals
 };
 
+/// The sides of the triangles of one connected component, before mollification. Each triangle counts its three sides.
+struct ComponentEdges {
+  std::int64_t sides = 0;  ///< how many there are, those of all copies of a triangle
+  double mean = 0;         ///< mean length
+  double mean_square = 0;  ///< mean squared length, the unit of smoothing's time step
+};
+
 /// A closed ball.
 struct Ball {
   Eigen::Vector3d center;  ///< in the caller's unit
@@ -83,7 +90,13 @@ struct Laplacian {
   /// noisy ones of a cloud, which are put back onto the surface (CloudSteps::denoise, Lengths::denoised). A point
   /// that coincides with another lies where that one does. 0 x 3 where nobody has stored them.
   Points positions;
-  Report report;  ///< what happened in the build
+  /// N; the standard deviation of the noise around each point that was moved onto the surface (CloudSteps::denoise, or
+  /// the smoothing of a depth image), along the normal or the ray, in the caller's unit; 0 at points that stay. Size 0
+  /// where no point was moved.
+  VectorXd noise;
+  /// By component, in the order of `component`, which must be stored with them. Empty where nobody has stored them.
+  std::vector<ComponentEdges> component_edges;
+  Report report;  ///< what happened in the build, for people: no algorithm looks at it
 
   /// The tufted cover after flips to intrinsic Delaunay, vertices numbered as the caller's points. On clouds the first
   /// call builds it, which takes at most half as long as the build of L and M, but as long for five million points. Any

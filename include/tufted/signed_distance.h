@@ -50,7 +50,7 @@ class SignedDistanceSolver {
   VectorXd query(const std::vector<int>& curve, SignedDistanceReport* report = nullptr,
                  const Progress& progress = {}) const;
 
-  /// The time step t in use, in the points' unit squared.
+  /// The time step t in use, in the points' unit squared, on the component that has the most points.
   double timeStep() const;
   /// What the constructor did, all systems together.
   const SolverReport& report() const;

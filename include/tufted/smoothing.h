@@ -21,8 +21,9 @@ enum class SmoothingMethod : std::uint8_t {
 /// Options of smooth().
 struct SmoothingOptions {
   SmoothingMethod method = SmoothingMethod::implicit;  ///< how points are smoothed
-  /// Of SmoothingMethod::implicit: time step t >= 0 in units of the mean squared edge length, report.mean_squared_edge.
-  /// A wave of length 2 pi sqrt(t) times the root of that unit loses half its height in a step, shorter ones more.
+  /// Of SmoothingMethod::implicit: time step t >= 0 in units of the mean squared edge length of each component, which
+  /// is ComponentEdges::mean_square, so that a component is smoothed as if it were alone. A wave of length 2 pi sqrt(t)
+  /// times the root of that unit loses half its height in a step, shorter ones more.
   double time_step = 1;
   /// Of SmoothingMethod::taubin: the part of the way to the mean of the neighbours, in (0, 1].
   double lambda = 0.5;
@@ -50,8 +51,9 @@ struct SmoothingOptions {
 /// and stay if any one of them is fixed; points that are not finite or isolated stay as they are.
 /// @param points N x 3, those that the Laplacian was built from
 /// @return N x 3
-/// @throws InvalidInput for options out of range, arrays of the wrong size, or active points that are not finite; with
-///         `volume_of` for components that are not closed and oriented, or enclose no volume
+/// @throws InvalidInput for options out of range, arrays of the wrong size, a Laplacian without `component_edges` (of
+///         implicit steps), or active points that are not finite; with `volume_of` for components that are not closed
+///         and oriented, or enclose no volume
 /// @throws SolverFailure when the matrix is not positive definite
 /// @throws Cancelled when `options.progress` returns false
 Points smooth(const Laplacian& laplacian, const PointsRef& points, const SmoothingOptions& options = {});
@@ -72,7 +74,8 @@ class SmoothingSolver {
   /// @param laplacian shared, as every call looks at it; it must not change
   /// @param time_step as in SmoothingOptions
   /// @param fixed as in SmoothingOptions; not needed after construction
-  /// @throws InvalidInput for a null pointer, values out of range, or arrays of the wrong size
+  /// @throws InvalidInput for a null pointer, values out of range, arrays of the wrong size, or a Laplacian without
+  ///         `component_edges`
   /// @throws SolverFailure when the matrix is not positive definite
   /// @throws Cancelled when `options.progress` returns false
   explicit SmoothingSolver(std::shared_ptr<const Laplacian> laplacian, double time_step = 1,

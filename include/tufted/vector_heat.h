@@ -12,9 +12,9 @@ namespace tufted {
 
 /// Options of the solvers of the vector heat method.
 struct VectorHeatOptions {
-  /// Time step t > 0, in the mean squared distance of neighbours in L, between Laplacian::positions. Smaller ones
-  /// depend more on single points, larger ones mix what comes from several sources, or around both sides of an
-  /// obstacle.
+  /// Time step t > 0, in the mean squared distance of neighbours in L on each component, between Laplacian::positions.
+  /// Smaller ones depend more on single points, larger ones mix what comes from several sources, or around both sides
+  /// of an obstacle.
   double time_step = 4;
   /// How systems are solved. `memory_limit` bounds all factors that a solver holds together.
   SolverOptions solver = {};
@@ -53,7 +53,7 @@ class ExtensionSolver {
   Eigen::MatrixXd query(const std::vector<int>& sources, const Eigen::MatrixXd& values,
                         VectorHeatReport* report = nullptr, const Progress& progress = {}) const;
 
-  /// The time step t in use, in the points' unit squared.
+  /// The time step t in use, in the points' unit squared, on the component that has the most points.
   double timeStep() const;
   /// What the constructor did.
   const SolverReport& report() const;
@@ -96,7 +96,7 @@ class TransportSolver {
   Points query(const std::vector<int>& sources, const Points& vectors, VectorHeatReport* report = nullptr,
                const Progress& progress = {}) const;
 
-  /// The time step t in use, in the points' unit squared.
+  /// The time step t in use, in the points' unit squared, on the component that has the most points.
   double timeStep() const;
   /// What the constructor did, all systems together.
   const SolverReport& report() const;

@@ -21,7 +21,7 @@ class BoundedProblem {
       : L_(laplacian.L),
         options_(options),
         points_(components.points),
-        inverse_(inverseMasses(laplacian, points_)),
+        inverse_(inverseMasses(laplacian, components)),
         Q_(bendingMatrix(L_, inverse_)),
         diagonal_(Q_.diagonal()) {}
 
@@ -48,7 +48,7 @@ class BoundedProblem {
   const SparseMatrix& L_;
   const WeightOptions& options_;
   const std::vector<int>& points_;
-  VectorXd inverse_;   ///< N; mean mass over mass
+  VectorXd inverse_;   ///< N; mean mass of the component over mass
   SparseMatrix Q_;     ///< L M^-1 L, in 1 / mean mass
   VectorXd diagonal_;  ///< N; that of Q_
 };

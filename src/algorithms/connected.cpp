@@ -35,6 +35,12 @@ Components joinedAbove(double least_share, const Laplacian& laplacian) {
 
 }  // namespace
 
+int Components::largest() const {
+  Eigen::Index place = -1;
+  if (count > 0) sums(VectorXd::Ones(std::ssize(of))).maxCoeff(&place);
+  return static_cast<int>(place);
+}
+
 VectorXd Components::sums(const VectorXd& values) const {
   VectorXd result = VectorXd::Zero(count);
   for (const int i : points) result[of[i]] += values[i];

@@ -14,6 +14,8 @@ struct Components {
   std::vector<int> of;      ///< N; which component, numbered by their first points; -1: not active
   std::vector<int> points;  ///< the active points, ascending
 
+  /// The component of the most points, of equal ones the first; -1 where there is none.
+  int largest() const;
   /// The sums of `values` over each component, in ascending order of points.
   VectorXd sums(const VectorXd& values) const;
   /// M divided by its sum over the component; equal weights if that sum is 0. Points that are not active get 0.

@@ -60,12 +60,10 @@ struct Residuals {
 class Fitter {
  public:
   Fitter(const Laplacian& laplacian, const Frames& frames)
-      : positions_(laplacian.positions), frames_(frames), noise_(noiseOf(laplacian.report)), rings_(laplacian.L) {}
+      : positions_(laplacian.positions), frames_(frames), noise_(laplacian.noise), rings_(laplacian.L) {}
 
-  /// The noise that points were moved out of, as a standard deviation; 0 where fewer points were moved than not. What
-  /// is left of this noise is smooth, so that residuals do not show it, but over wide windows it is as strong as
-  /// before, and independent.
-  static double noiseOf(const Report& report) { return 2 * report.denoised > report.active ? report.noise : 0; }
+  /// Whether a point was moved out of noise, which is known then.
+  bool isMoved(int p) const { return noise_.size() > 0 && noise_[p] > 0; }
 
   /// What fits leave over around one point.
   Residuals residuals(int p) {
@@ -83,7 +81,7 @@ class Fitter {
   }
 
   /// The widest window that agrees with all narrower ones.
-  /// @param residuals of all points; empty where the noise is known
+  /// @param residuals of all points, 0 at those whose noise is known
   std::optional<Window> fit(int p, const std::vector<Residuals>& residuals) {
     const Errors errors = errorsAround(p, residuals);
     start(p);
@@ -114,17 +112,26 @@ class Fitter {
     double interval;  ///< half the width of the confidence interval of a height, in the caller's unit
   };
 
+  /// Where most points around were moved out of noise, it is theirs, on average. What is left of it is smooth, so that
+  /// residuals do not show it, but over wide windows it is as strong as before, and independent.
   Errors errorsAround(int p, const std::vector<Residuals>& residuals) {
-    if (noise_ > 0) return {first_noisy_rings, confidence * noise_};
     rings_.start(p);
     while (rings_.count() < first_noisy_rings && rings_.grow()) {
     }
     Residuals sum;
+    double noise = 0;
+    int moved = 0;
     for (const int q : rings_.points()) {
+      if (isMoved(q)) {
+        noise += noise_[q];
+        ++moved;
+      }
       sum.few += residuals[q].few;
       sum.more += residuals[q].more;
     }
-    const auto count = static_cast<double>(rings_.points().size());
+    const int points = static_cast<int>(std::ssize(rings_.points()));
+    if (2 * moved > points) return {first_noisy_rings, confidence * noise / moved};
+    const auto count = static_cast<double>(points - moved);
     const bool is_noisy = sum.more < noisy_below * sum.few;
     return is_noisy ? Errors{first_noisy_rings, noisy_confidence * sum.more / count}
                     : Errors{first_rings, confidence * sum.few / count};
@@ -180,7 +187,7 @@ class Fitter {
 
   const Points& positions_;
   const Frames& frames_;
-  double noise_;
+  const VectorXd& noise_;
   Rings rings_;
   Eigen::RowVector3d normal_, x_;  ///< of the plane of the samples; see Window
   HeightSamples samples_;          ///< of the points of the rings, in units of `unit_`
@@ -215,16 +222,13 @@ Curvatures fitCurvatures(const Laplacian& laplacian, const Frames& frames, const
                     Points::Zero(n, 3), Points::Zero(n, 3), {}};
   std::vector<int> rings(n, 0);
   std::vector<std::optional<Fitter>> fitters(workers.count());
-  std::vector<Residuals> residuals;
-  if (!(Fitter::noiseOf(laplacian.report) > 0)) {
-    residuals.resize(n);
-    workers.forBlocks("noise", n, costly_block, [&](std::int64_t begin, std::int64_t end, int worker) {
-      std::optional<Fitter>& fitter = fitters[worker];
-      if (!fitter) fitter.emplace(laplacian, frames);
-      for (int p = static_cast<int>(begin); p < end; ++p)
-        if (laplacian.status[p] == PointStatus::active) residuals[p] = fitter->residuals(p);
-    });
-  }
+  std::vector<Residuals> residuals(laplacian.status.size());
+  workers.forBlocks("noise", n, costly_block, [&](std::int64_t begin, std::int64_t end, int worker) {
+    std::optional<Fitter>& fitter = fitters[worker];
+    if (!fitter) fitter.emplace(laplacian, frames);
+    for (int p = static_cast<int>(begin); p < end; ++p)
+      if (laplacian.status[p] == PointStatus::active && !fitter->isMoved(p)) residuals[p] = fitter->residuals(p);
+  });
   workers.forBlocks("curvature", n, costly_block, [&](std::int64_t begin, std::int64_t end, int worker) {
     std::optional<Fitter>& fitter = fitters[worker];
     if (!fitter) fitter.emplace(laplacian, frames);
@@ -236,13 +240,14 @@ Curvatures fitCurvatures(const Laplacian& laplacian, const Frames& frames, const
       rings[p] = window->rings;
     }
   });
-  std::int64_t sum = 0;
+  std::int64_t sum = 0, active = 0;
   for (Eigen::Index i = 0; i < n; ++i) {
     sum += rings[i];
-    if (laplacian.status[i] == PointStatus::active && rings[i] == 0) ++result.report.undetermined;
+    if (laplacian.status[i] != PointStatus::active) continue;
+    ++active;
+    if (rings[i] == 0) ++result.report.undetermined;
   }
-  result.report.mean_rings =
-      static_cast<double>(sum) / static_cast<double>(std::max<std::int64_t>(laplacian.report.active, 1));
+  result.report.mean_rings = static_cast<double>(sum) / static_cast<double>(std::max<std::int64_t>(active, 1));
   return result;
 }
 

@@ -117,13 +117,13 @@ struct DeformationSolver::State {
     const Eigen::MatrixXd from = x(handles, Eigen::all);
     take(linear->interpolate(targets - from, nullptr, progress), true);
     const std::vector<int>& points = pinned.components.points;
-    const double mean = meanMass(*laplacian, points);
+    const VectorXd means = meanMasses(*laplacian, pinned.components);
     Eigen::MatrixXd turned = Eigen::MatrixXd::Zero(x.rows(), 3);
     for (const int i : points) {
       Eigen::Vector3d sum = Eigen::Vector3d::Zero();
       for (SparseMatrix::InnerIterator entry(laplacian->L, i); entry; ++entry)
         if (entry.row() != i) sum += entry.value() * (x.row(entry.row()) - x.row(i)).transpose();
-      const double mass = std::max(laplacian->M[i], least_mass_of_bending * mean);
+      const double mass = std::max(laplacian->M[i], least_mass_of_bending * means[pinned.components.of[i]]);
       if (mass > 0) turned.row(i) = (pose.rotations[i] * sum / mass).transpose();
     }
     take(linear->poisson(turned, targets, nullptr, progress), false);

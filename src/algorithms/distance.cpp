@@ -95,7 +95,7 @@ DistanceSolver::~DistanceSolver() = default;
 
 DistanceSolver::DistanceSolver(const Laplacian& laplacian, const DistanceOptions& options) {
   checkArguments(laplacian, options);
-  const int split = checkedSplit(constructor, options.split, std::ssize(laplacian.status));
+  const int split = checkedSplit(constructor, options.split, laplacian);
   const Stopwatch watch;
   auto state = std::make_unique<State>();
   state->components = findComponents(laplacian);

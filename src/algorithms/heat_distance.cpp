@@ -26,12 +26,14 @@ constexpr double least_mass = 1e-13;
 constexpr const char* constructor = "DistanceSolver";
 
 /// The matrix M / t + L of the heat equation, with M from the areas of the faces.
-SparseMatrix heatMatrix(const Laplacian& laplacian, const SurfaceFaces& surface, double time) {
+/// @param time of each component
+SparseMatrix heatMatrix(const Laplacian& laplacian, const SurfaceFaces& surface, const Components& components,
+                        const VectorXd& time) {
   SparseMatrix A = laplacian.L;
   const VectorXd areas = lumpedAreas(surface, static_cast<int>(A.rows()));
-  for (int i = 0; i < A.outerSize(); ++i) {
+  for (const int i : components.points) {
     for (SparseMatrix::InnerIterator entry(A, i); entry; ++entry) {
-      if (entry.row() == i) entry.valueRef() += std::max(least_mass * entry.value(), areas[i] / time);
+      if (entry.row() == i) entry.valueRef() += std::max(least_mass * entry.value(), areas[i] / time[components.of[i]]);
     }
   }
   return A;
@@ -49,7 +51,7 @@ struct HeatDistance::State {
   SparseMatrix L;
   SurfaceFaces surface;
   const Components& components;
-  double time = 1;  ///< in units of 2^(2 exponent)
+  VectorXd time;  ///< of each component, in units of 2^(2 exponent)
   int threads = 0;
   HeatSystem heat;
   std::optional<const LinearSystem> poisson;
@@ -63,15 +65,21 @@ struct HeatDistance::State {
 HeatDistance::~HeatDistance() = default;
 
 HeatDistance::HeatDistance(const Laplacian& laplacian, const Components& components, const DistanceOptions& options)
-    : state_(new State{
-          .L = laplacian.L, .surface = {}, .components = components, .heat = {}, .poisson = {}, .report = {}}) {
+    : state_(new State{.L = laplacian.L,
+                       .surface = {},
+                       .components = components,
+                       .time = {},
+                       .heat = {},
+                       .poisson = {},
+                       .report = {}}) {
   State& state = *state_;
   const Workers workers(options.solver.threads, options.solver.progress);
   state.surface = surfaceFaces(laplacian.cover(), faceScale(laplacian.kind), workers);
   state.threads = options.solver.threads;
   const SurfaceFaces& surface = state.surface;
-  const double unit = options.unit == TimeUnit::mean_edge ? surface.mean_square : surface.area_mean_square;
-  if (unit > 0) state.time = options.time_step * unit;
+  const VectorXd unit =
+      meanSquaredSides(surface, components.of, components.count, options.unit == TimeUnit::adapted_edge);
+  state.time = (unit.array() > 0).select(options.time_step * unit, 1);
 
   const Eigen::Index n = laplacian.L.rows();
   VectorXd interior;
@@ -84,14 +92,16 @@ HeatDistance::HeatDistance(const Laplacian& laplacian, const Components& compone
   const int factors = interior.size() > 0 ? 3 : 2;
   SolverOptions one = options.solver;
   one.memory_limit = std::max<std::size_t>(memoryLimit(options.solver.memory_limit) / factors, 1);
-  state.heat = makeHeatSystem(constructor, heatMatrix(laplacian, surface, state.time), std::move(interior), one);
+  state.heat =
+      makeHeatSystem(constructor, heatMatrix(laplacian, surface, components, state.time), std::move(interior), one);
   state.poisson.emplace(LinearSystem::laplacian({.function = constructor, .matrix = "L"}, laplacian, one));
   for (const LinearSystem* held : {state.heat.closed.get(), state.heat.open.get(), &*state.poisson})
     if (held != nullptr) addReport(held->report(), state.report);
 }
 
 double HeatDistance::timeStep() const {
-  return std::ldexp(state_->time, 2 * state_->surface.exponent);
+  const int largest = state_->components.largest();
+  return largest < 0 ? 0 : std::ldexp(state_->time[largest], 2 * state_->surface.exponent);
 }
 
 const SolverReport& HeatDistance::report() const {

@@ -66,7 +66,7 @@ class Interpolator {
                                .matrix = "L M^-1 L",
                                .if_large = "take fewer points",
                                .if_too_large = IfTooLarge::refuse};
-    inverse_ = inverseMasses(laplacian, pinned.components.points);
+    inverse_ = inverseMasses(laplacian, pinned.components);
     bending_ = bendingMatrix(laplacian.L, inverse_);
     solver_.emplace(names, std::move(pinned), bending_, nullptr, options);
   }

@@ -81,7 +81,7 @@ const SolverReport& LogMapSolver::report() const {
 }
 
 Eigen::Vector2d LogMapSolver::State::inPlane(int source, int point) const {
-  const Eigen::RowVector3d offset = (positions.row(point) - positions.row(source)) / heat.spacing();
+  const Eigen::RowVector3d offset = (positions.row(point) - positions.row(source)) / heat.spacingAt(source);
   const Eigen::RowVector3d normal = frames.normals.row(source), x = frames.tangents.row(source);
   return {x.dot(offset), normal.cross(x).dot(offset)};
 }
@@ -94,7 +94,7 @@ std::vector<int> LogMapSolver::State::disc(int source) const {
     for (SparseMatrix::InnerIterator entry(L, points[k]); entry; ++entry) {
       const auto q = static_cast<int>(entry.row());
       if (seen[q] != 0) continue;
-      const double away = (positions.row(q) - positions.row(source)).stableNorm() / heat.spacing();
+      const double away = (positions.row(q) - positions.row(source)).stableNorm() / heat.spacingAt(source);
       if (k > 0 && away > ring_end) continue;
       seen[q] = 1;
       points.push_back(q);
@@ -114,7 +114,7 @@ HeatFields LogMapSolver::State::startingFields(int source, const std::vector<int
     const Eigen::Vector2d place = inPlane(source, p);
     const double weight = has_ring ? ringWeight(place.norm()) : 1;
     if (!(weight > 0 && place.norm() > 0)) continue;
-    const double area = std::max(M[p] / heat.spacing() / heat.spacing(), least_area);
+    const double area = std::max(M[p] / heat.spacingAt(source) / heat.spacingAt(source), least_area);
     start.vectors.col(0).segment<2>(2 * Eigen::Index{p}) =
         weight * area * (transportBetween(frames, source, p) * place.normalized());
   }

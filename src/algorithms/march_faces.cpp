@@ -169,8 +169,10 @@ std::vector<int> numbersByFaces(const IntrinsicTriangulation& cover) {
   return number;
 }
 
-int checkedSplit(const std::string& function, std::optional<int> split, std::int64_t points) {
-  if (!split) return points <= few_points ? 2 : 1;
+int checkedSplit(const std::string& function, std::optional<int> split, const Laplacian& laplacian) {
+  // Points that take no part, as those of other components, make no triangle finer.
+  if (!split)
+    return std::count(laplacian.status.begin(), laplacian.status.end(), PointStatus::active) <= few_points ? 2 : 1;
   if (*split >= 0 && *split <= most_splits) return *split;
   throw InvalidInput(function + ": split = " + std::to_string(*split) + ", must lie in [0, " +
                      std::to_string(most_splits) + "]");

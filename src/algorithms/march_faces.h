@@ -10,6 +10,7 @@
 #include "base/parallel.h"
 #include "operators/distinct_faces.h"
 #include "tufted/intrinsic_triangulation.h"
+#include "tufted/laplacian.h"
 
 // The triangles that distances march over.
 
@@ -74,8 +75,7 @@ std::vector<int> numbersByFaces(const IntrinsicTriangulation& cover);
 
 /// How often to cut the faces: as the caller says or, where he does not, as DistanceOptions::split.
 /// @param function how messages call the function that was asked
-/// @param points of the whole surface
 /// @throws InvalidInput for a split outside [0, 2]
-int checkedSplit(const std::string& function, std::optional<int> split, std::int64_t points);
+int checkedSplit(const std::string& function, std::optional<int> split, const Laplacian& laplacian);
 
 }  // namespace tufted

@@ -8,7 +8,9 @@
 #include <utility>
 #include <vector>
 
+#include "algorithms/greater.h"
 #include "algorithms/linear_backend.h"
+#include "cover/components.h"
 
 namespace tufted {
 namespace {
@@ -114,6 +116,8 @@ class Multigrid : public LinearBackend {
 
   /// Builds the levels. False if a diagonal entry is not positive.
   bool build(SparseMatrix A, const Workers& workers) {
+    part_ = componentsOf(A);
+    parts_ = part_.empty() ? 0 : *std::max_element(part_.begin(), part_.end()) + 1;
     while (true) {
       workers.report("coarsen", static_cast<double>(levels_.size()) / most_levels);
       if (!(A.diagonal().minCoeff() > 0)) return false;
@@ -144,20 +148,39 @@ class Multigrid : public LinearBackend {
     int most = 0;
     const auto columns = static_cast<double>(x.cols());
     for (Eigen::Index c = 0; c < x.cols(); ++c) {
-      const double scale = x.col(c).cwiseAbs().maxCoeff();  // norms shall neither overflow nor vanish
-      if (scale == 0) continue;
-      const VectorXd b = x.col(c) / scale;
-      VectorXd solution = VectorXd::Zero(b.size());
+      // Each part at the same size: norms shall neither overflow nor vanish.
+      VectorXd scale = VectorXd::Zero(parts_);
+      for (Eigen::Index i = 0; i < x.rows(); ++i) scale[part_[i]] = std::max(scale[part_[i]], std::abs(x(i, c)));
+      if (scale.isZero(0)) continue;
+      scale = (scale.array() > 0).select(scale, 1);
+      VectorXd b(x.rows()), solution = VectorXd::Zero(x.rows());
+      for (Eigen::Index i = 0; i < x.rows(); ++i) b[i] = x(i, c) / scale[part_[i]];
       const auto tick_here = [&](double done) { tick((static_cast<double>(c) + done) / columns); };
       most = std::max(most, iterate(b, solution, tick_here));
-      x.col(c) = scale * solution;
+      for (Eigen::Index i = 0; i < x.rows(); ++i) x(i, c) = scale[part_[i]] * solution[i];
     }
     return most;
   }
 
  private:
+  /// The norm of a vector on each part.
+  VectorXd norms(const VectorXd& values) const {
+    if (parts_ == 1) return VectorXd::Constant(1, values.norm());
+    VectorXd squares = VectorXd::Zero(parts_);
+    for (Eigen::Index i = 0; i < values.size(); ++i) squares[part_[i]] += values[i] * values[i];
+    return squares.cwiseSqrt();
+  }
+
+  /// Conjugate gradients, until the tolerance holds on every part of the matrix.
   int iterate(const VectorXd& b, VectorXd& x, const Tick& tick) const {
-    const double size = b.norm(), goal = options_.tolerance * size;
+    const VectorXd size = norms(b);
+    const auto residual = [&](const VectorXd& r) {
+      const VectorXd left = norms(r);
+      double most = 0;
+      for (int part = 0; part < parts_; ++part)
+        if (size[part] > 0) most = greater(most, left[part] / size[part]);
+      return most;
+    };
     VectorXd r = b, p, image;
     VectorXd z = cycle(0, r);
     p = z;
@@ -167,16 +190,16 @@ class Multigrid : public LinearBackend {
       const double alpha = rz / p.dot(image);
       x += alpha * p;
       r -= alpha * image;
-      const double left = r.norm();
-      if (left <= goal) return step;
-      done = std::max(done, std::log(left / size) / std::log(options_.tolerance));
+      const double left = residual(r);
+      if (left <= options_.tolerance) return step;
+      done = std::max(done, std::log(left) / std::log(options_.tolerance));
       tick(std::min(done, 1.0));
       z = cycle(0, r);
       const double next = r.dot(z);
       p = z + (next / rz) * p;
       rz = next;
     }
-    throw NotConverged{options_.max_iterations, r.norm() / size};
+    throw NotConverged{options_.max_iterations, residual(r)};
   }
 
   /// One V-cycle: Gauss-Seidel forwards, the coarser levels, Gauss-Seidel backwards. It is symmetric, as conjugate
@@ -210,6 +233,8 @@ class Multigrid : public LinearBackend {
 
   MultigridOptions options_;
   std::vector<Level> levels_;
+  std::vector<int> part_;  ///< of each row: parts of the matrix that no entry joins
+  int parts_ = 0;
   Eigen::SimplicialLDLT<SparseMatrix> coarsest_;
   bool direct_ = false;
 };

@@ -34,7 +34,7 @@ constexpr double flat_share = 1e-6;
 /// An open sheet that bulges by less than this part of its extent is flat: terrain has at most 0.024, one view of a body
 /// 0.1.
 constexpr double flat_share_of_open = 0.05;
-/// Parts of fewer points, by those of the largest, lie within a joint.
+/// Parts of fewer points, by those of the largest of their component, lie within a joint.
 constexpr double small_part = 0.05;
 /// Rings of neighbours around normals that disagree, within which bodies that touch are joined.
 constexpr int joint_rings = 5;
@@ -249,9 +249,12 @@ void turnBodies(const Laplacian& laplacian, const std::vector<Edge>& edges, Poin
   if (std::find(turns.begin(), turns.end(), 1) == turns.end()) return;
   VectorXd sizes = VectorXd::Zero(parts.count);
   for (const int i : parts.points) ++sizes[parts.of[i]];
+  const Components components = findComponents(laplacian);
+  VectorXd largest = VectorXd::Zero(components.count);
+  for (const int i : parts.points) largest[components.of[i]] = std::max(largest[components.of[i]], sizes[parts.of[i]]);
   for (const int i : parts.points) {
     if (turns[parts.of[i]] != 0) normals.row(i) *= -1;
-    joint[i] = sizes[parts.of[i]] < small_part * sizes.maxCoeff() ? 1 : 0;
+    joint[i] = sizes[parts.of[i]] < small_part * largest[components.of[i]] ? 1 : 0;
   }
   settleJoints(laplacian, edges, joint, normals);
 }

@@ -185,7 +185,7 @@ void leaveOtherComponents(const Laplacian& laplacian, const std::vector<int>& so
 NearbyPoints pointsWithin(const Laplacian& laplacian, const std::vector<int>& sources, double radius,
                           std::optional<int> split, const Progress& progress) {
   const std::vector<int> known = checkedSources(laplacian, sources, radius);
-  const int times = checkedSplit(function, split, std::ssize(laplacian.status));
+  const int times = checkedSplit(function, split, laplacian);
   const Workers workers(1, progress);
   workers.report("march", 0);
   Patch patch;
@@ -207,7 +207,9 @@ NearbyPoints pointsWithin(const Laplacian& laplacian, const std::vector<int>& so
   std::vector<std::pair<int, double>> found;
   for (std::size_t i = 0; i < distance.size(); ++i)
     if (distance[i] <= radius) found.emplace_back(patch.points[i], distance[i]);
-  if (laplacian.report.coincident > 0) {
+  const bool has_copies =
+      std::find(laplacian.status.begin(), laplacian.status.end(), PointStatus::coincident) != laplacian.status.end();
+  if (has_copies) {
     for (int i = 0; i < std::ssize(laplacian.representative); ++i) {
       const auto at = patch.number_of.find(laplacian.representative[i]);
       if (at == patch.number_of.end() || at->first == i || !(distance[at->second] <= radius)) continue;

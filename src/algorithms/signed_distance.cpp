@@ -85,9 +85,10 @@ HeatFields SignedDistanceSolver::State::flowOf(const std::vector<int>& places, V
   for (std::size_t k = 1; k < places.size(); ++k) {
     const int ends[2] = {places[k - 1], places[k]};
     if (components.of[ends[0]] != components.of[ends[1]]) continue;
-    const Eigen::RowVector3d segment = (positions.row(ends[1]) - positions.row(ends[0])) / heat.spacing();
+    const double unit = heat.spacingAt(ends[0]);
+    const Eigen::RowVector3d segment = (positions.row(ends[1]) - positions.row(ends[0])) / unit;
     const double size = segment.stableNorm();
-    made.curve_length += size;
+    made.curve_length += size * unit;
     for (const int i : ends) {
       length[i] += size / 2;
       const Eigen::RowVector3d normal = frames.normals.row(i), x = frames.tangents.row(i), y = normal.cross(x);
@@ -102,7 +103,6 @@ HeatFields SignedDistanceSolver::State::flowOf(const std::vector<int>& places, V
     throw InvalidInput(std::string(query_name) + ": curve has " + std::to_string(places.size()) +
                        " places that take part, must have at least two on one component, and directions along it");
   for (Eigen::Index i = 0; i < n; ++i) made.curve_points += length[i] > 0 ? 1 : 0;
-  made.curve_length *= heat.spacing();
   return flow;
 }
 

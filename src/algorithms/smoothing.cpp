@@ -62,20 +62,29 @@ std::vector<bool> freePoints(const Laplacian& laplacian, const std::vector<std::
   return is_free;
 }
 
-/// The lower triangle of M / t + L over the free points, t with its unit; rows of all others are empty.
-SparseMatrix systemMatrix(const Laplacian& laplacian, const std::vector<bool>& is_free, double time_step) {
-  const double unit = laplacian.report.mean_squared_edge;
+/// The lower triangle of M / t + L over the free points, t with the unit of each component; rows of all others are
+/// empty.
+SparseMatrix systemMatrix(const std::string& function, const Laplacian& laplacian, const std::vector<bool>& is_free,
+                          double time_step) {
+  const std::vector<ComponentEdges>& edges = laplacian.component_edges;
+  const std::vector<int>& component = laplacian.component;
   const SparseMatrix& L = laplacian.L;
   SparseMatrix lower(L.rows(), L.cols());
   lower.reserve(L.nonZeros() / 2 + L.cols());
   for (int j = 0; j < L.cols(); ++j) {
     lower.startVec(j);
+    if (is_free[j] && (component.empty() || component[j] < 0 || component[j] >= std::ssize(edges)))
+      throw InvalidInput(function + ": component_edges has " + std::to_string(edges.size()) +
+                         " entries and none for point " + std::to_string(j) +
+                         ", must have one for its component: the unit of the time step");
     for (SparseMatrix::InnerIterator entry(L, j); entry; ++entry) {
       const int i = static_cast<int>(entry.row());
       if (i < j || !is_free[i] || !is_free[j]) continue;
       // Divided one by one, as the product may not fit a double. Where unit and mass both underflow, the least mass
       // wins over the NaN because it stands first.
-      const double mass = i == j ? std::max(least_mass * entry.value(), laplacian.M[i] / unit / time_step) : 0;
+      const double mass =
+          i == j ? std::max(least_mass * entry.value(), laplacian.M[i] / edges[component[i]].mean_square / time_step)
+                 : 0;
       lower.insertBack(i, j) = entry.value() + mass;
     }
   }
@@ -119,7 +128,8 @@ struct Step {
                                .matrix = "M + t L",
                                .if_slow = "take a smaller time_step",
                                .if_large = "take fewer points"};
-    system.emplace(LinearSystem::positiveDefinite(names, systemMatrix(laplacian, is_free, time_step), options));
+    system.emplace(
+        LinearSystem::positiveDefinite(names, systemMatrix(function, laplacian, is_free, time_step), options));
     report = system->report();
   }
 

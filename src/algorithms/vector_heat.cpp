@@ -42,23 +42,25 @@ void checkOptions(const std::string& function, const Laplacian& laplacian, const
   }
 }
 
-/// The root mean squared distance of neighbours in L; 1 if there are none.
-double spacingOf(const SparseMatrix& L, const Points& positions) {
+/// The root mean squared distance of neighbours in L on each component; 1 if there are none.
+VectorXd spacingsOf(const SparseMatrix& L, const Points& positions, const Components& components) {
   const auto forEdges = [&](const auto& visit) {
-    for (int j = 0; j < L.cols(); ++j)
+    for (const int j : components.points)
       for (SparseMatrix::InnerIterator entry(L, j); entry; ++entry)
-        if (entry.row() < j && entry.value() < 0) visit((positions.row(entry.row()) - positions.row(j)).stableNorm());
+        if (entry.row() < j && entry.value() < 0)
+          visit(components.of[j], (positions.row(entry.row()) - positions.row(j)).stableNorm());
   };
-  double longest = 0, sum = 0, count = 0;
-  forEdges([&](double length) { longest = std::max(longest, length); });
-  if (!(longest > 0)) return 1;
-  const int exponent = std::ilogb(longest);
-  forEdges([&](double length) {
-    const double scaled = std::ldexp(length, -exponent);
-    sum += scaled * scaled;
-    count += 1;
+  VectorXd longest = VectorXd::Zero(components.count), sum = longest, count = longest;
+  forEdges([&](int c, double length) { longest[c] = std::max(longest[c], length); });
+  forEdges([&](int c, double length) {
+    const double scaled = longest[c] > 0 ? std::ldexp(length, -std::ilogb(longest[c])) : 0;
+    sum[c] += scaled * scaled;
+    count[c] += 1;
   });
-  return std::ldexp(std::sqrt(sum / count), exponent);
+  VectorXd spacing = VectorXd::Ones(components.count);
+  for (int c = 0; c < components.count; ++c)
+    if (longest[c] > 0) spacing[c] = std::ldexp(std::sqrt(sum[c] / count[c]), std::ilogb(longest[c]));
+  return spacing;
 }
 
 /// The matrix `sum` + mass, where each point has `width` rows.
@@ -81,10 +83,12 @@ FieldHeat::FieldHeat(const char* function, const Laplacian& laplacian, const Fra
   components_ = findComponents(laplacian);
   representative_ = laplacian.representative;
   status_ = laplacian.status;
-  spacing_ = spacingOf(L_, laplacian.positions);
-  time_ = options.time_step * spacing_ * spacing_;
-  const VectorXd diagonal = L_.diagonal();
-  mass_ = (laplacian.M / spacing_ / spacing_ / options.time_step).cwiseMax(least_mass * diagonal);
+  spacing_ = spacingsOf(L_, laplacian.positions, components_);
+  const int largest = components_.largest();
+  if (largest >= 0) time_ = options.time_step * spacing_[largest] * spacing_[largest];
+  mass_ = least_mass * L_.diagonal();
+  for (const int i : components_.points)
+    mass_[i] = std::max(laplacian.M[i] / spacingAt(i) / spacingAt(i) / options.time_step, mass_[i]);
   SolverOptions solver = options.solver;
   solver.tolerance = std::min(solver.tolerance, heat_tolerance);
   const auto system = [&](const SparseMatrix& A, const char* matrix, int width, double share) {

@@ -50,7 +50,9 @@ class FieldHeat {
   std::string whyIgnored(int source) const;
 
   int size() const { return static_cast<int>(representative_.size()); }
-  double spacing() const { return spacing_; }
+  /// The root mean squared distance of neighbours on the component of an active point.
+  double spacingAt(int point) const { return spacing_[components_.of[point]]; }
+  /// Of the component that has the most points.
   double timeStep() const { return time_; }
   const SolverReport& report() const { return report_; }
 
@@ -69,8 +71,8 @@ class FieldHeat {
   Components components_;
   std::vector<int> representative_;
   std::vector<PointStatus> status_;
-  double spacing_ = 1;  ///< root mean squared distance of neighbours
-  double time_ = 1;
+  VectorXd spacing_;  ///< by component, the root mean squared distance of neighbours
+  double time_ = 1;   ///< of the component that has the most points
   std::optional<LinearSystem> scalars_, vectors_;
   SolverReport report_;
 };

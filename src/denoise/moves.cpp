@@ -6,7 +6,6 @@
 #include <cmath>
 #include <utility>
 
-#include "base/median.h"
 #include "denoise/crease_moves.h"
 #include "denoise/middle_windows.h"
 #include "denoise/neighbor_lists.h"
@@ -181,12 +180,10 @@ SurfaceMoves surfaceMoves(const PointsView& points, const NeighborSource& source
   return result;
 }
 
-MoveFigures figuresOf(const SurfaceMoves& moves) {
-  Buffer<double> noise;
-  for (int p = 0; p < moves.move.rows(); ++p)
-    if (!moves.move.row(p).isZero(0)) noise.push_back(std::sqrt(moves.variance[p]));
-  const std::ptrdiff_t moved = std::ssize(noise);
-  return {moved, medianOf(std::move(noise))};
+std::int64_t SurfaceMoves::count() const {
+  std::int64_t moved = 0;
+  for (int p = 0; p < move.rows(); ++p) moved += move.row(p).isZero(0) ? 0 : 1;
+  return moved;
 }
 
 }  // namespace tufted

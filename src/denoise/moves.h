@@ -15,6 +15,9 @@ struct SurfaceMoves {
   PointBuffer move;              ///< n x 3, exactly 0 where a point stays
   RawBuffer<double> variance;    ///< n, of the noise around each point that moves, in length^2; else of no meaning
   Buffer<std::uint8_t> outlier;  ///< n, 1 at points that stay because they lie far off the surface of their neighbours
+
+  /// How many points move.
+  std::int64_t count() const;
 };
 
 /// Where windows find their neighbours.
@@ -24,11 +27,5 @@ NeighborSource windowSource(std::unique_ptr<NeighborSearch> search, int n);
 /// Finds the surface within the noise, and how each point gets onto it.
 /// @param source see windowSource()
 SurfaceMoves surfaceMoves(const PointsView& points, const NeighborSource& source, const Workers& workers);
-
-struct MoveFigures {
-  std::int64_t moved = 0;  ///< points that move
-  double noise = 0;        ///< median over these of the noise's standard deviation
-};
-MoveFigures figuresOf(const SurfaceMoves& moves);
 
 }  // namespace tufted

@@ -6,7 +6,6 @@
 #include <optional>
 #include <utility>
 
-#include "base/median.h"
 #include "base/power_of_two.h"
 #include "depth_image/depth_noise.h"
 #include "depth_image/pixel_frame.h"
@@ -224,14 +223,6 @@ class ImageStarBuilder {
 };
 
 }  // namespace
-
-double SurfaceImage::noiseOfMoved(const PointsView& points) const {
-  Buffer<double> values;
-  values.reserve(static_cast<std::size_t>(windows.moved));
-  for (Eigen::Index p = 0; p < windows.displacement.rows(); ++p)
-    if (!windows.displacement.row(p).isZero(0)) values.push_back(noiseOf(static_cast<int>(p), points));
-  return medianOf(std::move(values));
-}
 
 SurfaceImage surfaceImage(PixelGrid grid, const PointsView& points, bool smooths, const Workers& workers) {
   SurfaceImage image;

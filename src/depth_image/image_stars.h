@@ -24,8 +24,6 @@ struct SurfaceImage {
   double noiseOf(int p, const PointsView& points) const {
     return noise.atRange(windows.range[p], grid.depthOf(points.row(p)));
   }
-  /// The median over the points that are moved; 0 if none are.
-  double noiseOfMoved(const PointsView& points) const;
   std::size_t bytes() const {
     return grid.bytes() + bytesOf(windows.around) + bytesOf(windows.range) + bytesOf(windows.at_rim) +
            windows.displacement.bytes() + windows.place.bytes();

@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "base/power_of_two.h"
+#include "cover/component_edges.h"
 #include "cover/face_scale.h"
 #include "direct/star_rows.h"
 
@@ -66,6 +67,20 @@ bool StarUnion::appendFacesNear(const std::vector<Ball>& balls, std::vector<std:
     for (int& corner : faces[f]) corner = cloud_.input_index[corner];
   for (std::size_t i = first_length; i < length.size(); ++i) length[i] = unit.times(length[i]);
   return true;
+}
+
+Buffer<ComponentEdges> StarUnion::componentEdges(const std::vector<int>& component, std::int64_t components,
+                                                 const Workers& workers) const {
+  const EdgeLengths lengthOf{cloud_.points, stars_.displacement};
+  return edgesByComponent(
+      stars_.size(), components, workers, [&](int p) { return component[cloud_.input_index[p]]; },
+      [&](int p, SideSums& sums) {
+        for (int i = stars_.offset[p]; i < stars_.offset[p + 1]; ++i) {
+          if (!stars_.hasTriangle(i)) continue;
+          const int q = stars_.link[i], next = stars_.link[stars_.after(p, i)];
+          for (const double side : {lengthOf(p, q), lengthOf(q, next), lengthOf(next, p)}) sums.add(side);
+        }
+      });
 }
 
 VectorXd StarUnion::starAreas() const {

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <mutex>
 #include <optional>
+#include <vector>
 
 #include "base/buffer.h"
 #include "base/parallel.h"
@@ -52,6 +53,12 @@ class StarUnion final : public CoverSource {
   VectorXd starAreas() const override;
   bool appendFacesNear(const std::vector<Ball>& balls, std::vector<std::array<int, 3>>& faces,
                        std::vector<double>& length) const override;
+
+  /// The sides of the stars' triangles by component, in units of the ranked points.
+  /// @param component as Laplacian::component
+  /// @param components how many there are
+  Buffer<ComponentEdges> componentEdges(const std::vector<int>& component, std::int64_t components,
+                                        const Workers& workers) const;
 
   std::size_t bytes() const { return cover_.bytes(); }
 

@@ -5,6 +5,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "io/component_edges_file.h"
 #include "io/cover_file.h"
 #include "io/errors.h"
 #include "io/file_text.h"
@@ -77,6 +78,20 @@ Orientation readOrientation(const Json& json, const Path& path) {
                        ", must be arbitrary, given, viewpoint or consistent");
 }
 
+constexpr const char* noise_name = "noise.npy";
+
+/// @returns a value for each point, or none at all
+VectorXd readNoise(const Path& path, std::size_t points) {
+  const Eigen::MatrixXd values = tufted::readArray(path);
+  const auto n = static_cast<Eigen::Index>(points);
+  if ((values.rows() != n && values.rows() != 0) || (values.cols() != 1 && values.rows() > 0))
+    io::refuse(path, "is not an array of " + std::to_string(n) + " values, one for each row of L");
+  for (Eigen::Index i = 0; i < values.rows(); ++i)
+    if (!(values(i, 0) >= 0 && std::isfinite(values(i, 0))))
+      io::refuse(path, "the noise of point " + std::to_string(i) + " is negative or not finite");
+  return values.rows() > 0 ? VectorXd(values.col(0)) : VectorXd();
+}
+
 /// Undoes WriteOptions::dummy. Whatever else points that are not active have stays, to be found by those who check.
 void removeDummies(Laplacian& laplacian) {
   laplacian.L.prune(
@@ -90,6 +105,18 @@ void removeDummies(Laplacian& laplacian) {
 bool hasWritten(const Json& written, const std::string& name) {
   const Json files = written.is_object() ? written.value("files", Json()) : Json();
   return files.is_array() && std::find(files.begin(), files.end(), name) != files.end();
+}
+
+/// The edges of each component. Older versions wrote those of the whole surface alone, into the report.
+/// @param laplacian with its components
+std::vector<ComponentEdges> readEdges(const Path& dir, const Laplacian& laplacian) {
+  const std::size_t components = componentSizes(laplacian.component).size();
+  const Json json = io::readJson(dir / "report.json");
+  if (hasWritten(json.value("write_options", Json()), io::component_edges_name))
+    return io::readComponentEdges(dir / io::component_edges_name, components);
+  const Report& report = laplacian.report;
+  if (!(report.mean_squared_edge > 0)) return {};
+  return {components, {1, report.mean_edge, report.mean_squared_edge}};
 }
 
 }  // namespace
@@ -123,6 +150,7 @@ Laplacian readUncheckedLaplacian(const std::filesystem::path& dir, bool with_cov
   // Older versions did not write it.
   const Path positions = dir / io::positions_name;
   if (hasWritten(written, io::positions_name)) laplacian.positions = io::readPositions(positions, n);
+  if (hasWritten(written, noise_name)) laplacian.noise = readNoise(dir / noise_name, n);
   laplacian.L = matrix.read();
   if (takes_cover)
     laplacian.stored_cover =
@@ -142,6 +170,7 @@ Laplacian readLaplacian(const std::filesystem::path& dir, bool with_cover) {
                "counts " + std::to_string(counted) + " points, and L has " + std::to_string(n) + " rows");
   io::requirePromises(dir, laplacian);
   laplacian.component = componentLabels(laplacian);
+  laplacian.component_edges = readEdges(dir, laplacian);
   return laplacian;
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "io/columns.h"
+#include "io/component_edges_file.h"
 #include "io/conventions.h"
 #include "io/cover_file.h"
 #include "io/frames_file.h"
@@ -78,6 +79,12 @@ const ResultFile result_files[] = {
      }},
     {Format::npz, "frames.npy",
      [](const OutputPath& to, const Results& r) { io::writeFrames(to, r.laplacian.frames); }},
+    {Format::npz, "noise.npy",
+     [](const OutputPath& to, const Results& r) {
+       writeNpy(to, "<f8", r.laplacian.noise.data(), static_cast<std::size_t>(r.laplacian.noise.size()));
+     }},
+    {Format::npz, io::component_edges_name,
+     [](const OutputPath& to, const Results& r) { io::writeComponentEdges(to, r.laplacian.component_edges); }},
     {Format::cover, "cover.npz",
      [](const OutputPath& to, const Results& r) { io::writeCover(to, r.laplacian.cover()); }},
     {Format::mtx, "L.mtx",
@@ -142,6 +149,7 @@ void check(const Laplacian& laplacian, const Geometry& geometry) {
   require("boundary", laplacian.boundary.size(), points);
   if (!laplacian.component.empty()) require("component", laplacian.component.size(), points);
   if (laplacian.positions.rows() > 0) require("positions", laplacian.positions.rows(), points);
+  if (laplacian.noise.size() > 0) require("noise", laplacian.noise.size(), points);
   if (geometry.normals.rows() > 0) require("normals", geometry.normals.rows(), points);
   if (geometry.height > 1)
     require("the grid of width times height", static_cast<std::size_t>(geometry.width) * geometry.height, points);

@@ -22,6 +22,7 @@ void checkSizes(const std::string& function, const Laplacian& laplacian) {
   expect("rows of frames.normals =", laplacian.frames.normals.rows(), true);
   expect("rows of frames.tangents =", laplacian.frames.tangents.rows(), true);
   expect("rows of positions =", laplacian.positions.rows(), true);
+  expect("size of noise =", laplacian.noise.size(), true);
   if (laplacian.stored_cover) expect("vertices of the cover =", laplacian.stored_cover->vertices, false);
   const auto& representative = laplacian.representative;
   for (Eigen::Index i = 0; i < n; ++i) {

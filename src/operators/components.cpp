@@ -1,14 +1,18 @@
 // The connected components of a surface, and the Laplacian of some of them.
 #include "tufted/components.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "base/buffer.h"
 #include "base/disjoint_sets.h"
+#include "base/median.h"
 #include "base/parallel.h"
+#include "cover/component_edges.h"
 #include "cover/components.h"
 #include "tufted/check.h"
 #include "tufted/errors.h"
@@ -58,7 +62,7 @@ IntrinsicTriangulation restrictedCover(const IntrinsicTriangulation& cover, cons
   return result;
 }
 
-/// Counts again what the report says of points.
+/// Counts and measures again what the report says of points and edges.
 void recount(Laplacian& laplacian) {
   Report& report = laplacian.report;
   report.active = report.isolated = report.coincident = 0;
@@ -72,6 +76,22 @@ void recount(Laplacian& laplacian) {
     report.rim_points += laplacian.boundary[i] == Boundary::rim ? 1 : 0;
     report.jump_points += laplacian.boundary[i] == Boundary::jump ? 1 : 0;
     report.lost_points += laplacian.boundary[i] == Boundary::lost ? 1 : 0;
+  }
+  SideSums sides;
+  for (const ComponentEdges& edges : laplacian.component_edges) {
+    const auto count = static_cast<double>(edges.sides);
+    sides.add({edges.sides, count * edges.mean, count * edges.mean_square});
+  }
+  if (sides.sides > 0) {
+    report.mean_edge = sides.length / static_cast<double>(sides.sides);
+    report.mean_squared_edge = sides.square / static_cast<double>(sides.sides);
+  }
+  if (laplacian.noise.size() > 0) {
+    Buffer<double> noise;
+    for (std::size_t i = 0; i < laplacian.status.size(); ++i)
+      if (laplacian.status[i] == PointStatus::active && laplacian.noise[i] > 0) noise.push_back(laplacian.noise[i]);
+    report.denoised = std::ssize(noise);
+    report.noise = medianOf(std::move(noise));
   }
   report.nonzeros = laplacian.L.nonZeros();
   report.area = laplacian.M.sum();
@@ -128,11 +148,15 @@ Laplacian restrictedTo(const Laplacian& laplacian, const std::vector<int>& compo
     const auto row = static_cast<Eigen::Index>(i);
     result.M[row] = 0;
     if (result.cover_areas.size() > 0) result.cover_areas[row] = 0;
+    if (result.noise.size() > 0) result.noise[row] = 0;
     result.boundary[i] = Boundary::none;
     result.representative[i] = static_cast<int>(i);
     result.status[i] = PointStatus::isolated;
   }
   result.L.prune([&](Eigen::Index i, Eigen::Index, double) { return stays[i] != 0; });
+  result.component_edges.clear();
+  for (std::size_t c = 0; c < std::min(chosen.size(), laplacian.component_edges.size()); ++c)
+    if (chosen[c] != 0) result.component_edges.push_back(laplacian.component_edges[c]);
   workers.report(stage, 0);
   recount(result);
   result.report.components = kept;

@@ -41,14 +41,19 @@ SurfaceFaces surfaceFaces(const IntrinsicTriangulation& cover, double scale, con
     SurfaceFace face;
     if (layOut(distinct, scale * distinct.copies, surface.exponent, face)) surface.faces.push_back(face);
   }
-  double weight = 0, squares = 0, area = 0, area_squares = 0;
-  for (const SurfaceFace& face : surface.faces) {
-    const double square = squaredSides(face) / 3, here = face.weight * face.base * face.height;
-    weight += face.weight, squares += face.weight * square;
-    area += here, area_squares += here * square;
-  }
-  if (weight > 0) surface.mean_square = squares / weight, surface.area_mean_square = area_squares / area;
   return surface;
+}
+
+VectorXd meanSquaredSides(const SurfaceFaces& surface, const std::vector<int>& part, int parts, bool by_area) {
+  VectorXd weights = VectorXd::Zero(parts), squares = weights;
+  for (const SurfaceFace& face : surface.faces) {
+    const int of = part[face.corners[0]];
+    if (of < 0) continue;
+    const double weight = by_area ? face.weight * face.base * face.height : face.weight;
+    weights[of] += weight;
+    squares[of] += weight * (squaredSides(face) / 3);
+  }
+  return (weights.array() > 0).select(squares.cwiseQuotient(weights), 0);
 }
 
 VectorXd lumpedAreas(const SurfaceFaces& surface, int size) {

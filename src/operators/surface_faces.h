@@ -26,13 +26,16 @@ struct SurfaceFace {
 struct SurfaceFaces {
   std::vector<SurfaceFace> faces;  ///< sorted by corners
   int exponent = 0;                ///< lengths are in units of 2^exponent of the cover's
-  double mean_square = 0;          ///< mean squared side, in that unit squared
-  double area_mean_square = 0;     ///< mean squared side, each face weighted by its area
 };
 
 /// Collects the faces of a cover.
 /// @param scale of L: 1/2 for meshes, 1/6 for clouds
 SurfaceFaces surfaceFaces(const IntrinsicTriangulation& cover, double scale, const Workers& workers);
+
+/// The mean squared side over each of some parts of the surface, in units of 2^(2 exponent); 0 without a face.
+/// @param part of each point, in [0, parts); -1: none
+/// @param by_area whether each face is weighted by its area
+VectorXd meanSquaredSides(const SurfaceFaces& surface, const std::vector<int>& part, int parts, bool by_area);
 
 /// Areas of the N points, a third of each face per corner, in units of 2^(2 exponent).
 VectorXd lumpedAreas(const SurfaceFaces& surface, int size);

@@ -1,9 +1,12 @@
 #include "pipeline/cloud_surface.h"
 
 #include <algorithm>
+#include <cmath>
 #include <memory>
 #include <utility>
 
+#include "base/buffer.h"
+#include "base/median.h"
 #include "base/power_of_two.h"
 #include "denoise/moves.h"
 #include "depth_image/image_boundary.h"
@@ -15,6 +18,23 @@
 namespace tufted {
 namespace {
 
+/// The noise around each point that moves, n values with 0 at the others, or 0 values if none moves. Reports it too.
+/// @param moves n x 3, or 0 x 3
+/// @param deviation(p) standard deviation around a point that moves
+template <class Deviation>
+RawBuffer<double> noiseOfMoved(const PointBuffer& moves, const Deviation& deviation, int exponent, Report& report) {
+  RawBuffer<double> noise(static_cast<std::size_t>(moves.rows()));
+  Buffer<double> of_moved;
+  for (int p = 0; p < moves.rows(); ++p) {
+    noise[p] = moves.row(p).isZero(0) ? 0 : deviation(p);
+    if (!moves.row(p).isZero(0)) of_moved.push_back(noise[p]);
+  }
+  report.denoised = std::ssize(of_moved);
+  if (of_moved.empty()) return {};
+  report.noise = PowerOfTwo(exponent).times(medianOf(std::move(of_moved)));
+  return noise;
+}
+
 CloudSurface imageSurface(PixelGrid grid, const RankedCloud& cloud, const CloudOptions& options, const Workers& workers,
                           StageClock& clock, Report& report) {
   const PointBuffer normals = rankedNormals(options.normals, cloud, report);
@@ -23,8 +43,8 @@ CloudSurface imageSurface(PixelGrid grid, const RankedCloud& cloud, const CloudO
       surfaceImage(std::move(grid), cloud.points, options.steps.lengths == Lengths::denoised, workers);
   report.unplaced = surface.unplaced;
   report.cut_neighbors = surface.windows.cut;
-  report.denoised = surface.windows.moved;
-  report.noise = PowerOfTwo(cloud.exponent).times(surface.noiseOfMoved(cloud.points));
+  RawBuffer<double> noise = noiseOfMoved(
+      surface.windows.displacement, [&](int p) { return surface.noiseOf(p, cloud.points); }, cloud.exponent, report);
   clock.finish("windows", surface.bytes());
   const DepthImage image = surface.view(cloud.points);
   BuiltStars built = buildImageStars(image, normals, options, workers, report);
@@ -32,7 +52,8 @@ CloudSurface imageSurface(PixelGrid grid, const RankedCloud& cloud, const CloudO
   built.stars.displacement = std::move(surface.windows.displacement);
   const bool is_whole_cloud = cloud.size() <= WindowPixels::count + 1;
   // Triangles are as large as they are between points on the surface.
-  CloudSurface result{filteredStars(std::move(built), is_whole_cloud, image.moved, options, workers, report), {}};
+  CloudSurface result{
+      filteredStars(std::move(built), is_whole_cloud, image.moved, options, workers, report), {}, std::move(noise)};
   clock.restart();
   result.boundary = findImageBoundary(result.built.stars, image, workers);
   return result;
@@ -41,21 +62,22 @@ CloudSurface imageSurface(PixelGrid grid, const RankedCloud& cloud, const CloudO
 constexpr double least_moved = 0.05;  // of the points; fewer do not pay for a second search
 
 /// Moves the points of the cloud onto the surface within its noise, and searches among them from then on.
-void moveOntoSurface(RankedCloud& cloud, NeighborSource& source, const Workers& workers, Report& report) {
-  if (source.search == nullptr || source.isWholeCloud(cloud.size())) return;
+/// @returns see CloudSurface::noise
+RawBuffer<double> moveOntoSurface(RankedCloud& cloud, NeighborSource& source, const Workers& workers, Report& report) {
+  if (source.search == nullptr || source.isWholeCloud(cloud.size())) return {};
   NeighborSource of_windows = windowSource(std::move(source.search), cloud.size());
   SurfaceMoves moves;
   if (mayBeNoisy(cloud.points, of_windows, workers)) moves = surfaceMoves(cloud.points, of_windows, workers);
   source.search = std::move(of_windows.search);
-  const MoveFigures figures = figuresOf(moves);
-  if (static_cast<double>(figures.moved) < least_moved * cloud.size()) return;
-  report.denoised = figures.moved;
-  report.noise = PowerOfTwo(cloud.exponent).times(figures.noise);
+  if (static_cast<double>(moves.count()) < least_moved * cloud.size()) return {};
+  RawBuffer<double> noise = noiseOfMoved(
+      moves.move, [&](int p) { return std::sqrt(moves.variance[p]); }, cloud.exponent, report);
   workers.forBlocks("noise", cloud.size(), usual_block, [&](std::int64_t begin, std::int64_t end, int) {
     for (std::int64_t p = begin; p < end; ++p) cloud.points.row(p) += moves.move.row(p);
   });
   source.search = std::make_unique<NeighborSearch>(cloud.points, workers);
   cloud.move = std::move(moves.move);
+  return noise;
 }
 
 }  // namespace
@@ -71,9 +93,10 @@ CloudSurface findSurface(RankedCloud& cloud, const CloudOptions& options, const 
   }
   NeighborSource source = neighborSource(options, cloud, status, representative, workers, report);
   clock.finish("tree", source.bytes());
-  if (options.steps.denoise) moveOntoSurface(cloud, source, workers, report);
+  RawBuffer<double> noise;
+  if (options.steps.denoise) noise = moveOntoSurface(cloud, source, workers, report);
   clock.finish("noise", cloud.move.bytes());
-  CloudSurface result{surfaceStars(cloud, source, options, workers, report), {}};
+  CloudSurface result{surfaceStars(cloud, source, options, workers, report), {}, std::move(noise)};
   clock.restart();
   result.boundary = findBoundary(result.built, cloud, source, viewpoint, workers);
   return result;

@@ -16,6 +16,9 @@ namespace tufted {
 struct CloudSurface {
   SurfaceStars built;         ///< the local Delaunay triangulation of each point (Section 5.7)
   Buffer<Boundary> boundary;  ///< n, why the surface ends at each point
+  /// n, the standard deviation of the noise around each point that was moved out of it, in units of the ranked points;
+  /// 0 at others. 0 entries where none was moved.
+  RawBuffer<double> noise;
 };
 
 /// The stars of all points, without outliers and triangles that the neighbours refuse, and where the surface ends: by

@@ -1,10 +1,13 @@
 #include "pipeline/from_cover.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numeric>
 #include <utility>
 
+#include "base/buffer.h"
 #include "cover/assemble.h"
+#include "cover/component_edges.h"
 #include "cover/cover.h"
 #include "cover/edge_lengths.h"
 #include "cover/face_scale.h"
@@ -37,12 +40,23 @@ double trianglesArea(const IntrinsicTriangulation& cover, const EdgeLengths& len
   });
 }
 
+/// The sums over the three sides of each triangle, before they are lengthened and flipped.
+Buffer<SideSums> sidesOfTriangles(const IntrinsicTriangulation& cover, const Workers& workers) {
+  Buffer<SideSums> sides(cover.size() / 2);
+  workers.forBlocks("lengths", std::ssize(sides), cheap_block, [&](std::int64_t begin, std::int64_t end, int) {
+    for (auto t = static_cast<int>(begin); t < end; ++t)
+      for (int s = 0; s < 3; ++s) sides[t].add(cover.length[frontSide(t, s)]);
+  });
+  return sides;
+}
+
 }  // namespace
 
 void finishFromCover(std::shared_ptr<IntrinsicTriangulation> cover, const CoverVertices& vertices, double delta,
                      bool keep_cover, const Workers& workers, StageClock& clock, Laplacian& result) {
   const double scale = faceScale(result.kind);
   BuildFigures figures{.mean = measureLengths(*cover, vertices.points, vertices.displacement, workers)};
+  const Buffer<SideSums> sides = sidesOfTriangles(*cover, workers);
   figures.triangles = cover->size() / 2;
   const EdgeLengths lengths{vertices.points, vertices.displacement};
   const double area = trianglesArea(*cover, lengths, workers);
@@ -63,6 +77,17 @@ void finishFromCover(std::shared_ptr<IntrinsicTriangulation> cover, const CoverV
 
   const int size = static_cast<int>(result.status.size());
   assembleLaplacian(*cover, vertices.input_index, size, scale, workers, result);
+  if (result.report.components > 1) {
+    // Flips have moved the triangles, but each within its component. A corner may be on none.
+    const auto componentOf = [&](int t) {
+      int component = -1;
+      for (const int corner : cover->faces[2 * t])
+        component = std::max(component, result.component[vertices.input_index[corner]]);
+      return component;
+    };
+    figures.by_component = edgesByComponent(std::ssize(sides), result.report.components, workers, componentOf,
+                                            [&](int t, SideSums& sums) { sums.add(sides[t]); });
+  }
   finishResult(figures, vertices.exponent, result);
   if (keep_cover) {
     toInput(*cover, vertices.input_index, size, vertices.exponent);

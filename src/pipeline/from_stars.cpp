@@ -31,6 +31,8 @@ std::optional<OwnAreas> finishFromStars(SurfaceStars built, RankedCloud cloud, c
   clock.finish("flips", stars_and_cover->bytes());
 
   stars_and_cover->assemble(metric, options.keep_cover, workers, result);
+  if (result.report.components > 1)
+    figures.by_component = stars_and_cover->componentEdges(result.component, result.report.components, workers);
   finishResult(figures, exponent, result);
   if (options.keep_cover) result.cover_source = stars_and_cover;
   clock.finish("matrices", bytesOfMatrices(result));

@@ -82,6 +82,7 @@ void buildMeshLaplacian(const PointsRef& points, const TrianglesRef& triangles, 
   result.boundary.assign(n, Boundary::none);
   result.frames = {};
   result.positions = points;
+  result.noise.resize(0);
   const Buffer<int> usable = usableTriangles(triangles, result.status, result.representative, report);
   clock.finish("scale", static_cast<std::size_t>(n) * 3 * sizeof(double) + bytesOf(usable));
 

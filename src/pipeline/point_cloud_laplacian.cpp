@@ -86,6 +86,8 @@ void buildCloudLaplacian(const PointsRef& points, const CloudOptions& options, C
   setBoundaryAndNormals(surface.boundary, built.support.normals, cloud, workers, result);
   release(surface.boundary);
   setPositions(points, built.stars.displacement, cloud, workers, result);
+  setNoise(surface.noise, cloud, result);
+  release(surface.noise);
   cloud.move = {};
   result.frames.orientation = options.normals != nullptr ? Orientation::given : Orientation::arbitrary;
   if (options.normals == nullptr && viewpoint != nullptr) faceViewpoint(*viewpoint, workers, result);

@@ -49,6 +49,18 @@ void setPositions(const PointsRef& points, const PointBuffer& displacement, cons
       result.positions.row(i) = result.positions.row(result.representative[i]);
 }
 
+void setNoise(const RawBuffer<double>& noise, const RankedCloud& cloud, Laplacian& result) {
+  if (noise.empty()) {
+    result.noise.resize(0);
+    return;
+  }
+  const PowerOfTwo unit(cloud.exponent);
+  result.noise.setZero(std::ssize(result.status));
+  for (std::size_t p = 0; p < noise.size(); ++p) result.noise[cloud.input_index[p]] = unit.times(noise[p]);
+  for (std::size_t i = 0; i < result.status.size(); ++i)
+    if (result.status[i] == PointStatus::coincident) result.noise[i] = result.noise[result.representative[i]];
+}
+
 void faceViewpoint(const Eigen::Vector3d& viewpoint, const Workers& workers, Laplacian& result) {
   Points& normals = result.frames.normals;
   const Eigen::RowVector3d half = viewpoint.transpose() / 2;  // so that no difference overflows

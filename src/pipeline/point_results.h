@@ -22,6 +22,10 @@ void setBoundaryAndNormals(const Buffer<Boundary>& boundary, const PointsView& n
 void setPositions(const PointsRef& points, const PointBuffer& displacement, const RankedCloud& cloud,
                   const Workers& workers, Laplacian& result);
 
+/// Sets the noise around the points that were moved out of it.
+/// @param noise by rank, see CloudSurface::noise
+void setNoise(const RawBuffer<double>& noise, const RankedCloud& cloud, Laplacian& result);
+
 /// Turns normals towards the viewpoint.
 void faceViewpoint(const Eigen::Vector3d& viewpoint, const Workers& workers, Laplacian& result);
 

@@ -78,6 +78,13 @@ void finishResult(const BuildFigures& figures, int exponent, Laplacian& result) 
   report.mean_squared_edge = std::ldexp(figures.mean.square, 2 * exponent);
   report.lengthened_edges = figures.lengthened_edges;
   report.area_added = area_unit.times(figures.area_added);
+  result.component_edges.assign(figures.by_component.begin(), figures.by_component.end());
+  if (report.components == 1)
+    result.component_edges = {{3 * figures.triangles, figures.mean.length, figures.mean.square}};
+  for (ComponentEdges& edges : result.component_edges) {
+    edges.mean = std::ldexp(edges.mean, exponent);
+    edges.mean_square = std::ldexp(edges.mean_square, 2 * exponent);
+  }
   report.flips = figures.flips.flips;
   report.flip_failures = figures.flips.failures;
 }

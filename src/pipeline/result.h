@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 
+#include "base/buffer.h"
 #include "base/parallel.h"
 #include "cover/cover.h"
 #include "tufted/laplacian.h"
@@ -25,6 +26,7 @@ struct BuildFigures {
   MeanLengths mean = {};
   std::int64_t lengthened_edges = 0;
   double area_added = 0;
+  Buffer<ComponentEdges> by_component = {};  ///< empty: there is one component at most
   FlipCounts flips = {};
   std::int64_t triangles = 0;
 };

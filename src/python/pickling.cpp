@@ -99,6 +99,11 @@ py::dict stateOf(const py::object& self) {
   state["tangents"] = laplacian.frames.tangents;
   state["orientation"] = static_cast<int>(laplacian.frames.orientation);
   state["positions"] = laplacian.positions;
+  state["noise"] = laplacian.noise;
+  py::list edges;
+  for (const auto& [sides, mean, mean_square] : laplacian.component_edges)
+    edges.append(py::make_tuple(sides, mean, mean_square));
+  state["component_edges"] = edges;
   state["cover"] = coverOf(laplacian);
   state["report"] = numbersOf(laplacian.report);
   return state;
@@ -124,6 +129,12 @@ Shared fromState(const py::dict& state) {
   laplacian->frames = {state["normals"].cast<Points>(), state["tangents"].cast<Points>(),
                        static_cast<Orientation>(state["orientation"].cast<int>())};
   laplacian->positions = state["positions"].cast<Points>();
+  laplacian->noise = state["noise"].cast<VectorXd>();
+  for (const py::handle& edges : state["component_edges"]) {
+    const auto parts = edges.cast<py::tuple>();
+    laplacian->component_edges.push_back(
+        {parts[0].cast<std::int64_t>(), parts[1].cast<double>(), parts[2].cast<double>()});
+  }
   laplacian->stored_cover = coverFrom(state["cover"]);
   laplacian->report = reportFrom(state["report"]);
   checkSizes("pickle", *laplacian);

@@ -40,7 +40,9 @@ constexpr Piece pieces[] = {{nullptr, "report.json"},
                             {"cover.npz", "faces.npy"},
                             {"cover.npz", "glue.npy"},
                             {"cover.npz", "length.npy"},
-                            {nullptr, "measured_positions.npy"}};
+                            {nullptr, "measured_positions.npy"},
+                            {nullptr, "noise.npy"},
+                            {nullptr, "component_edges.npy"}};
 
 void require(bool condition) {
   if (!condition) std::abort();

@@ -115,7 +115,7 @@ def folder(pieces):
 def laplacian():
     """A right triangle and a point that is nowhere."""
     names = ["L.npz", "M.npy", "status.npy", "representative.npy", "boundary.npy", "frames.npy",
-             "cover.npz", "measured_positions.npy"]
+             "cover.npz", "measured_positions.npy", "noise.npy", "component_edges.npy"]
     files = ", ".join(f'"{name}"' for name in names)
     frames = [1, 0, 0, 0, 1, 0, 0, 0, 1] * 4
     legs = [1, 2 ** 0.5, 1, 1, 2 ** 0.5, 1]
@@ -130,7 +130,8 @@ def laplacian():
             (12, npy(FLOAT, [7], [flip * x for x in (1, -0.5, -0.5, -0.5, 0.5, -0.5, 0.5)])),
             (13, npy(INT, [2, 3], [0, 1, 2, 0, 2, 1])), (14, npy(INT, [2, 3], [5, 4, 3, 2, 1, 0])),
             (15, npy(FLOAT, [2, 3], legs)),
-            (16, npy(FLOAT, [4, 3], [0, 0, 0, 1, 0, 0, 0, 1, 0, 9, 9, 9]))])
+            (16, npy(FLOAT, [4, 3], [0, 0, 0, 1, 0, 0, 0, 1, 0, 9, 9, 9])),
+            (17, npy(FLOAT, [4], [0, 0.1, 0, 0])), (18, npy(FLOAT, [1, 3], [9, 1.1, 1.3]))])
 
 
 SEEDS = {

@@ -67,6 +67,23 @@ TEST(Noise, OfFewPointsMovesNone) {
   EXPECT_TRUE(sameBits(pointCloudLaplacian(cloud.points).L, pointCloudLaplacian(cloud.points, withoutDenoise()).L));
 }
 
+TEST(Noise, IsFoundWhateverExactPointsLieFarAway) {
+  const Cloud noisy = noisySphere(0.01, 7);
+  const auto off = [](const Points& positions) {
+    return std::sqrt((positions.topRows(8000).rowwise().norm().array() - 1).square().mean());
+  };
+  const double alone = off(pointCloudLaplacian(noisy.points).positions);
+  for (const auto& [far, size] : {std::pair(shapes::sphere(16000).points, 0.3),
+                                  {shapes::cubeSurface(40000).points, 5.0},
+                                  {shapes::crossingPlanes(80000).points, 2.0}}) {
+    Points points(8000 + far.rows(), 3);
+    points << noisy.points, (size * far).rowwise() + Eigen::RowVector3d(30, 0, 0);
+    const Laplacian laplacian = pointCloudLaplacian(points);
+    EXPECT_LT(off(laplacian.positions), 1.2 * alone) << far.rows();
+    EXPECT_EQ(laplacian.positions.bottomRows(far.rows()), points.bottomRows(far.rows())) << far.rows();
+  }
+}
+
 TEST(Noise, AnyNumberOfThreadsGivesTheSameBits) {
   const Points points = withNoise(shapes::cubeSurface(8000), 0.01, 7).points;
   CloudOptions options;

@@ -152,7 +152,7 @@ def test_save_writes_the_files_of_the_command(name, words, options, written, tmp
     surface = tufted.read(DATASETS / name, **options)
     surface.save(ours, formats=EVERY_FORMAT.split(","), **written)
     names = sorted(path.name for path in commands.iterdir())
-    assert sorted(path.name for path in ours.iterdir()) == names and len(names) == 18
+    assert sorted(path.name for path in ours.iterdir()) == names and len(names) == 20
     for file in names:
         if file == "report.json":
             assert without_times(ours / file) == without_times(commands / file)
@@ -228,6 +228,56 @@ def test_what_is_saved_is_loaded(surface, tmp_path):
     run("spectrum", "--operator", tmp_path, "--count", "5", "--out", tmp_path / "spectrum")
     np.testing.assert_array_equal(np.load(tmp_path / "spectrum/evecs.npy"),
                                   surface.spectrum(5, null_space=False).vectors)
+
+
+def noisy_spheres():
+    """A noisy sphere, the first 2,000 points, and a coarse exact one."""
+    return np.concatenate([sphere(2000, noise=0.015), 8 * sphere(600, seed=12) + [20, 0, 0]])
+
+
+def test_from_a_folder_all_results_are_the_same(tmp_path):
+    whole = tufted.PointCloud(noisy_spheres())
+    assert whole.report["noise"] > 0 and whole.report["components"] == 2
+    whole.save(tmp_path, formats=["npz", "ply", "cover"])
+    loaded = tufted.load(tmp_path)
+    pins = {3: 1.0, 90: 2.0}
+    calls = [lambda s: s.smooth(), lambda s: s.smooth(time_step=5), lambda s: s.smooth_values(s.points[:, 0]),
+             lambda s: s.curvature().mean, lambda s: s.curvature().principal, lambda s: s.distance(3),
+             lambda s: s.distance(3, method="heat"), lambda s: s.harmonic(pins), lambda s: s.biharmonic(pins),
+             lambda s: s.poisson(s.points[:, 0]), lambda s: s.green(3), lambda s: s.extend([3, 90], [1.0, 2.0]),
+             lambda s: s.transport(3, [1, 2, 3]), lambda s: s.log_map(3).coordinates, lambda s: s.normals(),
+             lambda s: s.gradients().X.data, lambda s: s.spectrum(8, null_space=False).vectors, lambda s: s.hks(k=10),
+             lambda s: s.segments(4).labels, lambda s: s.triangles(), lambda s: s.report["noise"],
+             lambda s: s.report["denoised"]]
+    for one, other in ((whole, loaded), (whole.restricted_to(), loaded.restricted_to()),
+                       (whole, pickle.loads(pickle.dumps(whole))), (loaded, pickle.loads(pickle.dumps(loaded)))):
+        for number, call in enumerate(calls):
+            np.testing.assert_array_equal(call(one), call(other), err_msg=str(number))
+
+
+def test_gradients_are_those_of_the_moved_points(tmp_path):
+    np.save(tmp_path / "noisy.npy", sphere(3000, noise=0.01))
+    cloud = tufted.read(tmp_path / "noisy.npy")
+    assert cloud.report["denoised"] == 3000
+    run("operators", tmp_path / "noisy.npy", "--count", "4", "--out", tmp_path / "out")
+    written = np.load(tmp_path / "out/operators.npz")
+
+    def matrix(name):
+        return scipy.sparse.csc_matrix(tuple(written[f"{name}_{part}"] for part in ("data", "indices", "indptr")),
+                                       shape=written[f"{name}_shape"])
+
+    for X, Y in (cloud.gradients()[:2], (matrix("gradX"), matrix("gradY"))):
+        # The parts of the three axes that lie in a plane.
+        squares = (X @ cloud.positions) ** 2 + (Y @ cloud.positions) ** 2
+        np.testing.assert_allclose(squares.sum(axis=1), 2, rtol=1e-9)
+
+
+def test_a_part_is_smoothed_as_if_it_were_alone():
+    fine, coarse = sphere(2000), 300 * sphere(1000, seed=12) + [1000, 0, 0]
+    whole = tufted.PointCloud(np.concatenate([fine, coarse]))
+    alone = tufted.PointCloud(fine).smooth()
+    for surface in (whole, whole.restricted_to(), pickle.loads(pickle.dumps(whole)).restricted_to()):
+        np.testing.assert_allclose(surface.smooth()[:2000], alone, atol=1e-4)
 
 
 def test_without_the_cover_distances_are_refused(tmp_path):

@@ -11,6 +11,19 @@ std::string Extent::text() const {
   return name + " has the size " + numberText(size) + " and the spacing " + numberText(spacing);
 }
 
+namespace {
+
+double meanEdge(const tufted::Laplacian& laplacian) {
+  double sides = 0, length = 0;
+  for (const tufted::ComponentEdges& edges : laplacian.component_edges) {
+    sides += static_cast<double>(edges.sides);
+    length += static_cast<double>(edges.sides) * edges.mean;
+  }
+  return sides > 0 ? length / sides : 0;
+}
+
+}  // namespace
+
 Extent extentOf(const Operator& source) {
   const tufted::Points& points = source.geometry.points;
   Eigen::AlignedBox3d box;
@@ -20,5 +33,5 @@ Extent extentOf(const Operator& source) {
   const double diagonal = box.isEmpty() ? 0 : box.diagonal().norm();
   return {.name = source.name,
           .size = std::max(diagonal, std::sqrt(source.laplacian.M.sum())),
-          .spacing = source.laplacian.report.mean_edge};
+          .spacing = meanEdge(source.laplacian)};
 }

@@ -86,6 +86,8 @@ Writes into DIR, renamed one after the other when all are complete; files of oth
                       beyond; of organized clouds and those with a VIEWPOINT as seen from there), 3 lost (triangles
                       of the surface are missing)
   frames.npy          N x 3 x 3: of each point the x axis, the y axis and the normal; none for meshes
+  noise.npy           the noise around each point that was moved, a standard deviation; 0 elsewhere, empty if none was
+  component_edges.npy for each component: sides of triangles, their mean length, their mean squared length
   --format mtx
   L.mtx, M.mtx        Matrix Market: lower triangle of a symmetric matrix, N x 1 array
   --format mat

@@ -33,8 +33,8 @@ Eigen::MatrixXd unpacked(const tufted::Field& field, Eigen::Index rows) {
 }  // namespace
 
 bool isShown(const std::string& name) {
-  return !isOneOf(name, {"evals", "principal_directions", "frames", "measured_positions", "M", "status",
-                         "representative", "components", "path"});
+  return !isOneOf(name, {"evals", "principal_directions", "frames", "measured_positions", "component_edges", "M",
+                         "status", "representative", "components", "path"});
 }
 
 FieldKind kindOfResult(const std::string& name, Eigen::Index columns) {

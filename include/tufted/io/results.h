@@ -45,7 +45,9 @@ void writeResults(const std::filesystem::path& dir, const Laplacian& laplacian, 
                   const std::vector<ResultArray>& arrays, const ResultOptions& options = {});
 
 /// Reads what writeLaplacian wrote with Format::npz: L.npz, M.npy, status.npy, representative.npy, boundary.npy,
-/// frames.npy, and of report.json the kind, counts, lengths and areas. Sign::igl and dummy values are undone.
+/// frames.npy, noise.npy, component_edges.npy, and of report.json the kind, counts, lengths and areas. Sign::igl and
+/// dummy values are undone. Versions before noise.npy and component_edges.npy are read without noise, and with the
+/// report's mean edges for every component.
 /// `cover_areas` is M if that holds the cover's areas, else empty. If report.json has no kind, as in older files, the
 /// kind follows from the options of the build in it; without these a cover is refused, and nothing else depends on the
 /// kind.

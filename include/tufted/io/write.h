@@ -13,7 +13,7 @@ namespace tufted {
 
 /// The files that writeLaplacian can write, beside report.json, which it always writes.
 enum class Format : std::uint8_t {
-  npz,        ///< L.npz, M.npy, status.npy, representative.npy, boundary.npy, frames.npy: NumPy and SciPy
+  npz,        ///< L.npz and the .npy files below: NumPy and SciPy, and what readLaplacian() reads
   mtx,        ///< L.mtx, M.mtx: Matrix Market
   mat,        ///< laplacian.mat: MATLAB 5, at most 2^31 - 1 bytes per variable
   spmat,      ///< L.spmat, M.spmat: triplets counted from 1, as the paper's program writes them
@@ -52,6 +52,8 @@ std::vector<std::string> resultFiles(const std::vector<Format>& formats);
 ///   representative.npy  int32, N, counted from 0
 ///   boundary.npy        uint8, N, see Boundary
 ///   frames.npy          float64, N x 3 x 3: of each point the x axis, the y axis and the normal; 0 x 3 x 3 for meshes
+///   noise.npy           float64, see Laplacian::noise
+///   component_edges.npy float64, C x 3, of each component: see ComponentEdges
 ///   cover.npz           the cover, see IntrinsicTriangulation: faces and glue (int32), length (float64), F x 3 each
 ///   L.mtx               coordinate real symmetric: the lower triangle; an L that is not symmetric loses the upper one
 ///   M.mtx               array real general, N x 1

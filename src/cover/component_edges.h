@@ -1,0 +1,60 @@
+#pragma once
+
+#include <cstdint>
+#include <utility>
+
+#include "base/buffer.h"
+#include "base/parallel.h"
+#include "tufted/laplacian.h"
+
+namespace tufted {
+
+/// Sums of sides, which become means.
+struct SideSums {
+  std::int64_t sides = 0;
+  double length = 0, square = 0;
+
+  void add(double side) {
+    ++sides;
+    length += side;
+    square += side * side;
+  }
+  void add(const SideSums& others) {
+    sides += others.sides;
+    length += others.length;
+    square += others.square;
+  }
+};
+
+/// Sums up the sides of items by component, in blocks that do not depend on the number of threads.
+/// @param components how many there are
+/// @param componentOf(i) the component of item i; -1: it does not count
+/// @param addSides(i, sums) adds the sides of item i
+template <class ComponentOf, class AddSides>
+Buffer<ComponentEdges> edgesByComponent(std::int64_t items, std::int64_t components, const Workers& workers,
+                                        const ComponentOf& componentOf, const AddSides& addSides) {
+  // Neighbours in the order of the items mostly have one component: a block has few runs of them.
+  using Runs = Buffer<std::pair<int, SideSums>>;
+  Buffer<Runs> blocks((items + cheap_block - 1) / cheap_block);
+  workers.forBlocks("lengths", items, cheap_block, [&](std::int64_t begin, std::int64_t end, int) {
+    Runs& runs = blocks[begin / cheap_block];
+    for (auto i = static_cast<int>(begin); i < end; ++i) {
+      const int component = componentOf(i);
+      if (component < 0) continue;
+      if (runs.empty() || runs.back().first != component) runs.push_back({component, {}});
+      addSides(i, runs.back().second);
+    }
+  });
+  Buffer<SideSums> sums(static_cast<std::size_t>(components));
+  for (const Runs& runs : blocks)
+    for (const auto& [component, added] : runs) sums[component].add(added);
+  Buffer<ComponentEdges> edges;
+  edges.reserve(sums.size());
+  for (const auto& [sides, length, square] : sums) {
+    const auto count = static_cast<double>(sides > 0 ? sides : 1);
+    edges.push_back({sides, length / count, square / count});
+  }
+  return edges;
+}
+
+}  // namespace tufted

@@ -1,0 +1,68 @@
+// Results from a folder that `tufted laplacian` wrote are those from the file, bit for bit.
+#include <algorithm>
+#include <random>
+#include <sstream>
+
+#include "subcommands.h"
+
+namespace operator_folder_test {
+namespace {
+
+class OperatorFolder : public Subcommands {
+ protected:
+  /// A noisy sphere and a coarse exact one beside it.
+  std::string noisy() const {
+    std::mt19937_64 generator(3);
+    std::normal_distribution<double> normal;
+    std::ostringstream text;
+    text.precision(17);
+    for (int i = 0; i < 2600; ++i) {
+      const double x = normal(generator), y = normal(generator), z = normal(generator);
+      const double size = (i < 2000 ? 1 + 0.015 * normal(generator) : 8) / std::sqrt(x * x + y * y + z * z);
+      text << size * x + (i < 2000 ? 0 : 20) << ' ' << size * y << ' ' << size * z << '\n';
+    }
+    return dir_.write("noisy.xyz", text.str());
+  }
+
+  void expectSameArrays(const std::string& one, const std::string& other) const {
+    int arrays = 0;
+    for (const auto& entry : std::filesystem::directory_iterator(dir_ / one)) {
+      const std::string name = entry.path().filename().string(), kind = entry.path().extension().string();
+      if (kind != ".npy" && kind != ".npz") continue;
+      ++arrays;
+      EXPECT_TRUE(readAll(dir_ / one / name) == readAll(dir_ / other / name)) << one << ": " << name;
+    }
+    EXPECT_GT(arrays, 0) << one;
+  }
+};
+
+TEST_F(OperatorFolder, GivesEveryCommandTheBitsOfTheFile) {
+  const std::string file = noisy();
+  run({"laplacian", file, "--format", "npz,ply,cover", "--out", in("folder")});
+  std::vector<std::vector<std::string>> all = commands;
+  std::erase_if(all,
+                [](const std::vector<std::string>& words) { return words[0] == "laplacian" || words[0] == "denoise"; });
+  all.push_back({"distance", "--source", "0", "--method", "heat"});
+  all.push_back({"distance", "--source", "0", "--within", "0.4"});
+  all.push_back({"curvature", "--method", "laplacian"});
+  all.push_back({"signed-distance", "--curve", "0,5,9"});
+  for (const std::vector<std::string>& parts : {std::vector<std::string>{}, {"--component", "0"}}) {
+    for (std::vector<std::string> words : all) {
+      words.insert(words.end(), parts.begin(), parts.end());
+      std::vector<std::string> from_file = words, from_folder = words;
+      from_file.insert(from_file.end(), {file, "--out", in("file")});
+      from_folder.insert(from_folder.end(), {"--operator", in("folder"), "--out", in("again")});
+      for (const auto& call : {from_file, from_folder}) {
+        const Result result = runTufted(call);
+        EXPECT_EQ(result.code, 0) << result.err;
+      }
+      SCOPED_TRACE(words[0] + (parts.empty() ? "" : " of a component"));
+      expectSameArrays("file", "again");
+      std::filesystem::remove_all(dir_ / "file");
+      std::filesystem::remove_all(dir_ / "again");
+    }
+  }
+}
+
+}  // namespace
+}  // namespace operator_folder_test
