@@ -86,8 +86,8 @@ struct Report {
   std::vector<StageCost> stages;  ///< in the order of the build
 };
 
-/// Calls visit(name, member) for each number of a Report but those of `votes` and `stages`: what report.json, Python
-/// and saved results have of it.
+/// Calls visit(name, member) for each member of a Report but `stages`: numbers, a bool, and the array `votes`. The one
+/// list of them, by which reports are written, read and shown.
 /// @param report a Report, or a constant one
 template <class AnyReport, class Visit>
 void visitNumbers(AnyReport& report, const Visit& visit) {
@@ -115,6 +115,7 @@ void visitNumbers(AnyReport& report, const Visit& visit) {
   visit("closed_stars", report.closed_stars);
   visit("open_stars", report.open_stars);
   visit("dropped_triangles", report.dropped_triangles);
+  visit("votes", report.votes);
   visit("repeated_vertex_triangles", report.repeated_vertex_triangles);
   visit("not_finite_triangles", report.not_finite_triangles);
   visit("boundary_edges", report.boundary_edges);

@@ -1,5 +1,3 @@
-#include <algorithm>
-#include <limits>
 #include <memory>
 #include <string>
 #include <type_traits>
@@ -10,12 +8,13 @@
 #include "io/errors.h"
 #include "io/file_text.h"
 #include "io/frames_file.h"
-#include "io/json_file.h"
 #include "io/matrix_file.h"
 #include "io/npy.h"
 #include "io/npz_reader.h"
 #include "io/positions_file.h"
 #include "io/promises.h"
+#include "io/report_members.h"
+#include "io/result_folder.h"
 #include "tufted/components.h"
 #include "tufted/io/results.h"
 
@@ -33,26 +32,18 @@ std::vector<double> readArray(const Path& path, std::size_t length) {
   return io::numbersOf(array, path);
 }
 
-/// The numbers of the report. Integers must fit; where a real number is missing, it was not finite.
-void readReport(const Json& json, const Path& path, Report& report) {
-  visitNumbers(report, [&](const char* name, auto& value) {
-    using Value = std::decay_t<decltype(value)>;
-    const auto member = json.find(name);
-    if (member == json.end() || member->is_null()) return;
-    if constexpr (std::is_same_v<Value, bool>) {
-      if (member->is_boolean()) value = member->template get<bool>();
-    } else if constexpr (std::is_integral_v<Value>) {
-      // What is read as no unsigned number is negative or no integer.
-      if (!member->is_number_unsigned() ||
-          member->template get<std::uint64_t>() > static_cast<std::uint64_t>(std::numeric_limits<Value>::max()))
-        io::refuse(path, std::string("has ") + name + " = " + io::quote(member->dump()) +
-                             ", must be an integer in [0, " + std::to_string(std::numeric_limits<Value>::max()) + "]");
-      value = member->template get<Value>();
-    } else if (member->is_number()) {
-      value = member->template get<Value>();
-    }
-  });
+Report readReport(const Json& json, const Path& path) {
+  Report report;
+  visitNumbers(report, [&](const char* name, auto& value) { io::readMember(json, name, path, value); });
   if (!json.contains("star_masses")) report.star_masses = report.active;  // of a version that did not say
+  for (const Json& stage : json.value("stages", Json::array())) {
+    if (!stage.is_object()) io::refuse(path, "has a stage that is no object");
+    StageCost& cost = report.stages.emplace_back();
+    if (const Json name = stage.value("name", Json()); name.is_string()) cost.name = name.get<std::string>();
+    io::readMember(stage, "seconds", path, cost.seconds);
+    io::readMember(stage, "bytes", path, cost.bytes);
+  }
+  return report;
 }
 
 /// Directories of before there was `kind` have the options of the build, if the command wrote them.
@@ -100,20 +91,12 @@ void removeDummies(Laplacian& laplacian) {
     if (laplacian.status[i] != PointStatus::active) laplacian.M[static_cast<Eigen::Index>(i)] = 0;
 }
 
-/// Whether the run that the report is of wrote the file: a later run into the same folder with other formats leaves the
-/// matrices of the former.
-bool hasWritten(const Json& written, const std::string& name) {
-  const Json files = written.is_object() ? written.value("files", Json()) : Json();
-  return files.is_array() && std::find(files.begin(), files.end(), name) != files.end();
-}
-
 /// The edges of each component. Older versions wrote those of the whole surface alone, into the report.
 /// @param laplacian with its components
-std::vector<ComponentEdges> readEdges(const Path& dir, const Laplacian& laplacian) {
+std::vector<ComponentEdges> readEdges(const io::ResultFolder& folder, const Laplacian& laplacian) {
   const std::size_t components = componentSizes(laplacian.component).size();
-  const Json json = io::readJson(dir / "report.json");
-  if (hasWritten(json.value("write_options", Json()), io::component_edges_name))
-    return io::readComponentEdges(dir / io::component_edges_name, components);
+  if (folder.has(io::component_edges_name))
+    return io::readComponentEdges(folder.pathOf(io::component_edges_name), components);
   const Report& report = laplacian.report;
   if (!(report.mean_squared_edge > 0)) return {};
   return {components, {1, report.mean_edge, report.mean_squared_edge}};
@@ -122,39 +105,38 @@ std::vector<ComponentEdges> readEdges(const Path& dir, const Laplacian& laplacia
 }  // namespace
 
 Laplacian readUncheckedLaplacian(const std::filesystem::path& dir, bool with_cover) {
-  const Path report_path = dir / "report.json";
-  const Json json = io::readJson(report_path);
-  if (!json.is_object() || !json.contains("report") || !json["report"].is_object())
-    io::refuse(report_path, "is no report of a Laplacian");
-  const Json written = json.value("write_options", Json::object());
-  for (const char* name : {"L.npz", "M.npy", "status.npy", "representative.npy", "boundary.npy", "frames.npy"})
-    if (!hasWritten(written, name)) io::refuse(report_path, std::string("is of a run that did not write ") + name);
+  const io::ResultFolder folder(dir);
+  const Path report_path = folder.reportPath();
+  const Json& json = folder.report();
+  if (!json.contains("report") || !json["report"].is_object()) io::refuse(report_path, "is no report of a Laplacian");
+  const Path mass_path = folder.pathOf("M.npy"), status_path = folder.pathOf("status.npy"),
+             representative_path = folder.pathOf("representative.npy"), boundary_path = folder.pathOf("boundary.npy"),
+             frames_path = folder.pathOf("frames.npy");
   Laplacian laplacian;
-  const bool takes_cover = with_cover && hasWritten(written, "cover.npz");
+  const bool takes_cover = with_cover && folder.has("cover.npz");
   laplacian.kind = readKind(json, takes_cover, report_path);
-  readReport(json["report"], report_path, laplacian.report);
+  laplacian.report = readReport(json["report"], report_path);
   // The arrays with a value per point are not compressed, so the sizes of their files bound how many points L may have.
-  io::MatrixFile matrix(dir / "L.npz");
+  io::MatrixFile matrix(folder.pathOf("L.npz"));
   const auto n = static_cast<std::size_t>(matrix.rows());
-  const std::vector<double> mass = readArray(dir / "M.npy", n);
+  const std::vector<double> mass = readArray(mass_path, n);
   laplacian.M = Eigen::Map<const VectorXd>(mass.data(), matrix.rows());
   const double last = static_cast<double>(n) - 1;
-  for (const int code : io::integersOf(readArray(dir / "status.npy", n), 0, 3, dir / "status.npy"))
+  for (const int code : io::integersOf(readArray(status_path, n), 0, 3, status_path))
     laplacian.status.push_back(static_cast<PointStatus>(code));
-  laplacian.representative =
-      io::integersOf(readArray(dir / "representative.npy", n), 0, last, dir / "representative.npy");
-  for (const int code : io::integersOf(readArray(dir / "boundary.npy", n), 0, 3, dir / "boundary.npy"))
+  laplacian.representative = io::integersOf(readArray(representative_path, n), 0, last, representative_path);
+  for (const int code : io::integersOf(readArray(boundary_path, n), 0, 3, boundary_path))
     laplacian.boundary.push_back(static_cast<Boundary>(code));
-  laplacian.frames = io::readFrames(dir / "frames.npy", n);
+  laplacian.frames = io::readFrames(frames_path, n);
   laplacian.frames.orientation = readOrientation(json, report_path);
   // Older versions did not write it.
-  const Path positions = dir / io::positions_name;
-  if (hasWritten(written, io::positions_name)) laplacian.positions = io::readPositions(positions, n);
-  if (hasWritten(written, noise_name)) laplacian.noise = readNoise(dir / noise_name, n);
+  if (folder.has(io::positions_name)) laplacian.positions = io::readPositions(folder.pathOf(io::positions_name), n);
+  if (folder.has(noise_name)) laplacian.noise = readNoise(folder.pathOf(noise_name), n);
   laplacian.L = matrix.read();
   if (takes_cover)
     laplacian.stored_cover =
-        std::make_shared<const IntrinsicTriangulation>(io::readCover(dir / "cover.npz", static_cast<int>(n)));
+        std::make_shared<const IntrinsicTriangulation>(io::readCover(folder.pathOf("cover.npz"), static_cast<int>(n)));
+  const Json written = json.value("write_options", Json::object());
   if (written.is_object() && written.value("sign", Json()) == "igl") laplacian.L = -laplacian.L;
   if (written.is_object() && written.value("dummy", Json()) == true) removeDummies(laplacian);
   if (laplacian.report.star_masses == 0) laplacian.cover_areas = laplacian.M;
@@ -166,11 +148,11 @@ Laplacian readLaplacian(const std::filesystem::path& dir, bool with_cover) {
   const auto n = std::ssize(laplacian.status);
   const auto counted = laplacian.report.points;  // 0 where a program of one's own left it out
   if (counted != n && counted != 0)
-    io::refuse(dir / "report.json",
+    io::refuse(dir / io::report_name,
                "counts " + std::to_string(counted) + " points, and L has " + std::to_string(n) + " rows");
   io::requirePromises(dir, laplacian);
   laplacian.component = componentLabels(laplacian);
-  laplacian.component_edges = readEdges(dir, laplacian);
+  laplacian.component_edges = readEdges(folder, laplacian);
   return laplacian;
 }
 

@@ -2,7 +2,7 @@
 #include <string>
 
 #include "io/errors.h"
-#include "io/json_file.h"
+#include "io/result_folder.h"
 #include "tufted/check.h"
 #include "tufted/io/results.h"
 
@@ -40,9 +40,10 @@ void checkNumbers(const Path& dir, const Laplacian& laplacian, const Spectrum& s
 
 Spectrum readSpectrum(const Path& dir, const Laplacian& laplacian) {
   checkSizes("readSpectrum", laplacian);
-  const Path report_path = dir / "report.json";
-  const nlohmann::json json = io::readJson(report_path);
-  if (!json.is_object() || json.value("command", nlohmann::json()) != "spectrum")
+  const io::ResultFolder folder(dir);
+  const Path report_path = folder.reportPath();
+  const nlohmann::json& json = folder.report();
+  if (json.value("command", nlohmann::json()) != "spectrum")
     io::refuse(report_path, "is no report of `tufted spectrum`");
   const nlohmann::json written = json.value("checksum", nlohmann::json());
   const std::string expected = checksum(laplacian);
@@ -51,10 +52,10 @@ Spectrum readSpectrum(const Path& dir, const Laplacian& laplacian) {
                                 (written.is_string() ? io::quote(written.get<std::string>()) : "missing") +
                                 ", must be \"" + expected + "\"");
   Spectrum spectrum;
-  const Eigen::MatrixXd values = readArray(dir / "evals.npy");
+  const Eigen::MatrixXd values = readArray(folder.pathOf("evals.npy"));
   if (values.cols() != 1) io::refuse(dir / "evals.npy", "is not an array of K values");
   spectrum.values = values.col(0);
-  spectrum.vectors = readArray(dir / "evecs.npy");
+  spectrum.vectors = readArray(folder.pathOf("evecs.npy"));
   checkNumbers(dir, laplacian, spectrum);
   const nlohmann::json said = json.value("/report/residual"_json_pointer, nlohmann::json());
   SpectrumReport& report = spectrum.report;

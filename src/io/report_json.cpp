@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "io/frames_file.h"
+#include "tufted/errors.h"
 #include "tufted/io/results.h"
 
 namespace tufted {
@@ -18,7 +19,6 @@ Json reportObject(const Report& report) {
     stages.push_back({{"name", stage.name}, {"seconds", stage.seconds}, {"bytes", stage.bytes}});
   Json json;
   visitNumbers(report, [&json](const char* name, const auto& value) { json[name] = value; });
-  json["votes"] = report.votes;
   json["warnings"] = warnings(report);
   json["stages"] = std::move(stages);
   return json;
@@ -89,14 +89,24 @@ Json optionsObject(const CloudOptions& options) {
   return json;
 }
 
+Json givenOptions(const std::string& text) {
+  Json json = Json::parse(text, nullptr, false);
+  if (!json.is_object()) throw InvalidInput("writeLaplacian: build_options is no JSON object");
+  return json;
+}
+
 }  // namespace
 
 std::string toJson(const DenoiseReport& report) {
-  return denoiseObject(report).dump(indent) + "\n";
+  return io::jsonText(denoiseObject(report));
 }
 
 std::string toJson(const Report& report) {
-  return reportObject(report).dump(indent) + "\n";
+  return io::jsonText(reportObject(report));
+}
+
+std::string io::jsonText(const Json& json) {
+  return json.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
 std::string io::reportJson(const Laplacian& laplacian, const Geometry& geometry, const WriteOptions& options,
@@ -112,13 +122,14 @@ std::string io::reportJson(const Laplacian& laplacian, const Geometry& geometry,
     json["mesh_options"] = commonOptions(*options.mesh);
     json["mesh_options"]["weld"] = options.mesh->weld;
   }
-  json["write_options"] = {
-      {"files", resultFiles(options.formats)}, {"sign", name(options.sign)}, {"dummy", options.dummy}};
+  if (!options.cloud && !options.mesh && !options.build_options.empty())
+    json[laplacian.kind == Kind::cloud ? "cloud_options" : "mesh_options"] = givenOptions(options.build_options);
+  json["write_options"] = {{"sign", name(options.sign)}, {"dummy", options.dummy}};
+  json["files"] = resultFiles(options.formats);
   json["conventions"] = conventionsObject(conventions);
   json["checksum"] = checksum(laplacian);
   json["report"] = reportObject(laplacian.report);
-  // A path need not be UTF-8.
-  return json.dump(indent, ' ', false, Json::error_handler_t::replace) + "\n";
+  return jsonText(json);
 }
 
 }  // namespace tufted

@@ -10,6 +10,8 @@
 #include "io/pcd_writer.h"
 #include "io/ply_writer.h"
 #include "io/pose.h"
+#include "io/report_json.h"
+#include "io/result_folder.h"
 #include "io/stage_results.h"
 #include "tufted/errors.h"
 
@@ -83,7 +85,7 @@ std::vector<std::string> resultFiles(const std::vector<ResultArray>& arrays, con
   names.reserve(arrays.size() + options.copies.size() + 1);
   for (const ResultArray& array : arrays) names.push_back(array.name + ".npy");
   for (const Format format : options.copies) names.emplace_back(format == Format::ply ? "points.ply" : "points.pcd");
-  names.emplace_back("report.json");
+  names.emplace_back(io::report_name);
   return names;
 }
 
@@ -108,8 +110,12 @@ void io::stageResults(StagedFiles& files, const Laplacian& laplacian, const Geom
       report();
     }
   }
-  OutputFile file(files.stage("report.json"));
-  file.write(options.report);
+  const OutputPath to = files.stage(report_name);
+  nlohmann::ordered_json json = nlohmann::ordered_json::parse(options.report, nullptr, false);
+  if (!json.is_object()) throw InvalidInput("writeResults: the report is no JSON object");
+  json["files"] = files.names();
+  OutputFile file(to);
+  file.write(jsonText(json));
   file.close();
   report();
 }

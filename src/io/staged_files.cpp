@@ -92,6 +92,12 @@ OutputPath StagedFiles::stage(const std::string& name) {
   return path;
 }
 
+std::vector<std::string> StagedFiles::names() const {
+  std::vector<std::string> names;
+  for (const File& file : files_) names.push_back(file.path.shown.filename().string());
+  return names;
+}
+
 void StagedFiles::keepOld(File& file) {
   const char* const name = file.path.shown.c_str();
   const fs::path old = oldOf(file);
@@ -102,6 +108,10 @@ void StagedFiles::keepOld(File& file) {
   // Not every file system has links, and not every file of others may be linked to.
   file.has_old = ::rename(name, old.c_str()) == 0;
   if (!file.has_old && errno != ENOENT) refuseErrno(file.path.shown, "write", errno);
+}
+
+void StagedFiles::removeName(const File& file) {
+  if (::unlink(file.path.shown.c_str()) != 0 && errno != ENOENT) refuseErrno(file.path.shown, "write", errno);
 }
 
 void StagedFiles::place(File& file) {
@@ -137,6 +147,7 @@ void StagedFiles::commit() {
   if (::mkdir(old_.c_str(), 0700) != 0) refuseErrno(dir_, "write", errno);
   try {
     for (File& file : files_) keepOld(file);
+    if (!files_.empty()) removeName(files_.back());
     for (File& file : files_) place(file);
     dir.sync();
     syncParents();

@@ -24,10 +24,14 @@ class StagedFiles {
   /// @throws IoError where a directory, a link, a device or a pipe has that name
   OutputPath stage(const std::string& name);
 
+  /// The names of all files so far, in their order.
+  std::vector<std::string> names() const;
+
   /// Brings the files to the disk, then renames them one after the other, while every other process that commits to
   /// `dir` waits. What had their names is kept in the hidden folder meanwhile, under old/, and is put back if a step
-  /// fails. A process that is killed between two renames leaves the hidden folder, so nothing is lost; a hidden folder
-  /// without old/ is of no use.
+  /// fails. The last file is to say which the others are: no file has its name while they are renamed. A process that
+  /// is killed between two renames so leaves files that nobody takes for a result, and the hidden folder, so nothing is
+  /// lost; a hidden folder without old/ is of no use.
   /// @throws IoError
   void commit();
 
@@ -44,6 +48,7 @@ class StagedFiles {
   /// Makes the hidden folder as well.
   bool makeHiddenFolder(bool may_vanish);
   void keepOld(File& file);
+  static void removeName(const File& file);
   void place(File& file);
   std::filesystem::path oldOf(const File& file) const { return old_ / file.path.shown.filename(); }
   /// @returns whether `dir_` is again as it was before keepOld() and place()

@@ -20,6 +20,7 @@
 #include "io/pose.h"
 #include "io/positions_file.h"
 #include "io/report_json.h"
+#include "io/result_folder.h"
 #include "io/staged_files.h"
 #include "tufted/components.h"
 #include "tufted/errors.h"
@@ -124,7 +125,7 @@ const ResultFile result_files[] = {
            laplacian.component.empty() ? componentLabels(laplacian) : laplacian.component;
        writeNpy(to, "<i4", component.data(), component.size());
      }},
-    {std::nullopt, "report.json", writeReport},
+    {std::nullopt, io::report_name, writeReport},
 };
 
 std::vector<ResultFile> filesOf(const std::vector<Format>& formats) {

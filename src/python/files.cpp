@@ -1,6 +1,7 @@
 // Files in and out.
 #include <pybind11/stl/filesystem.h>
 
+#include <cstdint>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -51,6 +52,42 @@ Geometry readFile(const std::filesystem::path& path, const std::string& kind, bo
   return geometry;
 }
 
+/// All of a Geometry, for pickle and copies.
+py::tuple stateOf(const Geometry& geometry) {
+  py::list fields;
+  for (const Field& field : geometry.fields)
+    fields.append(py::make_tuple(field.name, static_cast<int>(field.type), field.count,
+                                 py::array_t<std::uint8_t>(static_cast<py::ssize_t>(field.bytes.size()),
+                                                           reinterpret_cast<const std::uint8_t*>(field.bytes.data()))));
+  return py::make_tuple(geometry.format, geometry.points, geometry.normals, fields, geometry.width, geometry.height,
+                        geometry.viewpoint, geometry.is_mesh, geometry.triangles, geometry.polygons,
+                        geometry.merged_vertices);
+}
+
+Geometry geometryFrom(const py::tuple& state) {
+  Geometry geometry;
+  geometry.format = state[0].cast<std::string>();
+  geometry.points = state[1].cast<Points>();
+  geometry.normals = state[2].cast<Points>();
+  for (const py::handle& each : state[3]) {
+    const auto parts = each.cast<py::tuple>();
+    const auto bytes = parts[3].cast<py::array_t<std::uint8_t, py::array::c_style>>();
+    const auto* const first = reinterpret_cast<const std::byte*>(bytes.data());
+    geometry.fields.push_back({parts[0].cast<std::string>(),
+                               static_cast<FieldType>(parts[1].cast<int>()),
+                               parts[2].cast<int>(),
+                               {first, first + bytes.size()}});
+  }
+  geometry.width = state[4].cast<int>();
+  geometry.height = state[5].cast<int>();
+  geometry.viewpoint = state[6].cast<decltype(geometry.viewpoint)>();
+  geometry.is_mesh = state[7].cast<bool>();
+  geometry.triangles = state[8].cast<Triangles>();
+  geometry.polygons = state[9].cast<std::int64_t>();
+  geometry.merged_vertices = state[10].cast<std::int64_t>();
+  return geometry;
+}
+
 /// What save() writes of points that were not read from a file.
 /// @param faces none for a cloud
 Geometry geometryOf(const Doubles& points, const std::optional<Integers>& faces) {
@@ -65,21 +102,26 @@ Geometry geometryOf(const Doubles& points, const std::optional<Integers>& faces)
 /// What the report says about the options of a build.
 class RecordedOptions {
  public:
-  /// @param given none: nothing is recorded
-  RecordedOptions(const Laplacian& laplacian, const std::optional<py::dict>& given, WriteOptions& options) {
-    if (!given) return;
+  /// @param options_given a dict of the options, the JSON text of an earlier report, or None: nothing is recorded
+  RecordedOptions(const Laplacian& laplacian, const py::object& options_given, WriteOptions& options) {
+    if (options_given.is_none()) return;
+    if (py::isinstance<py::str>(options_given)) {
+      options.build_options = options_given.cast<std::string>();
+      return;
+    }
+    const auto given = options_given.cast<py::dict>();
     if (laplacian.kind == Kind::mesh) {
-      mesh_ = meshOptionsOf(*given);
+      mesh_ = meshOptionsOf(given);
       options.mesh = &mesh_;
       return;
     }
-    const auto structure = (*given)["structure"].cast<std::string>();
-    cloud_ = cloudOptionsOf(*given);
-    viewpoint_ = viewpointOf(*given);
+    const auto structure = given["structure"].cast<std::string>();
+    cloud_ = cloudOptionsOf(given);
+    viewpoint_ = viewpointOf(given);
     structure_.has_rings = structure == "rings";
     if (structure != "none") cloud_.structure = &structure_;
-    if ((*given)["given_normals"].cast<bool>()) cloud_.normals = &normals_;
-    if ((*given)["given_neighborhoods"].cast<bool>()) cloud_.neighborhoods = &neighborhoods_;
+    if (given["given_normals"].cast<bool>()) cloud_.normals = &normals_;
+    if (given["given_neighborhoods"].cast<bool>()) cloud_.neighborhoods = &neighborhoods_;
     if (viewpoint_) cloud_.viewpoint = &*viewpoint_;
     options.cloud = &cloud_;
   }
@@ -98,7 +140,7 @@ class RecordedOptions {
 
 void saveTo(const std::filesystem::path& dir, const Laplacian& laplacian, const Geometry& geometry,
             const std::vector<std::string>& names, const std::string& source, const std::string& sign, bool dummy,
-            const std::optional<py::dict>& given, const py::object& progress) {
+            const py::object& given, const py::object& progress) {
   WriteOptions options = {.formats = {},
                           .sign = chosen<Sign>("save: sign", sign, {{"psd", Sign::psd}, {"igl", Sign::igl}}),
                           .dummy = dummy,
@@ -124,13 +166,18 @@ void addFiles(py::module_& module) {
       .def_readonly("height", &Geometry::height)
       .def_readonly("viewpoint", &Geometry::viewpoint)
       .def_readonly("format", &Geometry::format)
-      .def_property_readonly("fields", &fieldsOf);
+      .def_property_readonly("fields", &fieldsOf)
+      .def(py::pickle(&stateOf, &geometryFrom));
   module.def("read_file", &readFile);
   module.def("rings_of", &ringsOf);
   module.def("save", &saveTo);
   module.def("load", [](const std::filesystem::path& dir, bool with_cover) {
     const py::gil_scoped_release release;
     return std::make_shared<Laplacian>(readLaplacian(dir, with_cover));
+  });
+  module.def("files_of_result", &filesOfResult);
+  module.def("read_points", [](const std::filesystem::path& dir, const py::object& progress) {
+    return run(progress, [&](const Progress& called) { return readPoints(dir, called); });
   });
 }
 

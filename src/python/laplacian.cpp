@@ -48,7 +48,6 @@ Shared buildMesh(const Doubles& points, const Integers& faces, const py::dict& g
 py::dict dictOf(const Report& report) {
   py::dict dict;
   visitNumbers(report, [&](const char* name, const auto& value) { dict[name] = value; });
-  dict["votes"] = report.votes;
   dict["warnings"] = warnings(report);
   py::list stages;
   for (const StageCost& stage : report.stages)

@@ -64,7 +64,6 @@ std::shared_ptr<const IntrinsicTriangulation> coverFrom(const py::handle& object
 py::dict numbersOf(const Report& report) {
   py::dict numbers;
   visitNumbers(report, [&](const char* name, const auto& value) { numbers[name] = value; });
-  numbers["votes"] = report.votes;
   py::list stages;
   for (const StageCost& stage : report.stages) stages.append(py::make_tuple(stage.name, stage.seconds, stage.bytes));
   numbers["stages"] = stages;
@@ -76,7 +75,6 @@ Report reportFrom(const py::dict& numbers) {
   visitNumbers(report, [&](const char* name, auto& value) {
     value = numbers[name].template cast<std::decay_t<decltype(value)>>();
   });
-  report.votes = numbers["votes"].cast<decltype(report.votes)>();
   for (const py::handle& stage : numbers["stages"]) {
     const auto parts = stage.cast<py::tuple>();
     report.stages.push_back({parts[0].cast<std::string>(), parts[1].cast<double>(), parts[2].cast<std::size_t>()});

@@ -14,7 +14,6 @@
 #include "view/shown_values.h"
 #include "view/spacing.h"
 #include "view/viewer.h"
-#include "view/whole_file.h"
 
 namespace tufted {
 
@@ -244,8 +243,12 @@ std::string pageOf(const Scene& scene, const PageOptions& options) {
   return page;
 }
 
+WholeFile preparePage(const std::filesystem::path& path, const Scene& scene, const PageOptions& options) {
+  return {path, pageOf(scene, options)};
+}
+
 void writePage(const std::filesystem::path& path, const Scene& scene, const PageOptions& options) {
-  view::writeWholeFile(path, pageOf(scene, options));
+  preparePage(path, scene, options).giveName();
 }
 
 }  // namespace tufted

@@ -12,7 +12,6 @@
 #include "view/samples.h"
 #include "view/shading.h"
 #include "view/text.h"
-#include "view/whole_file.h"
 
 namespace tufted {
 
@@ -51,8 +50,12 @@ Picture drawPicture(const Scene& scene, const PictureOptions& options) {
   return picture;
 }
 
+WholeFile preparePicture(const std::filesystem::path& path, const Scene& scene, const PictureOptions& options) {
+  return {path, view::pngOf(drawPicture(scene, options))};
+}
+
 void writePicture(const std::filesystem::path& path, const Scene& scene, const PictureOptions& options) {
-  view::writeWholeFile(path, view::pngOf(drawPicture(scene, options)));
+  preparePicture(path, scene, options).giveName();
 }
 
 }  // namespace tufted

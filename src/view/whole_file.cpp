@@ -1,4 +1,4 @@
-#include "view/whole_file.h"
+#include "tufted/view/whole_file.h"
 
 #include <fcntl.h>
 #include <stdlib.h>
@@ -7,10 +7,11 @@
 #include <cerrno>
 #include <string>
 #include <system_error>
+#include <utility>
 
 #include "tufted/errors.h"
 
-namespace tufted::view {
+namespace tufted {
 
 namespace {
 
@@ -36,55 +37,61 @@ std::filesystem::path behindLinks(const std::filesystem::path& path) {
   return file;
 }
 
-/// A file in a hidden folder of its own beside the one that `path` names; both are removed again unless the file gets
-/// its name.
-class HiddenFile {
- public:
-  explicit HiddenFile(const std::filesystem::path& path) : shown_(path), final_(behindLinks(path)) {
-    folder_ = (final_.parent_path() / ".tufted-XXXXXX").string();
-    if (::mkdtemp(folder_.data()) == nullptr) refuse(shown_, errno);
-    name_ = folder_ + "/file";
-    file_ = ::open(name_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (file_ >= 0) return;
-    const int error = errno;
-    ::rmdir(folder_.c_str());
-    refuse(shown_, error);
+void writeAll(int file, std::string_view bytes, const std::filesystem::path& shown) {
+  while (!bytes.empty()) {
+    const ssize_t count = ::write(file, bytes.data(), bytes.size());
+    if (count < 0 && errno != EINTR) refuse(shown, errno);
+    if (count > 0) bytes.remove_prefix(static_cast<std::size_t>(count));
   }
-  HiddenFile(const HiddenFile&) = delete;
-  HiddenFile& operator=(const HiddenFile&) = delete;
-  ~HiddenFile() {
-    if (file_ >= 0) ::close(file_);
-    ::unlink(name_.c_str());  // which is gone where the file has its name
-    ::rmdir(folder_.c_str());
-  }
+}
 
-  void write(std::string_view bytes) {
-    while (!bytes.empty()) {
-      const ssize_t count = ::write(file_, bytes.data(), bytes.size());
-      if (count < 0 && errno != EINTR) refuse(shown_, errno);
-      if (count > 0) bytes.remove_prefix(static_cast<std::size_t>(count));
-    }
-  }
+/// The directory itself, or the nearest one above it that exists.
+std::filesystem::path nearestDirectory(std::filesystem::path directory) {
+  std::error_code error;
+  while (!directory.empty() && !std::filesystem::exists(directory, error)) directory = directory.parent_path();
+  return directory;
+}
 
-  void giveName() {
-    if (::fsync(file_) != 0) refuse(shown_, errno);
-    const int closed = ::close(file_);
-    file_ = -1;
-    if (closed != 0 || ::rename(name_.c_str(), final_.c_str()) != 0) refuse(shown_, errno);
-  }
-
- private:
-  std::filesystem::path shown_, final_;
-  std::string folder_, name_;
-  int file_ = -1;
-};
+void removeHidden(const std::string& file, const std::string& folder) {
+  ::unlink(file.c_str());  // which is gone where the file has its name
+  ::rmdir(folder.c_str());
+}
 
 }  // namespace
 
-void writeWholeFile(const std::filesystem::path& path, std::string_view bytes) {
-  HiddenFile file(path);
-  file.write(bytes);
-  file.giveName();
+WholeFile::WholeFile(const std::filesystem::path& path, std::string_view bytes)
+    : shown_(path), final_(behindLinks(path)) {
+  folder_ = (nearestDirectory(final_.parent_path()) / ".tufted-XXXXXX").string();
+  if (::mkdtemp(folder_.data()) == nullptr) refuse(shown_, errno);
+  hidden_ = folder_ + "/file";
+  const int file = ::open(hidden_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  try {
+    if (file < 0) refuse(shown_, errno);
+    writeAll(file, bytes, shown_);
+    if (::fsync(file) != 0) refuse(shown_, errno);
+  } catch (...) {
+    if (file >= 0) ::close(file);
+    removeHidden(hidden_, folder_);
+    throw;
+  }
+  if (::close(file) == 0) return;
+  const int error = errno;
+  removeHidden(hidden_, folder_);
+  refuse(shown_, error);
 }
 
-}  // namespace tufted::view
+WholeFile::WholeFile(WholeFile&& other) noexcept
+    : shown_(std::move(other.shown_)),
+      final_(std::move(other.final_)),
+      folder_(std::exchange(other.folder_, {})),
+      hidden_(std::move(other.hidden_)) {}
+
+WholeFile::~WholeFile() {
+  if (!folder_.empty()) removeHidden(hidden_, folder_);
+}
+
+void WholeFile::giveName() {
+  if (::rename(hidden_.c_str(), final_.c_str()) != 0) refuse(shown_, errno);
+}
+
+}  // namespace tufted

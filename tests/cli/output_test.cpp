@@ -59,6 +59,14 @@ class OutputOfCommands : public Subcommands {
     content.erase("report.json");
     return content;
   }
+
+  /// Expects that a folder has a report only where all files that this lists are of one result.
+  void expectWholeOrNoReport(const std::map<int, Content>& results) {
+    if (!fs::exists(dir_ / "out/report.json")) return;
+    const auto report = nlohmann::json::parse(readAll(dir_ / "out/report.json"));
+    for (const auto& [name, bytes] : results.at(report["cloud_options"]["neighbors"]))
+      EXPECT_TRUE(readAll(dir_ / "out" / name) == bytes) << name;
+  }
 };
 
 TEST_F(OutputOfCommands, ThatCannotBeWrittenIsRefusedBeforeTheBuild) {
@@ -190,6 +198,7 @@ TEST_F(OutputOfCommands, IsWhollyOldOrWhollyNewWhicheverStepFailsOrIsInterrupted
         std::vector<std::string> words = {tuftedCommand()};
         std::ranges::copy(build(12), std::back_inserter(words));
         const int code = runWith(call, fault, n, words);
+        if (fault == "signal=SIGKILL") expectWholeOrNoReport(results);
         if (fault == "signal=SIGKILL")
           EXPECT_TRUE(contentAfterKill() == results.at(code == 0 ? 12 : 30)) << call << ' ' << n << ": " << code;
         else
@@ -229,6 +238,7 @@ TEST_F(OutputOfCommands, IsStillThereAfterTheProcessIsKilled) {
     process.finish();
     const Content content = contentAfterKill();
     EXPECT_TRUE(content == results.at(30) || content == results.at(12)) << step;
+    expectWholeOrNoReport(results);
     fs::remove_all(dir_ / "out");
     run(build(30));
   }

@@ -75,10 +75,10 @@ TEST_F(SpectrumFolder, IsRefusedWhereItBelongsToAnotherLaplacian) {
   run({"hks", file, "--spectrum", in("pairs"), "--threads", "1", "--out", in("one")});
   expectRefusal({"hks", file, "--spectrum", in("pairs"), "--count", "6"}, "has 5 of these eigenvalues");
   expectRefusal({"hks", file, "--spectrum", in("pairs"), "--solver", "multigrid"}, "--spectrum");
-  expectRefusal({"hks", file, "--spectrum", in("nowhere")}, name("nowhere", "report.json") + ": does not exist", 1);
+  expectRefusal({"hks", file, "--spectrum", in("nowhere")}, name("nowhere", "report.json") + ": no such file", 1);
   const Result same = runTufted({"hks", file, "--spectrum", in("pairs"), "--out", in("pairs")});
   EXPECT_EQ(same.code, 2);
-  EXPECT_NE(same.err.find("is the folder of --spectrum"), std::string::npos) << same.err;
+  EXPECT_NE(same.err.find("is the input of --spectrum"), std::string::npos) << same.err;
 }
 
 TEST_F(SpectrumFolder, IsRefusedWhereItsArraysAreDamaged) {
@@ -94,7 +94,7 @@ TEST_F(SpectrumFolder, IsRefusedWhereItsArraysAreDamaged) {
   damaged("evecs.npy", 8, "does not hold the eigenvectors of evals.npy");
   damaged("evals.npy", 8, "does not hold finite eigenvalues >= 0 that ascend");
   run({"laplacian", file, "--out", in("folder")});
-  expectRefusal({"hks", file, "--spectrum", in("folder")}, name("folder", "evals.npy") + ": does not exist", 1);
+  expectRefusal({"hks", file, "--spectrum", in("folder")}, in("folder") + ": its last result has no evals.npy", 1);
 }
 
 }  // namespace

@@ -108,7 +108,7 @@ TEST_F(SpectrumCommand, MistakesAreOneLineAndTwo) {
   expectRefusal({"spectrum", file, "--format", "npz"}, "--format");
   const Result same = runTufted({"spectrum", "--operator", in("laplacian"), "--out", in("laplacian")});
   EXPECT_EQ(same.code, 2);
-  EXPECT_NE(same.err.find("overwritten"), std::string::npos) << same.err;
+  EXPECT_NE(same.err.find("would overwrite it"), std::string::npos) << same.err;
 }
 
 TEST_F(SpectrumCommand, DamagedFoldersAreOneLineAndOne) {

@@ -51,7 +51,8 @@ struct Settings {
   }
 };
 
-void check(Settings&, const Operator& source) {
+void check(Settings& settings, const Operator& source) {
+  settings.source.shown = {{"curvature", settings.fits() ? 4 : 1}};
   checkFrames(source);
 }
 

@@ -52,6 +52,7 @@ struct Settings {
 };
 
 void check(Settings& settings, const Operator& source) {
+  settings.source.shown = {{"displacement"}};
   checkPositions(source);
   checkHasPoints(source);
   const std::vector<Row> rows = readRows(settings.handles_file);

@@ -56,20 +56,21 @@ struct Settings {
   int threads = 0;
   Console console;
   Look look;
+  std::vector<NamedInput> inputs;
 };
 
 int runDenoise(Settings& settings) {
   const std::vector<std::string> arrays = {"positions", "noise"};
   std::vector<std::string> files = tufted::resultFiles({}, {.copies = settings.copies});
   for (const std::string& name : arrays) files.push_back(name + ".npy");
-  checkLook(settings.look, settings.out, settings.input.file);
-  checkOutput(settings.input, settings.out, files);
+  checkLook(settings.look, settings.out, settings.inputs);
+  checkOutput(settings.inputs, settings.out, files);
   ProgressBar bar(settings.console.quiet);
   const tufted::Progress progress = showOn(bar);
   progress("read", 0);
   tufted::Geometry geometry = readInput(settings.input, progress);
   if (geometry.is_mesh) throw tufted::IoError(settings.input.name() + ": is a mesh; --as cloud takes its points alone");
-  checkColor(settings.look, geometry, {"noise"});
+  checkField(settings.look, geometry, {{"noise"}});
   if (interrupted()) throw tufted::Cancelled("cancelled");
   bar.setPoints(geometry.points.rows());
   const std::string doubt = doubtOf(geometry, settings.structure);
@@ -133,5 +134,8 @@ void addDenoise(CLI::App& app, Run& run) {
   addNumber(command, "--threads", settings->threads, 1, 1 << 16, "At most this many threads (all)")->type_name("N");
   addLookOptions(command, settings->look);
   addConsole(command, settings->console);
-  command.callback([&run, settings] { run = [settings] { return runDenoise(*settings); }; });
+  command.callback([&run, &command, settings] {
+    settings->inputs = inputsOf(command);
+    run = [settings] { return runDenoise(*settings); };
+  });
 }

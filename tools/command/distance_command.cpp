@@ -101,6 +101,8 @@ void check(Settings& settings, const Operator& source) {
   }
   if (settings.places.empty() && settings.inside.empty())
     throw tufted::InvalidInput("no source is given, must be at least one by --source, --near, --sources or --face");
+  if (settings.matrix)
+    settings.source.shown = {{"distance", std::ssize(settings.places) + std::ssize(settings.inside)}};
 }
 
 /// Whether a source has a corner on a component.

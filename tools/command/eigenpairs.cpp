@@ -1,8 +1,8 @@
 #include "eigenpairs.h"
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <limits>
-#include <system_error>
 #include <utility>
 
 #include "options.h"
@@ -42,18 +42,17 @@ void addSpectrumFolder(CLI::App& command, Eigenpairs& pairs) {
       ->type_name("DIR");
 }
 
-void checkPairs(const Eigenpairs& pairs, const Operator& source, const std::filesystem::path& out) {
+void checkPairs(const Eigenpairs& pairs, const Operator& source) {
   if (pairs.folder.empty()) {
     if (pairs.count < source.points()) return;
     throw tufted::InvalidInput(pairs.option + " = " + std::to_string(pairs.count) + ", must be less than " +
                                std::to_string(source.points()) + ", the number of points");
   }
-  std::error_code error;
-  if (std::filesystem::equivalent(pairs.folder, out, error))
-    throw tufted::InvalidInput("--out " + out.string() + ": is the folder of --spectrum, which would be overwritten");
-  for (const char* name : {"report.json", "evals.npy", "evecs.npy"})
-    if (!std::filesystem::exists(pairs.folder / name, error))
-      throw tufted::IoError((pairs.folder / name).string() + ": does not exist, which `tufted spectrum` writes");
+  const std::vector<std::string> files = tufted::filesOfResult(pairs.folder);
+  for (const char* name : {"evals.npy", "evecs.npy"})
+    if (std::find(files.begin(), files.end(), name) == files.end())
+      throw tufted::IoError(pairs.folder.string() + ": its last result has no " + name +
+                            ", which `tufted spectrum` writes");
 }
 
 tufted::Spectrum computedPairs(const Eigenpairs& pairs, int count, const Operator& source,

@@ -23,9 +23,9 @@ CLI::Option* addCount(CLI::App& command, Eigenpairs& pairs, const std::string& o
 /// Adds --spectrum, which excludes the options of solving.
 void addSpectrumFolder(CLI::App& command, Eigenpairs& pairs);
 
-/// Refuses, before anything is built, more pairs than there can be and a folder that holds no spectrum or is --out.
+/// Refuses, before anything is built, more pairs than there can be and a folder whose last result is no spectrum.
 /// @throws InvalidInput naming the option; IoError naming the file that is missing
-void checkPairs(const Eigenpairs& pairs, const Operator& source, const std::filesystem::path& out);
+void checkPairs(const Eigenpairs& pairs, const Operator& source);
 
 /// So many first pairs, computed. @throws InvalidInput naming the option where there are fewer
 tufted::Spectrum computedPairs(const Eigenpairs& pairs, int count, const Operator& source,

@@ -42,7 +42,8 @@ struct Settings {
 };
 
 void check(Settings& settings, const Operator& source) {
-  checkPairs(settings.pairs, source, settings.source.out);
+  checkPairs(settings.pairs, source);
+  settings.source.shown = {{"embedding", settings.pairs.count}};
 }
 
 Results compute(Settings& settings, Operator& source) {

@@ -42,6 +42,7 @@ struct Settings {
 void check(Settings& settings, const Operator& source) {
   checkPositions(source);
   settings.placed = placePins(settings.pins, source.points());
+  settings.source.shown = {{"values", settings.placed.values.cols()}};
 }
 
 Results compute(Settings& settings, Operator& source) {

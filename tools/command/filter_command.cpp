@@ -56,12 +56,14 @@ void check(Settings& settings, const Operator& source) {
     if (!has_signals)
       throw tufted::InvalidInput(
           "nothing to filter is given, must be exactly one of --field, --values and --positions");
-    settings.values = readSignals(settings.signals, source, settings.source.out);
+    settings.values = readSignals(settings.signals, source);
+    settings.source.shown = {{"filtered", settings.values.cols()}};
   } else {
     if (has_signals) throw tufted::InvalidInput("--positions excludes --field and --values");
     checkHasPoints(source);
+    settings.source.shown = {{"displacement"}};
   }
-  if (!settings.wavelength || !settings.pairs.folder.empty()) checkPairs(settings.pairs, source, settings.source.out);
+  if (!settings.wavelength || !settings.pairs.folder.empty()) checkPairs(settings.pairs, source);
 }
 
 double waveOf(double eigenvalue) {

@@ -34,6 +34,7 @@ void check(Settings& settings, const Operator& source) {
   settings.places = settings.points.places(source.points());
   if (settings.places.empty())
     throw tufted::InvalidInput("no point is given, must be at least one by --source, --near or --sources");
+  settings.source.shown = {{"green", std::ssize(settings.places)}};
 }
 
 Results compute(Settings& settings, Operator& source) {

@@ -48,6 +48,7 @@ struct Settings {
   bool wave = false;
   std::vector<double> times;
 
+  int samplesOrDefault() const { return samples > 0 ? samples : wave ? 100 : 16; }
   std::vector<std::string> files() const {
     return {wave ? "wks.npy" : "hks.npy", wave ? "energies.npy" : "times.npy", "evals.npy"};
   }
@@ -67,7 +68,9 @@ std::string isTime(const std::string& text) {
 }
 
 void check(Settings& settings, const Operator& source) {
-  checkPairs(settings.pairs, source, settings.source.out);
+  checkPairs(settings.pairs, source);
+  const auto times = settings.times.empty() ? settings.samplesOrDefault() : static_cast<int>(settings.times.size());
+  settings.source.shown = {{settings.wave ? "wks" : "hks", times}};
 }
 
 /// Refuses times in which heat does not reach the next point, which no few eigenvalues can tell, and those in which it
@@ -90,12 +93,12 @@ void checkTimes(const std::vector<double>& times, const tufted::Spectrum& spectr
 std::vector<tufted::ResultArray> signatures(const Settings& settings, const tufted::Laplacian& laplacian,
                                             const tufted::Spectrum& spectrum) {
   if (settings.wave) {
-    const tufted::VectorXd energies = tufted::waveEnergies(spectrum, settings.samples > 0 ? settings.samples : 100);
+    const tufted::VectorXd energies = tufted::waveEnergies(spectrum, settings.samplesOrDefault());
     return {{.name = "wks", .values = tufted::waveKernelSignature(spectrum, static_cast<int>(energies.size()))},
             {.name = "energies", .values = energies, .per_point = false}};
   }
   tufted::VectorXd times = Eigen::Map<const tufted::VectorXd>(settings.times.data(), std::ssize(settings.times));
-  if (settings.times.empty()) times = tufted::heatTimes(spectrum, settings.samples > 0 ? settings.samples : 16);
+  if (settings.times.empty()) times = tufted::heatTimes(spectrum, settings.samplesOrDefault());
   return {{.name = "hks", .values = tufted::heatKernelSignature(laplacian, spectrum, times)},
           {.name = "times", .values = times, .per_point = false}};
 }

@@ -72,8 +72,8 @@ The format goes by the extension, .pcd .ply .las .xyz .xyzn .pwn .txt .csv .asc 
 and where that is unknown by the content. Normals of a file are used for L and M with --normals alone; points.ply and
 points.pcd pass them on.
 
-Writes into DIR, renamed one after the other when all are complete; files of other formats there stay:
-  report.json         what happened, with options, sign and scale
+Writes into DIR, renamed one after the other when all are complete; other files there stay, and are no part of it:
+  report.json         what happened, with options, sign and scale, and which files are of this result
   measured_positions.npy
                       N x 3: where lengths are measured, noisy points of a cloud put back onto the surface
   components.npy      the connected component of each point, 0 has the most points; -1: takes no part
@@ -112,6 +112,7 @@ struct Settings {
   tufted::WriteOptions write;
   Console console;
   Look look;
+  std::vector<NamedInput> inputs;
 };
 
 const std::map<std::string, tufted::Format> formats = {
@@ -173,13 +174,13 @@ Summary summarize(const Settings& settings, const tufted::Geometry& geometry, co
 
 int runLaplacian(Settings& settings) {
   const auto start = std::chrono::steady_clock::now();
-  checkLook(settings.look, settings.out, settings.input.file);
-  checkOutput(settings.input, settings.out, tufted::resultFiles(settings.write.formats));
+  checkLook(settings.look, settings.out, settings.inputs);
+  checkOutput(settings.inputs, settings.out, tufted::resultFiles(settings.write.formats));
   ProgressBar bar(settings.console.quiet);
   const tufted::Progress progress = showOn(bar);
   progress("read", 0);
   tufted::Geometry geometry = readInput(settings.input, progress);
-  checkColor(settings.look, geometry, {});
+  checkField(settings.look, geometry, laplacian_fields);
   if (interrupted()) throw tufted::Cancelled("cancelled");
   tufted::WriteOptions& write = settings.write;
   const auto isWanted = [&write](tufted::Format format) {
@@ -230,7 +231,8 @@ void addLaplacian(CLI::App& app, Run& run) {
   command.option_defaults()->group("Looking at the result");
   addLookOptions(command, settings->look);
   addVerboseConsole(command, settings->console);
-  command.callback([&run, settings, seed] {
+  command.callback([&run, &command, settings, seed] {
+    settings->inputs = inputsOf(command);
     if (seed->count() > 0 && settings->build.cloud.order != tufted::FaceOrder::random)
       throw CLI::RequiresError("--seed", "--order random");
     run = [=] { return runLaplacian(*settings); };

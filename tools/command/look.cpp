@@ -36,11 +36,6 @@ const std::map<std::string, Eigen::Vector3d> axes = {
     {"x", Eigen::Vector3d::UnitX()},   {"y", Eigen::Vector3d::UnitY()},   {"z", Eigen::Vector3d::UnitZ()},
     {"-x", -Eigen::Vector3d::UnitX()}, {"-y", -Eigen::Vector3d::UnitY()}, {"-z", -Eigen::Vector3d::UnitZ()}};
 
-/// Endings of names that neither a page nor a PNG file has: other pictures, and results, which would be overwritten.
-const std::vector<std::string> other_endings = {".jpg", ".jpeg", ".gif", ".bmp",   ".tif", ".tiff", ".webp", ".svg",
-                                                ".pdf", ".ppm",  ".npy", ".npz",   ".ply", ".pcd",  ".json", ".mtx",
-                                                ".mat", ".xyz",  ".obj", ".spmat", ".off", ".stl",  ".las"};
-
 /// WIDTHxHEIGHT; false where it is none.
 bool parseSize(const std::string& text, int& width, int& height) {
   char end = 0;
@@ -76,42 +71,19 @@ void setCamera(const std::string& text, tufted::Camera& camera) {
   if (numbers.size() == 3) camera.zoom = numbers[2];
 }
 
-/// A path from the root, as far as it exists without links.
-std::filesystem::path wholePath(const std::filesystem::path& path) {
-  std::error_code error;
-  const std::filesystem::path whole = std::filesystem::weakly_canonical(path, error);
-  return (error || whole.is_relative() ? std::filesystem::absolute(path) : whole).lexically_normal();
-}
-
-/// Whether a folder is there as soon as the results are.
-bool isMadeWith(const std::filesystem::path& out, const std::filesystem::path& folder) {
-  if (out.empty()) return false;
-  return *wholePath(out).lexically_relative(wholePath(folder)).begin() != "..";
-}
-
-/// Whether two paths name one file, which need not exist.
-bool isSameFile(const std::filesystem::path& one, const std::filesystem::path& other) {
-  if (one.empty() || other.empty()) return false;
-  std::error_code error;
-  return std::filesystem::equivalent(one, other, error) || wholePath(one) == wholePath(other);
-}
-
-/// The file that a path names, behind all links; it need not exist.
-std::filesystem::path behindLinks(std::filesystem::path file) {
-  std::error_code error;
-  while (std::filesystem::is_symlink(std::filesystem::symlink_status(file, error))) {
-    const std::filesystem::path next = std::filesystem::read_symlink(file, error);
-    if (error) break;
-    file = file.parent_path() / next;
-  }
-  return file;
+std::string endingOf(const std::filesystem::path& file) {
+  std::string ending = file.extension().string();
+  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  return ending;
 }
 
 /// Refuses a file that cannot be written, or whose name says that it is something else.
-void checkFile(const std::string& option, const std::filesystem::path& file, const std::filesystem::path& out) {
+/// @param endings that names of its format have
+void checkFile(const std::string& option, const std::filesystem::path& file, const std::vector<std::string>& endings,
+               const std::filesystem::path& out, const std::vector<NamedInput>& inputs) {
   if (file.empty()) return;
-  const bool is_picture = option == "--png";
   const std::string name = option + " " + file.string();
+  refuseOverwriting(name, file, inputs);
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(file, error);
   if (std::filesystem::is_directory(status)) throw tufted::InvalidInput(name + ": is a directory");
@@ -119,27 +91,33 @@ void checkFile(const std::string& option, const std::filesystem::path& file, con
     throw tufted::InvalidInput(name + ": is no regular file, must be one or missing");
   if (status.type() == std::filesystem::file_type::none)  // as where links go in circles
     throw tufted::IoError(file.string() + ": cannot write: " + error.message());
-  std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
-  if (std::find(other_endings.begin(), other_endings.end(), ending) != other_endings.end() ||
-      ending == (is_picture ? ".html" : ".png"))
-    throw tufted::InvalidInput(name + ": is written as " + (is_picture ? "PNG" : "HTML") +
-                               ", and its name must not end in " + ending);
   const std::filesystem::path target = behindLinks(file);
+  for (const std::filesystem::path& path : {file, target})
+    if (std::find(endings.begin(), endings.end(), endingOf(path)) == endings.end())
+      throw tufted::InvalidInput(name + ": " + (path == file ? "its name" : "leads to " + path.string() + ", which") +
+                                 " must end in " + endings[0]);
+  if (isWithin(out, file)) throw tufted::InvalidInput(name + ": is a folder that --out " + out.string() + " makes");
   const std::filesystem::path folder = target.has_parent_path() ? target.parent_path() : ".";
-  if (!std::filesystem::exists(folder, error) && isMadeWith(out, folder)) return;
+  if (!std::filesystem::exists(folder, error) && isWithin(out, folder)) return;
   if (!std::filesystem::is_directory(folder, error))
     throw tufted::IoError(file.string() + ": cannot write: there is no directory " + folder.string());
   if (::access(folder.c_str(), W_OK | X_OK) != 0)
     throw tufted::IoError(file.string() + ": cannot write: no permission in " + folder.string());
 }
 
-/// What the fields of a file are called here: their names, and `color` for colours.
-std::vector<std::string> namesOf(const tufted::Geometry& geometry) {
-  std::vector<std::string> names;
-  for (const tufted::Field& field : geometry.fields)
-    names.push_back(isOneOf(field.name, {"rgb", "rgba", "red", "green", "blue"}) ? "color" : field.name);
-  return names;
+/// Adds the fields of a file as they are called here: by their names, and `color` for colours.
+void addFields(const tufted::Geometry& geometry, std::vector<ShownField>& fields) {
+  for (const tufted::Field& field : geometry.fields) {
+    const bool is_color = isOneOf(field.name, {"rgb", "rgba", "red", "green", "blue"});
+    const ShownField shown = {is_color ? "color" : field.name, is_color ? 1 : field.count};
+    const auto is_same = [&](const ShownField& other) { return other.name == shown.name; };
+    if (std::none_of(fields.begin(), fields.end(), is_same)) fields.push_back(shown);
+  }
+}
+
+[[noreturn]] void refuseColumn(int column, const std::string& field, Eigen::Index columns) {
+  throw tufted::InvalidInput("--column " + std::to_string(column) + ": " + field + " has " + std::to_string(columns) +
+                             (columns == 1 ? " column" : " columns") + ", counted from 0");
 }
 
 int indexOf(const tufted::Scene& scene, const std::string& name) {
@@ -180,9 +158,7 @@ tufted::PictureOptions pictureOf(const tufted::Scene& scene, const Look& look) {
   const bool has_columns = !tufted::showsAllColumns(field.kind);
   const Eigen::Index columns = has_columns ? field.values.cols() : 1;
   options.column = look.column.value_or(has_columns ? firstVarying(field.values) : 0);
-  if (options.column >= columns)
-    throw tufted::InvalidInput("--column " + std::to_string(options.column) + ": " + field.name + " has " +
-                               std::to_string(columns) + (columns == 1 ? " column" : " columns") + ", counted from 0");
+  if (options.column >= columns) refuseColumn(options.column, field.name, columns);
   return options;
 }
 
@@ -224,28 +200,26 @@ void addLookOptions(CLI::App& command, Look& look) {
   addPictureOptions(command, look);
 }
 
-void checkLook(const Look& look, const std::filesystem::path& out, const std::filesystem::path& input) {
-  for (const std::filesystem::path& file : {look.png, look.page})
-    if (isSameFile(file, input))
-      throw tufted::InvalidInput(file.string() + ": is the input, which would be overwritten");
-  checkFile("--png", look.png, out);
-  checkFile("--view", look.page, out);
+void checkLook(const Look& look, const std::filesystem::path& out, const std::vector<NamedInput>& inputs) {
+  checkFile("--png", look.png, {".png"}, out, inputs);
+  checkFile("--view", look.page, {".html", ".htm"}, out, inputs);
   if (isSameFile(look.png, look.page))
     throw tufted::InvalidInput("--png and --view are one file, " + look.png.string());
 }
 
-void checkColor(const Look& look, const tufted::Geometry& geometry, const std::vector<std::string>& results) {
-  if (look.color.empty() || look.color == "none") return;
-  std::vector<std::string> known;
-  for (const std::string& name : results)
-    if (isShown(name)) known.push_back(name);
-  for (const char* name : {"mass", "boundary", "component"}) known.emplace_back(name);
-  for (const std::string& name : namesOf(geometry))
-    if (std::find(known.begin(), known.end(), name) == known.end()) known.push_back(name);
-  if (std::find(known.begin(), known.end(), look.color) != known.end()) return;
-  std::string all;
-  for (const std::string& name : known) all += (all.empty() ? "" : ", ") + name;
-  throw tufted::InvalidInput("--color " + look.color + " is none of " + all + didYouMean(look.color, known));
+void checkField(const Look& look, const tufted::Geometry& geometry, std::vector<ShownField> fields) {
+  addFields(geometry, fields);
+  if (look.color == "none" || (look.color.empty() && !look.isWanted())) return;
+  std::vector<std::string> names;
+  for (const ShownField& field : fields) names.push_back(field.name);
+  const auto found = look.color.empty() ? names.begin() : std::find(names.begin(), names.end(), look.color);
+  if (found == names.end()) {
+    std::string all;
+    for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
+    throw tufted::InvalidInput("--color " + look.color + " is none of " + all + didYouMean(look.color, names));
+  }
+  const Eigen::Index columns = fields[static_cast<std::size_t>(found - names.begin())].columns;
+  if (columns > 0 && look.column.value_or(0) >= columns) refuseColumn(*look.column, *found, columns);
 }
 
 void lookFromSensor(const tufted::Geometry& geometry, Look& look) {
@@ -267,14 +241,16 @@ void lookFromSensor(const tufted::Geometry& geometry, Look& look) {
   camera.up = turn * -Eigen::Vector3d::UnitY();  // rows of an image run downwards
 }
 
-void show(const tufted::Scene& scene, const Look& look) {
-  if (!look.isWanted()) return;
+std::vector<tufted::WholeFile> prepareLook(const tufted::Scene& scene, const Look& look) {
+  std::vector<tufted::WholeFile> files;
+  if (!look.isWanted()) return files;
   const tufted::PictureOptions options = pictureOf(scene, look);
   if (!look.page.empty())
-    tufted::writePage(
+    files.push_back(tufted::preparePage(
         look.page, scene,
-        {.field = options.field, .column = options.column, .color_map = options.color_map, .camera = options.camera});
-  if (!look.png.empty()) tufted::writePicture(look.png, scene, options);
+        {.field = options.field, .column = options.column, .color_map = options.color_map, .camera = options.camera}));
+  if (!look.png.empty()) files.push_back(tufted::preparePicture(look.png, scene, options));
+  return files;
 }
 
 void colorCopies(const tufted::Scene& scene, const Look& look, tufted::Geometry& geometry) {

@@ -40,6 +40,7 @@ struct Settings {
 };
 
 void check(Settings& settings, const Operator& source) {
+  settings.source.shown = {{"displacement"}};
   checkPositions(source);
   checkHasPoints(source);
   if (settings.fixed.empty()) return;

@@ -4,11 +4,9 @@
 #include <algorithm>
 #include <charconv>
 #include <chrono>
-#include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
-#include <system_error>
 
 #include "interrupt.h"
 #include "options.h"
@@ -53,29 +51,13 @@ void addSolvingOptions(CLI::App& command, Solving& solving) {
       ->type_name("SIZE");
 }
 
-/// The points that a former `tufted laplacian` wrote into its folder. There are none if it was told not to write them,
-/// even if an earlier run left some there.
-tufted::Geometry pointsOf(const std::filesystem::path& folder, const tufted::Progress& progress) {
-  std::ifstream report(folder / "report.json");
-  const nlohmann::json json = nlohmann::json::parse(report, nullptr, false);
-  const auto files = json.value("/write_options/files"_json_pointer, nlohmann::json::array());
-  for (const char* name : {"points.ply", "points.pcd"})
-    if (std::find(files.begin(), files.end(), name) != files.end())
-      return tufted::read(folder / name, tufted::ReadAs::automatic, tufted::FileFormat::automatic, progress);
-  return {};
-}
-
 void readFolder(const OperatorSettings& settings, Operator& source) {
   const std::filesystem::path& folder = settings.folder;
-  std::error_code error;
-  if (std::filesystem::equivalent(folder, settings.out, error))
-    throw tufted::InvalidInput("--out " + settings.out.string() + ": is the folder of --operator, whose report and " +
-                               "points would be overwritten");
   source.laplacian = tufted::readLaplacian(folder, settings.needs_cover);
   if (settings.needs_cover && !source.laplacian.hasCover())
     throw tufted::IoError(folder.string() + ": has no cover.npz, which `tufted laplacian --format npz,ply,cover` " +
                           "writes and " + settings.command + " needs");
-  source.geometry = pointsOf(folder, source.progress);
+  source.geometry = tufted::readPoints(folder, source.progress);
   const auto n = static_cast<Eigen::Index>(source.laplacian.status.size());
   if (source.geometry.points.rows() != n && source.geometry.points.rows() > 0)
     throw tufted::IoError(folder.string() + ": the points are " + std::to_string(source.geometry.points.rows()) +
@@ -88,12 +70,14 @@ tufted::Scene shownScene(const OperatorSettings& settings, const Operator& sourc
   return sceneOf(title, source.geometry, source.laplacian, results.shown.empty() ? results.arrays : results.shown);
 }
 
-/// Names of the results that are arrays.
-std::vector<std::string> arraysIn(const std::vector<std::string>& files) {
-  std::vector<std::string> names;
-  for (const std::string& file : files)
-    if (const std::filesystem::path path = file; path.extension() == ".npy") names.push_back(path.stem().string());
-  return names;
+/// What there will be to look at.
+std::vector<ShownField> fieldsOf(const OperatorSettings& settings, const std::vector<std::string>& files) {
+  std::vector<ShownField> fields = settings.shown;
+  if (fields.empty())
+    for (const std::filesystem::path file : files)
+      if (file.extension() == ".npy" && isShown(file.stem().string())) fields.push_back({file.stem().string()});
+  fields.insert(fields.end(), laplacian_fields.begin(), laplacian_fields.end());
+  return fields;
 }
 
 void write(const OperatorSettings& settings, const Operator& source, const Results& results) {
@@ -160,7 +144,8 @@ void addOperatorOptions(CLI::App& command, OperatorSettings& settings) {
   command.option_defaults()->group("Options");  // those of the subcommand, which stand first
   std::vector<const CLI::Option*> unused = {command.get_option("--as"), command.get_option("--weld")};
   unused.insert(unused.end(), settings.build.cloud_only.begin(), settings.build.cloud_only.end());
-  command.parse_complete_callback([file, folder, unused] {
+  command.parse_complete_callback([file, folder, unused, &command, &settings] {
+    settings.inputs = inputsOf(command);
     if (file->count() + folder->count() != 1) throw CLI::RequiredError("exactly one of FILE and --operator");
     if (folder->count() == 0) return;
     for (const CLI::Option* option : unused)
@@ -183,18 +168,17 @@ int runWithOperator(OperatorSettings& settings, std::vector<std::string> files, 
   };
   source.progress("read", 0);
   for (const std::string& name : tufted::resultFiles({}, {.copies = settings.copies})) files.push_back(name);
-  const std::vector<std::string> arrays = arraysIn(files);
-  checkLook(settings.look, settings.out, settings.input.file);
-  checkOutput(settings.input, settings.out, files);
+  checkLook(settings.look, settings.out, settings.inputs);
+  checkOutput(settings.inputs, settings.out, files);
   if (settings.folder.empty())
     source.geometry = readInput(settings.input, source.progress);
   else
     readFolder(settings, source);
   checkpoint();
-  checkColor(settings.look, source.geometry, arrays);
   if (settings.look.isWanted() && source.geometry.points.rows() == 0 && source.points() > 0)
     throw tufted::IoError(source.name + ": has no points to look at, which `tufted laplacian --format npz,ply` writes");
   blameData(source, [&] { check(source); });
+  checkField(settings.look, source.geometry, fieldsOf(settings, files));
   bar.setPoints(source.points());
   if (settings.folder.empty())
     source.laplacian =

@@ -15,6 +15,7 @@
 #include "console.h"
 #include "input.h"
 #include "look.h"
+#include "paths.h"
 #include "summary.h"
 #include "tufted/io/results.h"
 #include "tufted/laplacian.h"
@@ -40,6 +41,9 @@ struct OperatorSettings {
   ComponentOptions components;
   Console console;
   Look look;
+  /// The fields that the results will be to look at, set by the check of a command; empty: its arrays, of one column.
+  std::vector<ShownField> shown;
+  std::vector<NamedInput> inputs;  ///< all that it reads, FILE and the folder too
   std::vector<tufted::Format> copies = {tufted::Format::ply};
   bool needs_cover = false;  ///< whether the command needs the cover, not only L and M
 

@@ -47,7 +47,8 @@ void check(Settings& settings, const Operator& source) {
   if (source.laplacian.L.rows() > 0 && !geometry.is_mesh && source.laplacian.frames.normals.rows() == 0)
     throw tufted::IoError(source.name + ": has neither frames of a cloud nor the triangles of a mesh, which " +
                           "`tufted laplacian --format npz,ply` writes");
-  checkPairs(settings.pairs, source, settings.source.out);
+  checkPairs(settings.pairs, source);
+  settings.source.shown = {{"evecs", settings.pairs.folder.empty() ? settings.pairs.count : 0}};
 }
 
 Results compute(Settings& settings, Operator& source) {

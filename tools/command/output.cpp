@@ -2,10 +2,8 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
-#include <system_error>
 
 #include "options.h"
-#include "tufted/errors.h"
 #include "tufted/io/write.h"
 
 void addOut(CLI::App& command, std::filesystem::path& out) {
@@ -41,10 +39,10 @@ void addCopies(CLI::App& command, std::vector<tufted::Format>& target) {
              "Copies of the points with the results, separated by commas: ply, pcd, or none (ply)");
 }
 
-void checkOutput(const Input& input, const std::filesystem::path& out, const std::vector<std::string>& files) {
-  std::error_code error;
-  for (const std::string& name : files)
-    if (!input.isStandardInput() && std::filesystem::equivalent(input.file, out / name, error))
-      throw tufted::InvalidInput(input.name() + ": is the input, and --out " + out.string() + " would overwrite it");
+void checkOutput(const std::vector<NamedInput>& inputs, const std::filesystem::path& out,
+                 const std::vector<std::string>& files) {
+  const std::string option = "--out " + out.string();
+  refuseOverwriting(option, out, inputs);
+  for (const std::string& name : files) refuseOverwriting(option, out / name, inputs);
   tufted::checkWritable(out, files);
 }

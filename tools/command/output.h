@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "input.h"
+#include "paths.h"
 #include "tufted/io/write.h"
 
 /// Adds --out, also -o, which is required.
@@ -20,6 +20,8 @@ void addFormats(CLI::App& command, std::vector<tufted::Format>& target,
 void addCopies(CLI::App& command, std::vector<tufted::Format>& target);
 
 /// Refuses what no results can be written to, before anything is computed.
+/// @param inputs of the command
 /// @param files that will be written into `out`
-/// @throws InvalidInput where one of them is the input; IoError as tufted::checkWritable
-void checkOutput(const Input& input, const std::filesystem::path& out, const std::vector<std::string>& files);
+/// @throws InvalidInput where `out` or one of them is an input; IoError as tufted::checkWritable
+void checkOutput(const std::vector<NamedInput>& inputs, const std::filesystem::path& out,
+                 const std::vector<std::string>& files);

@@ -43,7 +43,9 @@ struct Settings {
 };
 
 void check(Settings& settings, const Operator& source) {
-  settings.f = readSignals(settings.signals, source, settings.source.out);
+  settings.f = readSignals(settings.signals, source);
+  settings.source.shown = {{"u", settings.f.cols()}};
+  if (settings.pins.empty()) settings.source.shown.push_back({"mean", settings.f.cols()});
   if (settings.pins.empty()) return;
   settings.placed = placePins(settings.pins, source.points());
   if (settings.placed.values.cols() != settings.f.cols())

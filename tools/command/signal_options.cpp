@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cstring>
 #include <map>
-#include <system_error>
 
 #include "options.h"
 #include "tufted/errors.h"
@@ -81,14 +80,11 @@ void addSignalOptions(CLI::App& command, SignalOptions& options, const std::stri
       ->type_name("NPY");
 }
 
-MatrixXd readSignals(const SignalOptions& options, const Operator& source, const std::filesystem::path& out) {
+MatrixXd readSignals(const SignalOptions& options, const Operator& source) {
   if (options.fields.empty() == options.values.empty())
     throw tufted::InvalidInput("exactly one of --field and --values must be given");
   const Eigen::Index n = source.points();
   if (!options.values.empty()) {
-    std::error_code error;
-    if (std::filesystem::equivalent(std::filesystem::absolute(options.values).parent_path(), out, error))
-      throw tufted::InvalidInput("--values " + options.values.string() + " lies in --out, whose files are overwritten");
     MatrixXd values = tufted::readArray(options.values);
     if (values.rows() != n || values.cols() == 0)
       throw tufted::IoError(options.values.string() + ": has " + std::to_string(values.rows()) + " rows of " +

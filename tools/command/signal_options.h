@@ -18,11 +18,10 @@ struct SignalOptions {
 void addSignalOptions(CLI::App& command, SignalOptions& options, const std::string& what);
 
 /// Reads them; `source` need not have its Laplacian yet.
-/// @param out the folder of the results, which must not be that of the values: they may bear the name of a result
 /// @returns N x c
 /// @throws InvalidInput unless one of both is given, and for fields that the source does not have; IoError as
 ///         readArray(), and for an array that does not have N rows
-Eigen::MatrixXd readSignals(const SignalOptions& options, const Operator& source, const std::filesystem::path& out);
+Eigen::MatrixXd readSignals(const SignalOptions& options, const Operator& source);
 
 /// @throws IoError where signals are not finite at an active point
 void requireFinite(const Eigen::MatrixXd& signals, const Operator& source);

@@ -45,6 +45,7 @@ struct Settings {
 };
 
 void check(Settings& settings, const Operator& source) {
+  settings.source.shown = {{"signed_distance"}};
   checkFrames(source);
   for (const Row& row : readRows(settings.file)) settings.curve.push_back(indexOf(row, source.points()));
   if (settings.curve.size() < 2)

@@ -64,9 +64,11 @@ void check(Settings& settings, const Operator& source) {
     throw tufted::InvalidInput(std::string(settings.lambda ? "--lambda" : "--mu") + " needs --method taubin");
   if (settings.hasSignals()) {
     if (settings.keep_volume) throw tufted::InvalidInput("--keep-volume excludes --field and --values");
-    settings.values = readSignals(settings.signals, source, settings.source.out);
+    settings.values = readSignals(settings.signals, source);
+    settings.source.shown = {{"smoothed", settings.values.cols()}};
   } else {
     checkHasPoints(source);
+    settings.source.shown = {{"displacement"}};
   }
   if (settings.fixed_file.empty()) return;
   if (settings.keep_volume) throw tufted::InvalidInput("--keep-volume excludes --fixed");

@@ -38,7 +38,8 @@ struct Settings {
 };
 
 void check(Settings& settings, const Operator& source) {
-  checkPairs(settings.pairs, source, settings.source.out);
+  checkPairs(settings.pairs, source);
+  settings.source.shown = {{"evecs", settings.with_null_space ? 0 : settings.pairs.count}};
 }
 
 Results compute(Settings& settings, Operator& source) {

@@ -33,6 +33,7 @@ struct Settings {
   std::filesystem::path what;
   std::vector<std::string> fields;
   Look look;
+  std::vector<NamedInput> inputs;
   Console console;
 };
 
@@ -48,10 +49,11 @@ int orderOf(const std::string& name) {
 
 /// Adds the path where there is one, and the arrays of a row per point, in place of the fields of the copy of the
 /// points that they are also in.
-void addArrays(const std::filesystem::path& folder, Scene& scene) {
+/// @param names of the files of the result
+void addArrays(const std::filesystem::path& folder, const std::vector<std::string>& names, Scene& scene) {
   std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder))
-    if (entry.path().extension() == ".npy") files.push_back(entry.path());
+  for (const std::string& name : names)
+    if (const std::filesystem::path file = folder / name; file.extension() == ".npy") files.push_back(file);
   std::sort(files.begin(), files.end(), [](const auto& a, const auto& b) {
     return std::pair(orderOf(a.stem().string()), a) < std::pair(orderOf(b.stem().string()), b);
   });
@@ -90,9 +92,8 @@ void addArrays(const std::filesystem::path& folder, Scene& scene) {
                       std::make_move_iterator(fields.end()));
 }
 
-Scene sceneOfFile(const std::filesystem::path& file, tufted::Geometry& geometry, const tufted::Progress& progress) {
-  geometry = tufted::read(file, tufted::ReadAs::automatic, tufted::FileFormat::automatic, progress);
-  Scene scene = {.title = file.filename().string(), .positions = geometry.points};
+Scene sceneOfPoints(const std::string& title, const tufted::Geometry& geometry) {
+  Scene scene = {.title = title, .positions = geometry.points};
   if (geometry.is_mesh) scene.triangles = geometry.triangles;
   if (geometry.normals.rows() == geometry.points.rows()) scene.normals = geometry.normals;
   scene.fields = fieldsOf(geometry);
@@ -100,24 +101,25 @@ Scene sceneOfFile(const std::filesystem::path& file, tufted::Geometry& geometry,
 }
 
 Scene sceneOfFolder(const std::filesystem::path& folder, tufted::Geometry& geometry, const tufted::Progress& progress) {
+  const std::vector<std::string> files = tufted::filesOfResult(folder);
+  const auto has = [&](const char* name) { return std::find(files.begin(), files.end(), name) != files.end(); };
+  if (!has("points.ply") && !has("points.pcd"))
+    throw tufted::IoError(folder.string() + ": has neither points.ply nor points.pcd, which --format ply writes");
+  geometry = tufted::readPoints(folder, progress);
   std::ifstream file(folder / "report.json");
   const nlohmann::json report = nlohmann::json::parse(file, nullptr, false);
-  if (!report.is_object())
-    throw tufted::IoError(folder.string() + ": has no report.json that a subcommand has written");
-  std::error_code error;
-  for (const char* name : {"points.ply", "points.pcd"}) {
-    if (!std::filesystem::exists(folder / name, error)) continue;
-    Scene scene = sceneOfFile(folder / name, geometry, progress);
-    const std::string command = report.value("command", "laplacian");
-    scene.title = command + ": " + std::filesystem::path(report.value("source", "")).filename().string();
-    addArrays(folder, scene);
-    if (scene.triangles.rows() == 0 && std::filesystem::exists(folder / "triangles.ply", error)) {
-      const tufted::Geometry surface = tufted::read(folder / "triangles.ply");
-      if (surface.points.rows() == scene.positions.rows()) scene.triangles = surface.triangles;
-    }
-    return scene;
+  const auto text = [&](const char* name, const char* none) {
+    const nlohmann::json value = report.is_object() ? report.value(name, nlohmann::json()) : nlohmann::json();
+    return value.is_string() ? value.get<std::string>() : none;
+  };
+  Scene scene = sceneOfPoints(
+      text("command", "laplacian") + ": " + std::filesystem::path(text("source", "")).filename().string(), geometry);
+  addArrays(folder, files, scene);
+  if (scene.triangles.rows() == 0 && has("triangles.ply")) {
+    const tufted::Geometry surface = tufted::read(folder / "triangles.ply");
+    if (surface.points.rows() == scene.positions.rows()) scene.triangles = surface.triangles;
   }
-  throw tufted::IoError(folder.string() + ": has neither points.ply nor points.pcd, which --format ply writes");
+  return scene;
 }
 
 /// Keeps the fields that are named, in this order.
@@ -151,17 +153,22 @@ int runView(Settings& settings) {
   const bool is_folder = std::filesystem::is_directory(settings.what, error);
   if (!look.isWanted())
     look.page = is_folder ? (settings.what / "view.html").string() : settings.what.string() + ".html";
-  checkLook(look, {}, settings.what);
+  checkLook(look, {}, settings.inputs);
   ProgressBar bar(settings.console.quiet);
   const tufted::Progress progress = showOn(bar);
   progress("read", 0);
   tufted::Geometry geometry;
-  Scene scene =
-      is_folder ? sceneOfFolder(settings.what, geometry, progress) : sceneOfFile(settings.what, geometry, progress);
+  Scene scene;
+  if (is_folder) {
+    scene = sceneOfFolder(settings.what, geometry, progress);
+  } else {
+    geometry = tufted::read(settings.what, tufted::ReadAs::automatic, tufted::FileFormat::automatic, progress);
+    scene = sceneOfPoints(settings.what.filename().string(), geometry);
+  }
   if (!hasFinitePoint(scene)) throw tufted::IoError(settings.what.string() + ": has no finite point to look at");
   choose(settings.fields, scene);
   lookFromSensor(geometry, look);
-  show(scene, look);
+  for (tufted::WholeFile& file : prepareLook(scene, look)) file.giveName();
   bar.clear();
   Summary summary;
   summary.add("points", "%lld", static_cast<long long>(scene.positions.rows()));
@@ -202,5 +209,8 @@ void addView(CLI::App& app, Run& run) {
       ->type_name("NAME");
   addPictureOptions(command, settings->look);
   addConsole(command, settings->console);
-  command.callback([&run, settings] { run = [settings] { return runView(*settings); }; });
+  command.callback([&run, &command, settings] {
+    settings->inputs = inputsOf(command);
+    run = [settings] { return runView(*settings); };
+  });
 }

@@ -59,6 +59,7 @@ void check(Settings& settings, const Operator& source) {
                             ", but handle " + std::to_string(handle));
     settings.handles.push_back(members);
   }
+  settings.source.shown = {{"weights", std::ssize(settings.handles)}};
 }
 
 Results compute(Settings& settings, Operator& source) {

@@ -23,7 +23,7 @@ struct ResultArray {
 /// Options of writeResults().
 struct ResultOptions {
   std::vector<Format> copies = {Format::ply};  ///< copies of the points with the results as fields: ply, pcd, or none
-  std::string report = "{}\n";                 ///< the text of report.json
+  std::string report = "{}\n";                 ///< a JSON object for report.json
   Progress progress = {};                      ///< called between files; returning false leaves no file
 };
 
@@ -34,19 +34,31 @@ std::vector<std::string> resultFiles(const std::vector<ResultArray>& arrays, con
 ///   NAME.npy               float64, or int32; one column: N values, else rows x columns in C order
 ///   points.ply, points.pcd as writeLaplacian writes them, with each array per point as a field NAME of float32;
 ///                          several columns: NAME_0, NAME_1, ... in PLY, COUNT values in PCD
-///   report.json            options.report
+///   report.json            options.report, and as `files` the names of all files of this result
 /// @param laplacian that the results were computed with. One without points, as `Laplacian()`, stands for none: the
 ///        copies then have neither mass nor boundary, status and representative.
-/// @throws InvalidInput if arrays differ in length, a name is not one word, the pose of the sensor is not valid or a
-///         format is neither ply nor pcd
+/// @throws InvalidInput if arrays differ in length, a name is not one word, the pose of the sensor is not valid, a
+///         format is neither ply nor pcd or options.report is no JSON object
 /// @throws IoError naming the path
 /// @throws Cancelled when `options.progress` returns false
 void writeResults(const std::filesystem::path& dir, const Laplacian& laplacian, const Geometry& geometry,
                   const std::vector<ResultArray>& arrays, const ResultOptions& options = {});
 
+/// The names of the files of the last result in a folder, which its report.json lists. Whatever else lies there is of
+/// an earlier result, or somebody else's, and no reader of folders takes it.
+/// @throws IoError for a folder without a report.json that lists files
+std::vector<std::string> filesOfResult(const std::filesystem::path& dir);
+
+/// Reads the points of the last result in a folder: of a cloud's Laplacian points.pcd before points.ply, otherwise
+/// points.ply before points.pcd. Polygons and merged vertices are those that report.json counts.
+/// @return 0 points where the last result has neither
+/// @throws IoError as filesOfResult() and read()
+/// @throws Cancelled when `progress` returns false
+Geometry readPoints(const std::filesystem::path& dir, const Progress& progress = {});
+
 /// Reads what writeLaplacian wrote with Format::npz: L.npz, M.npy, status.npy, representative.npy, boundary.npy,
-/// frames.npy, noise.npy, component_edges.npy, and of report.json the kind, counts, lengths and areas. Sign::igl and
-/// dummy values are undone. Versions before noise.npy and component_edges.npy are read without noise, and with the
+/// frames.npy, noise.npy, component_edges.npy, and of report.json the kind and the Report. Files that report.json does
+/// not list are not taken. Sign::igl and dummy values are undone. Versions before noise.npy and component_edges.npy are read without noise, and with the
 /// report's mean edges for every component.
 /// `cover_areas` is M if that holds the cover's areas, else empty. If report.json has no kind, as in older files, the
 /// kind follows from the options of the build in it; without these a cover is refused, and nothing else depends on the

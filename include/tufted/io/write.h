@@ -39,7 +39,10 @@ struct WriteOptions {
   std::string source = {};              ///< the file the points are from, recorded in report.json
   const CloudOptions* cloud = nullptr;  ///< the options of the build, recorded in report.json; borrowed
   const MeshOptions* mesh = nullptr;    ///< the options of a mesh's build, recorded in report.json; borrowed
-  Progress progress = {};               ///< called between files; returning false leaves no file
+  /// The options of the build as an earlier report.json has them, a JSON object, for a Laplacian that was read from its
+  /// folder; recorded where neither `cloud` nor `mesh` is given.
+  std::string build_options = {};
+  Progress progress = {};  ///< called between files; returning false leaves no file
 };
 
 /// The names of the files that writeLaplacian writes for these formats.
@@ -66,7 +69,9 @@ std::vector<std::string> resultFiles(const std::vector<Format>& formats);
 ///   triangles.ply       as points.ply, but at Laplacian::positions, with surfaceTriangles() or those of the mesh
 ///   measured_positions.npy  float64, N x 3, see Laplacian::positions
 ///   components.npy      int32, N, see Laplacian::component
-///   report.json         the kind and the Report, with sign and scale stated, and what was changed in reading the input
+///   report.json         the kind and the Report, with sign and scale stated, what was changed in reading the input,
+///   and
+///                       as `files` the names of all files of this result
 /// The points have x y z and normals (where known), the fields of the input, mass (float64), boundary, status (uint8)
 /// and representative (int32). x y z are float32 where that loses nothing, else float64: PCL turns wider coordinates
 /// into zeros when it converts them to its point types. So are normals of the input; normals of the build are float32.
@@ -76,12 +81,14 @@ std::vector<std::string> resultFiles(const std::vector<Format>& formats);
 /// green, blue (and alpha) of 8 bits become a packed rgb (rgba).
 ///
 /// All files are written into a hidden folder `dir`/.tufted-XXXXXX, brought to the disk and then renamed one after the
-/// other. Files of these names are replaced; links, pipes and devices of these names are refused; all others stay.
+/// other. Files of these names are replaced; links, pipes and devices of these names are refused; all others stay, and
+/// are no part of the result: `files` in report.json says which are.
 /// Whatever throws leaves `dir` as it was. A process that is killed while it renames leaves new files beside old ones,
 /// and in `dir`/.tufted-XXXXXX/old those that it replaced. Where several processes write into one `dir`, each renames
 /// all its files before the next one does.
 /// @throws InvalidInput if the arrays of `laplacian` and `geometry` differ in length, the name of a field is not one
-///         word, the pose of the sensor is not valid, or the cover is asked for and was not kept;
+///         word, the pose of the sensor is not valid, `build_options` is no JSON object, or the cover is asked for and
+///         was not kept;
 ///         for Format::triangles also as surfaceTriangles()
 /// @throws IoError naming the path
 /// @throws Cancelled when `options.progress` returns false

@@ -5,6 +5,7 @@
 
 #include "tufted/view/camera.h"
 #include "tufted/view/scene.h"
+#include "tufted/view/whole_file.h"
 
 namespace tufted {
 
@@ -35,5 +36,9 @@ std::string pageOf(const Scene& scene, const PageOptions& options = {});
 /// @throws InvalidInput as pageOf()
 /// @throws IoError naming `path`
 void writePage(const std::filesystem::path& path, const Scene& scene, const PageOptions& options = {});
+
+/// As writePage(), but the file has its name only after giveName(), and nothing is left without.
+/// @throws as writePage()
+WholeFile preparePage(const std::filesystem::path& path, const Scene& scene, const PageOptions& options = {});
 
 }  // namespace tufted

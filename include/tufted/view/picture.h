@@ -9,6 +9,7 @@
 
 #include "tufted/view/camera.h"
 #include "tufted/view/scene.h"
+#include "tufted/view/whole_file.h"
 
 namespace tufted {
 
@@ -51,5 +52,9 @@ Picture drawPicture(const Scene& scene, const PictureOptions& options = {});
 /// Writes drawPicture() as a PNG file, whole or not at all, as writePage() does. A file of that name is replaced.
 /// @throws InvalidInput as drawPicture(); IoError naming `path`
 void writePicture(const std::filesystem::path& path, const Scene& scene, const PictureOptions& options = {});
+
+/// As writePicture(), but the file has its name only after giveName(), and nothing is left without.
+/// @throws as writePicture()
+WholeFile preparePicture(const std::filesystem::path& path, const Scene& scene, const PictureOptions& options = {});
 
 }  // namespace tufted

@@ -1,4 +1,5 @@
 """Clouds and meshes, from arrays and from files."""
+import json
 import os
 
 import numpy as np
@@ -215,26 +216,33 @@ def read(path, *, kind="automatic", weld=False, image=None, rings=None, normals=
     return _set_geometry(PointCloud(geometry.points, progress=progress, **options), geometry, path)
 
 
-def load(directory, *, threads=0, solver="automatic", memory_limit=0, progress=None):
-    """Loads what `save` or `tufted laplacian` wrote: npz with ply or pcd, and the cover where it is there.
+# The formats that load() takes, each with a file of its own.
+_LOADED = {"npz": "L.npz", "ply": "points.ply", "pcd": "points.pcd", "cover": "cover.npz"}
 
-    Without the cover, distances, log_map, Voronoi segments and triangles are refused.
+
+def load(directory, *, threads=0, solver="automatic", memory_limit=0, progress=None):
+    """Loads what `save` or `tufted laplacian` wrote last: npz with ply or pcd, and the cover where it is among that.
+
+    Files that an earlier result has left in the directory are not taken. Without the cover, distances, log_map, Voronoi segments and triangles are refused.
     """
     directory = os.fspath(directory)
     solving = _solving("load", threads, solver, memory_limit)
     laplacian = _tufted.load(directory, True)
-    for name in ("points.ply", "points.pcd"):
-        path = os.path.join(directory, name)
-        if os.path.exists(path):
-            break
-    else:
+    files = _tufted.files_of_result(directory)
+    if "points.ply" not in files and "points.pcd" not in files:
         raise _tufted.IoError(f"{directory}: has no points.ply and no points.pcd, must have one of them")
-    geometry = _tufted.read_file(path, "cloud" if laplacian.is_cloud else "mesh", False,
-                                 check.callback("load", progress))
+    geometry = _tufted.read_points(directory, check.callback("load", progress))
     if len(geometry.points) != len(laplacian.status):
-        raise _tufted.IoError(f"{path}: has {len(geometry.points)} points, and L has {len(laplacian.status)} rows")
+        raise _tufted.IoError(f"{directory}: the points are {len(geometry.points)}, and L has "
+                              f"{len(laplacian.status)} rows")
+    if geometry.is_mesh == laplacian.is_cloud:
+        raise _tufted.IoError(f"{directory}: has no faces, which points.ply of a mesh has")
+    with open(os.path.join(directory, "report.json"), encoding="utf-8") as file:
+        report = json.load(file)
+    options = report.get("cloud_options" if laplacian.is_cloud else "mesh_options")
     surface = PointCloud.__new__(PointCloud) if laplacian.is_cloud else Mesh.__new__(Mesh)
-    faces = None if laplacian.is_cloud else np.ascontiguousarray(geometry.triangles)
-    Surface.__init__(surface, laplacian, geometry.points, faces, solving, None, None, directory)
+    faces = None if laplacian.is_cloud else geometry.triangles
+    Surface.__init__(surface, laplacian, geometry.points, faces, solving, None if options is None else json.dumps(options), geometry,
+                     report.get("source", ""), [name for name, file in _LOADED.items() if file in files])
     surface._warn()
     return surface

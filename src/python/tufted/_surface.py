@@ -30,14 +30,16 @@ class Surface(Spectral, Distances, Equations, Shape):
     returning False; Ctrl-C stops it as well.
     """
 
-    def __init__(self, laplacian, points, faces, solving, options=None, geometry=None, source=""):
+    def __init__(self, laplacian, points, faces, solving, options=None, geometry=None, source="",
+                 formats=("npz", "ply")):
         self._laplacian = laplacian
         self._points = points
         self._faces = faces
         self._solving = solving  # solver, memory_limit, threads
-        self._options = options  # of the build, where they are known; report.json has them
-        self._geometry = geometry
+        self._options = options  # of the build: a dict, or as the JSON of the folder that it was loaded from
+        self._geometry = geometry  # all that a file holds; points and faces are its own
         self._source = source
+        self._formats = formats  # that save() writes unless it is told
         self._kept = {}
 
     # What is known
@@ -127,12 +129,15 @@ class Surface(Spectral, Distances, Equations, Shape):
                 f'height="480" style="border: 0" title="{html.escape(repr(self))}"></iframe>')
 
     def __getstate__(self):
-        return {"laplacian": _tufted.state_of(self._laplacian), "points": self._points, "faces": self._faces,
-                "solving": self._solving, "options": self._options, "source": self._source}
+        arrays = (self._points, self._faces) if self._geometry is None else None  # otherwise of the geometry
+        return {"laplacian": _tufted.state_of(self._laplacian), "arrays": arrays, "geometry": self._geometry,
+                "solving": self._solving, "options": self._options, "source": self._source, "formats": self._formats}
 
     def __setstate__(self, state):
-        Surface.__init__(self, _tufted.from_state(state["laplacian"]), state["points"], state["faces"],
-                         state["solving"], state["options"], None, state["source"])
+        geometry = state["geometry"]
+        points, faces = state["arrays"] or (geometry.points, geometry.triangles if geometry.is_mesh else None)
+        Surface.__init__(self, _tufted.from_state(state["laplacian"]), points, faces, state["solving"],
+                         state["options"], geometry, state["source"], state["formats"])
 
     # Points, checks and files
 
@@ -168,17 +173,18 @@ class Surface(Spectral, Distances, Equations, Shape):
         restricted = type(self).__new__(type(self))
         laplacian = self._laplacian.restricted_to(labels.tolist(), check.callback("restricted_to", progress))
         Surface.__init__(restricted, laplacian, self._points, self._faces, self._solving, self._options,
-                         self._geometry, self._source)
+                         self._geometry, self._source, self._formats)
         return restricted
 
-    def save(self, directory, *, formats=("npz", "ply"), sign="psd", dummy=False, progress=None):
+    def save(self, directory, *, formats=None, sign="psd", dummy=False, progress=None):
         """Writes what `tufted laplacian` writes with the same options, all files or none.
 
-        formats: of npz, mtx, mat, spmat, ply, pcd, cover, triangles. "cover" lets load() compute distances, too.
+        formats: of npz, mtx, mat, spmat, ply, pcd, cover, triangles; None: npz and ply, or what load() has taken.
+        "cover" lets load() compute distances, too.
         sign: of L in the files: "psd" as here, or "igl", negated.
         dummy: whether points that take no part get values on the diagonals, for full rank.
         """
-        formats = [formats] if isinstance(formats, str) else list(formats)
+        formats = [formats] if isinstance(formats, str) else list(self._formats if formats is None else formats)
         geometry = self._geometry or _tufted.Geometry(self._points, self._faces)
         _tufted.save(directory, self._laplacian, geometry, formats, self._source, sign, bool(dummy), self._options,
                      check.callback("save", progress))

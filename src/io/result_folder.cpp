@@ -1,0 +1,63 @@
+#include "io/result_folder.h"
+
+#include <algorithm>
+
+#include "io/errors.h"
+#include "io/json_file.h"
+#include "io/report_members.h"
+#include "tufted/io/results.h"
+
+namespace tufted {
+
+namespace io {
+
+ResultFolder::ResultFolder(const std::filesystem::path& dir) : dir_(dir), report_(readJson(dir / report_name)) {
+  if (!report_.is_object()) refuse(reportPath(), "is no report of a result");
+  // Folders of a Laplacian from before there was `files` list them among the options of writing.
+  nlohmann::json list = report_.value("files", nlohmann::json());
+  const nlohmann::json written = report_.value("write_options", nlohmann::json());
+  if (list.is_null() && written.is_object()) list = written.value("files", nlohmann::json());
+  is_listed_ = list.is_array();
+  for (const nlohmann::json& name : list)
+    if (name.is_string()) files_.push_back(name.get<std::string>());
+}
+
+const std::vector<std::string>& ResultFolder::files() const {
+  if (!is_listed_) refuse(reportPath(), "does not list the files of its result, must have them as \"files\"");
+  return files_;
+}
+
+bool ResultFolder::has(const std::string& name) const {
+  return std::find(files().begin(), files().end(), name) != files().end();
+}
+
+std::filesystem::path ResultFolder::pathOf(const std::string& name) const {
+  if (!has(name)) refuse(reportPath(), "is of a run that did not write " + name);
+  return dir_ / name;
+}
+
+}  // namespace io
+
+std::vector<std::string> filesOfResult(const std::filesystem::path& dir) {
+  return io::ResultFolder(dir).files();
+}
+
+Geometry readPoints(const std::filesystem::path& dir, const Progress& progress) {
+  const io::ResultFolder folder(dir);
+  const nlohmann::json kind = folder.report().value("kind", nlohmann::json());
+  // PCD holds all fields as they are, PLY the triangles of a mesh.
+  std::vector<std::string> names = {"points.ply", "points.pcd"};
+  if (kind == "cloud") std::swap(names[0], names[1]);
+  const auto name = std::find_if(names.begin(), names.end(), [&](const std::string& each) { return folder.has(each); });
+  if (name == names.end()) return {};
+  Geometry geometry =
+      read(dir / *name, kind == "cloud" ? ReadAs::cloud : ReadAs::automatic, FileFormat::automatic, progress);
+  // A file without a face does not tell that it is of a mesh.
+  if (kind == "mesh" && *name == "points.ply") geometry.is_mesh = true;
+  const nlohmann::json input = folder.report().value("input", nlohmann::json());
+  io::readMember(input, "polygons", folder.reportPath(), geometry.polygons);
+  io::readMember(input, "merged_vertices", folder.reportPath(), geometry.merged_vertices);
+  return geometry;
+}
+
+}  // namespace tufted
