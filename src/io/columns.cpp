@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
 #include <limits>
 #include <optional>
 #include <type_traits>
 
 #include "io/errors.h"
+#include "io/field_names.h"
 #include "io/number.h"
 
 namespace tufted::io {
@@ -15,6 +17,9 @@ namespace {
 
 using Names = std::array<std::string_view, 3>;
 using Places = std::array<std::size_t, 3>;
+
+constexpr Names position = {"x", "y", "z"};
+constexpr std::size_t longest_list = 200;  // characters of the names in a message
 
 /// Index of the three fields, each with one value per point.
 std::optional<Places> find(const std::vector<Field>& fields, const Names& names) {
@@ -29,10 +34,17 @@ std::optional<Places> find(const std::vector<Field>& fields, const Names& names)
   return found;
 }
 
-Places findPosition(const std::filesystem::path& path, std::int64_t line, const std::vector<Field>& fields) {
-  const auto position = find(fields, {"x", "y", "z"});
-  if (!position) refuseLine(path, line, "has no fields x, y, z");
-  return *position;
+/// Whether columns 3, 4, 5 hold unit vectors (or zero, or NaN), not colours.
+bool holdNormals(const Columns& columns) {
+  bool any = false;
+  for (std::size_t i = 0; i < static_cast<std::size_t>(columns.rows); ++i) {
+    const auto value = [&](std::size_t c) { return tufted::valueOf(columns.fields[c], i); };
+    const double length = std::hypot(value(3), value(4), value(5));
+    if (length == 0 || std::isnan(length)) continue;
+    if (std::abs(length - 1) > 0.02) return false;
+    any = true;
+  }
+  return any;
 }
 
 /// Converts the three fields to double and marks them as used.
@@ -82,17 +94,30 @@ void allocate(Columns& columns, std::int64_t rows) {
   for (Field& field : columns.fields) field.bytes.resize(rows * field.count * sizeOf(field.type));
 }
 
-void requirePosition(const std::filesystem::path& path, std::int64_t line, const std::vector<Field>& fields) {
-  findPosition(path, line, fields);
+void nameColumns(const std::filesystem::path& path, std::int64_t line, std::vector<Field>& fields) {
+  nameFields(fields);
+  if (find(fields, position)) return;
+  std::string names;
+  for (const Field& field : fields) {
+    if (names.size() > longest_list) break;
+    names += (names.empty() ? "; has " : ", ") + quote(field.name);
+  }
+  refuseLine(path, line, "has no fields x, y, z" + names);
 }
 
-Geometry toGeometry(const std::filesystem::path& path, std::int64_t line, Columns&& columns) {
+void nameByPlace(Columns& columns, bool are_normals) {
+  std::vector<std::string> names = {"x", "y", "z"};
+  if (columns.fields.size() >= 6 && (are_normals || holdNormals(columns)))
+    names.insert(names.end(), {"nx", "ny", "nz"});
+  while (names.size() < columns.fields.size()) names.push_back("column" + std::to_string(names.size()));
+  for (std::size_t c = 0; c < columns.fields.size(); ++c) columns.fields[c].name = names[c];
+}
+
+Geometry toGeometry(Columns&& columns) {
   std::vector<bool> used(columns.fields.size());
   Geometry geometry;
-  geometry.points = take(columns, findPosition(path, line, columns.fields), used);
-  auto normal = find(columns.fields, {"normal_x", "normal_y", "normal_z"});
-  if (!normal) normal = find(columns.fields, {"nx", "ny", "nz"});
-  if (normal) geometry.normals = take(columns, *normal, used);
+  geometry.points = take(columns, find(columns.fields, position).value(), used);
+  if (const auto normal = find(columns.fields, {"nx", "ny", "nz"})) geometry.normals = take(columns, *normal, used);
   for (std::size_t f = 0; f < columns.fields.size(); ++f) {
     if (!used[f] && columns.fields[f].name != "_") geometry.fields.push_back(std::move(columns.fields[f]));
   }

@@ -55,14 +55,20 @@ struct Columns {
 /// Makes room for `rows` values in each field.
 void allocate(Columns& columns, std::int64_t rows);
 
-/// Checks that there are fields x, y, z, before their values are read. @throws IoError without them
-void requirePosition(const std::filesystem::path& path, std::int64_t line, const std::vector<Field>& fields);
-
-/// Moves x, y, z to `points`, a full set of normal_x, normal_y, normal_z or nx, ny, nz to `normals`, and all other
-/// fields to `fields`, except padding (named "_"). Width and height are those of an unorganized cloud.
+/// Gives the fields the names that are known and checks that x, y, z are among them, before their values are read.
 /// @param line line of the header that names the fields
 /// @throws IoError without x, y, z
-Geometry toGeometry(const std::filesystem::path& path, std::int64_t line, Columns&& columns);
+void nameColumns(const std::filesystem::path& path, std::int64_t line, std::vector<Field>& fields);
+
+/// Names columns without names by their places: x y z, normals if the next three are unit vectors, column6, column7,
+/// ...
+/// @param are_normals whether the next three are normals of any length
+void nameByPlace(Columns& columns, bool are_normals);
+
+/// Moves x, y, z to `points`, a full set of nx, ny, nz to `normals`, and all other fields to `fields`, except padding
+/// (named "_"). Width and height are those of an unorganized cloud.
+/// @param columns with the names that nameColumns() or nameByPlace() gave
+Geometry toGeometry(Columns&& columns);
 
 /// Checks that a number of rows fits into int, which numbers the points. @throws IoError if it does not
 std::int64_t checkedRows(const std::filesystem::path& path, std::int64_t rows);

@@ -22,13 +22,6 @@ void refuseErrno(const std::filesystem::path& path, const std::string& action, i
   refuse(path, "cannot " + action + ": " + std::generic_category().message(error));
 }
 
-void refuseFurther(const std::filesystem::path& path, std::string_view bytes, std::size_t end, std::size_t item,
-                   const std::string& what) {
-  if (item == 0 || end > bytes.size() || bytes.size() - end < item) return;
-  if (bytes.substr(end).find_first_not_of('\0') == std::string_view::npos) return;
-  refuseByte(path, end, std::to_string(bytes.size() - end) + " bytes more than the " + what);
-}
-
 std::string quote(std::string_view text) {
   constexpr std::size_t longest = 32;
   std::string quoted = "'";

@@ -14,12 +14,6 @@ namespace tufted::io {
 /// Throws IoError: "path: cannot <action>: <what errno says>".
 [[noreturn]] void refuseErrno(const std::filesystem::path& path, const std::string& action, int error);
 
-/// Refuses bytes behind the last item of a file if they hold a whole further one. Some programs pad: zeros are passed
-/// over.
-/// @param what the items are, for the message
-void refuseFurther(const std::filesystem::path& path, std::string_view bytes, std::size_t end, std::size_t item,
-                   const std::string& what);
-
 /// Text of a file for an error message: quoted, printable, at most 32 characters.
 std::string quote(std::string_view text);
 

@@ -17,8 +17,10 @@ Geometry readObj(const std::filesystem::path& path, std::string_view bytes, cons
 Geometry readOff(const std::filesystem::path& path, std::string_view bytes, const Progress& progress);
 Geometry readStl(const std::filesystem::path& path, std::string_view bytes);
 Geometry readNpy(const std::filesystem::path& path, std::string_view bytes);
+Geometry readVtk(const std::filesystem::path& path, std::string_view bytes, const Progress& progress);
 
 /// Whether the bytes begin as a file of that format does. Text of numbers is anything else that begins with numbers.
+bool looksLikeVtk(std::string_view bytes);
 bool looksLikePcd(std::string_view bytes);
 bool looksLikeOff(std::string_view bytes);
 bool looksLikeStl(std::string_view bytes);

@@ -6,6 +6,7 @@
 #include "io/errors.h"
 #include "io/formats.h"
 #include "io/las_header.h"
+#include "io/unread.h"
 
 // Reads the points of LAS files: ASPRS, LAS Specification 1.4 R15, Tables 10 to 22. Debian's only library for LAS is
 // PDAL, which is larger than all other dependencies together.
@@ -148,6 +149,8 @@ Geometry readLas(const std::filesystem::path& path, std::string_view bytes) {
     geometry.fields.push_back(readExtra(extra, byte, records));
     byte += sizeOf(extra.type) * extra.count;
   }
+  noteUnread(path, bytes.substr(0, header.end),
+             header.body + static_cast<std::size_t>(header.points) * header.record_bytes, geometry);
   return geometry;
 }
 

@@ -15,6 +15,7 @@ namespace tufted::io {
 namespace {
 
 constexpr std::size_t smallest_header = 227;  // LAS 1.0 to 1.2
+constexpr std::size_t header_of_1_3 = 235;
 constexpr std::size_t header_of_1_4 = 375;
 constexpr std::size_t record_header = 54;      // of a variable length record
 constexpr std::size_t extra_descriptor = 192;  // of one extra value
@@ -38,6 +39,7 @@ class LasHeaderParser {
     readVersion();
     readPointFormat();
     readCount();
+    findEnd();
     for (int c = 0; c < 3; ++c) {
       header_.scale[c] = at<double>(131 + 8 * c);
       header_.offset[c] = at<double>(155 + 8 * c);
@@ -101,6 +103,17 @@ class LasHeaderParser {
     if (count > static_cast<std::uint64_t>(std::numeric_limits<int>::max()))
       refuseByte(path_, place, std::to_string(count) + " points are more than 2^31 - 1");
     header_.points = static_cast<std::int64_t>(count);
+  }
+
+  /// Behind the points, LAS 1.3 may have waveforms, and 1.4 extended variable length records as well.
+  void findEnd() {
+    header_.end = bytes_.size();
+    const std::size_t points = header_.body + static_cast<std::size_t>(header_.points) * header_.record_bytes;
+    const auto addPart = [&](std::uint64_t begin) {
+      if (begin >= points && begin < header_.end) header_.end = static_cast<std::size_t>(begin);
+    };
+    if (header_.minor >= 3 && header_bytes_ >= header_of_1_3) addPart(at<std::uint64_t>(227));
+    if (header_.minor == 4 && at<std::uint32_t>(243) > 0) addPart(at<std::uint64_t>(235));
   }
 
   /// The variable length records between header and points; of all kinds Extra Bytes alone matters here.

@@ -27,6 +27,7 @@ struct LasHeader {
   std::size_t record_bytes = 0;  ///< bytes per point
   std::int64_t points = 0;
   std::size_t body = 0;  ///< byte at which the points begin
+  std::size_t end = 0;   ///< byte at which records behind the points begin, or where the file ends
   std::array<double, 3> scale = {}, offset = {};
   std::vector<LasExtra> extras;  ///< in the order of their bytes, all bytes behind the format's own
 };

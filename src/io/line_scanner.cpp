@@ -74,9 +74,12 @@ std::int64_t LineScanner::integer(std::size_t token) const {
 }
 
 std::int64_t LineScanner::integerBefore(std::size_t token, char end) const {
+  return integerOf(tokens_[token].substr(0, tokens_[token].find(end)));
+}
+
+std::int64_t LineScanner::integerOf(std::string_view text) const {
   std::int64_t value = 0;
-  const std::string_view text = tokens_[token];
-  if (!parseNumber(text.substr(0, text.find(end)), value)) refuse(quote(text) + " is not an integer");
+  if (!parseNumber(text, value)) refuse(quote(text) + " is not an integer");
   return value;
 }
 

@@ -43,6 +43,8 @@ class LineScanner {
   /// The number in a token of this line. @throws IoError naming the line
   double number(std::size_t token) const;
   std::int64_t integer(std::size_t token) const;
+  /// The integer that is a part of this line. @throws IoError naming the line
+  std::int64_t integerOf(std::string_view text) const;
   /// The integer in front of the first `end` in a token, or the whole token. @throws IoError naming the line
   std::int64_t integerBefore(std::size_t token, char end) const;
 

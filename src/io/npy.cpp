@@ -91,21 +91,27 @@ std::size_t npyHeaderBytes(std::string_view beginning, const std::filesystem::pa
   return 8 + length_bytes + length;
 }
 
-NpyHeader parseNpyHeader(std::string_view bytes, std::uint64_t all, const std::filesystem::path& shown,
-                         NpyOrder order) {
-  NpyHeader header;
-  header.bytes = npyHeaderBytes(bytes, shown);
-  if (header.bytes > bytes.size()) refuseByte(shown, bytes.size(), "ends within the header of the array");
-  const std::string_view dictionary = bytes.substr(8, header.bytes - 8);
-  header.is_by_columns = !entry(dictionary, "fortran_order", shown).starts_with("False");
-  if (header.is_by_columns && order == NpyOrder::rows)
-    refuseByte(shown, npy_dictionary, "is an array in Fortran's order, must be in C's");
-  const std::string_view descr = entry(dictionary, "descr", shown);
-  const std::size_t end = descr.find('\'', 1);
-  if (!descr.starts_with('\'') || end == std::string_view::npos)
+NpyLayout parseNpyLayout(std::string_view bytes, const std::filesystem::path& shown) {
+  NpyLayout layout;
+  layout.bytes = npyHeaderBytes(bytes, shown);
+  if (layout.bytes > bytes.size()) refuseByte(shown, bytes.size(), "ends within the header of the array");
+  const std::string_view dictionary = bytes.substr(8, layout.bytes - 8);
+  layout.is_by_columns = !entry(dictionary, "fortran_order", shown).starts_with("False");
+  layout.descr = entry(dictionary, "descr", shown);
+  layout.shape = parseShape(entry(dictionary, "shape", shown), shown);
+  return layout;
+}
+
+NpyHeader parseNpyHeader(std::string_view bytes, std::uint64_t all, const std::filesystem::path& shown) {
+  const NpyLayout layout = parseNpyLayout(bytes, shown);
+  if (layout.is_by_columns) refuseByte(shown, npy_dictionary, "is an array in Fortran's order, must be in C's");
+  const std::size_t end = layout.descr.find('\'', 1);
+  if (!layout.descr.starts_with('\'') || end == std::string_view::npos)
     refuseByte(shown, npy_dictionary, "is an array of structures");
-  header.descr = descr.substr(1, end - 1);
-  header.shape = parseShape(entry(dictionary, "shape", shown), shown);
+  NpyHeader header;
+  header.bytes = layout.bytes;
+  header.descr = layout.descr.substr(1, end - 1);
+  header.shape = layout.shape;
   const std::uint64_t values = all - header.bytes;
   if (const auto type = types.find(header.descr); type != types.end()) {
     header.type = type->second;
@@ -116,8 +122,8 @@ NpyHeader parseNpyHeader(std::string_view bytes, std::uint64_t all, const std::f
   return header;
 }
 
-NpyArray parseNpy(std::string_view bytes, const std::filesystem::path& shown, NpyOrder order) {
-  const NpyHeader header = parseNpyHeader(bytes, bytes.size(), shown, order);
+NpyArray parseNpy(std::string_view bytes, const std::filesystem::path& shown) {
+  const NpyHeader header = parseNpyHeader(bytes, bytes.size(), shown);
   return {header, bytes.substr(header.bytes)};
 }
 

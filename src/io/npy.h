@@ -20,32 +20,39 @@ std::string npyHeader(std::string_view descr, const std::vector<std::int64_t>& s
 /// Where the text of a header begins, for messages; two bytes later from version 2 on.
 constexpr std::size_t npy_dictionary = 10;
 
-/// The header of a .npy file.
+/// What the header of any .npy file says.
+struct NpyLayout {
+  std::string_view descr;           ///< the type as Python writes it, and what follows in the header
+  std::vector<std::int64_t> shape;  ///< empty: a single value
+  std::size_t bytes = 0;            ///< size of the header; the values begin there
+  bool is_by_columns = false;       ///< values in Fortran's order
+};
+
+/// The header of an array of one type in C's order.
 struct NpyHeader {
   std::string descr;                ///< numpy's name of the type
   std::optional<FieldType> type;    ///< type of little-endian floats and integers; nullopt for others
   std::vector<std::int64_t> shape;  ///< empty: a single value
   std::size_t bytes = 0;            ///< size of the header; the values begin there
-  bool is_by_columns = false;       ///< values in Fortran's order
 
   std::int64_t size() const;
 };
-
-/// The orders of values that are taken: C's, by rows, or Fortran's as well, by columns.
-enum class NpyOrder { rows, any };
 
 constexpr std::size_t npy_beginning = 12;  ///< number of bytes that npyHeaderBytes() needs
 
 /// How many bytes the header has. @throws IoError for a file that is not a .npy file of version 1 to 3
 std::size_t npyHeaderBytes(std::string_view beginning, const std::filesystem::path& shown);
 
+/// Parses a header. `bytes` must outlive the result. @throws IoError for a file that is not a .npy file of version 1 to
+/// 3
+NpyLayout parseNpyLayout(std::string_view bytes, const std::filesystem::path& shown);
+
 /// Parses a header and checks that the file has as many bytes as its shape says.
 /// @param bytes at least the header
 /// @param all how many bytes the file has
 /// @param shown the path to name in errors
 /// @throws IoError for another number of bytes or another order, or a file that is not a .npy file of version 1 to 3
-NpyHeader parseNpyHeader(std::string_view bytes, std::uint64_t all, const std::filesystem::path& shown,
-                         NpyOrder order = NpyOrder::rows);
+NpyHeader parseNpyHeader(std::string_view bytes, std::uint64_t all, const std::filesystem::path& shown);
 
 /// A .npy file in memory.
 struct NpyArray : NpyHeader {
@@ -53,7 +60,7 @@ struct NpyArray : NpyHeader {
 };
 
 /// Parses a whole file. Errors are those of parseNpyHeader().
-NpyArray parseNpy(std::string_view bytes, const std::filesystem::path& shown, NpyOrder order = NpyOrder::rows);
+NpyArray parseNpy(std::string_view bytes, const std::filesystem::path& shown);
 
 /// The type of an array of numbers. @throws IoError for other arrays
 FieldType numberType(const NpyHeader& header, const std::filesystem::path& shown);

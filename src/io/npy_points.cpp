@@ -1,10 +1,12 @@
-#include <limits>
 #include <string>
 #include <vector>
 
+#include "io/columns.h"
 #include "io/errors.h"
 #include "io/formats.h"
 #include "io/npy.h"
+#include "io/npy_table.h"
+#include "io/unread.h"
 
 namespace tufted::io {
 
@@ -13,28 +15,28 @@ bool looksLikeNpy(std::string_view bytes) {
 }
 
 Geometry readNpy(const std::filesystem::path& path, std::string_view bytes) {
-  const NpyArray array = parseNpy(bytes, path, NpyOrder::any);
-  const FieldType type = numberType(array, path);
-  if (type != FieldType::float32 && type != FieldType::float64)
-    refuseByte(path, npy_dictionary, "is an array of " + quote(array.descr) + ", must be of float32 or float64");
-  if (array.shape.size() != 2 || array.shape[1] != 3) {
-    std::string shape;
-    for (const std::int64_t length : array.shape) shape += (shape.empty() ? "" : " x ") + std::to_string(length);
+  const NpyTable table = parseNpyTable(bytes, path);
+  const bool is_named = !table.members.empty();
+  if (!is_named && (table.columns < 3 || (table.columns > 3 && table.columns > table.rows() && table.rows() > 0)))
     refuseByte(path, npy_dictionary,
-               "is an array of " + (shape.empty() ? "one value" : shape) + ", must be N x 3: a point per row");
-  }
-  if (array.shape[0] > std::numeric_limits<int>::max())
-    refuseByte(path, npy_dictionary, "has more than 2^31 - 1 points");
-  const std::vector<double> numbers = numbersOf(array, path);
-  Geometry geometry;
-  geometry.format = std::string("NPY, ") + (type == FieldType::float32 ? "float32" : "float64");
-  geometry.points.resize(array.shape[0], 3);
-  using Columns = Eigen::Matrix<double, Eigen::Dynamic, 3>;
-  if (array.is_by_columns)
-    geometry.points = Eigen::Map<const Columns>(numbers.data(), array.shape[0], 3);
+               "is an array of " + std::to_string(table.rows()) + " points of " + std::to_string(table.columns) +
+                   " values, must be N x 3 or more: a point per row" +
+                   (table.rows() > 2 ? "; in Python: numpy.save(file, array.T)" : ""));
+  Columns columns;
+  columns.rows = checkedRows(path, table.rows());
+  for (std::int64_t c = 0; c < (columns.rows > 0 || is_named ? table.columns : 3); ++c)
+    columns.fields.push_back(table.field(c));
+  if (is_named)
+    nameColumns(path, 1, columns.fields);
   else
-    geometry.points = Eigen::Map<const Points>(numbers.data(), array.shape[0], 3);
-  geometry.width = static_cast<int>(geometry.points.rows());
+    nameByPlace(columns, false);
+  Geometry geometry = toGeometry(std::move(columns));
+  geometry.format = "NPY, " + table.type;
+  if (table.width > 1 && table.height > 1) {
+    geometry.width = static_cast<int>(table.width);
+    geometry.height = static_cast<int>(table.height);
+  }
+  noteUnread(path, bytes, table.end, geometry);
   return geometry;
 }
 

@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <array>
 #include <limits>
+#include <string>
 
 #include "io/columns.h"
 #include "io/errors.h"
+#include "io/field_names.h"
 #include "io/formats.h"
 #include "io/line_scanner.h"
 #include "io/polygon_soup.h"
@@ -14,6 +16,13 @@ namespace {
 
 constexpr LineScanner::Syntax syntax = {.comment = '#', .continued = true};
 
+/// Words that begin a line of which nothing is needed here (Wavefront's Appendix B1, and those of older versions).
+constexpr std::array others = {
+    "vt",     "vp",       "deg",      "bmat", "step",   "cstype", "p",          "l",         "curv",  "curv2", "surf",
+    "parm",   "trim",     "hole",     "scrv", "sp",     "end",    "con",        "g",         "s",     "mg",    "o",
+    "bevel",  "c_interp", "d_interp", "lod",  "usemtl", "mtllib", "shadow_obj", "trace_obj", "ctech", "stech", "usemap",
+    "maplib", "call",     "csh",      "bsp",  "bzp",    "cdc",    "cdp",        "res"};
+
 // CGAL 5.5 reads OBJ too, but loses the faces of files that separate corners by tabs, cuts a face short at a token it
 // cannot read, and refuses files with lines (`l`) or continued lines.
 class ObjReader {
@@ -23,13 +32,15 @@ class ObjReader {
 
   Geometry read() {
     while (scanner_.next()) {
-      const std::string_view keyword = scanner_.tokens()[0];
+      const std::string keyword = lower(scanner_.tokens()[0]);
       if (keyword == "v")
         readVertex();
       else if (keyword == "vn")
         readTriple(normals_);
-      else if (keyword == "f")
+      else if (keyword == "f" || keyword == "fo")  // the latter until version 3
         readFace();
+      else if (std::find(others.begin(), others.end(), keyword) == others.end())
+        addUnknown();
     }
     if (coordinates_.empty()) scanner_.refuse("holds no vertices up to there");
     Geometry geometry;
@@ -38,7 +49,17 @@ class ObjReader {
     geometry.points = Eigen::Map<const Points>(coordinates_.data(), geometry.width, 3);
     if (normals_are_of_vertices_ && normals_.size() == coordinates_.size())
       geometry.normals = Eigen::Map<const Points>(normals_.data(), geometry.width, 3);
-    colors_.moveTo(geometry.fields, false);
+    if (!colors_.moveTo(geometry.fields, false))
+      note(colors_.given(), "vertices have a colour and others none, so none is kept", geometry);
+    if (geometry.fields.size() == 4 && fourth_is_one_ && !last_is_one_) {  // v x y z w r g b, not r g b a
+      for (std::size_t c = 3; c > 0; --c) geometry.fields[c].name = geometry.fields[c - 1].name;
+      geometry.fields.erase(geometry.fields.begin());
+    }
+    note(weights_, "vertices have a weight w other than 1; x y z are divided by it", geometry);
+    note(unknown_,
+         "lines begin with an unknown word and are not read, the first is line " + std::to_string(first_unknown_) +
+             ": " + quote(unknown_word_),
+         geometry);
     setPolygons(path_, soup_, progress_, geometry);
     return geometry;
   }
@@ -51,10 +72,31 @@ class ObjReader {
     for (std::size_t t = 1; t <= 3; ++t) values.push_back(scanner_.number(t));
   }
 
-  /// `v x y z`, with a weight that is of no use here, or with a colour as many programs write it.
+  /// `v x y z`, with a weight, or with a colour as many programs write it, or with both.
   void readVertex() {
     readTriple(coordinates_);
-    colors_.add(scanner_, scanner_.tokens().size() == 5 ? 5 : 4);
+    const std::size_t tokens = scanner_.tokens().size();
+    if (tokens == 8) {
+      fourth_is_one_ = fourth_is_one_ && scanner_.number(4) == 1;
+      last_is_one_ = last_is_one_ && scanner_.number(7) == 1;
+    }
+    const bool has_weight = tokens == 5;
+    if (has_weight) {
+      const double weight = scanner_.number(4);
+      if (weight != 1) ++weights_;
+      for (std::size_t c = 1; c <= 3; ++c) coordinates_[coordinates_.size() - c] /= weight;
+    }
+    colors_.add(scanner_, has_weight ? 5 : 4);
+  }
+
+  void addUnknown() {
+    if (unknown_++ > 0) return;
+    first_unknown_ = scanner_.line();
+    unknown_word_ = scanner_.tokens()[0];
+  }
+
+  void note(std::int64_t count, const std::string& what, Geometry& geometry) const {
+    if (count > 0) geometry.notes.push_back(path_.string() + ": " + std::to_string(count) + " " + what);
   }
 
   /// A corner is `v`, `v/vt`, `v//vn` or `v/vt/vn`. Numbers count from 1, negative ones back from the last vertex.
@@ -82,6 +124,9 @@ class ObjReader {
   std::vector<double> coordinates_, normals_;
   VertexColors colors_;
   bool normals_are_of_vertices_ = true;
+  bool fourth_is_one_ = true, last_is_one_ = true;  // of vertices with four values behind x y z
+  std::int64_t weights_ = 0, unknown_ = 0, first_unknown_ = 0;
+  std::string_view unknown_word_;
   PolygonSoup soup_;
 };
 
@@ -90,7 +135,7 @@ class ObjReader {
 bool looksLikeObj(std::string_view bytes) {
   constexpr std::array keywords = {"v", "vn", "vt", "f", "o", "g", "mtllib", "usemtl", "s"};
   const auto tokens = firstTokens(bytes, syntax);
-  return !tokens.empty() && std::find(keywords.begin(), keywords.end(), tokens[0]) != keywords.end();
+  return !tokens.empty() && std::find(keywords.begin(), keywords.end(), lower(tokens[0])) != keywords.end();
 }
 
 Geometry readObj(const std::filesystem::path& path, std::string_view text, const Progress& progress) {

@@ -3,11 +3,13 @@
 
 #include "io/columns.h"
 #include "io/errors.h"
+#include "io/field_names.h"
 #include "io/formats.h"
 #include "io/line_scanner.h"
 #include "io/off_binary.h"
 #include "io/off_layout.h"
 #include "io/polygon_soup.h"
+#include "io/unread.h"
 #include "io/vertex_colors.h"
 
 namespace tufted::io {
@@ -15,28 +17,36 @@ namespace {
 
 constexpr LineScanner::Syntax syntax = {.comment = '#', .comment_anywhere = true};
 
-std::optional<OffLayout> parseKeyword(std::string_view word) {
+/// The first word of a file: the keyword, and the number of vertices where no blank is between, as in ModelNet40.
+struct FirstWord {
   OffLayout layout;
-  const auto take = [&word](std::string_view prefix) {
-    const bool found = word.starts_with(prefix);
+  std::string_view count;
+};
+
+std::optional<FirstWord> parseFirstWord(std::string_view word) {
+  FirstWord first;
+  const bool is_small = lower(word) == word;  // nOFF alone has points of another dimension
+  const auto take = [&](std::string_view prefix) {
+    const bool found = word.starts_with(is_small ? lower(prefix) : std::string(prefix));
     if (found) word.remove_prefix(prefix.size());
     return found;
   };
-  layout.texture = take("ST");
-  layout.colors = take("C");
-  layout.normals = take("N");
-  layout.homogeneous = take("4");
-  if (word != "OFF") return std::nullopt;
-  return layout;
+  first.layout.texture = take("ST");
+  first.layout.colors = take("C");
+  first.layout.normals = take("N");
+  first.layout.homogeneous = take("4");
+  if (!take("OFF") || word.find_first_not_of("0123456789") != std::string_view::npos) return std::nullopt;
+  first.count = word;
+  return first;
 }
 
 /// Reads the ascii form, one vertex or face per line. CGAL 5.5 reads beyond its buffer where a COFF vertex has no
 /// colour.
 class AsciiOff {
  public:
-  AsciiOff(const std::filesystem::path& path, std::string_view text, LineScanner& scanner, OffLayout layout,
+  AsciiOff(const std::filesystem::path& path, std::string_view text, LineScanner& scanner, const FirstWord& word,
            const Progress& progress)
-      : path_(path), text_(text), scanner_(scanner), layout_(layout), progress_(progress) {}
+      : path_(path), text_(text), scanner_(scanner), word_(word), layout_(word.layout), progress_(progress) {}
 
   Geometry read() {
     readCounts();
@@ -45,26 +55,29 @@ class AsciiOff {
     geometry.points.resize(vertices_, 3);
     if (layout_.normals) geometry.normals.resize(vertices_, 3);
     for (std::int64_t v = 0; v < vertices_; ++v) readVertex(v, geometry);
-    colors_.moveTo(geometry.fields, true);
+    if (!colors_.moveTo(geometry.fields, true))
+      geometry.notes.push_back(path_.string() + ": " + std::to_string(colors_.given()) + " of " +
+                               std::to_string(vertices_) +
+                               " vertices have a colour of three or four values, so none is kept");
     PolygonSoup soup;
     soup.reserve(faces_);
     for (std::int64_t f = 0; f < faces_; ++f) readFace(soup);
-    // What follows is passed over, as other readers do: CGAL's prim.off has a face more than its header counts.
+    noteUnreadLines(path_, text_, scanner_, geometry);
     setPolygons(path_, soup, progress_, geometry);
     return geometry;
   }
 
  private:
-  /// Reads the counts, which stand behind the keyword or in the next line.
+  /// Reads the counts, which stand in the keyword's word, behind it or in the next line.
   void readCounts() {
-    std::size_t first = 1;
-    if (scanner_.tokens().size() == 1) {
+    std::size_t faces = word_.count.empty() ? 2 : 1;
+    if (scanner_.tokens().size() == 1 && word_.count.empty()) {
       if (!scanner_.next()) scanner_.refuse("ends after the keyword");
-      first = 0;
+      faces = 1;
     }
-    if (scanner_.tokens().size() < first + 2) scanner_.refuse("the numbers of vertices and faces expected");
-    vertices_ = scanner_.integer(first);
-    faces_ = scanner_.integer(first + 1);
+    if (scanner_.tokens().size() <= faces) scanner_.refuse("the numbers of vertices and faces expected");
+    vertices_ = word_.count.empty() ? scanner_.integer(faces - 1) : scanner_.integerOf(word_.count);
+    faces_ = scanner_.integer(faces);
     constexpr std::int64_t most = std::numeric_limits<int>::max();
     if (vertices_ < 0 || faces_ < 0 || vertices_ > most || faces_ > most)
       scanner_.refuse("the numbers of vertices and faces are not in [0, 2^31)");
@@ -101,13 +114,13 @@ class AsciiOff {
       if (vertex < 0 || vertex >= vertices_) scanner_.refuse("no vertex " + std::to_string(vertex));
       polygon[c] = static_cast<int>(vertex);
     }
-    soup.polygons.push_back(std::move(polygon));
-    soup.places.push_back(scanner_.line());
+    soup.add(std::move(polygon), scanner_.line());
   }
 
   const std::filesystem::path& path_;
   std::string_view text_;
   LineScanner& scanner_;
+  FirstWord word_;
   OffLayout layout_;
   const Progress& progress_;
   VertexColors colors_;
@@ -119,17 +132,17 @@ class AsciiOff {
 
 bool looksLikeOff(std::string_view bytes) {
   const auto tokens = firstTokens(bytes, syntax);
-  return !tokens.empty() && parseKeyword(tokens[0]).has_value();
+  return !tokens.empty() && parseFirstWord(tokens[0]).has_value();
 }
 
 Geometry readOff(const std::filesystem::path& path, std::string_view text, const Progress& progress) {
   LineScanner scanner(path, text, syntax);
-  const auto layout = scanner.next() ? parseKeyword(scanner.tokens()[0]) : std::nullopt;
-  if (!layout) scanner.refuse("the header does not begin with OFF, COFF, NOFF, STOFF or 4OFF");
-  const bool binary = scanner.tokens().size() > 1 && scanner.tokens()[1] == "BINARY";
-  Geometry geometry = binary ? readBinaryOff(path, text, scanner.offset(), *layout, progress)
-                             : AsciiOff(path, text, scanner, *layout, progress).read();
-  geometry.format = binary ? "OFF, binary" : "OFF, ascii";
+  const auto word = scanner.next() ? parseFirstWord(scanner.tokens()[0]) : std::nullopt;
+  if (!word) scanner.refuse("the header does not begin with OFF, COFF, NOFF, STOFF or 4OFF");
+  const bool binary = scanner.tokens().size() > 1 && lower(scanner.tokens()[1]) == "binary";
+  Geometry geometry = binary ? readBinaryOff(path, text, scanner.offset(), word->layout, progress)
+                             : AsciiOff(path, text, scanner, *word, progress).read();
+  if (!binary) geometry.format = "OFF, ascii";
   return geometry;
 }
 

@@ -4,51 +4,106 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 
 #include "io/errors.h"
 #include "io/polygon_soup.h"
+#include "io/unread.h"
+#include "tufted/errors.h"
 
 // Decodes the binary form of OFF (Geomview's manual, OFF, "binary format"). CGAL 5.5, which reads this form too, turns
-// counts into floats and those into integers beyond their range.
+// counts into floats and those into integers beyond their range. pmp-library writes it as its machine has numbers, and
+// its faces have no colours and not their number.
 namespace tufted::io {
 namespace {
+
+struct Dialect {
+  bool is_little_endian;
+  bool has_face_colors;
+};
 
 class BinaryOff {
  public:
   BinaryOff(const std::filesystem::path& path, std::string_view bytes, std::size_t body, const OffLayout& layout,
             const Progress& progress)
-      : path_(path), bytes_(bytes), offset_(body), layout_(layout), progress_(progress) {}
+      : path_(path), bytes_(bytes), body_(body), layout_(layout), progress_(progress) {}
 
   Geometry read() {
-    const std::int64_t vertices = integer(), faces = integer();
-    integer();  // number of edges, which is not needed
-    const std::size_t vertex_values = layout_.behindNormal() + (layout_.colors ? 4 : 0) + (layout_.texture ? 2 : 0);
-    constexpr std::int64_t least_face = 8;  // no corner, no colour
-    // Both counts are below 2^31.
-    if (vertices < 0 || faces < 0 ||
-        static_cast<std::uint64_t>(vertices) * vertex_values * 4 + static_cast<std::uint64_t>(faces * least_face) >
-            bytes_.size() - offset_)
-      refuseByte(path_, bytes_.size(),
-                 "too short for the " + std::to_string(vertices) + " vertices and " + std::to_string(faces) +
-                     " faces of its header");
+    chooseDialect();
+    begin();
     Geometry geometry;
-    geometry.width = static_cast<int>(vertices);
-    geometry.points.resize(vertices, 3);
-    if (layout_.normals) geometry.normals.resize(vertices, 3);
+    geometry.format = dialect_.is_little_endian ? "OFF, binary little endian" : "OFF, binary";
+    geometry.width = static_cast<int>(vertices_);
+    geometry.points.resize(vertices_, 3);
+    if (layout_.normals) geometry.normals.resize(vertices_, 3);
     readVertices(geometry);
     PolygonSoup soup;
     soup.place_name = "byte";
-    soup.reserve(faces);
-    for (std::int64_t f = 0; f < faces; ++f) readFace(soup);
+    soup.reserve(faces_);
+    for (std::int64_t f = 0; f < faces_; ++f) readFace(soup);
+    noteUnread(path_, bytes_, offset_, geometry);
     setPolygons(path_, soup, progress_, geometry);
     return geometry;
   }
 
  private:
+  /// Takes the first dialect whose faces end where the file ends, or else the first in which they are whole; the
+  /// standard one if there is none, to say what is wrong.
+  void chooseDialect() {
+    constexpr Dialect standard = {false, true};
+    std::optional<Dialect> whole;
+    for (const Dialect dialect : {standard, Dialect{false, false}, Dialect{true, true}, Dialect{true, false}}) {
+      dialect_ = dialect;
+      if (!isWhole()) continue;
+      if (offset_ == bytes_.size()) return;
+      if (!whole) whole = dialect;
+    }
+    dialect_ = whole.value_or(standard);
+  }
+
+  /// Whether all faces lie within the file and name vertices that there are.
+  bool isWhole() {
+    try {
+      begin();
+      offset_ += static_cast<std::size_t>(vertices_) * vertexBytes();
+      for (std::int64_t f = 0; f < faces_; ++f) {
+        const std::size_t corners = count(offset_, "corners");
+        if (corners < 3 && !dialect_.has_face_colors) return false;  // nobody writes those, and zeros look like them
+        for (std::size_t c = 0; c < corners; ++c)
+          if (const std::int32_t vertex = integer(); vertex < 0 || vertex >= vertices_) return false;
+        skipColor();
+      }
+      return true;
+    } catch (const IoError&) {
+      return false;
+    }
+  }
+
+  std::size_t vertexBytes() const {
+    return 4 * (layout_.behindNormal() + (layout_.colors ? 4 : 0) + (layout_.texture ? 2 : 0));
+  }
+
+  /// Reads the counts, and checks that the rest of the file may hold them.
+  void begin() {
+    offset_ = body_;
+    vertices_ = integer();
+    faces_ = integer();
+    integer();                              // number of edges, which is not needed
+    constexpr std::int64_t least_face = 4;  // the number of corners
+    // Both counts are below 2^31.
+    if (vertices_ < 0 || faces_ < 0 ||
+        static_cast<std::uint64_t>(vertices_) * vertexBytes() + static_cast<std::uint64_t>(faces_ * least_face) >
+            bytes_.size() - offset_)
+      refuseByte(path_, bytes_.size(),
+                 "too short for the " + std::to_string(vertices_) + " vertices and " + std::to_string(faces_) +
+                     " faces of its header");
+  }
+
   std::int32_t integer() {
     if (bytes_.size() - offset_ < 4) refuseByte(path_, bytes_.size(), "ends inside a number");
     std::uint32_t value = 0;
-    for (int b = 0; b < 4; ++b) value = value << 8 | static_cast<std::uint8_t>(bytes_[offset_ + b]);
+    for (int b = 0; b < 4; ++b)
+      value = value << 8 | static_cast<std::uint8_t>(bytes_[offset_ + (dialect_.is_little_endian ? 3 - b : b)]);
     offset_ += 4;
     return static_cast<std::int32_t>(value);
   }
@@ -79,9 +134,12 @@ class BinaryOff {
     const std::size_t begin = offset_;
     std::vector<int> polygon(count(begin, "corners"));
     for (int& corner : polygon) corner = integer();
-    offset_ += 4 * count(begin, "colour values");
-    soup.polygons.push_back(std::move(polygon));
-    soup.places.push_back(static_cast<std::int64_t>(begin));
+    skipColor();
+    soup.add(std::move(polygon), static_cast<std::int64_t>(begin));
+  }
+
+  void skipColor() {
+    if (dialect_.has_face_colors) offset_ += 4 * count(offset_, "colour values");
   }
 
   /// A number of values that the rest of the file can hold.
@@ -94,7 +152,10 @@ class BinaryOff {
 
   const std::filesystem::path& path_;
   std::string_view bytes_;
-  std::size_t offset_;
+  std::size_t body_;
+  std::size_t offset_ = 0;
+  std::int64_t vertices_ = 0, faces_ = 0;
+  Dialect dialect_ = {};
   OffLayout layout_;
   const Progress& progress_;
 };

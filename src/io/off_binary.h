@@ -9,7 +9,8 @@
 
 namespace tufted::io {
 
-/// Reads the binary form of OFF: big endian, 32-bit integers and floats.
+/// Reads the binary form of OFF, 32-bit integers and floats: big endian by the standard, or little endian if that is
+/// what fits the size of the file, with or without the colours of faces.
 /// @param bytes the whole file
 /// @param body where the binary counts begin
 /// @throws IoError naming the path and byte

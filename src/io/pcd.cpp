@@ -1,22 +1,23 @@
 #include <cstring>
 
 #include "io/errors.h"
+#include "io/field_names.h"
 #include "io/formats.h"
 #include "io/line_scanner.h"
 #include "io/pcd_binary.h"
 #include "io/pcd_header.h"
+#include "io/unread.h"
 
 namespace tufted::io {
 namespace {
 
 /// One point per line. PCL reads `a b c` as numbers and takes short lines, so the text is scanned here.
-void readAscii(const std::filesystem::path& path, std::string_view text, PcdHeader& header) {
+void readAscii(const std::filesystem::path& path, std::string_view text, LineScanner& scanner, PcdHeader& header) {
   // Two bytes, a digit and a separator, are the least a value takes.
   const std::size_t rest = text.size() - std::min(header.body, text.size());
   if (static_cast<double>(header.points) * static_cast<double>(header.row_values) * 2 > static_cast<double>(rest) + 1)
     refuseByte(path, text.size(), "too short for the " + std::to_string(header.points) + " points of its header");
   allocate(header);
-  LineScanner scanner(path, text, {.comment = '#'});
   scanner.seek(header.body, header.line);
   for (std::int64_t i = 0; i < header.points; ++i) {
     if (!scanner.next())
@@ -36,34 +37,39 @@ void readAscii(const std::filesystem::path& path, std::string_view text, PcdHead
       }
     }
   }
-  if (scanner.next()) scanner.refuse("more lines than the " + std::to_string(header.points) + " points of the header");
 }
 
 }  // namespace
 
 bool looksLikePcd(std::string_view bytes) {
   const auto tokens = firstTokens(bytes, {.comment = '#'});
-  return !tokens.empty() && (tokens[0] == "VERSION" || tokens[0] == "FIELDS" || tokens[0] == "COLUMNS");
+  return !tokens.empty() && isOneOf(lower(tokens[0]), {"version", "fields", "columns"});
 }
 
 Geometry readPcd(const std::filesystem::path& path, std::string_view bytes) {
   PcdHeader header = parsePcdHeader(path, bytes);
-  requirePosition(path, header.line, header.columns.fields);
+  nameColumns(path, header.line, header.columns.fields);
   const char* format = "PCD, ascii";
+  LineScanner scanner(path, bytes, {.comment = '#'});
+  std::size_t end = bytes.size();
   switch (header.data) {
     case PcdHeader::Data::ascii:
-      readAscii(path, bytes, header);
+      readAscii(path, bytes, scanner, header);
       break;
     case PcdHeader::Data::binary:
       format = "PCD, binary";
-      readPcdBinary(path, bytes, header);
+      end = readPcdBinary(path, bytes, header);
       break;
     case PcdHeader::Data::binary_compressed:
       format = "PCD, binary_compressed";
-      readPcdCompressed(path, bytes, header);
+      end = readPcdCompressed(path, bytes, header);
       break;
   }
-  Geometry geometry = toGeometry(path, header.line, std::move(header.columns));
+  Geometry geometry = toGeometry(std::move(header.columns));
+  if (header.data == PcdHeader::Data::ascii)
+    noteUnreadLines(path, bytes, scanner, geometry);
+  else
+    noteUnread(path, bytes, end, geometry);
   geometry.format = format;
   geometry.width = static_cast<int>(header.width);
   geometry.height = static_cast<int>(header.height);

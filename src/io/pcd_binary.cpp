@@ -10,15 +10,12 @@
 // of its reach, prints to a console that all threads share, and brings the libraries of VTK.
 namespace tufted::io {
 
-void readPcdBinary(const std::filesystem::path& path, std::string_view bytes, PcdHeader& header) {
+std::size_t readPcdBinary(const std::filesystem::path& path, std::string_view bytes, PcdHeader& header) {
   const std::size_t rest = bytes.size() - std::min(header.body, bytes.size());
   if (static_cast<std::uint64_t>(header.points) > rest / header.row_bytes)
     refuseByte(path, bytes.size(),
                "ends there, too short for " + std::to_string(header.points) + " points of " +
                    std::to_string(header.row_bytes) + " bytes");
-  const auto item = static_cast<std::size_t>(header.row_bytes);
-  refuseFurther(path, bytes, header.body + static_cast<std::size_t>(header.points) * item, item,
-                std::to_string(header.points) + " points of the header");
   allocate(header);
   const char* value = bytes.data() + header.body;
   for (std::int64_t i = 0; i < header.points; ++i) {
@@ -28,15 +25,16 @@ void readPcdBinary(const std::filesystem::path& path, std::string_view bytes, Pc
       value += size;
     }
   }
+  return static_cast<std::size_t>(value - bytes.data());
 }
 
 /// Reads the compressed form: two sizes, compressed and not, then the compressed columns, one field after another
 /// without padding.
-void readPcdCompressed(const std::filesystem::path& path, std::string_view bytes, PcdHeader& header) {
+std::size_t readPcdCompressed(const std::filesystem::path& path, std::string_view bytes, PcdHeader& header) {
   const std::size_t rest = bytes.size() - std::min(header.body, bytes.size());
   std::uint32_t sizes[2];
   if (rest < sizeof(sizes)) {
-    if (header.points == 0) return allocate(header);
+    if (header.points == 0) return header.body;
     refuseByte(path, bytes.size(), "ends before the compressed data");
   }
   std::memcpy(sizes, bytes.data() + header.body, sizeof(sizes));
@@ -66,6 +64,7 @@ void readPcdCompressed(const std::filesystem::path& path, std::string_view bytes
     std::memcpy(field.bytes.data(), column, field.bytes.size());
     column += field.bytes.size();
   }
+  return header.body + sizeof(sizes) + sizes[0];
 }
 
 }  // namespace tufted::io

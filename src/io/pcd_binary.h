@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <filesystem>
 #include <string_view>
 
@@ -10,7 +11,8 @@ namespace tufted::io {
 /// Fill the columns of `header` from the body of a binary or binary_compressed file, after checking that the file is as
 /// long as the header says.
 /// @param bytes the whole file
-void readPcdBinary(const std::filesystem::path& path, std::string_view bytes, PcdHeader& header);
-void readPcdCompressed(const std::filesystem::path& path, std::string_view bytes, PcdHeader& header);
+/// @returns where the last point ends
+std::size_t readPcdBinary(const std::filesystem::path& path, std::string_view bytes, PcdHeader& header);
+std::size_t readPcdCompressed(const std::filesystem::path& path, std::string_view bytes, PcdHeader& header);
 
 }  // namespace tufted::io

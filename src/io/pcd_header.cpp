@@ -1,9 +1,11 @@
 #include "io/pcd_header.h"
 
+#include <cctype>
 #include <limits>
 #include <optional>
 
 #include "io/errors.h"
+#include "io/field_names.h"
 #include "io/line_scanner.h"
 #include "io/pose.h"
 
@@ -27,7 +29,8 @@ class PcdHeaderParser {
 
   PcdHeader parse() {
     while (scanner_.next()) {
-      if (scanner_.isCutOff() && scanner_.tokens()[0] != "DATA") scanner_.refuse("the file ends within the header");
+      if (scanner_.isCutOff() && lower(scanner_.tokens()[0]) != "data")
+        scanner_.refuse("the file ends within the header");
       if (keyword()) return finish();
     }
     scanner_.refuse("the header has no DATA line");
@@ -37,33 +40,34 @@ class PcdHeaderParser {
   /// Takes a line. True at DATA, which ends the header.
   bool keyword() {
     const auto& tokens = scanner_.tokens();
-    const std::string_view word = tokens[0];
-    if (word == "FIELDS" || word == "COLUMNS") {
+    const std::string word = lower(tokens[0]);
+    if (word == "fields" || word == "columns") {
       if (tokens.size() < 2) scanner_.refuse("no fields");
       if (!names_.empty()) scanner_.refuse("a second list of fields");
       for (std::size_t t = 1; t < tokens.size(); ++t) names_.emplace_back(tokens[t]);
-    } else if (word == "SIZE") {
+    } else if (word == "size") {
       sizes_ = perField();
-    } else if (word == "COUNT") {
+    } else if (word == "count") {
       counts_ = perField();
-    } else if (word == "TYPE") {
+    } else if (word == "type") {
       if (tokens.size() != names_.size() + 1) scanner_.refuse("TYPE does not name as many fields as FIELDS");
-      for (std::size_t t = 1; t < tokens.size(); ++t) kinds_ += tokens[t][0];
-    } else if (word == "WIDTH") {
+      for (std::size_t t = 1; t < tokens.size(); ++t)
+        kinds_ += static_cast<char>(std::toupper(static_cast<unsigned char>(tokens[t][0])));
+    } else if (word == "width") {
       width_ = single();
-    } else if (word == "HEIGHT") {
+    } else if (word == "height") {
       height_ = single();
-    } else if (word == "POINTS") {
+    } else if (word == "points") {
       points_ = single();
-    } else if (word == "DATA") {
+    } else if (word == "data") {
       data();
       return true;
-    } else if (word == "VIEWPOINT") {
+    } else if (word == "viewpoint") {
       if (tokens.size() != header_.viewpoint.size() + 1) scanner_.refuse("seven numbers expected");
       for (std::size_t t = 1; t < tokens.size(); ++t) header_.viewpoint[t - 1] = scanner_.number(t);
       if (const char* const fault = poseFault(header_.viewpoint)) scanner_.refuse(fault);
-    } else if (word != "VERSION") {
-      scanner_.refuse("unknown keyword " + quote(word));
+    } else if (word != "version") {
+      scanner_.refuse("unknown keyword " + quote(tokens[0]));
     }
     return false;
   }
@@ -94,7 +98,7 @@ class PcdHeaderParser {
   }
 
   void data() {
-    const std::string_view kind = scanner_.tokens().size() == 2 ? scanner_.tokens()[1] : "";
+    const std::string kind = scanner_.tokens().size() == 2 ? lower(scanner_.tokens()[1]) : "";
     if (kind == "ascii")
       header_.data = PcdHeader::Data::ascii;
     else if (kind == "binary")

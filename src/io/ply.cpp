@@ -5,6 +5,7 @@
 
 #include "io/columns.h"
 #include "io/errors.h"
+#include "io/field_names.h"
 #include "io/formats.h"
 #include "io/ply_body.h"
 #include "io/ply_header.h"
@@ -22,7 +23,7 @@ Columns readVertices(const std::filesystem::path& path, std::int64_t header_line
   Columns columns;
   for (const PlyProperty& property : element.properties)
     if (!property.is_list) columns.fields.push_back({property.name, property.type, 1, {}});
-  requirePosition(path, header_lines, columns.fields);  // points without values would fit into any file
+  nameColumns(path, header_lines, columns.fields);  // points without values would fit into any file
   allocate(columns, element.count);
   for (std::int64_t i = 0; i < element.count; ++i) {
     body.beginItem(element);
@@ -38,28 +39,11 @@ Columns readVertices(const std::filesystem::path& path, std::int64_t header_line
   return columns;
 }
 
-/// The triangles of a strip, every other one turned over; -1 begins a new strip. Triangles with a repeated vertex
-/// only lead from one part of a strip to the next.
-void addStrip(const std::vector<int>& strip, std::int64_t place, PolygonSoup& soup) {
-  std::size_t begin = 0;
-  for (std::size_t i = 0; i < strip.size(); ++i) {
-    if (strip[i] == -1) {
-      begin = i + 1;
-    } else if (i >= begin + 2) {
-      int a = strip[i - 2], b = strip[i - 1];
-      if ((i - begin) % 2 == 1) std::swap(a, b);
-      if (a == b || b == strip[i] || a == strip[i]) continue;
-      soup.polygons.push_back({a, b, strip[i]});
-      soup.places.push_back(place);
-    }
-  }
-}
-
 void readFaces(const PlyElement& element, bool strips, PlyBody& body, PolygonSoup& soup) {
   const auto corners =
       std::find_if(element.properties.begin(), element.properties.end(), [](const PlyProperty& property) {
         return property.is_list && isInteger(property.type) &&
-               (property.name == "vertex_indices" || property.name == "vertex_index");
+               isOneOf(lower(property.name), {"vertex_indices", "vertex_index", "vertex_indexes"});
       });
   if (corners == element.properties.end())
     body.refuse("the element " + quote(element.name) + " has no list of integers 'vertex_indices'");
@@ -81,12 +65,10 @@ void readFaces(const PlyElement& element, bool strips, PlyBody& body, PolygonSou
       }
     }
     body.endItem();
-    if (strips) {
-      addStrip(polygon, body.place(), soup);
-    } else {
-      soup.polygons.push_back(std::move(polygon));
-      soup.places.push_back(body.place());
-    }
+    if (strips)
+      soup.addStrip(polygon, body.place());
+    else
+      soup.add(std::move(polygon), body.place());
   }
 }
 
@@ -98,7 +80,7 @@ void readCamera(const PlyElement& element, PlyBody& body, std::array<double, 7>&
   std::array<double, names.size()> values = {};
   body.beginItem(element);
   for (const PlyProperty& property : element.properties) {
-    const auto name = std::find(names.begin(), names.end(), property.name);
+    const auto name = std::find(names.begin(), names.end(), lower(property.name));
     if (property.is_list || name == names.end()) {
       body.skip(property);
       continue;
@@ -147,9 +129,9 @@ Geometry readPly(const std::filesystem::path& path, std::string_view bytes, bool
       skipElement(element, *body);
     }
   }
-  body->end();
   if (!has_vertices) refuseLine(path, header.line, "has no element 'vertex'");
-  Geometry geometry = toGeometry(path, header.line, std::move(columns));
+  Geometry geometry = toGeometry(std::move(columns));
+  body->end(geometry);
   geometry.viewpoint = viewpoint;
   geometry.format = std::string("PLY, ") + (header.format == PlyHeader::Format::ascii           ? "ascii"
                                             : header.format == PlyHeader::Format::little_endian ? "binary little endian"

@@ -8,6 +8,7 @@
 #include "io/columns.h"
 #include "io/errors.h"
 #include "io/line_scanner.h"
+#include "io/unread.h"
 
 namespace tufted::io {
 namespace {
@@ -16,7 +17,7 @@ namespace {
 class AsciiPlyBody : public PlyBody {
  public:
   AsciiPlyBody(const std::filesystem::path& path, std::string_view bytes, const PlyHeader& header)
-      : scanner_(path, bytes) {
+      : path_(path), bytes_(bytes), scanner_(path, bytes) {
     scanner_.seek(header.body, header.line);
   }
 
@@ -30,9 +31,7 @@ class AsciiPlyBody : public PlyBody {
       refuse(std::to_string(scanner_.tokens().size()) + " values where " + std::to_string(token_) + " are expected");
   }
 
-  void end() override {
-    if (scanner_.next()) refuse("more lines than the elements of the header");
-  }
+  void end(Geometry& geometry) override { noteUnreadLines(path_, bytes_, scanner_, geometry); }
 
   void value(FieldType type, std::byte* bytes) override {
     if (token_ == scanner_.tokens().size()) refuse("more values expected than " + std::to_string(token_));
@@ -51,18 +50,11 @@ class AsciiPlyBody : public PlyBody {
   }
 
  private:
+  const std::filesystem::path& path_;
+  std::string_view bytes_;
   LineScanner scanner_;
   std::size_t token_ = 0;
 };
-
-/// The least bytes of an item of the last element.
-std::size_t lastItem(const PlyHeader& header) {
-  std::size_t least = 0;
-  if (header.elements.empty()) return least;
-  for (const PlyProperty& property : header.elements.back().properties)
-    least += sizeOf(property.is_list ? property.count_type : property.type);
-  return least;
-}
 
 class BinaryPlyBody : public PlyBody {
  public:
@@ -70,12 +62,11 @@ class BinaryPlyBody : public PlyBody {
       : path_(path),
         bytes_(bytes),
         offset_(header.body),
-        last_item_(lastItem(header)),
         swap_((header.format == PlyHeader::Format::big_endian) != (std::endian::native == std::endian::big)) {}
 
   void beginItem(const PlyElement&) override { item_ = offset_; }
   void endItem() override {}
-  void end() override { refuseFurther(path_, bytes_, offset_, last_item_, "elements of the header"); }
+  void end(Geometry& geometry) override { noteUnread(path_, bytes_, offset_, geometry); }
 
   void value(FieldType type, std::byte* bytes) override {
     const std::size_t size = sizeOf(type);
@@ -99,7 +90,6 @@ class BinaryPlyBody : public PlyBody {
   std::string_view bytes_;
   std::size_t offset_;
   std::size_t item_ = 0;
-  std::size_t last_item_;
   bool swap_;
 };
 

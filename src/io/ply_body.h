@@ -18,8 +18,8 @@ class PlyBody {
   /// Around the values of each item of an element: one line in ascii.
   virtual void beginItem(const PlyElement& element) = 0;
   virtual void endItem() = 0;
-  /// Refuses lines behind the last element.
-  virtual void end() = 0;
+  /// Notes what lies behind the last element. @throws IoError if that is all there is
+  virtual void end(Geometry& geometry) = 0;
   /// Stores the next value at `bytes` in native byte order.
   virtual void value(FieldType type, std::byte* bytes) = 0;
   /// The line or byte of the current item.

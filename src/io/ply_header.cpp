@@ -6,13 +6,15 @@
 
 #include "io/columns.h"
 #include "io/errors.h"
+#include "io/field_names.h"
 #include "io/line_scanner.h"
 #include "io/pose.h"
 
 namespace tufted::io {
 namespace {
 
-std::optional<FieldType> fieldType(std::string_view name) {
+std::optional<FieldType> fieldType(std::string_view text) {
+  const std::string name = lower(text);
   if (name == "char" || name == "int8") return FieldType::int8;
   if (name == "uchar" || name == "uint8") return FieldType::uint8;
   if (name == "short" || name == "int16") return FieldType::int16;
@@ -30,9 +32,9 @@ class PlyHeaderParser {
       : path_(path), bytes_(bytes), scanner_(path, bytes) {}
 
   PlyHeader parse() {
-    if (!scanner_.next() || scanner_.tokens()[0] != "ply") refuseLine(path_, 1, "does not begin with 'ply'");
+    if (!scanner_.next() || lower(scanner_.tokens()[0]) != "ply") refuseLine(path_, 1, "does not begin with 'ply'");
     while (scanner_.next()) {
-      if (scanner_.isCutOff() && scanner_.tokens()[0] != "end_header")
+      if (scanner_.isCutOff() && lower(scanner_.tokens()[0]) != "end_header")
         scanner_.refuse("the file ends within the header");
       if (keyword()) return finish();
     }
@@ -43,28 +45,29 @@ class PlyHeaderParser {
   /// Takes a line. True at end_header.
   bool keyword() {
     const auto& tokens = scanner_.tokens();
-    if (tokens[0] == "end_header") return true;
-    if (tokens[0] == "format") {
+    const std::string word = lower(tokens[0]);
+    if (word == "end_header") return true;
+    if (word == "format") {
       format();
-    } else if (tokens[0] == "element") {
+    } else if (word == "element") {
       element();
-    } else if (tokens[0] == "property") {
+    } else if (word == "property") {
       property();
-    } else if (tokens[0] == "obj_info") {
+    } else if (word == "obj_info") {
       if (tokens.size() == 3 && tokens[1] == "num_cols") header_.columns = scanner_.integer(2);
       if (tokens.size() == 3 && tokens[1] == "num_rows") header_.rows = scanner_.integer(2);
       if (tokens.size() == header_.viewpoint.size() + 2 && tokens[1] == "viewpoint") {
         for (std::size_t t = 2; t < tokens.size(); ++t) header_.viewpoint[t - 2] = scanner_.number(t);
         if (const char* const fault = poseFault(header_.viewpoint)) scanner_.refuse(fault);
       }
-    } else if (tokens[0] != "comment") {
+    } else if (word != "comment") {
       scanner_.refuse("unknown keyword " + quote(tokens[0]));
     }
     return false;
   }
 
   void format() {
-    const std::string_view name = scanner_.tokens().size() >= 2 ? scanner_.tokens()[1] : "";
+    const std::string name = scanner_.tokens().size() >= 2 ? lower(scanner_.tokens()[1]) : "";
     if (name == "ascii")
       header_.format = PlyHeader::Format::ascii;
     else if (name == "binary_little_endian")
@@ -78,7 +81,7 @@ class PlyHeaderParser {
 
   void element() {
     if (scanner_.tokens().size() != 3) scanner_.refuse("a name and a count expected");
-    PlyElement element = {std::string(scanner_.tokens()[1]), scanner_.integer(2), {}};
+    PlyElement element = {lower(scanner_.tokens()[1]), scanner_.integer(2), {}};
     if (element.count < 0 || element.count > std::numeric_limits<int>::max())
       scanner_.refuse("a count of " + quote(scanner_.tokens()[2]) + " is not in [0, 2^31)");
     header_.elements.push_back(std::move(element));
@@ -87,7 +90,7 @@ class PlyHeaderParser {
   void property() {
     const auto& tokens = scanner_.tokens();
     if (header_.elements.empty()) scanner_.refuse("a property before the first element");
-    const bool is_list = tokens.size() == 5 && tokens[1] == "list";
+    const bool is_list = tokens.size() == 5 && lower(tokens[1]) == "list";
     if (!is_list && tokens.size() != 3) scanner_.refuse("a type and a name expected");
     PlyProperty property = {std::string(tokens.back()), type(is_list ? 3 : 1), is_list, FieldType::uint8};
     if (is_list) {

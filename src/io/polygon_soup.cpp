@@ -1,11 +1,30 @@
 #include "io/polygon_soup.h"
 
 #include <algorithm>
+#include <utility>
 
 #include "io/errors.h"
 #include "tufted/polygons.h"
 
 namespace tufted::io {
+
+void PolygonSoup::add(std::vector<int> polygon, std::int64_t place) {
+  polygons.push_back(std::move(polygon));
+  places.push_back(place);
+}
+
+void PolygonSoup::addStrip(const std::vector<int>& strip, std::int64_t place) {
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i < strip.size(); ++i) {
+    if (strip[i] == -1) {
+      begin = i + 1;
+    } else if (i >= begin + 2) {
+      int a = strip[i - 2], b = strip[i - 1];
+      if ((i - begin) % 2 == 1) std::swap(a, b);
+      if (a != b && b != strip[i] && a != strip[i]) add({a, b, strip[i]}, place);
+    }
+  }
+}
 
 void setPolygons(const std::filesystem::path& path, const PolygonSoup& soup, const Progress& progress,
                  Geometry& geometry) {

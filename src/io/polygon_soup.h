@@ -14,6 +14,11 @@ struct PolygonSoup {
   std::vector<std::int64_t> places;  ///< line or byte per polygon
   const char* place_name = "line";
 
+  void add(std::vector<int> polygon, std::int64_t place);
+  /// Adds the triangles of a strip, every other one turned over; -1 begins a new strip. Triangles with a repeated
+  /// vertex only lead from one part of a strip to the next.
+  void addStrip(const std::vector<int>& strip, std::int64_t place);
+
   /// Makes room for more polygons, for which the file was found to be long enough.
   void reserve(std::int64_t count) {
     polygons.reserve(polygons.size() + static_cast<std::size_t>(count));

@@ -1,12 +1,11 @@
 #include "tufted/io/read.h"
 
-#include <algorithm>
-#include <cctype>
 #include <istream>
 #include <new>
 #include <stdexcept>
 
 #include "io/errors.h"
+#include "io/field_names.h"
 #include "io/file_text.h"
 #include "io/formats.h"
 #include "tufted/errors.h"
@@ -24,26 +23,22 @@ constexpr Extension extensions[] = {
     {".pwn", FileFormat::xyz},  {".txt", FileFormat::xyz},  {".csv", FileFormat::xyz}, {".asc", FileFormat::xyz},
     {".pts", FileFormat::xyz},  {".las", FileFormat::las},  {".obj", FileFormat::obj}, {".off", FileFormat::off},
     {".coff", FileFormat::off}, {".noff", FileFormat::off}, {".stl", FileFormat::stl}, {".npy", FileFormat::npy},
+    {".vtk", FileFormat::vtk},
 };
 
-std::string lowerExtension(const std::filesystem::path& path) {
-  std::string extension = path.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return std::tolower(c); });
-  return extension;
-}
-
 FileFormat formatByExtension(const std::filesystem::path& path) {
-  const std::string extension = lowerExtension(path);
+  const std::string extension = io::lower(path.extension().string());
   for (const Extension& known : extensions)
     if (extension == known.name) return known.format;
   return FileFormat::automatic;
 }
 
 FileFormat formatByContent(std::string_view bytes) {
-  if (bytes.starts_with("ply\n") || bytes.starts_with("ply\r")) return FileFormat::ply;
+  if (const std::string start = io::lower(bytes.substr(0, 4)); start == "ply\n" || start == "ply\r")
+    return FileFormat::ply;
   if (bytes.starts_with("LASF")) return FileFormat::las;
   if (io::looksLikeNpy(bytes)) return FileFormat::npy;
+  if (io::looksLikeVtk(bytes)) return FileFormat::vtk;
   if (io::looksLikePcd(bytes)) return FileFormat::pcd;
   if (io::looksLikeOff(bytes)) return FileFormat::off;
   if (io::looksLikeStl(bytes)) return FileFormat::stl;
@@ -56,7 +51,7 @@ FileFormat findFormat(const std::filesystem::path& path, std::string_view bytes)
   FileFormat format = formatByExtension(path);
   if (format == FileFormat::automatic) format = formatByContent(bytes);
   if (format != FileFormat::automatic) return format;
-  const std::string extension = lowerExtension(path);
+  const std::string extension = io::lower(path.extension().string());
   std::string names;
   for (const Extension& known : extensions) names += std::string(" ") + known.name;
   io::refuseByte(path, 0,
@@ -81,6 +76,8 @@ Geometry readFormat(const std::filesystem::path& path, std::string_view bytes, b
       return io::readStl(path, bytes);
     case FileFormat::npy:
       return io::readNpy(path, bytes);
+    case FileFormat::vtk:
+      return io::readVtk(path, bytes, progress);
     case FileFormat::xyz:
     case FileFormat::automatic:
       break;

@@ -1,16 +1,20 @@
 #include <string>
-#include <vector>
 
 #include "io/errors.h"
 #include "io/file_text.h"
-#include "io/npy.h"
+#include "io/npy_table.h"
 #include "tufted/io/results.h"
 
 Eigen::MatrixXd tufted::readArray(const std::filesystem::path& path) {
   const std::string bytes = io::readBytes(path);
-  const io::NpyArray array = io::parseNpy(bytes, path);
-  if (array.shape.empty() || array.shape.size() > 2) io::refuse(path, "is not an array of N or of N x c values");
-  const std::vector<double> numbers = io::numbersOf(array, path);
-  using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
-  return Eigen::Map<const RowMajor>(numbers.data(), array.shape[0], array.shape.size() == 2 ? array.shape[1] : 1);
+  const io::NpyTable array = io::parseNpyTable(bytes, path, true);
+  if (array.height != 1) io::refuse(path, "is not an array of N or of N x c values");
+  if (array.end < bytes.size())
+    io::refuseByte(path, array.end, std::to_string(bytes.size() - array.end) + " bytes behind the values of the array");
+  Eigen::MatrixXd values(array.rows(), array.columns);
+  for (Eigen::Index c = 0; c < values.cols(); ++c) {
+    const Field column = array.field(c);
+    for (Eigen::Index i = 0; i < values.rows(); ++i) values(i, c) = valueOf(column, static_cast<std::size_t>(i));
+  }
+  return values;
 }

@@ -1,18 +1,22 @@
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <limits>
 #include <numeric>
 
 #include "io/errors.h"
+#include "io/field_names.h"
 #include "io/formats.h"
 #include "io/line_scanner.h"
+#include "io/unread.h"
 #include "io/weld.h"
 
 namespace tufted::io {
 namespace {
 
-constexpr std::size_t header_bytes = 84;  // 80 of any text, then the number of triangles
-constexpr std::size_t facet_bytes = 50;   // the normal, three corners, two bytes of attributes
+constexpr std::size_t header_bytes = 84;    // 80 of any text, then the number of triangles
+constexpr std::size_t facet_bytes = 50;     // the normal, three corners, two bytes of attributes
+constexpr std::size_t most_of_name = 1024;  // bytes at the start of a file that tell text from numbers
 
 /// The corners of all triangles, three by three.
 class Soup {
@@ -49,76 +53,97 @@ std::uint32_t binaryCount(std::string_view bytes) {
   return count;
 }
 
+/// Bytes 80 to 83 of a text would count more triangles than fit into any file below 7 GB.
 bool isBinary(std::string_view bytes) {
-  const std::size_t facets = facet_bytes * binaryCount(bytes);
-  return bytes.size() >= header_bytes + facets && bytes.size() < header_bytes + facets + facet_bytes;
+  return bytes.size() >= header_bytes && (bytes.size() - header_bytes) / facet_bytes >= binaryCount(bytes);
 }
 
-/// Binary files may begin with `solid` as well, but four letters as a count ask for more than 26 GB.
+/// Binary files may begin with `solid` as well, and those that are cut off may be too short for their count. What is
+/// text but has another first word is taken for text, to name that word.
 bool isAscii(std::string_view bytes) {
   if (isBinary(bytes)) return false;
-  const std::size_t begin = bytes.find_first_not_of(" \t\r\n");
-  return begin != std::string_view::npos && bytes.substr(begin).starts_with("solid");
+  const std::string_view start = bytes.substr(0, most_of_name);
+  if (start.find('\0') != std::string_view::npos) return false;
+  const auto tokens = firstTokens(start, {});
+  return (!tokens.empty() && lower(tokens[0]) == "solid") || std::all_of(start.begin(), start.end(), [](char c) {
+           return (c >= ' ' && c <= '~') || (c >= '\t' && c <= '\r');
+         });
 }
 
-void readBinary(const std::filesystem::path& path, std::string_view bytes, Soup& soup) {
+/// @returns where the last triangle ends
+std::size_t readBinary(const std::filesystem::path& path, std::string_view bytes, Soup& soup) {
   if (bytes.size() < header_bytes) refuseByte(path, bytes.size(), "ends there, neither ascii nor binary STL");
   const std::uint64_t count = binaryCount(bytes);
-  if (bytes.size() < header_bytes + facet_bytes * count)
-    refuseByte(path, bytes.size(),
-               "ends there; " + std::to_string(count) + " triangles need " +
-                   std::to_string(header_bytes + facet_bytes * count));
-  if (bytes.size() >= header_bytes + facet_bytes * (count + 1))
-    refuseByte(path, header_bytes + facet_bytes * count,
-               "more than the " + std::to_string(count) + " triangles of the header");
+  const std::size_t end = header_bytes + facet_bytes * count;
+  if (bytes.size() < end)
+    refuseByte(path, bytes.size(), "ends there; " + std::to_string(count) + " triangles need " + std::to_string(end));
   for (std::uint64_t f = 0; f < count; ++f) {
     float values[12];  // the normal, then the corners
     std::memcpy(values, bytes.data() + header_bytes + facet_bytes * f, sizeof(values));
     for (int c = 3; c < 12; c += 3) soup.add({values[c], values[c + 1], values[c + 2]});
   }
+  return end;
 }
 
-void readAscii(const std::filesystem::path& path, std::string_view text, Soup& soup) {
-  LineScanner scanner(path, text);
-  bool in_solid = false;
+/// Reads to the end of the last solid.
+/// @returns whether a line follows that begins none; it is the scanner's
+bool readAscii(LineScanner& scanner, Soup& soup) {
+  bool in_solid = false, any = false;
   int corners = -1;  // of the open facet
   while (scanner.next()) {
     const auto& tokens = scanner.tokens();
-    if (tokens[0] == "vertex") {
+    std::string word = lower(tokens[0]);
+    if (word == "end" && tokens.size() > 1 && isOneOf(lower(tokens[1]), {"loop", "facet", "solid"}))
+      word += lower(tokens[1]);
+    if (word == "solid") {
+      in_solid = true;
+    } else if (!in_solid) {
+      if (any) return true;
+      scanner.refuse(quote(tokens[0]) + " where an ascii STL begins with 'solid'");
+    } else if (word == "vertex") {
       if (tokens.size() != 4) scanner.refuse("three coordinates expected");
       if (corners < 0 || corners == 3) scanner.refuse("a vertex outside a facet of three");
       soup.add({scanner.number(1), scanner.number(2), scanner.number(3)});
       ++corners;
-    } else if (tokens[0] == "facet") {
+    } else if (word == "facet") {
       if (corners >= 0) scanner.refuse("a facet inside another");
       corners = 0;
-    } else if (tokens[0] == "endfacet") {
+      any = true;
+    } else if (word == "endfacet") {
       if (corners != 3) scanner.refuse("a facet without three vertices");
       corners = -1;
-    } else if (tokens[0] == "solid") {
-      in_solid = true;
-    } else if (tokens[0] == "endsolid" || tokens[0] == "end") {
+    } else if (word == "endsolid" || word == "end") {
+      if (corners >= 0) scanner.refuse("ends inside a facet");
       in_solid = false;
+    } else if (word != "outer" && word != "endloop") {
+      scanner.refuse("unknown word " + quote(tokens[0]));
     }
   }
-  if (corners >= 0 || in_solid) scanner.refuse("ends inside a solid");
+  if (in_solid) scanner.refuse("ends inside a solid");
+  if (!any) scanner.refuse("holds no facets up to there");
+  return false;
 }
 
 }  // namespace
 
 bool looksLikeStl(std::string_view bytes) {
-  return isBinary(bytes) || isAscii(bytes);
+  const auto tokens = firstTokens(bytes.substr(0, most_of_name), {});
+  if (!isBinary(bytes)) return !tokens.empty() && lower(tokens[0]) == "solid" && isAscii(bytes);
+  return bytes.size() - header_bytes - facet_bytes * binaryCount(bytes) < facet_bytes;
 }
 
 Geometry readStl(const std::filesystem::path& path, std::string_view bytes) {
   Soup soup(path);
   const bool ascii = isAscii(bytes);
-  if (ascii)
-    readAscii(path, bytes, soup);
-  else
-    readBinary(path, bytes, soup);
+  LineScanner scanner(path, bytes);
+  const bool goes_on = ascii && readAscii(scanner, soup);
+  const std::size_t end = ascii ? bytes.size() : readBinary(path, bytes, soup);
   Geometry geometry = soup.geometry();
   geometry.format = ascii ? "STL, ascii" : "STL, binary";
+  if (goes_on)
+    noteUnreadFromHere(path, bytes, scanner, geometry);
+  else
+    noteUnread(path, bytes, end, geometry);
   return geometry;
 }
 

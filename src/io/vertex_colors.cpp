@@ -10,6 +10,7 @@ void VertexColors::add(const LineScanner& scanner, std::size_t first) {
   const std::size_t tokens = scanner.tokens().size();
   const std::size_t given = tokens > first ? tokens - first : 0;
   if (vertices_++ == 0 && (given == 3 || given == 4)) count_ = given;
+  if (given > 0) ++given_;
   if (given != count_) {
     count_ = 0;
     values_.clear();
@@ -22,7 +23,7 @@ void VertexColors::add(const LineScanner& scanner, std::size_t first) {
   }
 }
 
-void VertexColors::moveTo(std::vector<Field>& fields, bool ones_are_bytes) {
+bool VertexColors::moveTo(std::vector<Field>& fields, bool ones_are_bytes) {
   if (!ones_are_bytes && std::none_of(values_.begin(), values_.end(), [](float value) { return value > 1; }))
     are_bytes_ = false;
   constexpr const char* names[] = {"red", "green", "blue", "alpha"};
@@ -38,6 +39,7 @@ void VertexColors::moveTo(std::vector<Field>& fields, bool ones_are_bytes) {
     }
     fields.push_back(std::move(field));
   }
+  return count_ > 0 || given_ == 0;
 }
 
 }  // namespace tufted::io

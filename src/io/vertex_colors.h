@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string_view>
 #include <vector>
 
@@ -16,10 +17,13 @@ class VertexColors {
   void add(const LineScanner& scanner, std::size_t first);
   /// Appends the fields, or no field if a vertex has no colour. Integers up to 255 become uint8, others float32.
   /// @param ones_are_bytes whether integers that are all at most 1 are bytes (OFF) or parts of 1 (OBJ)
-  void moveTo(std::vector<Field>& fields, bool ones_are_bytes);
+  /// @returns whether all vertices have a colour or none has
+  bool moveTo(std::vector<Field>& fields, bool ones_are_bytes);
+  std::int64_t given() const { return given_; }  ///< vertices with further values
 
  private:
   std::size_t vertices_ = 0;
+  std::int64_t given_ = 0;
   std::size_t count_ = 0;  ///< values per vertex, 0 once they differ
   bool are_bytes_ = true;
   std::vector<float> values_;

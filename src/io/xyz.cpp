@@ -1,65 +1,66 @@
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <cstring>
+#include <limits>
 #include <optional>
 
 #include "io/columns.h"
 #include "io/errors.h"
+#include "io/field_names.h"
 #include "io/formats.h"
 #include "io/line_scanner.h"
 #include "io/number.h"
+#include "io/text_heading.h"
+#include "io/unread.h"
 
 namespace tufted::io {
 namespace {
 
 constexpr LineScanner::Syntax syntax = {
-    .separators = " \t\r\f\v,;", .delimiters = ",;", .comment = '#', .line_comment = "//"};
+    .separators = " \t\r\f\v,;\"", .delimiters = ",;", .comment = '#', .line_comment = "//"};
 
 /// Rows of equally many numbers.
 struct Numbers {
-  std::vector<std::string> names;  ///< of the columns, where the first line gives them
   std::vector<double> values;
   std::size_t columns = 0;
+  bool go_on = false;  ///< more rows follow than are announced, from the scanner's line on
 
   std::size_t rows() const { return columns == 0 ? 0 : values.size() / columns; }
 };
 
-/// A first line of names, as in `x,y,z,intensity`.
-bool isHeading(const std::vector<std::string_view>& tokens) {
-  return tokens.size() >= 3 && std::none_of(tokens.begin(), tokens.end(), [](std::string_view token) {
-           double value;
-           return parseNumber(token, value);
-         });
+/// Takes the number of columns from the first row, and says by the names which column has none.
+void begin(const LineScanner& scanner, TextHeading& heading, Numbers& numbers) {
+  numbers.columns = scanner.tokens().size();
+  if (numbers.columns < 3) scanner.refuse("three coordinates expected");
+  auto& names = heading.names;
+  if (names.empty()) return;
+  if (heading.may_lack_index && names.size() + 1 == numbers.columns) names.insert(names.begin(), "");
+  if (names.size() == numbers.columns) return;
+  if (!heading.is_comment)
+    scanner.refuse("line " + std::to_string(heading.line) + " names " + std::to_string(names.size()) +
+                   " columns, here are " + std::to_string(numbers.columns));
+  names.clear();
 }
 
-std::string lower(std::string_view text) {
-  std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(), [](unsigned char c) { return std::tolower(c); });
-  return result;
-}
-
-Numbers readNumbers(const std::filesystem::path& path, std::string_view text) {
-  LineScanner scanner(path, text, syntax);
+Numbers readNumbers(LineScanner& scanner, TextHeading& heading) {
+  if (heading.end > 0) scanner.seek(heading.end, heading.lines);
   Numbers numbers;
-  std::optional<std::int64_t> announced;
+  std::optional<std::int64_t> announced = heading.count;
   while (scanner.next()) {
     const auto& tokens = scanner.tokens();
-    if (numbers.columns == 0) {
-      if (tokens.size() == 1 && !announced) {  // some writers put the number of points first
-        announced = scanner.integer(0);
-        if (*announced < 0) scanner.refuse("a number of points below zero");
-        continue;
-      }
-      if (numbers.names.empty() && isHeading(tokens)) {
-        for (const std::string_view token : tokens) numbers.names.push_back(lower(token));
-        continue;
-      }
-      numbers.columns = tokens.size();
-      if (numbers.columns < 3) scanner.refuse("three coordinates expected");
-      if (!numbers.names.empty() && numbers.names.size() != numbers.columns)
-        scanner.refuse("the first line names " + std::to_string(numbers.names.size()) + " columns, here are " +
-                       std::to_string(numbers.columns));
+    const bool is_complete = announced && static_cast<std::uint64_t>(*announced) <= numbers.rows();
+    // Some writers put the number of points first; a PTS file may hold several scans, each behind its number.
+    if (tokens.size() == 1 && (numbers.columns == 0 ? !announced : is_complete)) {
+      const std::int64_t count = scanner.integer(0);
+      if (count < 0) scanner.refuse("a number of points below zero");
+      if (count > std::numeric_limits<std::int64_t>::max() - announced.value_or(0)) scanner.refuse("too many points");
+      announced = announced.value_or(0) + count;
+      continue;
+    }
+    if (numbers.columns == 0) begin(scanner, heading, numbers);
+    if (is_complete) {
+      numbers.go_on = true;
+      return numbers;
     }
     if (tokens.size() != numbers.columns)
       scanner.refuse(std::to_string(tokens.size()) + " values where " + std::to_string(numbers.columns) +
@@ -68,62 +69,68 @@ Numbers readNumbers(const std::filesystem::path& path, std::string_view text) {
   }
   if (numbers.columns == 0) scanner.refuse("holds no points up to there");
   if (announced && static_cast<std::uint64_t>(*announced) > numbers.rows())
-    refuseLine(path, scanner.line(),
-               "ends after " + std::to_string(numbers.rows()) + " of " + std::to_string(*announced) + " points");
+    scanner.refuse("ends after " + std::to_string(numbers.rows()) + " of " + std::to_string(*announced) + " points");
   return numbers;
 }
 
-/// Whether columns 3, 4, 5 hold unit vectors (or zero, or NaN), not colours.
-bool holdNormals(const Numbers& numbers) {
-  bool any = false;
-  for (std::size_t i = 0; i < numbers.rows(); ++i) {
-    const double* row = numbers.values.data() + i * numbers.columns;
-    const double length = std::hypot(row[3], row[4], row[5]);
-    if (length == 0 || std::isnan(length)) continue;
-    if (std::abs(length - 1) > 0.02) return false;
-    any = true;
+/// Names the columns: as the heading does, as Leica's PTS has them, or by their places.
+void name(const std::filesystem::path& path, const TextHeading& heading, Columns& columns) {
+  const std::string extension = lower(path.extension().string());
+  std::vector<std::string> names = heading.names;
+  const std::size_t count = columns.fields.size();
+  if (names.empty() && extension == ".pts" && (count == 4 || count == 7)) {
+    names = {"x", "y", "z", "intensity", "red", "green", "blue"};
+    names.resize(count);
   }
-  return any;
+  if (names.empty()) return nameByPlace(columns, extension == ".pwn" || extension == ".xyzn");
+  for (std::size_t c = 0; c < count; ++c) columns.fields[c].name = names[c];
+  nameColumns(path, heading.line, columns.fields);
 }
 
-std::vector<std::string> columnNames(const std::filesystem::path& path, const Numbers& numbers) {
-  if (!numbers.names.empty()) return numbers.names;
-  std::vector<std::string> names = {"x", "y", "z"};
-  const std::string extension = lower(path.extension().string());
-  if (numbers.columns >= 6 && (extension == ".pwn" || extension == ".xyzn" || holdNormals(numbers)))
-    names.insert(names.end(), {"nx", "ny", "nz"});
-  while (names.size() < numbers.columns) names.push_back("column" + std::to_string(names.size()));
-  return names;
+/// Colours that are whole numbers up to 255 become bytes, as in other formats.
+void narrowColors(Columns& columns) {
+  const auto isByte = [](double value) { return value >= 0 && value <= 255 && value == std::trunc(value); };
+  for (Field& field : columns.fields) {
+    if (!isOneOf(field.name, {"red", "green", "blue", "alpha"})) continue;
+    std::vector<std::byte> bytes;
+    for (std::int64_t i = 0; i < columns.rows; ++i) {
+      const double value = tufted::valueOf(field, static_cast<std::size_t>(i));
+      if (!isByte(value)) break;
+      bytes.push_back(static_cast<std::byte>(value));
+    }
+    if (std::ssize(bytes) < columns.rows) continue;
+    field.type = FieldType::uint8;
+    field.bytes = std::move(bytes);
+  }
 }
 
 }  // namespace
 
 bool looksLikeXyz(std::string_view bytes) {
+  if (const TextHeading heading = readHeading(bytes); heading.end > 0) return namePoints(heading.names);
   const auto tokens = firstTokens(bytes, syntax);
-  if (isHeading(tokens)) {
-    const auto named = [&tokens](const char* name) {
-      return std::any_of(tokens.begin(), tokens.end(), [name](std::string_view token) { return lower(token) == name; });
-    };
-    return named("x") && named("y") && named("z");
-  }
-  double value;
+  double value = 0;
   return (tokens.size() == 1 || tokens.size() >= 3) &&
          std::all_of(tokens.begin(), tokens.end(), [&](std::string_view token) { return parseNumber(token, value); });
 }
 
 Geometry readXyz(const std::filesystem::path& path, std::string_view text) {
-  const Numbers numbers = readNumbers(path, text);
+  TextHeading heading = readHeading(text);
+  LineScanner scanner(path, text, syntax);
+  const Numbers numbers = readNumbers(scanner, heading);
   Columns columns;
-  for (std::string& name : columnNames(path, numbers))
-    columns.fields.push_back({std::move(name), FieldType::float64, 1, {}});
+  columns.fields.resize(numbers.columns, {"", FieldType::float64, 1, {}});
   allocate(columns, checkedRows(path, static_cast<std::int64_t>(numbers.rows())));
   for (std::size_t i = 0; i < numbers.rows(); ++i) {
     for (std::size_t c = 0; c < numbers.columns; ++c)
       std::memcpy(columns.fields[c].bytes.data() + i * sizeof(double), &numbers.values[i * numbers.columns + c],
                   sizeof(double));
   }
-  Geometry geometry = toGeometry(path, 1, std::move(columns));
+  name(path, heading, columns);
+  narrowColors(columns);
+  Geometry geometry = toGeometry(std::move(columns));
   geometry.format = "text in columns";
+  if (numbers.go_on) noteUnreadFromHere(path, text, scanner, geometry);
   return geometry;
 }
 

@@ -49,6 +49,9 @@ Geometry readFile(const std::filesystem::path& path, const std::string& kind, bo
       run(progress, [&](const Progress& called) { return read(path, as, FileFormat::automatic, called); });
   if (weld && !geometry.is_mesh)
     throw InvalidInput("read: weld = True, must be False for a cloud, whose coincident points are merged in any case");
+  const int caller = 2;  // the line that has called the function of the package
+  for (const std::string& note : geometry.notes)
+    if (PyErr_WarnEx(PyExc_UserWarning, note.c_str(), caller) != 0) throw py::error_already_set();
   return geometry;
 }
 
@@ -166,6 +169,7 @@ void addFiles(py::module_& module) {
       .def_readonly("height", &Geometry::height)
       .def_readonly("viewpoint", &Geometry::viewpoint)
       .def_readonly("format", &Geometry::format)
+      .def_readonly("notes", &Geometry::notes)
       .def_property_readonly("fields", &fieldsOf)
       .def(py::pickle(&stateOf, &geometryFrom));
   module.def("read_file", &readFile);

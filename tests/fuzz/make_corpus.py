@@ -31,6 +31,7 @@ def pcd():
     yield b"compressed", pcd_header("binary_compressed") + struct.pack("<II", len(packed), len(columns)) + packed
     yield b"references", (pcd_header("binary_compressed") + struct.pack("<II", len(back_reference), len(columns)) +
                           back_reference)
+    yield b"names", b"fields \"X\" Points_m_XYZ:1 Elevation R G B Normals:0\npoints 1\ndata ascii\n1 2 3 4 5 6 7\nmore"
     yield b"old", b"COLUMNS x y z\nPOINTS 1\nDATA ascii\n1 2 3\n"
 
 
@@ -85,6 +86,8 @@ def stl():
     yield b"binary", b"solid but binary".ljust(80, b" ") + struct.pack("<I", 2) + facet * 2
     yield b"ascii", (b"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1e0 -0\nendloop\n"
                      b"endfacet\nendsolid a\n")
+    yield b"capitals", (b"solid a\nFACET NORMAL 0 0 1\nOUTER LOOP\nVERTEX 0 0 0\nVERTEX 1 0 0\nVERTEX 0 1e0 -0\n"
+                        b"END LOOP\nENDFACET\nENDSOLID a\nmore")
 
 
 def off():
@@ -94,6 +97,26 @@ def off():
     yield b"colours", b"CNOFF 2 0 0\n0 0 0 0 0 1 255 0 0\n# none\n1 0 0 0 0 1 0 0.5 0\n"
     yield b"four", b"4OFF\n1 0 0\n1 2 3 2\n"
     yield b"binary", b"OFF BINARY\n" + struct.pack(">3i", 4, 2, 0) + floats + faces
+    little = b"".join(struct.pack("<3f", *p) for p in XYZ) + b"".join(struct.pack("<4i", 3, *t) for t in TRIANGLES)
+    yield b"little", b"OFF BINARY\n" + struct.pack("<3i", 4, 2, 0) + little
+    yield b"glued", b"OFF3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n"
+
+
+def vtk():
+    for form in ("ASCII", "BINARY"):
+        def values(letter, numbers, form=form):
+            packed = struct.pack(f">{len(numbers)}{letter}", *numbers)
+            return (packed if form == "BINARY" else " ".join(map(str, numbers)).encode()) + b"\n"
+        head = f"# vtk DataFile Version %s\nseed\n{form}\nDATASET POLYDATA\nPOINTS 4 float\n"
+        points = values("f", [x for p in XYZ for x in p])
+        data = (b"CELL_DATA 2\nSCALARS q int\nLOOKUP_TABLE default\n" + values("i", [1, 2]) +
+                b"POINT_DATA 4\nNORMALS n double\n" + values("d", range(12)) + b"FIELD f 1\na%20b 2 4 short\n" +
+                values("h", range(8)) + b"METADATA\nINFORMATION 0\n\n")
+        yield form.lower().encode(), ((head % "3.0").encode() + points + b"POLYGONS 2 8\n" +
+                                      values("i", [3, 0, 2, 1, 3, 0, 1, 3]) + data)
+        yield form.lower().encode() + b"5", ((head % "5.1").encode() + points +
+                                             b"TRIANGLE_STRIPS 2 4\nOFFSETS vtktypeint64\n" + values("q", [0, 4]) +
+                                             b"CONNECTIVITY vtktypeint64\n" + values("q", [0, 1, 2, 3]) + data)
 
 
 def npy(kind, shape, values):
@@ -142,11 +165,17 @@ SEEDS = {
             [(2, 0), (2, 1), (2, 2), (2, 3), (3, 4), (3, 5), (4, 6), (4, 7), (4, 8), (4, 9), (4, 10)]),
     "stl": stl(),
     "npy": [(b"double", npy(FLOAT, [2, 3], range(6))), (b"float", npy(("<f4", "f"), [3, 3], range(9))),
-            (b"columns", npy(FLOAT, [2, 3], range(6)).replace(b"False", b"True "))],
+            (b"columns", npy(FLOAT, [2, 3], range(6)).replace(b"False", b"True ")),
+            (b"image", npy(("<i2", "h"), [2, 2, 3], range(12))), (b"half", npy(("<f2", "e"), [4, 4], range(16))),
+            (b"structures", npy(("<f4", "s"), [2], bytes(44)).replace(
+                b"'<f4'", b"[('xyz', '<f4', (3,)), ('', '|V4'), (('t', 'i'), '>u2'), ('rgb', '|u1', (4,))]"))],
+    "vtk": vtk(),
     "off": off(),
     "obj": [(b"mesh", b"# seed\nv 0 0 0 1 0.5 0\nv 1 0 0 1 0 0\nv 0 1 0 0 0 0\nvn 0 0 1\nvt 0 0\nf 1/1/1 2//2 -1 \\\n 3\n"),
             (b"cloud", b"v 0 0 0\nvn 0 0 1\nv 1 0 0 1\nvn 0 0 1\n")],
     "xyz": [(b"plain", b"3\n0 0 0\n1,0,0;\n+0.5e-3 nan 1.#QNAN\n"), (b"named", b"x,y,z,red\n0,0,0,1\n1,2,3,4 # end\n"),
+            (b"commented", b"//X,Y,Z,\"R\",G,B\n2\n1,2,3,4,5,6\n1,2,3,4,5,6\n1\n7,8,9,1,1,1\nmore"),
+            (b"index", b",x,y,z\n0,1,2,3\n"), (b"quoted", b"\"x\" \"y\" \"z\"\n\"1\" 1 2 3\n"),
             (b"normals", b"0 0 0 0 0 1 9\n1 0 0 0 0.6 0.8 7\n// done\n")],
 }
 

@@ -99,15 +99,6 @@ TEST(Read, TheContentTellsTheFormatWhereTheNameDoesNot) {
   EXPECT_EQ(tufted::parse("X;Y;Z\n1;2;3\n", "scan").format, "text in columns");
 }
 
-TEST(Read, ZerosBehindTheLastItemArePassedOver) {
-  for (const WellFormed& file : wellFormedFiles()) {
-    if (file.name != "binary.pcd" && file.name != "little.ply" && file.name != "big.ply") continue;
-    const auto padded = tufted::parse(file.bytes + std::string(4096, '\0'), file.name);
-    EXPECT_EQ(padded.points, tufted::parse(file.bytes, file.name).points) << file.name;
-    EXPECT_THROW(tufted::parse(file.bytes + std::string(4096, 'x'), file.name), tufted::IoError) << file.name;
-  }
-}
-
 TEST(Read, AFormatThatIsNamedWinsOverTheExtension) {
   EXPECT_EQ(tufted::parse("1 2 3\n", "a.ply", tufted::ReadAs::automatic, tufted::FileFormat::xyz).points.rows(), 1);
 }

@@ -150,3 +150,20 @@ def test_the_librarys_memory_is_read_only():
     M = cloud.M
     del cloud
     assert M.sum() > 12  # the array keeps it alive
+
+
+def test_masked_points_take_no_part_and_masked_indices_are_refused():
+    mask = np.zeros((400, 3), bool)
+    mask[7, 1] = True
+    expected = CLOUD.copy()
+    expected[7] = np.nan
+    masked = tufted.PointCloud(np.ma.array(CLOUD, mask=mask))
+    assert np.flatnonzero(masked.status == 1).tolist() == [7]
+    assert same(masked.L, tufted.PointCloud(expected).L)
+    whole = tufted.PointCloud(np.ma.array(np.round(100 * CLOUD).astype(int), mask=mask))
+    assert np.flatnonzero(whole.status == 1).tolist() == [7]
+    points, faces = torus_mesh(10, 8)
+    with pytest.raises(tufted.InvalidInput, match="faces is masked at 3 places"):
+        tufted.Mesh(points, np.ma.array(faces, mask=np.arange(len(faces))[:, None] == [[2, 2, 2]]))
+    with pytest.raises(tufted.InvalidInput, match="masked at 1 places"):
+        masked.distance(np.ma.array([0, 1], mask=[False, True]))

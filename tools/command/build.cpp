@@ -49,17 +49,26 @@ void addBuildOptions(CLI::App& command, Build& build) {
                        "Where the sensor stood, clouds only (the file's, or the origin of a depth image)")
            ->type_name("X,Y,Z")});
   addNumber(command, "--threads", build.cloud.threads, 1, 1 << 16, "At most this many threads (all)")->type_name("N");
-}
-
-void addRareBuildOptions(CLI::App& command, Build& build) {
   build.cloud_only.insert(
       build.cloud_only.end(),
       {addChoice(command, "--gluing", build.cloud.gluing, gluings, "How the stars are glued, clouds only (star)"),
        addChoice(command, "--delaunay", build.cloud.delaunay, backends, "Who finds the stars, clouds only (star)")});
-  addChoice(command, "--order", build.cloud.order, orders, "Order of the faces around an edge (angle)");
-  addNumber(command, "--mollify", build.mollify, 0.0, 1.0,
-            "Shortest edge, in the longest side of the smaller of its triangles; 0: flat triangles stay flat (1e-9)")
-      ->type_name("D");
+  build.seed = addNumber(command, "--seed", build.cloud.seed, std::uint64_t(0),
+                         std::numeric_limits<std::uint64_t>::max(), "Seed, only with --order random (0)")
+                   ->type_name("S");
+  build.building = build.cloud_only;
+  build.building.insert(
+      build.building.end(),
+      {addChoice(command, "--order", build.cloud.order, orders, "Order of the faces around an edge (angle)"),
+       build.seed,
+       addNumber(command, "--mollify", build.mollify, 0.0, 1.0,
+                 "Shortest edge, in the longest side of the smaller of its triangles; 0: flat triangles stay flat (1e-9)")
+           ->type_name("D")});
+}
+
+void checkSeed(const Build& build) {
+  if (build.seed->count() > 0 && build.cloud.order != tufted::FaceOrder::random)
+    throw CLI::RequiresError("--seed", "--order random");
 }
 
 tufted::Laplacian buildLaplacian(const tufted::Geometry& geometry, const Input& input, Build& build, bool keep_cover,

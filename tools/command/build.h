@@ -30,14 +30,16 @@ struct Build {
   tufted::Points moved;  ///< where --denoise has moved the points; 0 x 3 without it
 
   const CLI::Option* neighbors = nullptr;      ///< --neighbors
+  const CLI::Option* seed = nullptr;           ///< --seed
   std::vector<const CLI::Option*> cloud_only;  ///< options that have no meaning for a mesh
+  std::vector<const CLI::Option*> building;    ///< options that have no meaning for a Laplacian that was built before
 };
 
-/// Adds --neighbors, --preset, --structure, --normals and --threads; they set `build`, which must outlive the command.
+/// Adds all options of building; they set `build`, which must outlive the command.
 void addBuildOptions(CLI::App& command, Build& build);
 
-/// Adds the other options of building: --gluing, --delaunay, --order, --seed, --mollify.
-void addRareBuildOptions(CLI::App& command, Build& build);
+/// @throws CLI::RequiresError for --seed without --order random
+void checkSeed(const Build& build);
 
 /// Builds the Laplacian of what was read, with the options as `build` has them; fills in its members.
 /// @param keep_cover whether the result keeps its cover

@@ -114,7 +114,8 @@ int runDenoise(Settings& settings) {
   summary.add("took", "%.3g s, peak memory %.0f MB", done.seconds, peakMemory());
   summary.add("written to", "%s", settings.out.c_str());
   addLook(settings.look, summary);
-  sayResults(settings.console, summary, settings.out, {});
+  for (const std::string& note : geometry.notes) warn(bar, note);
+  sayResults(settings.console, summary, settings.out, geometry.notes);
   return exit_done;
 }
 

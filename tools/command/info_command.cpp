@@ -81,6 +81,7 @@ Json describeFile(const Settings& settings, const tufted::Geometry& geometry) {
                {"triangles", geometry.triangles.rows()},
                {"polygons", geometry.polygons},
                {"merged_vertices", geometry.merged_vertices},
+               {"unread_bytes", geometry.unread_bytes},
                {"organized", geometry.height > 1},
                {"width", geometry.width},
                {"height", geometry.height},
@@ -250,7 +251,10 @@ int runInfo(Settings settings) {
   }
   info["odd"] = findOddities(info, settings.input.weld);
   bar.clear();
-  if (!nothing.empty()) warn(bar, settings.input.name() + ": " + nothing);
+  std::vector<std::string> warnings = geometry.notes;
+  if (!nothing.empty()) warnings.push_back(settings.input.name() + ": " + nothing);
+  for (const std::string& warning : warnings) warn(bar, warning);
+  info["warnings"] = warnings;
   if (settings.console.json)
     std::printf("%s\n", info.dump(2, ' ', false, Json::error_handler_t::replace).c_str());
   else if (!settings.console.quiet)

@@ -3,7 +3,6 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
-#include <limits>
 #include <map>
 #include <memory>
 #include <optional>
@@ -66,9 +65,9 @@ Structures of scans:
          degrees or hundredths of degrees (the first whose turn, 6.28, 360 or 36000, holds all values), or else by the
          directions seen from there
 
-Reads PCD, PLY, LAS, text in columns and NPY of N x 3 floats or doubles (clouds), PLY, OBJ, OFF and STL (meshes; OBJ and
-OFF without faces are clouds).
-The format goes by the extension, .pcd .ply .las .xyz .xyzn .pwn .txt .csv .asc .pts .obj .off .coff .noff .stl .npy,
+Reads PCD, PLY, LAS, text in columns and NPY of N x 3 numbers or more (clouds), PLY, OBJ, OFF, STL and VTK's legacy
+polygonal data (meshes; OBJ, OFF and VTK without faces are clouds).
+The format goes by the extension, .pcd .ply .las .xyz .xyzn .pwn .txt .csv .asc .pts .obj .off .coff .noff .stl .npy .vtk,
 and where that is unknown by the content. Normals of a file are used for L and M with --normals alone; points.ply and
 points.pcd pass them on.
 
@@ -201,7 +200,8 @@ int runLaplacian(Settings& settings) {
       settings.look, geometry, [&] { return sceneOf(title, geometry, laplacian, {}); },
       [&] { tufted::writeLaplacian(settings.out, laplacian, geometry, write); });
   bar.clear();
-  const std::vector<std::string> warnings = warningsOf(settings.input.name(), laplacian.report);
+  std::vector<std::string> warnings = geometry.notes;
+  for (const std::string& line : warningsOf(settings.input.name(), laplacian.report)) warnings.push_back(line);
   for (const std::string& warning : warnings) warn(bar, warning);
   const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - start;
   sayResults(settings.console, summarize(settings, geometry, laplacian, seconds.count()), settings.out, warnings);
@@ -222,19 +222,12 @@ void addLaplacian(CLI::App& app, Run& run) {
   addWriteOptions(command, settings->write);
   command.option_defaults()->group("Building the Laplacian");
   addBuildOptions(command, settings->build);
-  addRareBuildOptions(command, settings->build);
-  tufted::CloudOptions& options = settings->build.cloud;
-  const CLI::Option* const seed =
-      addNumber(command, "--seed", options.seed, std::uint64_t(0), std::numeric_limits<std::uint64_t>::max(),
-                "Seed, only with --order random (0)")
-          ->type_name("S");
   command.option_defaults()->group("Looking at the result");
   addLookOptions(command, settings->look);
   addVerboseConsole(command, settings->console);
-  command.callback([&run, &command, settings, seed] {
+  command.callback([&run, &command, settings] {
     settings->inputs = inputsOf(command);
-    if (seed->count() > 0 && settings->build.cloud.order != tufted::FaceOrder::random)
-      throw CLI::RequiresError("--seed", "--order random");
+    checkSeed(settings->build);
     run = [=] { return runLaplacian(*settings); };
   });
 }

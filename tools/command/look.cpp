@@ -124,10 +124,8 @@ int indexOf(const tufted::Scene& scene, const std::string& name) {
   if (name.empty()) return 0;
   if (name == "none") return -1;
   std::vector<std::string> known;
-  for (const SceneField& field : scene.fields) {
-    if (field.name == name) return static_cast<int>(known.size());
-    known.push_back(field.name);
-  }
+  for (const SceneField& field : scene.fields) known.push_back(field.name);
+  if (const std::ptrdiff_t at = tufted::findField(known, name); at >= 0) return static_cast<int>(at);
   std::string all;
   for (const std::string& field : known) all += (all.empty() ? "" : ", ") + field;
   throw tufted::InvalidInput("--color " + name + " is none of " + all + didYouMean(name, known));
@@ -212,14 +210,15 @@ void checkField(const Look& look, const tufted::Geometry& geometry, std::vector<
   if (look.color == "none" || (look.color.empty() && !look.isWanted())) return;
   std::vector<std::string> names;
   for (const ShownField& field : fields) names.push_back(field.name);
-  const auto found = look.color.empty() ? names.begin() : std::find(names.begin(), names.end(), look.color);
-  if (found == names.end()) {
+  const std::ptrdiff_t found = look.color.empty() ? 0 : tufted::findField(names, look.color);
+  if (found < 0) {
     std::string all;
     for (const std::string& name : names) all += (all.empty() ? "" : ", ") + name;
     throw tufted::InvalidInput("--color " + look.color + " is none of " + all + didYouMean(look.color, names));
   }
-  const Eigen::Index columns = fields[static_cast<std::size_t>(found - names.begin())].columns;
-  if (columns > 0 && look.column.value_or(0) >= columns) refuseColumn(*look.column, *found, columns);
+  const ShownField& field = fields[static_cast<std::size_t>(found)];
+  if (field.columns > 0 && look.column.value_or(0) >= field.columns)
+    refuseColumn(*look.column, field.name, field.columns);
 }
 
 void lookFromSensor(const tufted::Geometry& geometry, Look& look) {

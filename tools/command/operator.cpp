@@ -143,10 +143,11 @@ void addOperatorOptions(CLI::App& command, OperatorSettings& settings) {
   addVerboseConsole(command, settings.console);
   command.option_defaults()->group("Options");  // those of the subcommand, which stand first
   std::vector<const CLI::Option*> unused = {command.get_option("--as"), command.get_option("--weld")};
-  unused.insert(unused.end(), settings.build.cloud_only.begin(), settings.build.cloud_only.end());
+  unused.insert(unused.end(), settings.build.building.begin(), settings.build.building.end());
   command.parse_complete_callback([file, folder, unused, &command, &settings] {
     settings.inputs = inputsOf(command);
     if (file->count() + folder->count() != 1) throw CLI::RequiredError("exactly one of FILE and --operator");
+    checkSeed(settings.build);
     if (folder->count() == 0) return;
     for (const CLI::Option* option : unused)
       if (option->count() > 0) throw CLI::ExcludesError(option->get_name(), "--operator");
@@ -186,7 +187,8 @@ int runWithOperator(OperatorSettings& settings, std::vector<std::string> files, 
   source.moved = std::move(settings.build.moved);
   bar.setPoints(0);
   checkpoint();
-  std::vector<std::string> warnings = warningsOf(source.name, source.laplacian.report);
+  std::vector<std::string> warnings = source.geometry.notes;
+  for (const std::string& line : warningsOf(source.name, source.laplacian.report)) warnings.push_back(line);
   Results chosen;
   chooseComponents(settings.components, source, chosen);
   Results results = blameData(source, [&] { return compute(source); });

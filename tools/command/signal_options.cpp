@@ -3,7 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <cstring>
-#include <map>
+#include <system_error>
 
 #include "options.h"
 #include "tufted/errors.h"
@@ -12,11 +12,6 @@ namespace {
 
 using Eigen::MatrixXd;
 using tufted::Field;
-
-/// Columns of the points and of the normals by the names of their fields, which readers take out of the others.
-const std::map<std::string, int> axes = {{"x", 0}, {"y", 1}, {"z", 2}};
-const std::map<std::string, int> normal_axes = {{"nx", 0},       {"ny", 1},       {"nz", 2},
-                                                {"normal_x", 0}, {"normal_y", 1}, {"normal_z", 2}};
 
 /// The red, green and blue of the points, which PCD packs into four bytes that are not a number.
 MatrixXd unpack(const Field& field, Eigen::Index n) {
@@ -40,33 +35,33 @@ MatrixXd valuesOf(const Field& field, Eigen::Index n) {
   return values;
 }
 
+/// The names that --field takes: the fields, which come before what readers take out of them.
+std::vector<std::string> namesOf(const tufted::Geometry& geometry) {
+  std::vector<std::string> names;
+  for (const Field& field : geometry.fields) names.push_back(field.name);
+  names.insert(names.end(), {"x", "y", "z"});
+  if (geometry.normals.rows() > 0) names.insert(names.end(), {"nx", "ny", "nz"});
+  return names;
+}
+
 /// A field, or the fields NAME_0, NAME_1, ... that PLY has for a field of several values.
 std::vector<MatrixXd> columnsOf(const std::string& name, const tufted::Geometry& geometry) {
   const Eigen::Index n = geometry.points.rows();
-  if (const auto axis = axes.find(name); axis != axes.end()) return {geometry.points.col(axis->second)};
-  if (const auto axis = normal_axes.find(name); axis != normal_axes.end() && geometry.normals.rows() > 0)
-    return {geometry.normals.col(axis->second)};
+  const std::vector<std::string> names = namesOf(geometry);
+  const std::size_t fields = geometry.fields.size();
+  if (const auto at = static_cast<std::size_t>(tufted::findField(names, name)); at < names.size()) {
+    if (at < fields) return {valuesOf(geometry.fields[at], n)};
+    const auto axis = static_cast<Eigen::Index>(at - fields);
+    return {axis < 3 ? geometry.points.col(axis) : geometry.normals.col(axis - 3)};
+  }
   const auto find = [&](const std::string& sought) -> const Field* {
-    const auto field = std::find_if(geometry.fields.begin(), geometry.fields.end(),
-                                    [&](const Field& candidate) { return candidate.name == sought; });
-    return field == geometry.fields.end() ? nullptr : &*field;
+    const std::ptrdiff_t at = std::find(names.begin(), names.end(), sought) - names.begin();
+    return at < std::ssize(geometry.fields) ? &geometry.fields[static_cast<std::size_t>(at)] : nullptr;
   };
-  if (const Field* const field = find(name)) return {valuesOf(*field, n)};
   std::vector<MatrixXd> columns;
   while (const Field* const field = find(name + "_" + std::to_string(columns.size())))
     columns.push_back(valuesOf(*field, n));
   return columns;
-}
-
-/// The names that --field takes.
-std::vector<std::string> namesOf(const tufted::Geometry& geometry) {
-  std::vector<std::string> names;
-  names.reserve(axes.size() + normal_axes.size() + geometry.fields.size());
-  for (const auto& [name, axis] : axes) names.push_back(name);
-  for (const auto& [name, axis] : normal_axes)
-    if (geometry.normals.rows() > 0) names.push_back(name);
-  for (const Field& field : geometry.fields) names.push_back(field.name);
-  return names;
 }
 
 }  // namespace

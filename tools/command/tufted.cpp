@@ -44,7 +44,7 @@ constexpr const char* examples =
   tufted laplacian scan.ply --out laplacian
   tufted distance scan.ply --source 0 --out distance
 
-`tufted help SUBCOMMAND` explains one, with an example. Files are PCD, PLY, LAS, text in columns, NPY, OBJ, OFF or STL.
+`tufted help SUBCOMMAND` explains one, with an example. Files are PCD, PLY, LAS, text in columns, NPY, OBJ, OFF, STL or VTK.
 Exit codes: 0 done, 1 data or numerics, 2 usage, 130 cancelled.)";
 
 /// What people want, and the subcommands that do it, in the order of the help.

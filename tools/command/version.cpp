@@ -27,7 +27,7 @@ std::string versionText() {
                             std::to_string(EIGEN_MINOR_VERSION);
   return std::string("tufted ") + TUFTED_VERSION + "\n\n" + licence + "\n\n" + "Factors:        " + factors + "\n" +
          "Triangulations: " + triangulations + "\n" +
-         "Reads:          PCD, PLY, LAS, text in columns, NPY, OBJ, OFF, STL\n" +
+         "Reads:          PCD, PLY, LAS, text in columns, NPY, OBJ, OFF, STL, VTK\n" +
          "Writes:         NPY and NPZ, Matrix Market, MATLAB, PLY, PCD, JSON\n" + "Built with:     " + __VERSION__ +
          ", Eigen " + eigen + ", CLI11 " + CLI11_VERSION;
 }

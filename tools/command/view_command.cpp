@@ -6,6 +6,7 @@
 
 #include "command.h"
 #include "console.h"
+#include "inactive.h"
 #include "look.h"
 #include "options.h"
 #include "progress_bar.h"
@@ -129,14 +130,14 @@ void choose(const std::vector<std::string>& names, Scene& scene) {
   for (const SceneField& field : scene.fields) known.push_back(field.name);
   std::vector<SceneField> chosen;
   for (const std::string& name : names) {
-    const auto at = std::find(known.begin(), known.end(), name);
-    if (at == known.end()) {
+    const std::ptrdiff_t at = tufted::findField(known, name);
+    if (at < 0) {
       std::string all;
       for (const std::string& field : known) all += (all.empty() ? "" : ", ") + field;
       throw tufted::InvalidInput("--field " + name + (known.empty() ? ": there are no fields" : " is none of " + all) +
                                  didYouMean(name, known));
     }
-    chosen.push_back(scene.fields[static_cast<std::size_t>(at - known.begin())]);
+    chosen.push_back(scene.fields[static_cast<std::size_t>(at)]);
   }
   scene.fields = std::move(chosen);
 }
@@ -170,6 +171,7 @@ int runView(Settings& settings) {
   lookFromSensor(geometry, look);
   for (tufted::WholeFile& file : prepareLook(scene, look)) file.giveName();
   bar.clear();
+  for (const std::string& note : geometry.notes) warn(bar, note);
   Summary summary;
   summary.add("points", "%lld", static_cast<long long>(scene.positions.rows()));
   if (scene.triangles.rows() > 0) summary.add("triangles", "%lld", static_cast<long long>(scene.triangles.rows()));
@@ -185,6 +187,7 @@ int runView(Settings& settings) {
     json["triangles"] = scene.triangles.rows();
     json["fields"] = nlohmann::ordered_json::array();
     for (const SceneField& field : scene.fields) json["fields"].push_back(field.name);
+    json["warnings"] = geometry.notes;
     if (!look.page.empty()) json["page"] = look.page.string();
     if (!look.png.empty()) json["picture"] = look.png.string();
     text = json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";

@@ -19,7 +19,7 @@ enum class FieldType : std::uint8_t { int8, uint8, int16, uint16, int32, uint32,
 
 /// A further value per point that the file carries (colour, intensity, label, ...), kept as it was stored.
 struct Field {
-  std::string name;                     ///< as in the file
+  std::string name;                     ///< as in the file, but see fieldKey()
   FieldType type = FieldType::float32;  ///< of one value
   int count = 1;                        ///< values per point
   std::vector<std::byte> bytes;         ///< N * count values, native byte order
@@ -27,6 +27,15 @@ struct Field {
 
 /// Value i of the N * count values of a field. 64-bit integers beyond 2^53 are rounded.
 double valueOf(const Field& field, std::size_t i);
+
+/// What a field is called here, whatever program wrote the file: `x` for "X", "Points_m_XYZ:0" and Easting, `nx` for
+/// normal_x, `red` for R and diffuse_red, `gps_time` for GpsTime. Other names are lower case and one word, without
+/// quotes. Readers name the fields so that they know; what else a file names keeps its capitals.
+std::string fieldKey(std::string_view name);
+
+/// Which of `names` somebody means by `name`: the same, or else the first that differs in capitals alone, or else of
+/// the same fieldKey(); -1 for none.
+std::ptrdiff_t findField(const std::vector<std::string>& names, const std::string& name);
 
 /// What a file holds: a cloud, or a mesh.
 struct Geometry {
@@ -43,6 +52,8 @@ struct Geometry {
   Triangles triangles;               ///< F x 3; polygons are triangulated, in order
   std::int64_t polygons = 0;         ///< faces of more than three corners that were triangulated
   std::int64_t merged_vertices = 0;  ///< corners of an STL that became one vertex with an equal earlier one
+  std::int64_t unread_bytes = 0;     ///< behind the last record that the file counts; they are passed over
+  std::vector<std::string> notes;    ///< what was passed over or changed: a line each, beginning with the path
 };
 
 /// Whether to read a file as a cloud or as a mesh.
@@ -53,13 +64,14 @@ enum class ReadAs {
 };
 
 /// The formats that are read. Text of numbers in columns, whatever its name, is `xyz`.
-enum class FileFormat { automatic, pcd, ply, xyz, las, obj, off, stl, npy };
+enum class FileFormat { automatic, pcd, ply, xyz, las, obj, off, stl, npy, vtk };
 
-/// Reads clouds (PCD, PLY, XYZ, LAS, OFF and OBJ without faces, NPY of N x 3 floats or doubles) and meshes (PLY, OBJ,
-/// OFF, STL).
+/// Reads clouds (PCD, PLY, XYZ, LAS, OFF and OBJ without faces, NPY of N x 3 numbers or more, or with names) and meshes
+/// (PLY, OBJ, OFF, STL, VTK's legacy polygonal data).
 ///
-/// The counts that a file announces are compared with its size before memory is taken for them. Reading takes less than
-/// 128 bytes for each byte of the file and twice what is returned.
+/// Bytes behind the last record that a file counts are passed over and noted; a file that counts no record must have
+/// none. The counts that a file announces are compared with its size before memory is taken for them. Reading takes
+/// less than 128 bytes for each byte of the file and twice what is returned.
 /// @param format `automatic` goes by the extension, and where that is unknown by the content.
 /// @param progress called while polygons of many corners are triangulated
 /// @throws FileTooLarge when the memory does not suffice

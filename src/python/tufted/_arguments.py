@@ -25,6 +25,9 @@ def named(function, **names):
 
 
 def _array(function, name, value):
+    if np.ma.is_masked(value):
+        raise InvalidInput(f"{function}: {name} is masked at {np.ma.count_masked(value)} places, must have all its "
+                           "values (array.compressed() leaves the others out)")
     try:
         return np.asarray(value)
     except ValueError as error:  # rows of unlike length
@@ -32,6 +35,8 @@ def _array(function, name, value):
 
 
 def _numbers(function, name, value):
+    if np.ma.is_masked(value) and value.dtype.kind in "fiu":  # NaN takes no part, as in a file
+        value = value.astype(np.float64).filled(np.nan)
     array = _array(function, name, value)
     if array.size == 0 and array.dtype == object:
         array = array.astype(np.float64)

@@ -174,7 +174,7 @@ def _set_geometry(surface, geometry, source):
 def read(path, *, kind="automatic", weld=False, image=None, rings=None, normals=False, progress=None, **options):
     """Reads a cloud or a mesh from a file and builds its Laplacian, as `tufted laplacian` does.
 
-    path: PCD, PLY, LAS, text in columns, NPY, OBJ, OFF or STL.
+    path: PCD, PLY, LAS, text in columns, NPY, OBJ, OFF, STL or VTK. What the file holds but is not read is a warning.
     kind: "automatic", "cloud" (faces are ignored) or "mesh" (a file without faces is an error).
     weld: as in Mesh; clouds join equal points in any case.
     image: whether the pixels of an organized cloud give the neighbours; None: where a pinhole camera saw it from the

@@ -150,7 +150,7 @@ class Shape:
         """N booleans as bytes, or None."""
         if fixed is None:
             return None
-        fixed = np.asarray(fixed)
+        fixed = check._array(function, "fixed", fixed)
         if fixed.shape != (len(self),):
             raise InvalidInput(f"{function}: fixed has {fixed.size} values, must have {len(self)}, one per point")
         return np.ascontiguousarray(fixed.astype(bool), dtype=np.uint8)

@@ -205,7 +205,10 @@ int runValidate(Settings settings) {
   }
   const auto ended = [&](std::size_t process, const ChildEnd& end) {
     const std::size_t number = numbers[process];
-    results.add(number, describeFile(files[number].path, end, settings), bar);
+    const Json row = describeFile(files[number].path, end, settings);
+    if (row.contains("warnings"))
+      for (const Json& warning : row["warnings"]) warn(bar, warning.get<std::string>());
+    results.add(number, row, bar);
   };
   const auto wait = [&] {
     bar.show("validate, " + std::to_string(results.known()) + " of " + std::to_string(files.size()),

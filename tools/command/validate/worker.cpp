@@ -130,6 +130,7 @@ tufted::Laplacian buildFrom(const std::filesystem::path& file, const FileSetting
   stage = "read";
   const tufted::Geometry geometry = tufted::read(file, settings.as);
   row["seconds_read"] = watch.lap();
+  if (!geometry.notes.empty()) row["warnings"] = geometry.notes;
   row["kind"] = geometry.is_mesh ? "mesh" : "cloud";
   row["points"] = geometry.points.rows();
   row["faces"] = geometry.triangles.rows();

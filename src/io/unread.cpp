@@ -1,0 +1,38 @@
+#include "io/unread.h"
+
+#include <string>
+
+#include "io/errors.h"
+
+namespace tufted::io {
+namespace {
+
+/// @param rest what is not read
+void note(const std::filesystem::path& path, const std::string& place, std::string_view rest, Geometry& geometry) {
+  const bool are_zero = rest.find_first_not_of('\0') == std::string_view::npos;  // PCL's writer pads files so
+  const std::string count =
+      std::to_string(rest.size()) + (are_zero ? " zero" : "") + (rest.size() == 1 ? " byte" : " bytes");
+  if (geometry.points.rows() == 0) refuse(path, place + ": " + count + " behind a header that counts no points");
+  geometry.unread_bytes = static_cast<std::int64_t>(rest.size());
+  geometry.notes.push_back(path.string() + ": " + place + ": " + count +
+                           " behind the last record that the file counts, not read");
+}
+
+}  // namespace
+
+void noteUnread(const std::filesystem::path& path, std::string_view bytes, std::size_t end, Geometry& geometry) {
+  if (end < bytes.size()) note(path, "byte " + std::to_string(end), bytes.substr(end), geometry);
+}
+
+void noteUnreadLines(const std::filesystem::path& path, std::string_view text, LineScanner& scanner,
+                     Geometry& geometry) {
+  if (scanner.next()) noteUnreadFromHere(path, text, scanner, geometry);
+}
+
+void noteUnreadFromHere(const std::filesystem::path& path, std::string_view text, const LineScanner& scanner,
+                        Geometry& geometry) {
+  const auto begin = static_cast<std::size_t>(scanner.tokens().front().data() - text.data());
+  note(path, "line " + std::to_string(scanner.line()), text.substr(begin), geometry);
+}
+
+}  // namespace tufted::io
