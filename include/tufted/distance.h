@@ -16,9 +16,9 @@ namespace tufted {
 
 /// A point of the surface, as a source of distances: a vertex, or a point inside a triangle of a mesh.
 struct SurfacePoint {
-  std::array<int, 3> corners;       ///< points of the Laplacian; a vertex has its own index thrice
-  std::array<double, 3> weights;    ///< barycentric coordinates, >= 0, sum 1; a vertex has 1, 0, 0
-  std::array<double, 3> distances;  ///< distances of the point from the corners, along the triangle
+  std::array<int, 3> corners;        ///< points of the Laplacian; a vertex has its own index thrice
+  std::array<double, 3> weights;     ///< barycentric coordinates, >= 0, sum 1; a vertex has 1, 0, 0
+  std::array<double, 3> distances;   ///< distances of the point from the corners, along the triangle
   std::array<double, 3> sides = {};  ///< lengths of the triangle's sides, each opposite the corner; a vertex has 0
 
   /// The point of that index.
@@ -77,7 +77,9 @@ struct DistanceOptions {
 /// What a query did.
 struct DistanceReport {
   int split = 0;              ///< marching: how often each triangle was cut into four
-  std::int64_t visits = 0;    ///< marching: points and middles of edges that were reached, see DistanceOptions::split
+  /// Marching: points and middles of edges that were reached, from each source that came near; see
+  /// DistanceOptions::split.
+  std::int64_t visits = 0;
   std::int64_t lowered = 0;   ///< marching: of these, how many lay farther than a neighbour by more than their edge
   int rounds = 0;             ///< rounds of heat: one per some 500 edge lengths, in windows per 100 or 10
   int iterations = 0;         ///< most conjugate gradient iterations of any solve; 0 with Cholesky
@@ -124,7 +126,8 @@ NearbyPoints pointsWithin(const Laplacian& laplacian, const std::vector<int>& so
 /// Marching (Kimmel, Sethian: "Computing geodesic paths on manifolds", 1998): the nearest point that is not done is
 /// done, and gives its neighbours their distance along an edge or, if that is less, through a triangle, from the source
 /// unfolded into its plane by the distances of two corners. In the end no distance exceeds that of a neighbour by more
-/// than the length of their edge. Each face is cut into four first, by default once or twice (see
+/// than the length of their edge. None is shorter than the straight line between `Laplacian::positions`, if there are
+/// any. Distances from several sources are the least of those from each. Each face is cut into four first, by default once or twice (see
 /// `DistanceOptions::split`).
 ///
 /// Heat (Crane, Weischedel, Wardetzky: "The heat method for distance computation", 2017): u is the heat that spreads

@@ -212,7 +212,7 @@ NearestSources DistanceSolver::nearest(const std::vector<SurfacePoint>& sources,
   const std::vector<SurfacePoint> known = state.checked(sources);
   DistanceReport made;
   const std::vector<PlaceInCover> places = placesInCover(query_name, *state.cover, known);
-  NearestSources found = state.marching ? state.marching->query(places, state.components.of, progress, made)
+  NearestSources found = state.marching ? state.marching->query(known, places, state.components.of, progress, made)
                                         : state.nearestByHeat(places, progress, made);
   state.finish(known, found);
   made.seconds = watch.seconds();

@@ -1,25 +1,31 @@
 // Fast marching (Kimmel, Sethian 1998) with the source unfolded into the plane of each triangle.
 #include "algorithms/march.h"
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "algorithms/march_heap.h"
+#include "algorithms/march_labels.h"
 #include "algorithms/march_update.h"
 
 namespace tufted {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-/// Vertices between two calls of `progress`.
+/// Labels between two calls of `progress`.
 constexpr std::int64_t between_reports = 65536;
+/// A distance may be shorter than the straight line by this part, by rounding.
+constexpr double straight_rounding = 1e-13;
 
 /// The triangles of faces as they are.
 struct WholeFaces {
   const MarchFaces& faces;
 
   std::size_t size() const { return static_cast<std::size_t>(faces.vertices); }
+  Eigen::Vector3d position(int a) const { return faces.positions[a]; }
 
   template <class Visit>
   void around(int a, const Visit& visit) const {
@@ -27,7 +33,7 @@ struct WholeFaces {
       const MarchFace& face = faces.faces[faces.corner_slots[s] / 3];
       const int k = faces.corner_slots[s] % 3, i = (k + 1) % 3, j = (k + 2) % 3;
       visit(MarchTriangle{face.corners[i], face.corners[j], face.opposite[j], face.opposite[i], face.opposite[k],
-                          face.double_area});
+                          face.double_area, face.is_bent});
     }
   }
 };
@@ -37,6 +43,9 @@ struct SplitFaces {
   const MarchFaces& faces;
 
   std::size_t size() const { return static_cast<std::size_t>(faces.vertices) + faces.edges; }
+  Eigen::Vector3d position(int a) const {
+    return a < faces.vertices ? faces.positions[a] : faces.middleOf(a - faces.vertices);
+  }
 
   template <class Visit>
   void around(int a, const Visit& visit) const {
@@ -52,11 +61,11 @@ struct SplitFaces {
       const double double_area = face.double_area / 4;
       const int middle_i = n + face.edges[i], middle_j = n + face.edges[j];
       if (is_middle) {
-        visit(MarchTriangle{face.corners[i], middle_j, side_k, side_i, side_j, double_area});
-        visit(MarchTriangle{face.corners[j], middle_i, side_k, side_j, side_i, double_area});
-        visit(MarchTriangle{middle_i, middle_j, side_j, side_i, side_k, double_area});
+        visit(MarchTriangle{face.corners[i], middle_j, side_k, side_i, side_j, double_area, face.is_bent});
+        visit(MarchTriangle{face.corners[j], middle_i, side_k, side_j, side_i, double_area, face.is_bent});
+        visit(MarchTriangle{middle_i, middle_j, side_j, side_i, side_k, double_area, face.is_bent});
       } else {
-        visit(MarchTriangle{middle_j, middle_i, side_j, side_i, side_k, double_area});
+        visit(MarchTriangle{middle_j, middle_i, side_j, side_i, side_k, double_area, face.is_bent});
       }
     }
   }
@@ -64,35 +73,43 @@ struct SplitFaces {
 
 /// One march. All that are equally near are taken together, and distances change only when all new ones are known, so
 /// that the order of vertices and faces does not matter.
-template <class Faces>
+template <class Faces, class Labels>
 class March {
  public:
-  March(const Faces& faces, double maximum, const Workers& workers)
-      : faces_(faces), maximum_(maximum), workers_(workers), frozen_(faces.size(), 0), heap_(faces.size()) {
-    result_.distance.assign(faces.size(), infinity);
-    result_.source.assign(faces.size(), -1);
-  }
+  March(const Faces& faces, Labels labels, const SourcePositions& sources, double maximum, const Workers& workers)
+      : faces_(faces),
+        labels_(std::move(labels)),
+        heap_(labels_.size()),
+        sources_(sources),
+        maximum_(maximum),
+        workers_(workers) {}
 
-  void start(const MarchStart& start) { offer(start.vertex, start.distance, start.source); }
+  void start(const MarchStart& start) { offer(labels_.labelAt(start.vertex, start.source, heap_), start.distance); }
 
   MarchResult finish() {
     while (takeNearest()) spread();
+    labels_.takeNearest(result_.distance, result_.source);
     limitSlopes();
     return std::move(result_);
   }
 
-  MarchResult finishAt(int vertex) {
-    while (frozen_[vertex] == 0 && takeNearest()) spread();
+  MarchResult finishAt(int label) {
+    while (!labels_.isFrozen(label) && takeNearest()) spread();
+    labels_.takeNearest(result_.distance, result_.source);
     return std::move(result_);
   }
 
  private:
   struct Corner {
-    int at;
-    MarchTriangle triangle;
+    int label;
+    MarchTriangle triangle;  ///< with labels of the same source for vertices
+  };
+  struct Offer {
+    int label;
+    double distance;
   };
 
-  /// Freezes all vertices that are nearest. @returns whether there are some
+  /// Freezes all labels that are nearest. @returns whether there are some
   bool takeNearest() {
     nearest_.clear();
     if (heap_.empty()) return false;
@@ -102,60 +119,99 @@ class March {
     while (!heap_.empty() && heap_.top().key == distance) {
       const int a = heap_.top().number;
       heap_.pop();
-      frozen_[a] = 1;
-      if (is_late) late_.push_back(a);
+      labels_.freeze(a);
+      if (is_late) late_.push_back(labels_.vertexOf(a));
       if (isUseful(a)) nearest_.push_back(a);
       if (++result_.visits % between_reports == 0)
-        workers_.report("march", static_cast<double>(result_.visits) / static_cast<double>(faces_.size()));
+        workers_.report("march",
+                        std::min(1.0, static_cast<double>(result_.visits) / static_cast<double>(faces_.size())));
     }
     return true;
   }
 
-  /// Offers distances to the neighbours of the nearest vertices.
+  /// Offers distances to the neighbours of the nearest labels.
   void spread() {
     fans_.clear();
-    for (const int a : nearest_) faces_.around(a, [&](const MarchTriangle& t) { fans_.push_back({a, t}); });
-    for (const auto& [a, triangle] : fans_) alongEdges(a, triangle);
+    for (const int a : nearest_) addFan(a);
+    for (const auto& [a, triangle] : fans_)
+      if (labels_.goesOn(a)) alongEdges(a, triangle);
     offers_.clear();
     for (const auto& [a, triangle] : fans_) throughFace(a, triangle);
-    for (const MarchStart& known : offers_) offer(known.vertex, known.distance, known.source);
+    for (const auto& [label, distance] : offers_) offer(label, distance);
   }
 
-  /// Whether distances up to the maximum can come from a vertex: through one of its edges from beyond it.
+  void addFan(int a) {
+    const int source = labels_.sourceOf(a);
+    const bool goes_on = labels_.goesOn(a);
+    double longest = 0;
+    faces_.around(labels_.vertexOf(a), [&](MarchTriangle t) {
+      longest = std::max({longest, t.ab, t.ac});
+      t.b = goes_on ? labels_.labelAt(t.b, source, heap_) : labels_.knownLabelAt(t.b, source);
+      t.c = goes_on ? labels_.labelAt(t.c, source, heap_) : labels_.knownLabelAt(t.c, source);
+      if (t.b >= 0 && t.c >= 0) fans_.push_back({a, t});
+    });
+    labels_.setReach(a, longest);
+  }
+
+  /// Whether distances up to the maximum can come from a label: through one of its edges from beyond it.
   bool isUseful(int a) const {
-    const double beyond = result_.distance[a] - maximum_;
+    const double beyond = labels_.distance(a) - maximum_;
     if (beyond <= 0) return true;
     double longest = 0;
-    faces_.around(a, [&](const MarchTriangle& t) { longest = std::max({longest, t.ab, t.ac}); });
+    faces_.around(labels_.vertexOf(a), [&](const MarchTriangle& t) { longest = std::max({longest, t.ab, t.ac}); });
     return beyond <= longest;
   }
 
-  void offer(int c, double distance, int source) {
-    if (distance < result_.distance[c]) {
-      result_.distance[c] = distance;
-      result_.source[c] = source;
-      heap_.lower(c, distance);
-    } else if (distance == result_.distance[c] && source < result_.source[c]) {
-      result_.source[c] = source;
-    }
+  void offer(int label, double distance) {
+    if (!(distance < labels_.distance(label))) return;
+    labels_.setDistance(label, distance);
+    heap_.lower(label, distance);
   }
 
   void alongEdges(int a, const MarchTriangle& t) {
-    if (frozen_[t.b] == 0) offer(t.b, result_.distance[a] + t.ab, result_.source[a]);
-    if (frozen_[t.c] == 0) offer(t.c, result_.distance[a] + t.ac, result_.source[a]);
+    if (!labels_.isFrozen(t.b)) offer(t.b, labels_.distance(a) + t.ab);
+    if (!labels_.isFrozen(t.c)) offer(t.c, labels_.distance(a) + t.ac);
   }
 
   void throughFace(int a, const MarchTriangle& t) {
-    if (frozen_[t.c] == 0) throughEdge(a, t.b, t.c, t.ab, t.ac, t.bc, t.double_area);
-    if (frozen_[t.b] == 0) throughEdge(a, t.c, t.b, t.ac, t.ab, t.bc, t.double_area);
+    if (!labels_.isFrozen(t.c)) throughEdge(a, t);
+    if (!labels_.isFrozen(t.b)) throughEdge(a, {t.c, t.b, t.ac, t.ab, t.bc, t.double_area, t.is_bent});
   }
 
-  void throughEdge(int a, int b, int c, double ab, double ac, double bc, double double_area) {
-    const double from_a = result_.distance[a], from_b = result_.distance[b];
-    // Waves from two sources have no common source to unfold.
-    if (!(std::abs(from_a - from_b) < ab) || result_.source[a] != result_.source[b]) return;
-    const double distance = distanceThrough(ab, ac, bc, double_area, from_a, from_b);
-    if (distance < result_.distance[c]) offers_.push_back({c, distance, result_.source[a]});
+  /// Offers a distance to the last corner of a triangle, through the edge between the others.
+  void throughEdge(int a, const MarchTriangle& t) {
+    const auto& [b, c, ab, ac, bc, double_area, is_bent] = t;
+    const double from_a = labels_.distance(a), from_b = labels_.distance(b);
+    if (!(std::abs(from_a - from_b) < ab)) return;
+    bool must_see = true;
+    double distance = distanceThrough(ab, ac, bc, double_area, from_a, from_b);
+    if (distance == infinity && labels_.isFrozen(b) && !labels_.mustSee(c)) {
+      must_see = false;
+      distance = distanceThrough(ab, ac, bc, double_area, from_a, from_b, must_see);
+    }
+    if (!(distance < labels_.distance(c))) return;
+    if (is_bent && isTooShort(c, distance)) distance = distanceInSpace(a, b, c, must_see);
+    if (must_see || labels_.mayBe(c, distance)) offers_.push_back({c, distance});
+  }
+
+  /// Whether a distance is shorter than the straight line: the source unfolded into the triangle is nearer than it can
+  /// be, as the edge between the other corners leads past what lies between them. That of a triangle whose sides are
+  /// straight never is, if those of its other corners are not (Stewart's theorem).
+  bool isTooShort(int label, double distance) const {
+    if (sources_.empty()) return false;
+    const Eigen::Vector3d straight =
+        faces_.position(labels_.vertexOf(label)) - sources_[static_cast<std::size_t>(labels_.sourceOf(label))];
+    return distance < (1 - straight_rounding) * straight.norm();
+  }
+
+  /// The distance through the triangle that the corners span in space, whose sides are straight.
+  double distanceInSpace(int a, int b, int c, bool must_see) const {
+    const Eigen::Vector3d at_a = faces_.position(labels_.vertexOf(a));
+    const Eigen::Vector3d to_b = faces_.position(labels_.vertexOf(b)) - at_a,
+                          to_c = faces_.position(labels_.vertexOf(c)) - at_a;
+    const double ab = to_b.norm(), from_a = labels_.distance(a), from_b = labels_.distance(b);
+    if (!(std::abs(from_a - from_b) < ab)) return infinity;
+    return distanceThrough(ab, to_c.norm(), (to_c - to_b).norm(), to_b.cross(to_c).norm(), from_a, from_b, must_see);
   }
 
   /// Lowers distances along edges until none exceeds that of a neighbour by more than the length of their edge. Only
@@ -163,7 +219,10 @@ class March {
   void limitSlopes() {
     const auto lower = [&](int a, int b, double ab) {
       const double distance = result_.distance[a] + ab;
-      if (frozen_[b] != 0 && distance < result_.distance[b]) offer(b, distance, result_.source[a]);
+      if (!(distance < result_.distance[b] && result_.distance[b] < infinity)) return;
+      result_.distance[b] = distance;
+      result_.source[b] = result_.source[a];
+      heap_.lower(b, distance);
     };
     const auto relax = [&](int a) {
       faces_.around(a, [&](const MarchTriangle& t) {
@@ -171,6 +230,8 @@ class March {
         lower(a, t.c, t.ac);
       });
     };
+    if (late_.empty()) return;
+    heap_ = MarchHeap(faces_.size());  // of vertices, no longer of labels
     for (const int a : late_) relax(a);
     while (!heap_.empty()) {
       const int a = heap_.top().number;
@@ -181,39 +242,60 @@ class March {
   }
 
   const Faces faces_;  // a view
+  Labels labels_;
+  MarchHeap heap_;
+  const SourcePositions& sources_;
   const double maximum_;
   const Workers& workers_;
   MarchResult result_;
-  std::vector<std::uint8_t> frozen_;
-  MarchHeap heap_;
   double farthest_ = 0;    ///< of all that are frozen
-  std::vector<int> late_;  ///< those that were frozen after farther ones
+  std::vector<int> late_;  ///< vertices that were frozen after farther ones
   std::vector<int> nearest_;
   std::vector<Corner> fans_;  ///< the triangles around each of `nearest_`
-  std::vector<MarchStart> offers_;
+  std::vector<Offer> offers_;
 };
 
 template <class Faces>
-March<Faces> started(const Faces& faces, const std::vector<MarchStart>& starts, double maximum,
-                     const Workers& workers) {
+LabelsOfOneSource labelsOfOneSource(const Faces& faces, const std::vector<MarchStart>& starts) {
+  return {faces.size(), starts.empty() ? -1 : starts[0].source};
+}
+
+template <class Faces>
+MarchResult marchOver(const Faces& faces, const std::vector<MarchStart>& starts, double maximum, const Workers& workers,
+                      const SourcePositions& sources) {
   workers.report("march", 0);
-  March<Faces> march(faces, maximum, workers);
+  const auto finished = [&](auto march) {
+    for (const MarchStart& start : starts) march.start(start);
+    return march.finish();
+  };
+  const bool has_several = std::any_of(starts.begin(), starts.end(),
+                                       [&](const MarchStart& start) { return start.source != starts[0].source; });
+  if (has_several) return finished(March(faces, LabelsOfSeveralSources(faces.size()), sources, maximum, workers));
+  return finished(March(faces, labelsOfOneSource(faces, starts), sources, maximum, workers));
+}
+
+template <class Faces>
+MarchResult marchOverUntil(int vertex, const Faces& faces, const std::vector<MarchStart>& starts,
+                           const Workers& workers) {
+  workers.report("march", 0);
+  const SourcePositions unknown;
+  March march(faces, labelsOfOneSource(faces, starts), unknown, infinity, workers);
   for (const MarchStart& start : starts) march.start(start);
-  return march;
+  return march.finishAt(vertex);
 }
 
 }  // namespace
 
 MarchResult march(const MarchFaces& faces, bool split, const std::vector<MarchStart>& starts, double maximum,
-                  const Workers& workers) {
-  return split ? started(SplitFaces{faces}, starts, maximum, workers).finish()
-               : started(WholeFaces{faces}, starts, maximum, workers).finish();
+                  const Workers& workers, const SourcePositions& sources) {
+  return split ? marchOver(SplitFaces{faces}, starts, maximum, workers, sources)
+               : marchOver(WholeFaces{faces}, starts, maximum, workers, sources);
 }
 
 MarchResult marchUntil(int vertex, const MarchFaces& faces, bool split, const std::vector<MarchStart>& starts,
                        const Workers& workers) {
-  return split ? started(SplitFaces{faces}, starts, infinity, workers).finishAt(vertex)
-               : started(WholeFaces{faces}, starts, infinity, workers).finishAt(vertex);
+  return split ? marchOverUntil(vertex, SplitFaces{faces}, starts, workers)
+               : marchOverUntil(vertex, WholeFaces{faces}, starts, workers);
 }
 
 }  // namespace tufted

@@ -19,6 +19,9 @@ constexpr std::int64_t few_points = 5000;
 /// Sides between the same two ends are one edge if their lengths differ by at most this part: flips on the front and on
 /// the back round differently.
 constexpr double equal_lengths = 1e-9;
+/// A side that is longer than the straight line between its ends by more than this part leads over an edge in space, or
+/// mollification has made it longer. Flips in a plane round by less.
+constexpr double straight_side = 1e-12;
 
 /// A side at its end with the smaller number.
 struct Side {
@@ -98,10 +101,20 @@ void groupByEdge(MarchFaces& result, const Workers& workers) {
   }
 }
 
-MarchFaces wholeFaces(const std::vector<DistinctFace>& faces, int vertices, int exponent, const Workers& workers) {
+bool isBent(const MarchFace& face, const std::vector<Eigen::Vector3d>& positions) {
+  for (int k = 0; k < 3; ++k) {
+    const double straight = (positions[face.corners[(k + 1) % 3]] - positions[face.corners[(k + 2) % 3]]).norm();
+    if (face.opposite[k] > (1 + straight_side) * straight) return true;
+  }
+  return false;
+}
+
+MarchFaces wholeFaces(const std::vector<DistinctFace>& faces, int vertices, int exponent, const Workers& workers,
+                      std::vector<Eigen::Vector3d> positions) {
   MarchFaces result;
   result.vertices = vertices;
   result.exponent = exponent;
+  result.positions = std::move(positions);
   result.faces.resize(faces.size());
   workers.forBlocks("faces", std::ssize(faces), cheap_block, [&](std::int64_t begin, std::int64_t end, int) {
     for (auto f = begin; f < end; ++f) {
@@ -109,6 +122,7 @@ MarchFaces wholeFaces(const std::vector<DistinctFace>& faces, int vertices, int 
       face.corners = faces[f].corners;
       for (int k = 0; k < 3; ++k) face.opposite[k] = std::ldexp(faces[f].opposite[k], -exponent);
       face.double_area = 2 * triangleArea(face.opposite[0], face.opposite[1], face.opposite[2]);
+      if (!result.positions.empty()) face.is_bent = isBent(face, result.positions);
     }
   });
   groupByCorner(result);
@@ -135,7 +149,9 @@ MarchFaces splitInFour(const MarchFaces& coarse, const Workers& workers) {
       faces[4 * f + 3] = part({opposite_i, opposite_j, opposite_k}, face);
     }
   });
-  MarchFaces fine = wholeFaces(faces, coarse.vertices + coarse.edges, 0, workers);
+  std::vector<Eigen::Vector3d> positions = coarse.positions;
+  for (int e = 0; e < coarse.edges && !coarse.positions.empty(); ++e) positions.push_back(coarse.middleOf(e));
+  MarchFaces fine = wholeFaces(faces, coarse.vertices + coarse.edges, 0, workers, std::move(positions));
   fine.exponent = coarse.exponent;
   return fine;
 }
@@ -143,19 +159,26 @@ MarchFaces splitInFour(const MarchFaces& coarse, const Workers& workers) {
 }  // namespace
 
 std::size_t MarchFaces::bytes() const {
-  return bytesOf(faces) + bytesOf(corner_offset) + bytesOf(corner_slots) + bytesOf(edge_offset) + bytesOf(edge_slots);
+  return bytesOf(faces) + bytesOf(positions) + bytesOf(corner_offset) + bytesOf(corner_slots) + bytesOf(edge_offset) +
+         bytesOf(edge_slots);
 }
 
 MarchFaces marchFaces(const std::vector<DistinctFace>& faces, int vertices, int exponent, int split,
-                      const Workers& workers) {
-  MarchFaces result = wholeFaces(faces, vertices, exponent, workers);
+                      const Workers& workers, const Points& positions) {
+  std::vector<Eigen::Vector3d> scaled;
+  scaled.reserve(static_cast<std::size_t>(positions.rows()));
+  for (Eigen::Index i = 0; i < positions.rows(); ++i) scaled.push_back(scaledPosition(positions.row(i), exponent));
+  MarchFaces result = wholeFaces(faces, vertices, exponent, workers, std::move(scaled));
   for (int times = 1; times < split; ++times) result = splitInFour(result, workers);
   return result;
 }
 
 MarchFaces marchFaces(const IntrinsicTriangulation& cover, int split, const Workers& workers,
-                      const std::vector<int>& number) {
-  return marchFaces(distinctFaces(cover, workers, number), cover.vertices, unitOf(cover.length), split, workers);
+                      const std::vector<int>& number, const Points& positions) {
+  Points numbered = positions;
+  for (Eigen::Index i = 0; i < positions.rows() && !number.empty(); ++i) numbered.row(number[i]) = positions.row(i);
+  return marchFaces(distinctFaces(cover, workers, number), cover.vertices, unitOf(cover.length), split, workers,
+                    numbered);
 }
 
 std::vector<int> numbersByFaces(const IntrinsicTriangulation& cover) {

@@ -4,8 +4,10 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 #include <optional>
 #include <span>
+#include <tuple>
 
 #include "algorithms/apex.h"
 #include "algorithms/march.h"
@@ -25,6 +27,17 @@ Plane layOut(const MarchFace& face) {
   const auto& [a, b, c] = face.opposite;
   const Eigen::Vector2d first(0, 0), second(c, 0);
   return {first, second, apexLeftOf(first, second, b, a, face.double_area)};
+}
+
+/// The numbers of the sources without those that others before them are the same as.
+std::vector<int> firstOfEach(const std::vector<SurfacePoint>& sources) {
+  std::vector<int> number(sources.size());
+  std::iota(number.begin(), number.end(), 0);
+  const auto place = [&](int s) { return std::tie(sources[s].corners, sources[s].weights, sources[s].distances); };
+  std::stable_sort(number.begin(), number.end(), [&](int s, int t) { return place(s) < place(t); });
+  number.erase(std::unique(number.begin(), number.end(), [&](int s, int t) { return place(s) == place(t); }),
+               number.end());
+  return number;
 }
 
 bool hasCorner(const MarchFace& face, int vertex) {
@@ -47,7 +60,7 @@ MarchingDistance::MarchingDistance(const Laplacian& laplacian, int split, const 
       maximum_(options.maximum),
       threads_(options.solver.threads) {
   const Workers workers(threads_, options.solver.progress);
-  faces_ = marchFaces(laplacian.cover(), split_, workers, number_);
+  faces_ = marchFaces(laplacian.cover(), split_, workers, number_, laplacian.positions);
   report_.method = "marching";
   report_.unknowns = std::int64_t{faces_.vertices} + (split_ > 0 ? faces_.edges : 0);
   report_.bytes = faces_.bytes() + bytesOf(number_);
@@ -92,7 +105,7 @@ void MarchingDistance::startIn(const CoverFace& whole, const std::array<double, 
   if (split_ == 0) return;
   for (int k = 0; k < 3; ++k) starts.push_back({whole.middle[k], (point - middle(corner, k)).norm(), source});
   for (int p = 0; p < std::ssize(whole.parts); ++p) {
-    const auto& [ends, edges, lengths, area] = whole.parts[p];
+    const std::array<int, 3>&ends = whole.parts[p].corners, &edges = whole.parts[p].edges;
     if (ends[0] == ends[1] || ends[1] == ends[2] || ends[2] == ends[0]) continue;
     Plane plane;
     for (int i = 0; i < 3; ++i) {
@@ -132,7 +145,9 @@ void MarchingDistance::startInFaces(const PlaceInCover& place, std::vector<March
   });
   if (!home) return;
   startIn(*home, weights, place.source, starts);
-  const auto& [corners, edges, sides, double_area] = home->face;
+  const std::array<int, 3>& corners = home->face.corners;
+  const std::array<double, 3>& sides = home->face.opposite;
+  const double double_area = home->face.double_area;
   for (int k = 0; k < 3; ++k) {
     const int first = (k + 1) % 3, second = (k + 2) % 3;
     const double longest = *std::max_element(sides.begin(), sides.end());
@@ -164,12 +179,30 @@ void MarchingDistance::startAt(const PlaceInCover& place, const std::vector<int>
   if (all_active && place.face >= 0) startInFaces(numbered, starts);
 }
 
-NearestSources MarchingDistance::query(const std::vector<PlaceInCover>& places, const std::vector<int>& component,
+SourcePositions MarchingDistance::positionsOf(const std::vector<SurfacePoint>& sources) const {
+  SourcePositions positions;
+  if (faces_.positions.empty()) return positions;
+  for (const auto& [corners, weights, distances, sides] : sources) {
+    const Eigen::Vector3d& first = faces_.positions[number_[corners[0]]];
+    Eigen::Vector3d place = first;
+    for (int k = 1; k < 3; ++k)
+      if (weights[k] > 0) place += weights[k] * (faces_.positions[number_[corners[k]]] - first);
+    positions.push_back(place);
+  }
+  return positions;
+}
+
+NearestSources MarchingDistance::query(const std::vector<SurfacePoint>& sources,
+                                       const std::vector<PlaceInCover>& places, const std::vector<int>& component,
                                        const Progress& progress, DistanceReport& report) const {
+  std::vector<std::uint8_t> is_first(sources.size());
+  for (const int s : firstOfEach(sources)) is_first[s] = 1;
   std::vector<MarchStart> starts;
-  for (const PlaceInCover& place : places) startAt(place, component, starts);
+  for (const PlaceInCover& place : places)
+    if (is_first[place.source] != 0) startAt(place, component, starts);
   const Workers workers(threads_, progress);
-  MarchResult found = march(faces_, split_ > 0, starts, std::ldexp(maximum_, -faces_.exponent), workers);
+  MarchResult found =
+      march(faces_, split_ > 0, starts, std::ldexp(maximum_, -faces_.exponent), workers, positionsOf(sources));
   report.split = split_;
   report.visits = found.visits;
   report.lowered = found.lowered;

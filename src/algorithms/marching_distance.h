@@ -16,15 +16,17 @@ class MarchingDistance {
   /// @param split see checkedSplit()
   MarchingDistance(const Laplacian& laplacian, int split, const DistanceOptions& options);
 
-  /// @param places of sources, of which all corners are representatives
+  /// @param sources of which all corners are representatives
+  /// @param places of the sources in the cover
   /// @param component N; corners of places that have none, -1, are ignored
   /// @return distances in the points' unit and sources, wherever the faces of the cover lead; those of coincident
   /// points are not set
-  NearestSources query(const std::vector<PlaceInCover>& places, const std::vector<int>& component,
-                       const Progress& progress, DistanceReport& report) const;
+  NearestSources query(const std::vector<SurfacePoint>& sources, const std::vector<PlaceInCover>& places,
+                       const std::vector<int>& component, const Progress& progress, DistanceReport& report) const;
   const SolverReport& report() const { return report_; }
 
  private:
+  SourcePositions positionsOf(const std::vector<SurfacePoint>& sources) const;
   void startAt(const PlaceInCover& place, const std::vector<int>& component, std::vector<MarchStart>& starts) const;
   void startInFaces(const PlaceInCover& place, std::vector<MarchStart>& starts) const;
   struct CoverFace;

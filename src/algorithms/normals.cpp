@@ -31,8 +31,8 @@ constexpr double smooth_cosine = 0.7;
 constexpr double crease_share = 0.5;
 /// A closed component whose normals point out by less than this part of its extent encloses no volume.
 constexpr double flat_share = 1e-6;
-/// An open sheet that bulges by less than this part of its extent is flat: terrain has at most 0.024, one view of a body
-/// 0.1.
+/// An open sheet that bulges by less than this part of its extent is flat: terrain has at most 0.024, one view of a
+/// body 0.1.
 constexpr double flat_share_of_open = 0.05;
 /// Parts of fewer points, by those of the largest of their component, lie within a joint.
 constexpr double small_part = 0.05;

@@ -137,14 +137,20 @@ Patch patchOf(Faces faces, const Workers& workers) {
   return patch;
 }
 
-std::vector<double> distancesOn(const Patch& patch, const std::vector<int>& sources, double radius, int split,
-                                const Workers& workers) {
-  const MarchFaces faces =
-      marchFaces(patch.faces, static_cast<int>(patch.points.size()), patch.exponent, split, workers);
+std::vector<double> distancesOn(const Laplacian& laplacian, const Patch& patch, const std::vector<int>& sources,
+                                double radius, int split, const Workers& workers) {
+  const MarchFaces faces = marchFaces(patch.faces, static_cast<int>(patch.points.size()), patch.exponent, split,
+                                      workers, laplacian.positions(patch.points, Eigen::all));
   std::vector<MarchStart> starts;
-  for (const int source : sources)
-    if (const auto at = patch.number_of.find(source); at != patch.number_of.end()) starts.push_back({at->second, 0, 0});
-  std::vector<double> distance = march(faces, split > 0, starts, std::ldexp(radius, -faces.exponent), workers).distance;
+  SourcePositions positions;
+  for (const int source : sources) {
+    const auto at = patch.number_of.find(source);
+    if (at == patch.number_of.end()) continue;
+    starts.push_back({at->second, 0, static_cast<int>(positions.size())});
+    positions.push_back(faces.positions[at->second]);
+  }
+  std::vector<double> distance =
+      march(faces, split > 0, starts, std::ldexp(radius, -faces.exponent), workers, positions).distance;
   distance.resize(patch.points.size());
   for (double& d : distance) d = std::ldexp(d, faces.exponent);
   return distance;
@@ -194,14 +200,14 @@ NearbyPoints pointsWithin(const Laplacian& laplacian, const std::vector<int>& so
   bool is_complete = facesFromStars(laplacian, known, radius, faces);
   if (is_complete) {
     patch = patchOf(std::move(faces), workers);
-    distance = distancesOn(patch, known, radius, times, workers);
+    distance = distancesOn(laplacian, patch, known, radius, times, workers);
     is_complete =
         std::all_of(known.begin(), known.end(), [&](int source) { return patch.number_of.count(source) > 0; }) &&
         isComplete(laplacian, patch, distance, radius);
   }
   if (!is_complete) {
     patch = patchOf(facesFromCover(laplacian, known, radius), workers);
-    distance = distancesOn(patch, known, radius, times, workers);
+    distance = distancesOn(laplacian, patch, known, radius, times, workers);
   }
   leaveOtherComponents(laplacian, known, patch, distance);
   std::vector<std::pair<int, double>> found;

@@ -13,10 +13,15 @@ constexpr int most_widenings = 3;
 constexpr double thick = 0.25;            // smallest by middle variance: windows of less than four sigmas are widened
 constexpr double still_thick = 0.6;       // a crease does not get thinner in a wider window, noise does
 constexpr double share_to_widen = 0.002;  // of the points; fewer are left
-constexpr double chi_median = 0.94;       // median of chi squared by its degrees of freedom, of which there are 11
-constexpr int low_rank = 3;               // of 33: a tenth
-constexpr double low_correction = 1.12;   // of that low quantile of medians, to the variance
-constexpr double alone = 1. / 3;  // of the neighbours, which are left where those of other surfaces are left out
+/// Bounds of the share of a base window's points within half its radius: 1/2 along a curve, 1/4 on a surface and 1/8 in
+/// a volume. Scan lines have up to .34 and surfaces in thick noise down to .19, once their windows are widened.
+constexpr double curve_share = 0.35, volume_share = 0.18;
+/// The same where sheets were told apart, as in the layers of a lattice: two sheets 2 spacings apart have more.
+constexpr double thin_volume_share = 0.155;
+constexpr double chi_median = 0.94;      // median of chi squared by its degrees of freedom, of which there are 11
+constexpr int low_rank = 3;              // of 33: a tenth
+constexpr double low_correction = 1.12;  // of that low quantile of medians, to the variance
+constexpr double alone = 1. / 3;         // of the neighbours, which are left where those of other surfaces are left out
 constexpr int outlier_rounds = 4;
 constexpr double outlier_growth = 2;  // of the residuals' variance by the noise's, around an outlier
 constexpr double exact = 0.2;         // of the least noise's variance: residuals below are those of exact points
@@ -69,6 +74,24 @@ int widenOnce(const WindowFitter& fitter, int step, const RawBuffer<double>& aro
   return static_cast<int>(which.size());
 }
 
+/// The share of the points of each base window, but the farthest, that lie within half its radius.
+RawBuffer<double> innerShares(const WindowFitter& fitter, const NeighborLists& lists, const Workers& workers,
+                              const Windows& windows) {
+  RawBuffer<double> share(windows.base.size());
+  forEachPoint(windows, workers, [&](int w) {
+    const std::span<const int> list = lists.of(windows.copied(w));
+    const auto base = std::min<std::size_t>(windows.base[w], list.size());
+    const Eigen::RowVector3d middle = fitter.points().row(windows.pointOf(windows.copied(w)));
+    const auto squareTo = [&](int p) { return (fitter.points().row(p) - middle).squaredNorm(); };
+    share[w] = 0;
+    if (base < 2) return;
+    const double within = squareTo(list[base - 1]) / 4;
+    for (const int p : list.first(base - 1)) share[w] += squareTo(p) <= within ? 1 : 0;
+    share[w] /= static_cast<double>(base - 1);
+  });
+  return share;
+}
+
 /// Doubles base windows while the points in them are as thick as wide, or a line.
 /// @returns which are as thick as wide in the end
 Buffer<std::uint8_t> widen(const WindowFitter& fitter, const Workers& workers, Windows& windows, NeighborLists& lists) {
@@ -84,10 +107,17 @@ Buffer<std::uint8_t> widen(const WindowFitter& fitter, const Workers& workers, W
     if (widenOnce(fitter, step, around, waits, windows, lists) == 0) break;
     around = thicknessAround(windows, workers);
   }
+  // What stays thick is a crease or a volume.
+  const RawBuffer<double> inner = innerShares(fitter, lists, workers, windows);
+  Buffer<std::uint8_t> is_none(windows.base.size(), 0);
+  forEachPoint(windows, workers, [&](int w) {
+    const double share = pooledMean(w, windows.near[w], [&](int q) { return inner[q]; });
+    if (share > curve_share || share < (around[w] > thick ? volume_share : thin_volume_share)) is_none[w] = 1;
+  });
   Buffer<int> back;
   for (int w = 0; w < n; ++w)
-    if (windows.base[w] > Windows::first_base && around[w] > thick && around[w] > still_thick * first[w] &&
-        was_line[w] == 0)
+    if (is_none[w] == 0 && windows.base[w] > Windows::first_base && around[w] > thick &&
+        around[w] > still_thick * first[w] && was_line[w] == 0)
       back.push_back(w);
   for (const int w : back) {
     windows.base[w] = Windows::first_base;
@@ -98,7 +128,7 @@ Buffer<std::uint8_t> widen(const WindowFitter& fitter, const Workers& workers, W
     around = thicknessAround(windows, workers);
   }
   Buffer<std::uint8_t> is_thick(windows.base.size());
-  for (int w = 0; w < n; ++w) is_thick[w] = around[w] > 2 * thick ? 1 : 0;
+  for (int w = 0; w < n; ++w) is_thick[w] = around[w] > 2 * thick || is_none[w] != 0 ? 1 : 0;
   return is_thick;
 }
 

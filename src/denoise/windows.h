@@ -87,6 +87,7 @@ class WindowFitter {
   WindowFitter(const PointsView& points, const NeighborSource& source, const Workers& workers)
       : points_(points), source_(source), workers_(workers) {}
 
+  const PointsView& points() const { return points_; }
   /// Planes of the base windows of some points, and quadratics in the first `fitted` ones.
   /// @param[out] lists gets the neighbours of each; null: they are not kept
   void take(std::span<const int> which, Windows& windows, NeighborLists* lists = nullptr) const;

@@ -161,13 +161,49 @@ TEST(Denoise, LeavesOutliersAlone) {
   EXPECT_LT(rmsDistance(done.positions.topRows(n), toSphere), 0.002);
 }
 
+/// Points of curves, each a turn of 2 pi long in its parameter, with normal noise in all directions.
+/// @param noise in distances of neighbours along the curve, about
+template <class Curve>
+Points along(const Curve& curve, int count, double noise, std::uint64_t seed) {
+  shapes::Random random(seed);
+  Points points(count, 3);
+  for (int i = 0; i < count; ++i) points.row(i) = curve(2 * std::numbers::pi * i / count);
+  const double spacing = (points.row(1) - points.row(0)).norm();
+  if (noise > 0)
+    for (double& x : points.reshaped()) x += noise * spacing * random.normal();
+  return points;
+}
+
+TEST(Denoise, LeavesCurvesAlone) {
+  using Row = Eigen::RowVector3d;
+  const auto line = [](double t) { return Row(t, 2 * t, -t); };
+  const auto circle = [](double t) { return Row(std::cos(t), std::sin(t), 0.3 * std::cos(t)); };
+  const auto helix = [](double t) { return Row(std::cos(2 * t), std::sin(2 * t), 8 * t); };
+  const auto knot = [](double t) {
+    return Row((2 + std::cos(3 * t)) * std::cos(2 * t), (2 + std::cos(3 * t)) * std::sin(2 * t), std::sin(3 * t));
+  };
+  for (const int count : {1000, 3000}) {
+    for (const double noise : {0., 0.1, 0.5, 2.}) {
+      for (const Points& points : {along(line, count, noise, 111), along(circle, count, noise, 112),
+                                   along(helix, count, noise, 113), along(knot, count, noise, 114)})
+        EXPECT_EQ(denoise(points).positions, points) << count << " points with noise of " << noise << " spacings";
+    }
+  }
+}
+
 TEST(Denoise, LeavesVolumesAlone) {
-  std::mt19937_64 random(3);
-  std::uniform_real_distribution<double> uniform;
-  Points points(n, 3);
-  for (double& x : points.reshaped()) x = uniform(random);
-  const DenoisedPoints done = denoise(points);
-  EXPECT_LT(done.report.moved, n / 50);
+  shapes::Random random(103);
+  for (const int count : {1000, 2000, 20000}) {
+    Points cube(count, 3), ball(count, 3);
+    for (double& x : cube.reshaped()) x = random.uniform();
+    for (int i = 0; i < count;) {
+      for (int axis = 0; axis < 3; ++axis) ball(i, axis) = random.uniform(-1, 1);
+      if (ball.row(i).norm() < 1) ++i;
+    }
+    Points noisy = ball;
+    for (double& x : noisy.reshaped()) x += std::cbrt(1.0 / count) * random.normal();
+    for (const Points& points : {cube, ball, noisy}) EXPECT_EQ(denoise(points).positions, points) << count;
+  }
 }
 
 TEST(Denoise, MovesAsTheCloudDoes) {

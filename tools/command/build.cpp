@@ -61,8 +61,9 @@ void addBuildOptions(CLI::App& command, Build& build) {
       build.building.end(),
       {addChoice(command, "--order", build.cloud.order, orders, "Order of the faces around an edge (angle)"),
        build.seed,
-       addNumber(command, "--mollify", build.mollify, 0.0, 1.0,
-                 "Shortest edge, in the longest side of the smaller of its triangles; 0: flat triangles stay flat (1e-9)")
+       addNumber(
+           command, "--mollify", build.mollify, 0.0, 1.0,
+           "Shortest edge, in the longest side of the smaller of its triangles; 0: flat triangles stay flat (1e-9)")
            ->type_name("D")});
 }
 

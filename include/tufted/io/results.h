@@ -58,11 +58,10 @@ Geometry readPoints(const std::filesystem::path& dir, const Progress& progress =
 
 /// Reads what writeLaplacian wrote with Format::npz: L.npz, M.npy, status.npy, representative.npy, boundary.npy,
 /// frames.npy, noise.npy, component_edges.npy, and of report.json the kind and the Report. Files that report.json does
-/// not list are not taken. Sign::igl and dummy values are undone. Versions before noise.npy and component_edges.npy are read without noise, and with the
-/// report's mean edges for every component.
-/// `cover_areas` is M if that holds the cover's areas, else empty. If report.json has no kind, as in older files, the
-/// kind follows from the options of the build in it; without these a cover is refused, and nothing else depends on the
-/// kind.
+/// not list are not taken. Sign::igl and dummy values are undone. Versions before noise.npy and component_edges.npy are
+/// read without noise, and with the report's mean edges for every component. `cover_areas` is M if that holds the
+/// cover's areas, else empty. If report.json has no kind, as in older files, the kind follows from the options of the
+/// build in it; without these a cover is refused, and nothing else depends on the kind.
 ///
 /// What is read must be a Laplacian, by the rules of validate(): L is symmetric bit for bit, its off-diagonals are <= 0
 /// and its rows sum to 0 within the rounding of their own sum; active points have a positive diagonal, all others no
