@@ -22,11 +22,15 @@ namespace tufted {
 namespace {
 
 constexpr const char* function_name = "deform";
+constexpr double most_smoothness = 1e6;  // nothing changes beyond it, until rounding does
 
 void checkOptions(const std::string& function, const DeformationOptions& options) {
   if (!(options.smoothness >= 0 && std::isfinite(options.smoothness)))
     throw InvalidInput(function + ": smoothness = " + numberText(options.smoothness) +
                        ", must be finite and at least 0");
+  if (options.smoothness > most_smoothness)
+    throw InvalidInput(function + ": smoothness = " + numberText(options.smoothness) + ", must be at most " +
+                       numberText(most_smoothness));
   if (!(options.tolerance > 0 && std::isfinite(options.tolerance)))
     throw InvalidInput(function + ": tolerance = " + numberText(options.tolerance) + ", must be finite and above 0");
   if (options.max_iterations < 1)

@@ -11,6 +11,7 @@
 #include "algorithms/connected.h"
 #include "algorithms/greater.h"
 #include "algorithms/heat_distance.h"
+#include "algorithms/heat_time.h"
 #include "algorithms/marching_distance.h"
 #include "algorithms/place_in_cover.h"
 #include "base/number_text.h"
@@ -30,8 +31,7 @@ constexpr const char* query_name = "DistanceSolver::query";
 void checkArguments(const Laplacian& laplacian, const DistanceOptions& options) {
   checkSizes(constructor, laplacian);
   const std::string name = std::string(constructor) + ": ";
-  if (!(options.time_step > 0 && std::isfinite(options.time_step)))
-    throw InvalidInput(name + "time_step = " + numberText(options.time_step) + ", must be finite and above 0");
+  checkHeatTime(constructor, options.time_step);
   if (!(options.maximum > 0))
     throw InvalidInput(name + "maximum = " + numberText(options.maximum) + ", must be above 0");
   checkCover(constructor, laplacian);

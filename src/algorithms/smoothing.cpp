@@ -22,6 +22,9 @@ namespace {
 /// definite and an M-matrix, so the maximum principle survives any step and any two components of unlike size.
 constexpr double least_mass = 1e-13;
 
+/// All points of a component have come together long before, in its centre of mass, as long as masses are not lost.
+constexpr double longest_step = 1e10;
+
 constexpr const char* smooth_name = "smooth";
 
 void checkRows(const std::string& function, const Laplacian& laplacian, const char* what, Eigen::Index rows) {
@@ -121,6 +124,9 @@ struct Step {
     if (!(time_step >= 0 && std::isfinite(time_step))) {
       throw InvalidInput(function + ": time_step = " + numberText(time_step) + ", must be finite and at least 0");
     }
+    if (time_step > longest_step)
+      throw InvalidInput(function + ": time_step = " + numberText(time_step) + ", must be at most " +
+                         numberText(longest_step));
     checkThreads(function, options.threads);
     is_free = freePoints(laplacian, fixed);
     if (time_step == 0 || std::find(is_free.begin(), is_free.end(), true) == is_free.end()) return;

@@ -6,9 +6,11 @@
 #include <cmath>
 #include <numbers>
 #include <string>
+#include <vector>
 
 #include "algorithms/connected.h"
 #include "base/number_text.h"
+#include "base/power_of_two.h"
 #include "tufted/check.h"
 #include "tufted/errors.h"
 
@@ -36,6 +38,13 @@ MatrixXd sumSquares(const Eigen::Ref<const MatrixXd>& vectors, const MatrixXd& w
     result.middleRows(begin, size).noalias() = vectors.middleRows(begin, size).cwiseAbs2() * weights;
   }
   return result;
+}
+
+/// The exponent of the power of two next above a value; 0 for 0.
+int exponentOf(double value) {
+  int exponent = 0;
+  std::frexp(value, &exponent);
+  return exponent;
 }
 
 VectorXd logarithmic(double low, double high, int count) {
@@ -131,13 +140,35 @@ MatrixXd filterSignals(const Laplacian& laplacian, const Spectrum& spectrum, con
   MatrixXd weighted = MatrixXd::Zero(n, signals.cols());
   for (Index i = 0; i < n; ++i) {
     if (laplacian.status[i] != PointStatus::active) continue;
-    weighted.row(i) = laplacian.M[i] * signals.row(i);
+    weighted.row(i) = signals.row(i);
     if (!signals.row(i).allFinite())
       throw InvalidInput("filterSignals: signals of point " + std::to_string(i) + " are not finite, must be");
   }
+  // Signals and areas near 1, by powers of two: products of both may be too large or small for a double.
+  const int length = exponentOf(std::sqrt(laplacian.M.sum()));
+  const PowerOfTwo per_area(-2 * length);
+  std::vector<int> exponent;
+  for (Index k = 0; n > 0 && k < weighted.cols(); ++k) {
+    exponent.push_back(exponentOf(weighted.col(k).cwiseAbs().maxCoeff()));
+    const PowerOfTwo per_signal(-exponent.back());
+    for (Index i = 0; i < n; ++i) weighted(i, k) = per_area.times(laplacian.M[i]) * per_signal.times(weighted(i, k));
+  }
   MatrixXd coefficients = spectrum.vectors.transpose() * weighted;
-  for (Index k = 0; gain && k < coefficients.rows(); ++k) coefficients.row(k) *= gain(spectrum.values[k]);
+  for (Index k = 0; gain && k < coefficients.rows(); ++k) {
+    const double factor = gain(spectrum.values[k]);
+    if (!std::isfinite(factor))
+      throw InvalidInput("filterSignals: gain is " + numberText(factor) + " at the eigenvalue " +
+                         numberText(spectrum.values[k]) + ", must be finite");
+    coefficients.row(k) *= factor;
+  }
+  const PowerOfTwo per_length(length);
+  for (double& value : coefficients.reshaped()) value = per_length.times(value);
   MatrixXd result = spectrum.vectors * coefficients;
+  for (Index k = 0; n > 0 && k < result.cols(); ++k) {
+    const PowerOfTwo signal(length + exponent[static_cast<std::size_t>(k)]);
+    for (double& value : result.col(k)) value = signal.times(value);
+    if (!result.col(k).allFinite()) throw SolverFailure("filterSignals: sums of signals overflow; scale them down");
+  }
   for (Index i = 0; i < n; ++i) {
     const PointStatus status = laplacian.status[i];
     if (status == PointStatus::not_finite || status == PointStatus::isolated) result.row(i) = signals.row(i);

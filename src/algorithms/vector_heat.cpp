@@ -7,6 +7,7 @@
 
 #include "algorithms/connection.h"
 #include "algorithms/greater.h"
+#include "algorithms/heat_time.h"
 #include "base/number_text.h"
 #include "base/stage_clock.h"
 #include "tufted/check.h"
@@ -29,8 +30,7 @@ constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 void checkOptions(const std::string& function, const Laplacian& laplacian, const VectorHeatOptions& options) {
   checkSizes(function, laplacian);
-  if (!(options.time_step > 0 && std::isfinite(options.time_step)))
-    throw InvalidInput(function + ": time_step = " + numberText(options.time_step) + ", must be finite and above 0");
+  checkHeatTime(function, options.time_step);
   const auto n = std::ssize(laplacian.status);
   if (laplacian.positions.rows() != n)
     throw InvalidInput(function + ": Laplacian::positions has " + std::to_string(laplacian.positions.rows()) +

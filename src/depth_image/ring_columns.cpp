@@ -20,11 +20,12 @@ constexpr int least_columns = 64;  // more than the widest window has, so that n
 constexpr double most_ring_step = 0.75 * std::numbers::pi / 180;  // wider, windows reach around the corners of a room
 constexpr double most_stretch = 4.5;                              // steps between rings by those along a ring
 constexpr std::int64_t step_samples = 20000;
-constexpr int elevation_samples = 16;  // of a ring
-constexpr double same_step = 0.25;     // of the median step, between it and a step without a gap
-constexpr int most_shift = 3;          // columns from where its azimuth would put a point
-constexpr int longest_gap = 8;         // columns without points that may lie within a surface
-constexpr double most_gaps = 0.1;      // of the columns, in gaps of no more than that
+constexpr int elevation_samples = 16;    // of a ring
+constexpr double same_step = 0.25;       // of the median step, between it and a step without a gap
+constexpr double most_step_error = 0.5;  // of a step of the azimuth, by the points: rounding, and motion of the scanner
+constexpr int most_shift = 3;            // columns from where its azimuth would put a point
+constexpr int longest_gap = 8;           // columns without points that may lie within a surface
+constexpr double most_gaps = 0.1;        // of the columns, in gaps of no more than that
 
 /// A point of a ring.
 struct Shot {
@@ -88,6 +89,26 @@ double azimuthStep(const RingShots& shots) {
   return count > 0 ? sum / static_cast<double>(count) : 0;
 }
 
+/// Whether azimuths are those of the points around z, but for where they begin and which way they turn. A scan that
+/// has been moved or turned since has no image around this axis.
+bool areSeen(const RankedScan& scan, const PointsView& points, const RingShots& shots) {
+  const auto seenAt = [&](int i) {
+    const Eigen::RowVector3d ray = points.row(shots[i].rank) - scan.origin.transpose();
+    return std::atan2(ray.y(), ray.x());
+  };
+  std::int64_t steps = 0, same_way = 0, other_way = 0;
+  const int stride = static_cast<int>(std::max<std::int64_t>(1, shots.size() / step_samples)) | 1;
+  for (int ring = 0; ring < shots.rings(); ++ring)
+    for (int i = shots.begin(ring) + 1; i < shots.end(ring); i += stride) {
+      const double step = shots[i].azimuth - shots[i - 1].azimuth;
+      const double seen = std::remainder(seenAt(i) - seenAt(i - 1), 2 * std::numbers::pi);
+      ++steps;
+      same_way += std::abs(seen - step) <= most_step_error * step ? 1 : 0;
+      other_way += std::abs(seen + step) <= most_step_error * step ? 1 : 0;
+    }
+  return 2 * std::max(same_way, other_way) >= steps;
+}
+
 /// The median angle between two rings that follow each other.
 double ringStep(const RankedScan& scan, const PointsView& points, const RingShots& shots) {
   Buffer<double> steps;
@@ -144,7 +165,7 @@ std::optional<RingImage> columnsOfRings(RankedScan scan, const PointsView& point
   if (!(ring_step <= most_ring_step)) return std::nullopt;
   shots.sortByAzimuth(workers);
   const double step = azimuthStep(shots);
-  if (!(step > 0) || ring_step > most_stretch * step) return std::nullopt;
+  if (!(step > 0) || ring_step > most_stretch * step || !areSeen(scan, points, shots)) return std::nullopt;
   const double columns = 2 * std::numbers::pi / step;
   if (columns < least_columns || columns * rows > most_pixels * static_cast<double>(shots.size())) return std::nullopt;
   Buffer<RingFit> fits(static_cast<std::size_t>(shots.rings()));

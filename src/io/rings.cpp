@@ -72,6 +72,7 @@ ScanStructure ringsOf(const Geometry& geometry, const std::string& name) {
   };
   const Field* rings = fieldNamed(geometry, "ring");
   ScanStructure structure = rings == nullptr ? byElevation() : byField(*rings);
+  structure.origin = origin;
   const Field* azimuths = fieldNamed(geometry, "azimuth");
   if (azimuths != nullptr) structure.position = azimuthsOf(*azimuths, geometry.points, name);
   return structure;

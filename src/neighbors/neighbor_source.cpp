@@ -2,6 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
+#include <map>
+#include <set>
+#include <utility>
 
 #include "base/buffer.h"
 #include "base/point_buffer.h"
@@ -39,6 +43,51 @@ void takeNeighborhoods(const Neighborhoods& lists, const RankedCloud& cloud, con
     source.list_offset.push_back(source.list.size());
     source.k = std::max(source.k, static_cast<int>(source.list.size() - start));
   }
+}
+
+/// Whether the azimuths of a scan lead to the points nearby, as those of other points, or all the same, do not: most
+/// points of a sample must find the nearest point of their ring and of those beside it, or one at most twice as far,
+/// unless it lies beyond the ball that is searched. Rounded azimuths do, as long as few points share one.
+bool azimuthsFit(const RankedScan& scan, const RankedCloud& cloud, const RingSearch& search, int k) {
+  constexpr int samples = 128;  // points, of which all others of three rings are looked at
+  constexpr std::size_t most_at_once =
+      16;  // points of a ring at one azimuth, in the mean: so many on each side are tried
+  // By ring; rings without points are left out.
+  std::map<int, Buffer<int>> rings;
+  for (int p = 0; p < cloud.size(); ++p)
+    if (scan.row[p] >= 0) rings[scan.row[p]].push_back(p);
+  std::size_t places = 0, points = 0;
+  for (const auto& [row, ring] : rings) {
+    std::set<double> azimuths;
+    for (const int p : ring) azimuths.insert(scan.position[p]);
+    places += azimuths.size();
+    points += ring.size();
+  }
+  if (points > most_at_once * places) return false;
+  const auto squaredDistance = [&cloud](int p, int q) {
+    return (cloud.points.row(p) - cloud.points.row(q)).squaredNorm();
+  };
+  Buffer<Neighbor> found;
+  const auto findsNearestOn = [&](int p, const std::pair<const int, Buffer<int>>& ring, double radius) {
+    double nearest = HUGE_VAL, nearest_found = HUGE_VAL;
+    for (const int q : ring.second)
+      if (q != p) nearest = std::min(nearest, squaredDistance(p, q));
+    for (const Neighbor& q : found)
+      if (scan.row[q.index] == ring.first) nearest_found = std::min(nearest_found, q.squared_distance);
+    return nearest > radius * radius || nearest_found <= 4 * nearest;
+  };
+  const int stride = std::max(1, cloud.size() / samples) | 1;
+  int asked = 0, fitting = 0;
+  for (int p = 0; p < cloud.size(); p += stride) {
+    if (scan.row[p] < 0) continue;
+    const double radius = search.nearest(p, k, found);
+    const auto own = rings.find(scan.row[p]), above = std::next(own);
+    const bool fits = findsNearestOn(p, *own, radius) && (above == rings.end() || findsNearestOn(p, *above, radius)) &&
+                      (own == rings.begin() || findsNearestOn(p, *std::prev(own), radius));
+    ++asked;
+    fitting += fits ? 1 : 0;
+  }
+  return 2 * fitting >= asked;
 }
 
 }  // namespace
@@ -94,6 +143,10 @@ NeighborSource neighborSource(const CloudOptions& options, const RankedCloud& cl
       const RankedScan scan = rankScan(*options.structure, cloud, status, representative);
       report.unplaced = std::count(scan.row.begin(), scan.row.end(), -1);
       source.rings = std::make_unique<RingSearch>(scan, cloud);
+      if (!azimuthsFit(scan, cloud, *source.rings, source.k))
+        throw InvalidInput(
+            "pointCloudLaplacian: structure.position: points at nearly the same azimuth of a ring, or of rings that "
+            "follow each other, lie far apart, must lie side by side (are these the azimuths of these points?)");
     } else {
       source.search = std::make_unique<NeighborSearch>(cloud.points, workers);
     }

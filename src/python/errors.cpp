@@ -69,6 +69,7 @@ constexpr std::array words = {
     Name{"SolverMethod::multigrid", "'multigrid'"},
     Name{"set method to", "set solver to"},
     Name{"structure.origin", "viewpoint"},
+    Name{"structure.position", "rings"},
     Name{"componentMeans", "filter"},
 };
 

@@ -193,7 +193,7 @@ bool keepNearest(Neighborhood& neighborhood, OffsetBuffer& offsets) {
     offsets.keepFirst(few_neighbors[j]);
     neighborhood.axes = neighborhood.axes_of_few[j];
     neighborhood.k = few_neighbors[j];
-    neighborhood.radius = neighborhood.fit_radius = std::sqrt(neighborhood.neighbors.back().squared_distance);
+    neighborhood.radius = std::sqrt(neighborhood.neighbors.back().squared_distance);
   }
   return std::ssize(neighborhood.neighbors) < count;
 }

@@ -18,6 +18,8 @@ namespace {
 constexpr int isoline_count = 16;
 /// Lines of coordinates on each side of the origin, about.
 constexpr int grid_count = 10;
+/// Shares of outliers end here, so that sums of them are floats.
+constexpr double farthest_share = 1e30;
 
 [[noreturn]] void refuse(const std::string& what) {
   throw InvalidInput("drawPicture: " + what);
@@ -25,13 +27,25 @@ constexpr int grid_count = 10;
 
 }  // namespace
 
-Rgb FieldColors::colorOf(const std::array<float, 2>& values) const {
-  if (!std::isfinite(values[0])) return no_value_color;
-  double value = values[0];
-  if (field->kind == FieldKind::coordinates) value = std::hypot(values[0], values[1]);
-  const double span = high - low;
-  if (!(span > 0)) return colorAt(*map, 0.5);
-  return colorAt(*map, (value - low) / span);
+float FieldColors::shareOf(double value) const {
+  const double half_span = high / 2 - low / 2;  // halves, as a difference may overflow
+  const double share = half_span > 0 ? (value / 2 - low / 2) / half_span : 0.5;
+  return static_cast<float>(std::clamp(share, -farthest_share, farthest_share));
+}
+
+double FieldColors::shareOfStep() const {
+  return step > 0 ? step / 2 / (high / 2 - low / 2) : 0;
+}
+
+double FieldColors::levelOf(float share) const {
+  const double first = low / step;
+  return std::floor(first - std::floor(first) + share / shareOfStep());
+}
+
+Rgb FieldColors::colorOf(const std::array<float, 2>& shares) const {
+  if (!std::isfinite(shares[0])) return no_value_color;
+  if (!(high > low)) return colorAt(*map, 0.5);
+  return colorAt(*map, field->kind == FieldKind::coordinates ? std::hypot(shares[0], shares[1]) : shares[0]);
 }
 
 Rgb FieldColors::colorOfPoint(int point) const {
@@ -71,17 +85,6 @@ FieldColors colorsOf(const Scene& scene, const PictureOptions& options) {
   const bool is_pair = field.kind == FieldKind::coordinates;
   const Eigen::VectorXd values = shownValues(field, options.column);
   colors.is_logarithmic = isLogarithmic(field.kind);
-  colors.channels.assign(is_pair ? 2 : 1, std::vector<float>(n, std::numeric_limits<float>::quiet_NaN()));
-  for (std::size_t i = 0; i < n; ++i) {
-    const double value = values[static_cast<Eigen::Index>(i)];
-    if (!std::isfinite(value) || (field.kind == FieldKind::label && value < 0)) {
-      colors.lacks_values = true;
-      continue;
-    }
-    for (std::size_t c = 0; c < colors.channels.size(); ++c)
-      colors.channels[c][i] = static_cast<float>(
-          is_pair ? field.values(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(c)) : value);
-  }
   const ValueRange range = rangesOf(field.kind, values).usual;
   colors.low = range.low;
   colors.high = range.high;
@@ -89,6 +92,16 @@ FieldColors colorsOf(const Scene& scene, const PictureOptions& options) {
     colors.low = colors.is_logarithmic ? std::log10((*options.range)[0]) : (*options.range)[0];
     colors.high = colors.is_logarithmic ? std::log10((*options.range)[1]) : (*options.range)[1];
     if (!std::isfinite(colors.low)) refuse("range from " + std::to_string((*options.range)[0]) + ", must be positive");
+  }
+  colors.channels.assign(is_pair ? 2 : 1, std::vector<float>(n, std::numeric_limits<float>::quiet_NaN()));
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    if (!std::isfinite(values[row]) || (field.kind == FieldKind::label && values[row] < 0)) {
+      colors.lacks_values = true;
+      continue;
+    }
+    for (std::size_t c = 0; c < colors.channels.size(); ++c)
+      colors.channels[c][i] = colors.shareOf(is_pair ? field.values(row, static_cast<Eigen::Index>(c)) : values[row]);
   }
   if (is_label) {
     colors.channels.clear();

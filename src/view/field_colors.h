@@ -17,11 +17,18 @@ struct FieldColors {
   bool is_logarithmic = false;        ///< whether values are shown as their logarithms to base 10
   bool lacks_values = false;          ///< whether some are not finite
   double step = 0;                    ///< from isoline to isoline; 0: there are none
-  /// N for each channel: what is drawn, one number or, for coordinates, two; NaN where there is no value.
+  /// N for each channel: what is drawn, one number or, for coordinates, two, as shares of the map: 0 at `low` and 1 at
+  /// `high`. Floats, which blend, have the digits for these whatever the values. NaN where there is no value.
   std::vector<std::vector<float>> channels;
 
-  /// The colour of values of all channels; for labels and colours of a point.
-  Rgb colorOf(const std::array<float, 2>& values) const;
+  /// The share of a value.
+  float shareOf(double value) const;
+  /// The share from isoline to isoline; 0: there are none.
+  double shareOfStep() const;
+  /// The number of the isoline below a share, counted from a whole one near `low`.
+  double levelOf(float share) const;
+  /// The colour of the shares of all channels.
+  Rgb colorOf(const std::array<float, 2>& shares) const;
   /// The colour of a point whose values are not blended: labels, colours.
   Rgb colorOfPoint(int point) const;
   bool isBlended() const { return field != nullptr && !channels.empty(); }

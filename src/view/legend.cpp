@@ -103,6 +103,11 @@ void drawLegend(const Scene& scene, const FieldColors& colors, const PictureOpti
                                               : ticksOf(colors.low, colors.high);
   std::string scale = ticks.exponent == 0 ? "" : "\u00d7 10" + raised(ticks.exponent) + " ";
   scale += colors.field->unit;
+  if (ticks.offset != 0) {
+    char text[32];
+    std::snprintf(text, sizeof text, "%.15g +", ticks.offset);
+    writeWithin(text, left, y += line_height * em, em, width, ink, canvas);
+  }
   if (!scale.empty()) writeWithin(scale, left, y += line_height * em, em, width, ink, canvas);
   y += em;
   if (!is_bar) {

@@ -122,7 +122,7 @@ class Shader {
   /// Whether coordinates of neighbours jump, as those of a logarithmic map do where shortest paths meet.
   bool isCutBetween(const Values& a, const Values& b) const {
     return colors_.field->kind == FieldKind::coordinates &&
-           std::hypot(a[0] - b[0], a[1] - b[1]) > static_cast<float>(colors_.step);
+           std::hypot(a[0] - b[0], a[1] - b[1]) > colors_.shareOfStep();
   }
 
   /// The mean of the values of the points around a sample, by a bell as wide as the disc that is seen there. Triangles
@@ -227,15 +227,14 @@ class Shader {
     if (!(colors_.step > 0) || values_.empty()) return false;
     const Values& own = values_[at(x, y)];
     if (!std::isfinite(own[0])) return false;
-    const auto level = [this](float value) { return std::floor(value / static_cast<float>(colors_.step)); };
     for (std::size_t c = 0; c < colors_.channels.size(); ++c)
       for (const auto& [i, j] : {std::pair(1, 0), std::pair(0, 1), std::pair(-1, 0), std::pair(0, -1)}) {
         if (!isInside(x + i, y + j)) continue;
         const Sample other = seen_.samples[at(x + i, y + j)];
         const float value = values_[at(x + i, y + j)][c];
-        if (other == nothing || !std::isfinite(value) || level(value) == level(own[c])) continue;
+        if (other == nothing || !std::isfinite(value) || colors_.levelOf(value) == colors_.levelOf(own[c])) continue;
         if (isCutBetween(own, values_[at(x + i, y + j)])) continue;
-        const bool is_step = std::abs(value - own[c]) < 2 * static_cast<float>(colors_.step);
+        const bool is_step = std::abs(value - own[c]) < 2 * colors_.shareOfStep();
         if (is_step && std::abs(depthOf(other) / depthOf(sample) - 1) < 0.03F) return true;
       }
     return false;

@@ -11,6 +11,10 @@ namespace {
 constexpr int most_steps = 6;
 /// Between fewer powers of ten there are marks at two and five times these.
 constexpr double most_powers = 2.5;
+/// A scale that is shorter, by the greatest number on it, begins at a round number near its low end.
+constexpr double short_scale = 1e-4;
+/// A scale that is shorter shows the last digits of doubles.
+constexpr double shortest_scale = 1e-13;
 
 /// A number with `digits` after the point and a true minus sign.
 std::string numberText(double value, int digits) {
@@ -34,13 +38,21 @@ double niceStep(double span, int count) {
 
 Ticks ticksOf(double low, double high) {
   Ticks ticks;
-  const double most = std::max(std::abs(low), std::abs(high));
+  const double most = std::max(std::abs(low), std::abs(high)), span = high - low;
+  if (span > shortest_scale * most && span < short_scale * most) {
+    const double unit = std::pow(10.0, std::ceil(std::log10(span)));
+    const double offset = std::floor(low / unit) * unit;
+    ticks = ticksOf(low - offset, high - offset);
+    for (double& value : ticks.values) value += offset;
+    ticks.offset = offset;
+    return ticks;
+  }
   if (most > 0 && (most >= 1e5 || most < 1e-2)) {
     ticks.exponent = static_cast<int>(std::floor(std::log10(most)));
     ticks.exponent -= ((ticks.exponent % 3) + 3) % 3;
   }
-  const double step = niceStep(high - low, most_steps);
-  const bool is_one_value = step == 0 || high - low < 1e-9 * most;
+  const double step = niceStep(span, most_steps);
+  const bool is_one_value = step == 0 || span <= shortest_scale * most;
   if (is_one_value) {
     ticks.values = {low};
   } else {

@@ -9,11 +9,12 @@ namespace tufted::view {
 double niceStep(double span, int count);
 
 /// Round values for the marks of a scale, and their texts. Where numbers would be long, all are divided by ten to the
-/// power of `exponent`.
+/// power of `exponent`; where they differ in their last digits only, `offset` has been subtracted before.
 struct Ticks {
   std::vector<double> values;
   std::vector<std::string> texts;
   int exponent = 0;
+  double offset = 0;
 };
 /// @param low, high the ends of the scale; equal ones give one mark
 Ticks ticksOf(double low, double high);

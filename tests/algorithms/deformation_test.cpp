@@ -247,6 +247,7 @@ TEST(Deformation, NamesWhatACallerGotWrong) {
   EXPECT_EQ(why({0, 25}, targets), "deform: handles has 25, must lie in [0, 25)");
   EXPECT_EQ(why({}, Points(0, 3)), "deform: handles has no point on a component, must have at least one active point");
   EXPECT_EQ(why({0, 1}, targets, {.smoothness = -1}), "deform: smoothness = -1, must be finite and at least 0");
+  EXPECT_EQ(why({0, 1}, targets, {.smoothness = 1e20}), "deform: smoothness = 1e+20, must be at most 1e+06");
   EXPECT_EQ(why({0, 1}, targets, {.tolerance = -1}), "deform: tolerance = -1, must be finite and above 0");
   EXPECT_EQ(why({0, 1}, targets, {.max_iterations = 0}), "deform: max_iterations = 0, must be at least 1");
   Points odd = targets;

@@ -233,6 +233,11 @@ TEST(Smoothing, NamesWhatACallerGotWrong) {
   EXPECT_EQ(refusal(points, {.time_step = -1}), "smooth: time_step = -1, must be finite and at least 0");
   EXPECT_NE(refusal(points, {.time_step = NAN}), "accepted");
   EXPECT_NE(refusal(points, {.time_step = INFINITY}), "accepted");
+  // Masses would be lost beside t L, and with them the centre where all points come together.
+  EXPECT_EQ(refusal(points, {.time_step = 1e300}), "smooth: time_step = 1e+300, must be at most 1e+10");
+  const Points together = smooth(laplacian, points, {.time_step = 1e10});
+  const Eigen::RowVector3d centre = laplacian.M.transpose() * points / laplacian.M.sum();
+  EXPECT_LT((together.rowwise() - centre).rowwise().norm().maxCoeff(), 1e-5);
   EXPECT_EQ(refusal(points, {.iterations = 0}), "smooth: iterations = 0, must be at least 1");
   EXPECT_EQ(refusal(points, {.threads = -1}), "smooth: threads = -1, must be >= 0");
   EXPECT_EQ(refusal(points, {.fixed = &short_mask}),

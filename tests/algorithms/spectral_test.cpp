@@ -107,6 +107,34 @@ TEST(FilterSignals, KeepsLowFrequenciesAndTakesOutHighOnes) {
   EXPECT_LE((heat - std::exp(-0.6) * z).cwiseAbs().maxCoeff(), 0.01);
 }
 
+TEST(FilterSignals, IsTheSameInAnyUnit) {
+  // Areas, and products of areas and signals, are far beyond doubles in some of these units.
+  const Points points = shapes::ellipsoid(1000).points;
+  const auto filtered = [&](double unit, double signal) {
+    const Points cloud = unit * points;
+    const Laplacian laplacian = pointCloudLaplacian(cloud);
+    return filterSignals(laplacian, spectrum(laplacian, 30), signal * points);
+  };
+  const MatrixXd expected = filtered(1, 1);
+  for (const double unit : {1e-140, 1e-110, 1e110, 1e140})
+    for (const double signal : {1e-290, 1.0, unit, 1e290}) {
+      const MatrixXd found = filtered(unit, signal) / signal;
+      ASSERT_TRUE(found.allFinite()) << unit << ' ' << signal;
+      EXPECT_LT(largestRelativeDifference(found, expected), 1e-9) << unit << ' ' << signal;
+    }
+}
+
+TEST(FilterSignals, RefusesWhatDoesNotFitADouble) {
+  const Points points = shapes::sphere(500).points;
+  const Laplacian laplacian = pointCloudLaplacian(points);
+  const Spectrum found = spectrum(laplacian, 12);
+  EXPECT_THROW(filterSignals(laplacian, found, 1e308 * points, [](double) { return 2; }), SolverFailure);
+  EXPECT_EQ(support::refusal([&] {
+              filterSignals(laplacian, found, points, [](double) { return INFINITY; });
+            }).find("filterSignals: gain is inf at the eigenvalue "),
+            0u);
+}
+
 TEST(FilterSignals, LeavesOddPointsAndMovesCopiesTogether) {
   Points points = shapes::torus(1003).points;
   points.row(7).setConstant(NAN);

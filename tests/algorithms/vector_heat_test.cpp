@@ -281,6 +281,16 @@ TEST(VectorHeat, RefusesWhatDoesNotFit) {
   EXPECT_EQ(refusal([&] { map.query(-1); }), "LogMapSolver::query: source -1, must lie in [0, 100)");
   EXPECT_EQ(refusal([&] { TransportSolver(laplacian, {.time_step = 0}); }),
             "TransportSolver: time_step = 0, must be finite and above 0");
+  for (const double step : {1e-300, 1e-6, 1e13, 1e300}) {
+    const auto says = [&](const std::string& why) { return why.find("time_step = ") != std::string::npos; };
+    const VectorHeatOptions options{.time_step = step};
+    EXPECT_TRUE(says(refusal([&] { TransportSolver(laplacian, options); }))) << step;
+    EXPECT_TRUE(says(refusal([&] { ExtensionSolver(laplacian, options); }))) << step;
+    EXPECT_TRUE(says(refusal([&] { LogMapSolver(laplacian, options); }))) << step;
+    EXPECT_TRUE(says(refusal([&] { SignedDistanceSolver(laplacian, options); }))) << step;
+    EXPECT_TRUE(says(refusal([&] { DistanceSolver(laplacian, {.method = DistanceMethod::heat, .time_step = step}); })))
+        << step;
+  }
   Laplacian without = laplacian;
   without.positions = {};
   EXPECT_EQ(refusal([&] { ExtensionSolver{without}; }),

@@ -2,6 +2,7 @@
 // indices of the caller, and their values are those of the mesh whose vertices were shared from the start.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -63,11 +64,14 @@ class WeldedMesh : public testing::Test {
     for (int& corner : shared_triangles_.reshaped()) corner = shared_of_[corner];
     welded_ = std::make_shared<Laplacian>(meshLaplacian(points_, triangles_, {.weld = true}));
     shared_ = std::make_shared<Laplacian>(meshLaplacian(shared_points_, shared_triangles_));
-    // Two copies on the sphere and two on the square, each not the first of its position.
+    // Two copies on the sphere and two on the square, each not the first of its position, at four positions.
     for (const int start : {0, 3 * 320})
-      for (int c = start, found = 0; found < 2; c += 97)
-        if (const int i = triangles_(c / 3, c % 3); welded_->status[i] == PointStatus::coincident)
-          copies_.push_back(i), ++found;
+      for (int c = start, found = 0; found < 2; c += 97) {
+        const int i = triangles_(c / 3, c % 3);
+        const bool is_new =
+            std::none_of(copies_.begin(), copies_.end(), [&](int copy) { return shared_of_[copy] == shared_of_[i]; });
+        if (is_new && welded_->status[i] == PointStatus::coincident) copies_.push_back(i), ++found;
+      }
   }
 
   std::vector<int> sharedOf(const std::vector<int>& points) const {

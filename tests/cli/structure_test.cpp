@@ -142,8 +142,8 @@ TEST_F(Structures, TheLengthOfTheQuaternionDoesNotMatter) {
 }
 
 TEST_F(Structures, TakesTheAzimuthsOfAFileWhoseRingsItHasToFind) {
-  // The azimuths turn the other way and start elsewhere, which changes nothing, or are all one, which joins nothing.
-  const auto matrix = [&](const std::string& azimuth, double slope) {
+  // The azimuths turn the other way and start elsewhere, which changes nothing, or are all one, which fits no scan.
+  const auto file = [&](const std::string& azimuth, double slope) {
     std::string text = "VERSION .7\nFIELDS x y z " + azimuth + "\nSIZE 4 4 4 4\nTYPE F F F F\nCOUNT 1 1 1 1\n" +
                        "WIDTH 600\nHEIGHT 1\nPOINTS 600\nDATA ascii\n";
     for (int i = 0; i < 600; ++i) {
@@ -151,14 +151,22 @@ TEST_F(Structures, TakesTheAzimuthsOfAFileWhoseRingsItHasToFind) {
       text += std::to_string(std::cos(angle)) + ' ' + std::to_string(std::sin(angle)) + ' ' +
               std::to_string(i / 60 * 0.1) + ' ' + std::to_string(slope * (i % 60 * 6 - 100)) + '\n';
     }
-    const Result result =
-        runTufted({"laplacian", dir_.write("scan.pcd", text), "--out", out(), "--structure", "rings"});
+    return dir_.write("scan.pcd", text).string();
+  };
+  const auto matrix = [&](const std::string& azimuth) {
+    const Result result = runTufted({"laplacian", file(azimuth, -1), "--out", out(), "--structure", "rings"});
     EXPECT_EQ(result.code, 0) << result.err;
     return readAll(dir_ / "out/L.npz");
   };
-  const std::string computed = matrix("intensity", -1);
-  EXPECT_TRUE(matrix("azimuth", -1) == computed);
-  EXPECT_FALSE(matrix("azimuth", 0) == computed);
+  EXPECT_TRUE(matrix("azimuth") == matrix("intensity"));
+  const std::string one = file("azimuth", 0);
+  for (const char* command : {"laplacian", "spectrum"}) {
+    const Result result = runTufted({command, one, "--out", (dir_ / "none").string(), "--structure", "rings"});
+    EXPECT_EQ(result.code, 1);
+    EXPECT_TRUE(result.err.starts_with("tufted: " + one + ": ") && isOneLine(result.err)) << result.err;
+    EXPECT_TRUE(contains(result.err, "azimuth") && contains(result.err, "--structure rings")) << result.err;
+    EXPECT_FALSE(std::filesystem::exists(dir_ / "none"));
+  }
 }
 
 }  // namespace

@@ -1,5 +1,6 @@
 // Meshes whose vertices --weld joins: every subcommand takes the file's indices and gives the file's rows.
 #include <array>
+#include <set>
 
 #include "subcommands.h"
 
@@ -24,6 +25,7 @@ TEST_F(Subcommands, WithWeldAllIndicesAndRowsAreThoseOfTheFile) {
       }
   ASSERT_EQ(corners, 96);
   const std::string mesh = dir_.write("torn.obj", vertices + faces);
+  const std::set<std::string> not_per_point = {"evals.npy", "path.npy", "frames.npy", "times.npy", "energies.npy"};
   for (std::vector<std::string> command : commands) {
     if (command[0] == "denoise") continue;  // of clouds
     command.insert(command.end(), {mesh, "--weld", "--out", in("out")});
@@ -31,11 +33,11 @@ TEST_F(Subcommands, WithWeldAllIndicesAndRowsAreThoseOfTheFile) {
     run(command);
     for (const auto& entry : std::filesystem::directory_iterator(in("out"))) {
       const std::string name = entry.path().filename().string();
-      if (!name.ends_with(".npy") || name == "evals.npy" || name == "path.npy") continue;
+      if (!name.ends_with(".npy") || not_per_point.count(name) > 0) continue;
       EXPECT_TRUE(contains(readAll(entry.path()).substr(0, 128), "'shape': (96,")) << command[0] << ' ' << name;
     }
     if (const std::string points = in("out/points.ply"); std::filesystem::exists(points)) {
-      EXPECT_TRUE(contains(readAll(points).substr(0, 400), "element vertex 96")) << command[0];
+      EXPECT_TRUE(contains(readAll(points), "element vertex 96")) << command[0];
     }
   }
   // The place (1, 0) has the vertices 84, 91 and 93, (0, 0) has 90 alone, and (4, 4) has 4 alone.

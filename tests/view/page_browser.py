@@ -172,6 +172,37 @@ def test_vectors(page, dir):
     untroubled(page, dir / "whirl.html")
 
 
+def test_numbers_of_any_size(page, dir):
+    fields, rows = range(1, 5), range(0, side * side, 11)
+    expected = {}
+    for unit in ("1", "1e-50", "1e50", "1e120"):
+        page.open(dir / f"unit-{unit}.html")
+        for field in fields:
+            page.set(field=field)
+            colors = page.color(*rows)
+            others = sum(max(abs(a - b) for a, b in zip(one, other)) > 6
+                         for one, other in zip(colors, expected.setdefault(field, colors)))
+            assert others <= 0.02 * len(rows), f"{others} of {len(rows)} points differ: unit {unit}, field {field}"
+        untroubled(page, dir / f"unit-{unit}.html")
+
+
+def test_numbers_that_differ_in_their_last_digits(page, dir):
+    page.open(dir / "unit-1.html")
+    viridis = map_colors(page, "viridis")
+    places = [-0.8, -0.4, 0.2, 0.8]
+    for x, color in zip(places, page.color(*[row_at(x, 0.2) for x in places])):
+        close(color, of_map(viridis, (x + 1) / 2))
+    assert "from 3.2e8 to 3.2000006e8 s" in legend_of(page), legend_of(page)
+    x, y = page.run("return tufted.place(arguments[0])", row_at(0.2, 0.2))[:2]
+    value = page.run("return tufted.pick(arguments[0], arguments[1]).value", x, y)
+    assert value == "3.20000036e8 s", value
+    page.set(lines={"0": True})
+    assert "every 5 s" in legend_of(page), legend_of(page)
+    # At 3.2e8 + 35 s there is a line, and between two lines none.
+    on, off = page.color(row_at(1 / 6, 0), row_at(1 / 12, 0))
+    assert sum(on) < 0.75 * sum(off), f"an isoline has {on}, beside it {off}"
+
+
 def test_paths(page, dir):
     page.open(dir / "walk.html")
     red = page.run("return JSON.parse(document.getElementById('scene').textContent).pathColor")

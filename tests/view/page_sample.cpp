@@ -82,6 +82,20 @@ Scene whirl() {
   return {.title = "whirl", .positions = points, .fields = {{"around", FieldKind::vector, vectors, "m/s"}}};
 }
 
+/// A square in a unit of length, with lengths, coordinates and vectors in it, and with values that differ in their last
+/// digits only.
+Scene squareIn(double unit) {
+  Scene scene = {.title = "unit", .positions = square(101)};
+  const Points around = whirl().fields[0].values;
+  scene.fields = {{"time", FieldKind::scalar, (3.2e8 + 30 * (1 + scene.positions.col(0).array())).matrix(), "s"},
+                  {"x", FieldKind::scalar, unit * scene.positions.col(0)},
+                  {"around 0", FieldKind::coordinates, unit * scene.positions.leftCols<2>()},
+                  {"far", FieldKind::distance, unit * scene.positions.rowwise().norm()},
+                  {"around", FieldKind::vector, unit * around}};
+  scene.positions *= unit;
+  return scene;
+}
+
 /// A square with a path along y = 0.2, from the left to the middle.
 Scene walk() {
   Scene scene = {.title = "walk", .positions = square(101)};
@@ -154,6 +168,8 @@ int main(int argc, char** argv) try {
   tufted::writePage(dir / "plane.html", plane(), from_above);
   tufted::writePage(dir / "sphere.html", sphere());
   tufted::writePage(dir / "whirl.html", whirl(), from_above);
+  for (const char* const unit : {"1", "1e-50", "1e50", "1e120"})
+    tufted::writePage(dir / (std::string("unit-") + unit + ".html"), squareIn(std::stod(unit)), from_above);
   tufted::writePage(dir / "walk.html", walk(), from_above);
   tufted::writePage(dir / "depth.html", depthImage(), {.camera = {.eye = {0.3, -0.8, -1}, .up = {0, -1, 0}}});
   tufted::writePage(dir / "hostile.html", hostile(), from_above);

@@ -62,6 +62,26 @@ TEST(ShownValues, OfPositiveOnesAreLogarithms) {
   EXPECT_DOUBLE_EQ(values[3], -3);
 }
 
+TEST(TicksOf, TellTheEndsApartWhereNumbersDifferInTheirLastDigits) {
+  for (const double offset : {3.2e8, -3.2e8, 1.3e9, 1e50, 7e-30})
+    for (const double share : {1e-3, 1e-6, 1e-9, 1e-12}) {
+      const double span = share * std::abs(offset);
+      const view::Ticks ticks = view::ticksOf(offset, offset + span);
+      ASSERT_EQ(ticks.values.size(), ticks.texts.size());
+      ASSERT_GE(ticks.values.size(), 3u) << offset << ' ' << span;
+      EXPECT_LE(ticks.values.size(), 8u) << offset << ' ' << span;
+      for (std::size_t i = 0; i < ticks.values.size(); ++i) {
+        EXPECT_GE(ticks.values[i], offset - 1e-2 * span);
+        EXPECT_LE(ticks.values[i], offset + 1.01 * span);
+        EXPECT_LE(ticks.texts[i].size(), 12u) << ticks.texts[i];
+        if (i > 0) EXPECT_NE(ticks.texts[i], ticks.texts[i - 1]);
+      }
+    }
+  EXPECT_EQ(view::ticksOf(3.2e8, 3.2e8 + 60).offset, 3.2e8);
+  EXPECT_EQ(view::ticksOf(3.2e8, 3.2e8 + 60).texts.back(), "60");
+  EXPECT_EQ(view::ticksOf(0, 60).offset, 0);
+}
+
 TEST(LogarithmicTicks, AreRoundNumbersOnTheScale) {
   for (const double low : {-7.3, -0.2, 0.0, 4.0})
     for (const double span : {0.1, 0.9, 1.0, 2.2, 5.0, 30.0}) {
@@ -113,6 +133,38 @@ TEST(PictureOf, CoordinatesAreNotBlendedAcrossTheirCut) {
         for (std::size_t k = 0; k < 3; ++k)
           ASSERT_EQ(picture.pixels[4 * (static_cast<std::size_t>(y) * 200 + x) + k], expected[k]) << x << ' ' << y;
   }
+}
+
+/// A square seen from above, with x, coordinates around the middle, or vectors around it, in some unit.
+Scene squareIn(double unit, double offset, FieldKind kind, bool is_mesh) {
+  Scene scene = cutSquare(is_mesh);
+  scene.title = "";
+  Eigen::MatrixXd values = scene.positions.col(0);
+  if (kind == FieldKind::coordinates) values = scene.positions.leftCols<2>();
+  if (kind == FieldKind::vector) {
+    values = Points::Zero(scene.positions.rows(), 3);
+    values.leftCols<2>() << -scene.positions.col(1), scene.positions.col(0);
+  }
+  scene.fields = {{"values", kind, (offset + unit * values.array()).matrix()}};
+  return scene;
+}
+
+TEST(PictureOf, LooksTheSameWhateverTheSizeOfItsNumbers) {
+  for (const FieldKind kind : {FieldKind::scalar, FieldKind::coordinates, FieldKind::vector})
+    for (const bool is_mesh : {false, true})
+      for (const auto& [unit, offset] :
+           {std::pair(1e-50, 0.0), {1e-290, 0.0}, {1e50, 0.0}, {1e300, 0.0}, {1.0, 3.2e8}, {1.0, -1e12}}) {
+        if (offset != 0 && kind != FieldKind::scalar) continue;  // these begin at 0
+        PictureOptions options = {.width = 200, .height = 200, .isolines = true, .legend = false};
+        options.camera = {.eye = {0, 0, 1}, .up = {0, 1, 0}};
+        const Picture expected = drawPicture(squareIn(1, 0, kind, is_mesh), options);
+        const Picture picture = drawPicture(squareIn(unit, offset, kind, is_mesh), options);
+        int others = 0;
+        for (std::size_t i = 0; i < picture.pixels.size(); ++i)
+          others += std::abs(picture.pixels[i] - expected.pixels[i]) > 3 ? 1 : 0;
+        EXPECT_LT(others, 0.002 * static_cast<double>(picture.pixels.size()))
+            << static_cast<int>(kind) << ' ' << unit << ' ' << offset << ' ' << is_mesh;
+      }
 }
 
 }  // namespace

@@ -29,6 +29,17 @@ void refuseCloudOptions(const Input& input, const std::vector<const CLI::Option*
                                  " holds a mesh (--as cloud takes its vertices alone)");
 }
 
+/// Azimuths that do not fit the points are the file's fault.
+tufted::Laplacian cloudLaplacian(const tufted::Geometry& geometry, const Input& input, const Build& build) {
+  try {
+    return tufted::pointCloudLaplacian(geometry.points, build.cloud);
+  } catch (const tufted::InvalidInput& error) {
+    const std::string message = error.what(), rings = "pointCloudLaplacian: structure.position: ";
+    if (build.structure != Structure::rings || !message.starts_with(rings)) throw;
+    throw tufted::IoError(input.name() + ": " + message.substr(rings.size()) + " (--structure rings asks for them)");
+  }
+}
+
 }  // namespace
 
 void addBuildOptions(CLI::App& command, Build& build) {
@@ -113,7 +124,7 @@ tufted::Laplacian buildLaplacian(const tufted::Geometry& geometry, const Input& 
   build.mesh.weld = input.weld;
   if (build.mollify) build.cloud.mollify = build.mesh.mollify = *build.mollify;
   if (geometry.is_mesh) return tufted::meshLaplacian(geometry.points, geometry.triangles, build.mesh);
-  tufted::Laplacian laplacian = tufted::pointCloudLaplacian(geometry.points, build.cloud);
+  tufted::Laplacian laplacian = cloudLaplacian(geometry, input, build);
   if (build.denoise) build.moved = laplacian.positions;
   return laplacian;
 }

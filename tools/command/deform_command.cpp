@@ -118,7 +118,7 @@ void addDeform(CLI::App& app, Run& run) {
       ->required()
       ->type_name("TEXT");
   addChoice(*command, "--method", settings->options.method, methods, "How the rest follows (rigid)");
-  addNumber(*command, "--smoothness", settings->options.smoothness, 0.0, std::numeric_limits<double>::max(),
+  addNumber(*command, "--smoothness", settings->options.smoothness, 0.0, 1e6,
             "Of rigid: how much bending costs, as part of the area; 0: nothing (1e-3)")
       ->type_name("S");
   addNumber(*command, "--iterations", settings->options.max_iterations, 1, 1000000, "Of rigid: at most so many (500)")

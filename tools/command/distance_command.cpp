@@ -8,6 +8,7 @@
 #include <string>
 
 #include "command.h"
+#include "extent.h"
 #include "operator.h"
 #include "options.h"
 #include "point_options.h"
@@ -177,7 +178,17 @@ Eigen::MatrixXd addSolved(const Settings& settings, const std::vector<tufted::Su
   return distance;
 }
 
+/// @throws InvalidInput where no other point can be so near
+void checkWithin(double within, const Operator& source) {
+  constexpr double nearest = 0.01;  // of the spacing
+  const Extent extent = extentOf(source);
+  if (within < nearest * extent.spacing)
+    throw tufted::InvalidInput("--within " + numberText(within) +
+                               " is less than a hundredth of the spacing: " + extent.text());
+}
+
 Results compute(Settings& settings, Operator& source) {
+  checkWithin(settings.options.maximum, source);
   Results results;
   std::vector<tufted::SurfacePoint> sources;
   const std::vector<int> points = locate(settings.places, source, results);

@@ -1,5 +1,5 @@
 #include <CLI/CLI.hpp>
-#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -11,6 +11,7 @@
 #include "point_options.h"
 #include "reports.h"
 #include "taking_part.h"
+#include "time_step.h"
 #include "tufted/errors.h"
 #include "tufted/signed_distance.h"
 
@@ -39,6 +40,7 @@ struct Settings {
   Orienting orienting;
   std::filesystem::path file;
   tufted::VectorHeatOptions options;
+  std::optional<double> time_step;
   std::vector<int> curve;
 
   std::vector<std::string> files() const { return {"distance.npy"}; }
@@ -57,8 +59,10 @@ Results compute(Settings& settings, Operator& source) {
   Results results;
   noteLeftOut(settings.curve, source, results);
   settings.options.solver = source.solverOptions();
+  if (settings.time_step) settings.options.time_step = *settings.time_step;
   const tufted::SignedDistanceSolver solver(source.laplacian, orientedFrames(settings.orienting, source, results),
                                             settings.options);
+  checkTimeStep(settings.time_step, solver.timeStep(), source);
   tufted::SignedDistanceReport made;
   const Eigen::VectorXd distance =
       blameSurface(source, [&] { return solver.query(settings.curve, &made, source.progress); });
@@ -85,8 +89,5 @@ void addSignedDistance(CLI::App& app, Run& run) {
       ->check(notEmpty)
       ->required()
       ->type_name("TEXT");
-  addNumber(*command, "--time-step", settings->options.time_step, std::numeric_limits<double>::min(),
-            std::numeric_limits<double>::max(),
-            "Time in which heat spreads, in mean squared distances of neighbours (4)")
-      ->type_name("T");
+  addTimeStep(*command, settings->time_step, "Time step in squared mean edges; larger ones mix more (4)");
 }

@@ -121,7 +121,7 @@ void addSmooth(CLI::App& app, Run& run) {
   using namespace smooth_command;
   const auto [command, settings] =
       addOperatorCommand<Settings>(app, run, "smooth", description, footer, compute, check);
-  constexpr double least = std::numeric_limits<double>::min(), most = std::numeric_limits<double>::max();
+  constexpr double least = std::numeric_limits<double>::min(), most = 1e10;
   addChoice(*command, "--method", settings->method, methods, "How points are smoothed (implicit)");
   addNumber(*command, "--time-step", settings->time_step, least, most,
             "Of implicit steps, in mean squared lengths of edges (1)")

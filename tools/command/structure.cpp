@@ -4,18 +4,34 @@
 
 #include "tufted/errors.h"
 #include "tufted/io/rings.h"
+#include "tufted/pixel_fill.h"
+
+namespace {
+
+Eigen::Vector3d originOf(const tufted::Geometry& geometry) {
+  return {geometry.viewpoint[0], geometry.viewpoint[1], geometry.viewpoint[2]};
+}
+
+}  // namespace
 
 Structure structureFor(const tufted::Geometry& geometry) {
-  const Eigen::Vector3d origin(geometry.viewpoint[0], geometry.viewpoint[1], geometry.viewpoint[2]);
   const bool is_seen = !geometry.is_mesh && geometry.height > 1 &&
-                       tufted::isDepthImage(geometry.points, geometry.width, geometry.height, origin);
+                       tufted::isDepthImage(geometry.points, geometry.width, geometry.height, originOf(geometry));
   return is_seen ? Structure::image : Structure::none;
 }
 
 std::string doubtOf(const tufted::Geometry& geometry, Structure structure) {
   if (structure != Structure::image || structureFor(geometry) == Structure::image) return "";
+  char text[200];
+  const double fill = tufted::pixelFill(geometry.points, geometry.width, geometry.height, originOf(geometry));
+  if (fill > 0 && fill < tufted::least_pixel_fill) {
+    std::snprintf(text, sizeof text,
+                  "see points in %.0f %% of the pixels near points alone, must be %.0f for a depth image; --structure "
+                  "none does without pixels",
+                  100 * fill, 100 * tufted::least_pixel_fill);
+    return text;
+  }
   const auto& at = geometry.viewpoint;
-  char text[160];
   std::snprintf(text, sizeof text,
                 "of no pinhole camera at %.6g, %.6g, %.6g, the viewpoint of the file or 0 without one", at[0], at[1],
                 at[2]);
@@ -40,6 +56,5 @@ std::optional<tufted::ScanStructure> structureOf(const tufted::Geometry& geometr
   }
   if (geometry.height <= 1)
     throw tufted::IoError(name + ": is one row of points, no organized cloud, which --structure image asks for");
-  return tufted::imageStructure(geometry.width, geometry.height,
-                                {geometry.viewpoint[0], geometry.viewpoint[1], geometry.viewpoint[2]});
+  return tufted::imageStructure(geometry.width, geometry.height, originOf(geometry));
 }

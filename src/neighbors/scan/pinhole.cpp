@@ -7,6 +7,8 @@
 #include <span>
 
 #include "base/buffer.h"
+#include "neighbors/scan/pixel_fill.h"
+#include "tufted/pixel_fill.h"
 #include "tufted/scan_structure.h"
 
 namespace tufted {
@@ -76,11 +78,32 @@ std::optional<Eigen::Vector3d> opticalAxis(std::span<const Sighting> sightings, 
   return camera.row(2).transpose().normalized() * (before > behind ? 1 : -1);
 }
 
+double pixelFill(const Points& points, int width, int height, const Eigen::Vector3d& origin) {
+  if (width < 1 || height < 1 || points.rows() != static_cast<Eigen::Index>(width) * height) return 0;
+  const auto isHeld = [&](std::int64_t i) {
+    const Eigen::Vector3d ray = points.row(i).transpose() - origin;
+    return ray.allFinite() && !ray.isZero(0);
+  };
+  Buffer<std::uint8_t> row_holds(static_cast<std::size_t>(height), 0), column_holds(static_cast<std::size_t>(width), 0);
+  Buffer<std::uint8_t> held(static_cast<std::size_t>(points.rows()), 0);
+  for (std::int64_t i = 0; i < points.rows(); ++i)
+    if (isHeld(i)) held[i] = row_holds[i / width] = column_holds[i % width] = 1;
+  const auto linesOf = [](const Buffer<std::uint8_t>& holds) {
+    PixelLines lines;
+    for (std::int64_t line = 0; line < std::ssize(holds); ++line)
+      if (holds[line] != 0) lines.push_back(line);
+    return lines;
+  };
+  const PixelLines rows = linesOf(row_holds), columns = linesOf(column_holds);
+  return pixelFill(rows, columns, [&](int row, int column) { return held[rows[row] * width + columns[column]] != 0; });
+}
+
 bool isDepthImage(const Points& points, int width, int height, const Eigen::Vector3d& origin) {
   if (width < least_side || height < least_side || points.rows() != static_cast<Eigen::Index>(width) * height ||
       !origin.allFinite())
     return false;
-  return opticalAxis(takeSightings(points, width, height, origin), width, height).has_value();
+  return opticalAxis(takeSightings(points, width, height, origin), width, height).has_value() &&
+         pixelFill(points, width, height, origin) >= least_pixel_fill;
 }
 
 }  // namespace tufted

@@ -47,10 +47,13 @@ export function makeArrows(positions, values, spacing, uniforms, colorAt) {
   const foot = new Float32Array(3 * rows.length);
   const arrow = new Float32Array(3 * rows.length);
   const shade = new Float32Array(3 * rows.length);
+  // Lengths in those of the colours' end; outliers are no longer than two of these.
+  const whole = values.ranges.usual[1] || 1;
   rows.forEach((row, i) => {
+    const shortened = Math.min(1, 2 / (values.at(row) / whole));
     foot.set(positions.shown.subarray(3 * row, 3 * row + 3), 3 * i);
     shade.set(colorAt(row), 3 * i);
-    for (let axis = 0; axis < 3; ++axis) arrow[3 * i + axis] = values.parts[axis].at(row) / (values.high || 1);
+    for (let axis = 0; axis < 3; ++axis) arrow[3 * i + axis] = (values.parts[axis].at(row) / whole) * shortened;
   });
   geometry.setAttribute('foot', new InstancedBufferAttribute(foot, 3));
   geometry.setAttribute('arrow', new InstancedBufferAttribute(arrow, 3));

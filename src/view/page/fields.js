@@ -1,7 +1,7 @@
 // A column of a field as it is shown: what the graphics card gets, what the legend says, and the value of a point.
 import { labelColor } from './color.js';
 import { integers, labels, lengthValues, levelValues } from './data.js';
-import { number, withUnit } from './format.js';
+import { digitsFor, number, withUnit } from './format.js';
 
 const most_kept = 6; // columns that stay unpacked
 const kept = new Map();
@@ -38,11 +38,12 @@ export function tintsOf(field, values, map) {
   return tints;
 }
 
+/** Coordinates as the graphics card gets them, scaled as their lengths. */
 export function pairsOf(values) {
   const count = values.scaled.length;
   const pairs = new Float32Array(2 * count);
   for (let i = 0; i < count; ++i)
-    if (values.known[i]) pairs.set([values.parts[0].at(i), values.parts[1].at(i)], 2 * i);
+    if (values.known[i]) pairs.set(values.parts.map((part) => values.toScaled(part.at(i))), 2 * i);
   return pairs;
 }
 
@@ -62,7 +63,7 @@ export function valueText(field, values, row) {
   }
   if (values.parts && Number.isFinite(values.at(row)))
     return withUnit(`(${values.parts.map((part) => number(part.at(row))).join(', ')})`, field.unit);
-  return withUnit(number(values.at(row), 5), Number.isFinite(values.at(row)) ? field.unit : '');
+  return withUnit(number(values.at(row), digitsFor(values.at(row), values.step, 5)), Number.isFinite(values.at(row)) ? field.unit : '');
 }
 
 export function legendOf(field, column, values, map, { range, interval, no_value }) {

@@ -15,6 +15,12 @@ export function number(value, digits = 4) {
   return text.replaceAll('-', '−');
 }
 
+/** How many digits of a number matter where others differ by `step`, at least `least`. */
+export function digitsFor(value, step, least = 4) {
+  const digits = Math.ceil(Math.log10(Math.abs(value) / step));
+  return step > 0 && digits > least ? Math.min(digits, 15) : least;
+}
+
 /** A number with as many decimals as its step has a meaning for. */
 export function stepped(value, step) {
   if (!Number.isFinite(value)) return number(value);
@@ -38,7 +44,7 @@ export function ticks(low, high, wanted = 4) {
   const step = roundUp((high - low) / wanted);
   const found = [];
   for (let k = Math.ceil(low / step - 1e-9); k * step <= high + step * 1e-9 && found.length < 20; ++k) found.push(k * step);
-  return found.map((value) => Number(value.toPrecision(12)));
+  return found.map((value) => Number(value.toPrecision(15)));
 }
 
 /** Logarithms to base 10 of round numbers, between those of the ends of a scale. */

@@ -1,6 +1,6 @@
 // The legend, drawn on a canvas, so that saved pictures have the same one.
 import { cssColor } from './color.js';
-import { logarithmicTicks, number, ticks, withUnit } from './format.js';
+import { digitsFor, logarithmicTicks, number, ticks, withUnit } from './format.js';
 
 const width = 268;
 const most_labels = 8;
@@ -27,6 +27,12 @@ export function legendLines(legend) {
 const heights = { title: 22, bar: 40, swatch: 20, note: 20 };
 export const legendSize = (legend) => [width, legendLines(legend).reduce((sum, line) => sum + heights[line.kind], 6)];
 
+/** A number of the scale, with the digits in which its ends differ. */
+function rangeText({ range, is_logarithmic }, shown) {
+  const valueOf = (place) => (is_logarithmic ? 10 ** place : place);
+  return number(valueOf(shown), digitsFor(valueOf(shown), (valueOf(range[1]) - valueOf(range[0])) / 100));
+}
+
 function drawBar(context, legend, y, theme) {
   const gradient = context.createLinearGradient(1, 0, width - 1, 0);
   legend.colors.forEach((color, i) => gradient.addColorStop(i / (legend.colors.length - 1), cssColor(color)));
@@ -39,9 +45,8 @@ function drawBar(context, legend, y, theme) {
   context.textAlign = 'center';
   const at = (value) => (high > low ? ((value - low) / (high - low)) * width : width / 2);
   let end = -Infinity;
-  const valueOf = (shown) => (legend.is_logarithmic ? 10 ** shown : shown);
   for (const value of legend.is_logarithmic ? logarithmicTicks(low, high) : ticks(low, high)) {
-    const text = number(valueOf(value));
+    const text = rangeText(legend, value);
     const half = context.measureText(text).width / 2;
     const place = Math.min(Math.max(at(value), half), width - half);
     if (place - half < end + 8) continue; // no room
@@ -75,7 +80,7 @@ export function drawLegend(context, legend, theme) {
 
 export function words(legend) {
   const parts = legendLines(legend).filter((line) => line.text).map((line) => line.text);
-  const end = (i) => number(legend.is_logarithmic ? 10 ** legend.range[i] : legend.range[i]);
+  const end = (i) => rangeText(legend, legend.range[i]);
   if (legend.colors) parts.push(`colours from ${end(0)} to ${withUnit(end(1), legend.unit)}`);
   return parts.join(', ');
 }

@@ -84,13 +84,15 @@ function applyColors() {
     const width = current.toScaled(range[1]) - low;
     // All values equal: the middle colour.
     stage.uniforms.range.value.set(width > 0 ? low : low - 0.5, width > 0 ? 1 / width : 1);
-    stage.set({ mode: 1, start: current.toScaled(0) });
+    stage.set({ mode: 1 });
     // Distances and coordinates have the unit of positions: their lines are as wide as a point.
     const width_of_point = (0.65 * stage.spacing * stage.positions.unit) / interval;
     const is_length = one.kind === 'distance' || one.kind === 'coordinates';
     stage.set({ thickness: is_length ? Math.min(Math.max(width_of_point, 0.03), 0.11) : 0.08 });
-    if (one.kind === 'coordinates') stage.set({ grid: interval });
-    else stage.set({ interval: interval > 0 ? interval / 2 / current.half_span : 0 });
+    const scaled = interval > 0 ? interval / 2 / current.half_span : 0;
+    // A float has no digits left to count lines from a far 0; any line will do to count from.
+    const start = current.toScaled(0);
+    stage.set({ [one.kind === 'coordinates' ? 'grid' : 'interval']: scaled, start: scaled > 0 ? start % scaled : 0 });
     if (one.kind === 'vector' && state.arrows) {
       const [from, scale] = stage.uniforms.range.value.toArray();
       stage.set({ mode: 0 });

@@ -1,0 +1,122 @@
+// Depth images of which pixels are missing: in holes they stay images, all over they are no image any more.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <vector>
+
+#include "shapes/random.h"
+#include "tufted/pixel_fill.h"
+#include "tufted/scan_structure.h"
+
+namespace tufted::sparse_image_test {
+namespace {
+
+constexpr int width = 160, height = 120, pixels = width * height;
+constexpr double focal = 150;
+
+Eigen::RowVector3d rayOf(double column, double row) {
+  return {(column - (width - 1) / 2.0) / focal, (row - (height - 1) / 2.0) / focal, 1};
+}
+
+/// A ball of radius .5 at 2 m before a wall at 3 m.
+double ballDepth(const Eigen::RowVector3d& ray) {
+  const double squares = ray.squaredNorm(), inside = 4 - squares * (4 - 0.25);
+  return inside > 0 ? (2 - std::sqrt(inside)) / squares : 3;
+}
+
+/// A room: floor, ceiling, side walls, a back wall and a box that stands on the floor.
+double roomDepth(const Eigen::RowVector3d& ray) {
+  double depth = 4.5;
+  if (ray.y() > 0) depth = std::min(depth, 1 / ray.y());
+  if (ray.y() < 0) depth = std::min(depth, -1.2 / ray.y());
+  if (ray.x() != 0) depth = std::min(depth, 1.7 / std::abs(ray.x()));
+  const Eigen::RowVector3d box = 2.5 * ray;
+  return box.x() >= -0.3 && box.x() <= 0.5 && box.y() >= 0.3 && box.y() <= 1 ? std::min(depth, 2.5) : depth;
+}
+
+/// What is seen in the pixels that `isThere`, with noise that grows with the square of the depth.
+Points imageOf(double (*depth)(const Eigen::RowVector3d&), const std::function<bool(int, int)>& isThere, double noise,
+               shapes::Random& random) {
+  Points points = Points::Constant(pixels, 3, std::nan(""));
+  for (int i = 0; i < pixels; ++i) {
+    const Eigen::RowVector3d ray = rayOf(i % width, i / width);
+    const double z = depth(ray), error = noise * z * z * random.normal();
+    if (isThere(i % width, i / width)) points.row(i) = (z + error) * ray;
+  }
+  return points;
+}
+
+using Missing = std::function<bool(int, int)>;
+
+Missing atRandom(double share, shapes::Random& random) {
+  return [share, &random](int, int) { return random.uniform() >= share; };
+}
+
+/// Discs of up to 20 pixels and the upper third, as sky and dark things.
+Missing inHoles(shapes::Random& random) {
+  std::vector<Eigen::Vector3d> discs;
+  for (int i = 0; i < 12; ++i)
+    discs.emplace_back(width * random.uniform(), height * random.uniform(), 4 + 16 * random.uniform());
+  return [discs](int column, int row) {
+    for (const Eigen::Vector3d& disc : discs)
+      if (std::hypot(column - disc[0], row - disc[1]) < disc[2]) return false;
+    return row > height / 3;
+  };
+}
+
+/// The pixels that rays of a spinning scanner of so many rings hit, which are .2 degrees apart.
+Missing onRings(int rings) {
+  constexpr double step = 0.2 * std::numbers::pi / 180;
+  std::vector<std::uint8_t> hit(pixels, 0);
+  const double top = std::atan(height / 2 / focal);
+  for (int ring = 0; ring < rings; ++ring)
+    for (int i = -250; i <= 250; ++i) {
+      const double up = top * ((2 * ring + 1.0) / rings - 1), aside = i * step;
+      const double x = std::tan(aside), y = std::tan(up) / std::cos(aside);
+      const auto column = std::lround(x * focal + (width - 1) / 2.0), row = std::lround(y * focal + (height - 1) / 2.0);
+      if (column >= 0 && column < width && row >= 0 && row < height) hit[row * width + column] = 1;
+    }
+  return [hit](int column, int row) { return hit[row * width + column] != 0; };
+}
+
+TEST(PixelFill, IsTheShareNearPointsAndNotOfTheImage) {
+  shapes::Random random(1);
+  const auto fillOf = [&](const Missing& isThere) {
+    return pixelFill(imageOf(ballDepth, isThere, 0, random), width, height);
+  };
+  EXPECT_EQ(fillOf(atRandom(0, random)), 1);
+  for (const double missing : {0.1, 0.5, 0.9}) EXPECT_NEAR(fillOf(atRandom(missing, random)), 1 - missing, 0.01);
+  EXPECT_GT(fillOf(inHoles(random)), 0.95);
+  EXPECT_LT(fillOf(onRings(16)), 0.4);
+  EXPECT_LT(fillOf(onRings(64)), 0.65);
+  EXPECT_EQ(fillOf([](int, int) { return false; }), 0);
+  // As in a build, rows and columns that hold nothing are no part of the image.
+  EXPECT_EQ(fillOf([](int column, int row) { return column % 3 == 0 && row % 2 == 1; }), 1);
+  const Points points = imageOf(ballDepth, atRandom(0.3, random), 0, random);
+  EXPECT_EQ(pixelFill(points, width, height + 1), 0);
+}
+
+TEST(IsDepthImage, WherePixelsAreMissingInHolesAndNotAllOver) {
+  for (const auto depth : {ballDepth, roomDepth})
+    for (const double noise : {0.0, 5e-4}) {
+      shapes::Random random(2);
+      const auto isImage = [&](const Missing& isThere) {
+        return isDepthImage(imageOf(depth, isThere, noise, random), width, height);
+      };
+      for (const double missing : {0.0, 0.1, 0.2, 0.3}) EXPECT_TRUE(isImage(atRandom(missing, random))) << missing;
+      for (const double missing : {0.4, 0.5, 0.8}) EXPECT_FALSE(isImage(atRandom(missing, random))) << missing;
+      EXPECT_TRUE(isImage(inHoles(random)));
+      for (const int rings : {16, 32, 64}) EXPECT_FALSE(isImage(onRings(rings))) << rings;
+      // Lines that hold nothing are left out, unless windows are stretched by that.
+      EXPECT_TRUE(isImage([](int, int row) { return row % 6 == 0; }));
+      EXPECT_TRUE(isImage([](int column, int row) { return row % 4 == 0 && column % 4 == 0; }));
+      EXPECT_FALSE(isImage([](int, int row) { return row % 14 == 0; }));
+      EXPECT_FALSE(isImage([](int column, int) { return column % 14 == 0; }));
+    }
+}
+
+}  // namespace
+}  // namespace tufted::sparse_image_test
