@@ -55,10 +55,10 @@ struct DenoisedPoints {
 /// those of the same surface. So with `structure` ranges are smoothed over pixels, as in a build (Lengths::denoised):
 /// the result is Laplacian::positions of pointCloudLaplacian() bit for bit.
 ///
-/// Points of exact data, outliers, points on curves and in volumes, and whatever cannot be told from the shape of the surface stay
-/// exactly where they are. A permuted cloud (with its structure) gives the permuted result; moved or turned clouds that
-/// moved or turned, up to rounding below 1,000 points, else up to a tenth of the noise, since other points are every
-/// eighth then; any number of threads the same bits.
+/// Points of exact data, outliers, points on curves and in volumes, and whatever cannot be told from the shape of the
+/// surface stay exactly where they are. A permuted cloud (with its structure) gives the permuted result; moved or
+/// turned clouds that moved or turned, up to rounding below 1,000 points, else up to a tenth of the noise, since other
+/// points are every eighth then; any number of threads the same bits.
 /// @param points N x 3; NaN and infinite rows stay as they are
 /// @throws InvalidInput for a negative number of threads, more than 2^31 points, and a structure that has rings,
 /// another size than the points, no finite origin, columns that are not whole, or more pixels than ScanStructure says

@@ -76,7 +76,7 @@ struct DistanceOptions {
 
 /// What a query did.
 struct DistanceReport {
-  int split = 0;              ///< marching: how often each triangle was cut into four
+  int split = 0;  ///< marching: how often each triangle was cut into four
   /// Marching: points and middles of edges that were reached, from each source that came near; see
   /// DistanceOptions::split.
   std::int64_t visits = 0;
@@ -127,8 +127,8 @@ NearbyPoints pointsWithin(const Laplacian& laplacian, const std::vector<int>& so
 /// done, and gives its neighbours their distance along an edge or, if that is less, through a triangle, from the source
 /// unfolded into its plane by the distances of two corners. In the end no distance exceeds that of a neighbour by more
 /// than the length of their edge. None is shorter than the straight line between `Laplacian::positions`, if there are
-/// any. Distances from several sources are the least of those from each. Each face is cut into four first, by default once or twice (see
-/// `DistanceOptions::split`).
+/// any. Distances from several sources are the least of those from each. Each face is cut into four first, by default
+/// once or twice (see `DistanceOptions::split`).
 ///
 /// Heat (Crane, Weischedel, Wardetzky: "The heat method for distance computation", 2017): u is the heat that spreads
 /// from the sources, (M + t L) u = delta; X = -grad u / |grad u| its direction; and the distance the function whose

@@ -37,18 +37,23 @@ struct ParameterizationOptions {
 
 /// What parameterize() did. A chart is a set of triangles that edges join.
 struct ParameterizationReport {
-  std::int64_t charts = 0;         ///< that were laid out
-  std::int64_t closed = 0;         ///< charts without a rim, which no plane can hold
-  std::int64_t nonorientable = 0;  ///< charts without two sides
-  std::int64_t cut = 0;            ///< triangles of a cloud left out, as orientations met there that did not agree
-  std::int64_t nonmanifold = 0;    ///< charts with an edge of more than two triangles
-  std::int64_t shared_points = 0;  ///< points of several charts that were laid out; they lie in the largest one
-  std::int64_t not_mapped = 0;     ///< active points that lie in no chart that was laid out; NaN
-  std::int64_t rims = 0;           ///< closed curves in which charts end
-  std::int64_t triangles = 0;      ///< of charts that were laid out, without those that a shared point takes part in
-  std::int64_t flipped = 0;        ///< of these, those whose area in the plane is not positive
-  /// Mean over the triangles that are not flipped, weighted by their area on the surface, of the ratio of the singular
-  /// values of the map: 1 where angles are kept.
+  std::int64_t charts = 0;            ///< that were laid out
+  std::int64_t closed = 0;            ///< charts without a rim, which no plane can hold
+  std::int64_t nonorientable = 0;     ///< charts without two sides
+  std::int64_t collapsed_charts = 0;  ///< charts of which a conformal map collapses more than a thousandth of the area
+  std::int64_t cut = 0;               ///< triangles of a cloud left out, as orientations met there that did not agree
+  std::int64_t nonmanifold = 0;       ///< charts with an edge of more than two triangles
+  std::int64_t shared_points = 0;     ///< points of several charts that were laid out; they lie in the largest one
+  std::int64_t not_mapped = 0;        ///< points that are NaN: in no chart that was laid out, or taking no part
+  std::int64_t rims = 0;              ///< closed curves in which charts end
+  std::int64_t triangles = 0;         ///< of charts that were laid out, without those that a shared point takes part in
+  std::int64_t flipped = 0;           ///< of these, those whose area in the plane is not positive
+  /// Of these, those that are lower in the plane than 1e-7 of the map's extent but not so on the surface, as at the end
+  /// of long tubes, where the scale falls by a factor of e within each radius of the tube. They are not among
+  /// `flipped`.
+  std::int64_t collapsed = 0;
+  /// Mean over the triangles that are neither flipped nor collapsed, weighted by their area on the surface, of the
+  /// ratio of the singular values of the map: 1 where angles are kept.
   double quasi_conformal_error = 1;
   int iterations = 0;         ///< the most of any chart: of the eigenvector, or of a system
   double residual = 0;        ///< the greatest of any chart: of the eigenvector, relative, or of a system
@@ -78,9 +83,10 @@ struct ParameterizationReport {
 /// @return N x 2; NaN at points that are isolated or not finite or lie in no chart that was laid out; a coincident
 ///         point has its representative's position
 /// @throws InvalidInput for arrays of the wrong size, indices out of range, positions that are not finite; where there
-///         is no triangle; where the largest chart is closed, nonorientable or not a manifold; for harmonic also where
-///         there are several charts, several rims, a rim that passes a point twice or a handle, and for a given rim
-///         with fewer than three points, a point twice, one not active, or points of several components
+///         is no triangle; where the largest chart is closed, nonorientable or not a manifold; for conformal also where
+///         more than a thousandth of its area collapses; for harmonic also where there are several charts, several
+///         rims, a rim that passes a point twice or a handle, and for a given rim with fewer than three points, a point
+///         twice, one not active, or points of several components
 /// @throws SolverFailure when a system cannot be solved, or the eigenvector does not converge
 /// @throws Cancelled when `options.solver.progress` returns false
 Eigen::MatrixX2d parameterize(const Laplacian& laplacian, const TrianglesRef& triangles,

@@ -14,8 +14,8 @@ namespace tufted {
 /// @returns 0 without a point, and for another number of points
 double pixelFill(const Points& points, int width, int height, const Eigen::Vector3d& origin = Eigen::Vector3d::Zero());
 
-/// Where pixelFill() is less, a depth image is built better by neighbours in space: windows of pixels hold too little of
-/// the surface to tell noise and jumps by. So isDepthImage() takes it for none.
+/// Where pixelFill() is less, a depth image is built better by neighbours in space: windows of pixels hold too little
+/// of the surface to tell noise and jumps by. So isDepthImage() takes it for none.
 inline constexpr double least_pixel_fill = 0.65;
 
 }  // namespace tufted

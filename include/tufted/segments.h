@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "tufted/laplacian.h"
@@ -18,7 +19,8 @@ enum class SegmentMethod : std::uint8_t {
 /// Options of segments().
 struct SegmentOptions {
   SegmentMethod method = SegmentMethod::voronoi;  ///< how segments are found
-  int count = 8;                                  ///< how many, >= 1; ignored with `seeds`
+  /// How many, >= 1; none: 8, or as many as there can be. Ignored with `seeds`.
+  std::optional<int> count = std::nullopt;
   /// Points whose Voronoi cells are the segments; those that are not active are refused. Empty: `count` points, each as
   /// far as possible from those before it.
   std::vector<int> seeds = {};

@@ -36,7 +36,7 @@ Eigen::MatrixXd heatKernelSignature(const Laplacian& laplacian, const Spectrum& 
 /// Energies for the wave kernel signature, evenly spaced from log(smallest positive eigenvalue) to log(largest).
 /// @param count >= 2
 /// @return `count` logarithms of eigenvalues, ascending
-/// @throws InvalidInput for count < 2 or a spectrum with less than two different positive eigenvalues
+/// @throws InvalidInput for count < 2 or a spectrum without a positive eigenvalue
 VectorXd waveEnergies(const Spectrum& spectrum, int count = 100);
 
 /// The wave kernel signature of M. Aubry, U. Schlickewei and D. Cremers, "The wave kernel signature: a quantum
@@ -48,7 +48,8 @@ VectorXd waveEnergies(const Spectrum& spectrum, int count = 100);
 /// @throws InvalidInput for energies or a width out of range, or a spectrum without a positive eigenvalue
 Eigen::MatrixXd waveKernelSignature(const Spectrum& spectrum, const VectorXd& energies, double width);
 
-/// The wave kernel signature at waveEnergies(spectrum, count), with a width of seven times the distance between these.
+/// The wave kernel signature at waveEnergies(spectrum, count), with a width of seven times the distance between these,
+/// and at least 1e-8.
 Eigen::MatrixXd waveKernelSignature(const Spectrum& spectrum, int count = 100);
 
 /// Coordinates whose distances are those of a spectral distance, a column per positive eigenvalue.

@@ -67,8 +67,8 @@ struct Spectrum {
 ///
 /// Coincident points have the values of their representative; points that are not finite or isolated, and components
 /// whose areas all underflow, have 0.
-/// @param k >= 1, less than the number of active points of positive area; without the null space, less than that minus
-///        the number of components
+/// @param k >= 1, at most the number of active points of positive area; without the null space, at most that minus the
+///        number of components of positive area
 /// @throws InvalidInput for k or options out of range, arrays of the wrong size, or an M that is negative or not finite
 /// @throws SolverFailure when L cannot be factorised, the iterations do not suffice, or a pair, which it names, keeps a
 ///         residual above what SpectrumOptions::tolerance says, or areas are so small that an eigenvalue is above the

@@ -19,7 +19,7 @@ struct WeightOptions {
 struct WeightReport {
   std::int64_t handles = 0;      ///< columns
   std::int64_t free = 0;         ///< active points on components with a handle, but for the handles' own
-  std::int64_t not_reached = 0;  ///< active points of components without a handle, which are NaN
+  std::int64_t not_reached = 0;  ///< points that are NaN: on components without a handle, or taking no part
   int iterations = 0;            ///< the most systems that a handle took
   /// The greatest violation of the conditions of Karush, Kuhn and Tucker before weights are divided by their sum, in
   /// weights: by how much one of them would change if the others stayed.

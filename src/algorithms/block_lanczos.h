@@ -14,7 +14,7 @@ struct LanczosProblem {
   /// Takes the directions that A maps to 0, and that are not to be found, out of columns.
   std::function<void(Eigen::Ref<Eigen::MatrixXd>)> deflate;
   Eigen::VectorXd mass;    ///< n, >= 0; rows of mass 0 do not matter to A
-  Eigen::Index dimension;  ///< dimension of the space that is left, > `wanted`
+  Eigen::Index dimension;  ///< dimension of the space that is left, >= `wanted`
   Eigen::Index wanted;     ///< number of pairs to find, >= 1
   /// Tells whether eigenvalues are the `wanted` largest, or some that are as large were missed; nullopt if unknown. May
   /// be empty.

@@ -5,39 +5,78 @@
 #include <cmath>
 #include <complex>
 #include <numeric>
-#include <string>
 
 #include "algorithms/chart_metric.h"
-#include "tufted/errors.h"
 
 namespace tufted {
 namespace {
 
 /// What lies between two charts, as a part of the side of a square of the area of all.
 constexpr double gap_share = 0.02;
+/// The least height of a triangle in the extent of the surface or the map: what single precision, which points.ply has,
+/// can tell, and what eigenvectors are accurate to.
+constexpr double least_height = 1e-7;
 
 double cross(const Eigen::RowVector2d& a, const Eigen::RowVector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
+/// The largest distance of a corner of a chart from the first one.
+/// @param at the place of a point; NaN where it has none
+template <class At>
+double extentOf(const Chart& chart, const At& at) {
+  auto first = at(chart.triangles[0][0]);
+  double extent = 0;
+  for (const auto& corners : chart.triangles) {
+    for (const int i : corners) {
+      if (first.hasNaN()) first = at(i);
+      extent = std::max(extent, (at(i) - first).norm());
+    }
+  }
+  return extent;
+}
+
+double extentOnSurface(const Points& positions, const Chart& chart, int exponent) {
+  const Eigen::RowVector3d origin = positions.row(chart.triangles[0][0]);
+  return extentOf(chart, [&](int i) -> Eigen::RowVector3d {
+    const Eigen::RowVector3d p = positions.row(i) - origin;
+    return {std::ldexp(p.x(), -exponent), std::ldexp(p.y(), -exponent), std::ldexp(p.z(), -exponent)};
+  });
+}
+
+/// Whether a triangle is too low in the plane, but not on the surface.
+/// @param a, b two sides in the plane
+bool hasCollapsed(const TriangleSides& sides, double surface, const Eigen::RowVector2d& a, const Eigen::RowVector2d& b,
+                  double plane) {
+  const double longest = std::max({a.norm(), b.norm(), (a - b).norm()});
+  return std::abs(cross(a, b)) <= least_height * plane * longest &&
+         2 * sides.area >= least_height * surface * *std::max_element(sides.opposite.begin(), sides.opposite.end());
+}
+
 }  // namespace
 
-void placeAlone(const char* function, const Points& positions, const Chart& chart, int exponent,
-                const std::vector<int>& local, Eigen::MatrixX2d& uv) {
+Collapse placeAlone(const Points& positions, const Chart& chart, int exponent, const std::vector<int>& local,
+                    Eigen::MatrixX2d& uv) {
   // About the mean, in units of the largest coordinate.
   const Eigen::RowVector2d mean = uv.colwise().mean();
   uv.rowwise() -= mean;
   const double size = uv.cwiseAbs().maxCoeff();
   if (size > 0) uv /= size;
-  double wanted = 0, area = 0;
+  const double surface = extentOnSurface(positions, chart, exponent);
+  const double plane = extentOf(chart, [&](int i) -> Eigen::RowVector2d { return uv.row(local[i]); });
+  double wanted = 0, area = 0, lost = 0;
+  Collapse collapse;
   for (const auto& corners : chart.triangles) {
-    wanted += measureTriangle(positions, corners, exponent).area;
+    const TriangleSides sides = measureTriangle(positions, corners, exponent);
+    wanted += sides.area;
     const auto at = [&](int k) -> Eigen::RowVector2d { return uv.row(local[corners[k]]); };
     area += cross(at(1) - at(0), at(2) - at(0)) / 2;
+    if (!hasCollapsed(sides, surface, at(1) - at(0), at(2) - at(0), plane)) continue;
+    ++collapse.triangles;
+    lost += sides.area;
   }
-  if (!(area > 0 && std::isfinite(area)))
-    throw SolverFailure(std::string(function) + ": a chart of " + std::to_string(chart.triangles.size()) +
-                        " triangles has no area in the plane");
+  if (!(area > 0 && std::isfinite(area))) return {std::ssize(chart.triangles), 1};
+  collapse.area_share = wanted > 0 ? lost / wanted : 0;
   uv *= std::sqrt(wanted / area);
 
   using Complex = std::complex<double>;
@@ -63,6 +102,7 @@ void placeAlone(const char* function, const Points& positions, const Chart& char
   }
   const Eigen::RowVector2d least = uv.colwise().minCoeff();
   uv.rowwise() -= least;
+  return collapse;
 }
 
 void placeBesideEachOther(std::vector<Eigen::MatrixX2d>& charts, const std::vector<int>& exponents) {
@@ -107,17 +147,25 @@ void measureMaps(const Points& positions, const std::vector<const Chart*>& chart
   for (std::size_t c = 0; c < charts.size(); ++c) {
     const int exponent = exponentOf(positions, charts[c]->triangles);
     if (c == 0) largest = exponent;
+    const double surface = extentOnSurface(positions, *charts[c], exponent);
+    const auto place = [&](int i) -> Eigen::RowVector2d {
+      return {std::ldexp(uv(i, 0), -plane), std::ldexp(uv(i, 1), -plane)};
+    };
+    const double extent = extentOf(*charts[c], [&](int i) -> Eigen::RowVector2d {
+      return owner[i] == static_cast<int>(c) ? place(i) : Eigen::RowVector2d::Constant(NAN);
+    });
     for (const auto& corners : charts[c]->triangles) {
       if (owner[corners[0]] != static_cast<int>(c) || owner[corners[1]] != static_cast<int>(c) ||
           owner[corners[2]] != static_cast<int>(c))
         continue;
       ++report.triangles;
-      const auto side = [&](int k) -> Eigen::Vector2d {
-        const Eigen::RowVector2d difference = uv.row(corners[k]) - uv.row(corners[0]);
-        return {std::ldexp(difference.x(), -plane), std::ldexp(difference.y(), -plane)};
-      };
+      const auto side = [&](int k) -> Eigen::RowVector2d { return place(corners[k]) - place(corners[0]); };
+      if (hasCollapsed(measureTriangle(positions, corners, exponent), surface, side(1), side(2), extent)) {
+        ++report.collapsed;
+        continue;
+      }
       Eigen::Matrix2d image;
-      image << side(1), side(2);
+      image << side(1).transpose(), side(2).transpose();
       const double determinant = image.determinant();
       if (!(determinant > 0)) {
         ++report.flipped;

@@ -25,8 +25,8 @@ struct Eigenproblem {
 
   /// Number of eigenvalues that are exactly 0: one for each component of positive area.
   Eigen::Index nulls() const { return std::ssize(order); }
-  /// One more than the largest number of pairs that can be asked for.
-  Eigen::Index bound(bool null_space) const { return usable - (null_space ? 0 : nulls()); }
+  /// How many pairs there are.
+  Eigen::Index count(bool null_space) const { return usable - (null_space ? 0 : nulls()); }
 
   /// The first `count` of the constants of the components, N x count, of mass 1.
   Eigen::MatrixXd constants(Eigen::Index count) const;

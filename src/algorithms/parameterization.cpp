@@ -25,6 +25,8 @@ namespace tufted {
 namespace {
 
 constexpr const char* function_name = "parameterize";
+/// Charts of whose area more than this collapses are not laid out. Less are needles, and ends of thin spikes.
+constexpr double most_collapsed = 1e-3;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
 [[noreturn]] void refuse(const std::string& why) {
@@ -42,6 +44,11 @@ void checkArguments(const Laplacian& laplacian, const ParameterizationOptions& o
   if (!options.rim_positions.allFinite()) refuse("rim_positions are not finite, must be");
 }
 
+/// The largest chart, as messages begin.
+std::string textOf(const Chart& largest) {
+  return "the surface (its largest part, of " + std::to_string(largest.triangles.size()) + " triangles) ";
+}
+
 bool canBeMapped(const Chart& chart) {
   return chart.is_manifold && chart.is_orientable && !chart.rims.empty();
 }
@@ -52,23 +59,21 @@ std::vector<const Chart*> mappableCharts(const std::vector<Chart>& charts, Param
   for (const Chart& chart : charts) {
     if (canBeMapped(chart)) {
       kept.push_back(&chart);
-      ++report.charts;
-      report.rims += std::ssize(chart.rims);
     } else {
       ++(!chart.is_manifold ? report.nonmanifold : !chart.is_orientable ? report.nonorientable : report.closed);
     }
   }
   if (charts.empty()) refuse("no triangle has three different active points, must be at least one");
   const Chart& largest = charts.front();
-  const std::string where =
-      "the surface (its largest part, of " + std::to_string(largest.triangles.size()) + " triangles) ";
+  const std::string where = textOf(largest);
   if (!largest.is_manifold) refuse(where + "has an edge of more than two triangles, must have none");
   if (!largest.is_orientable) refuse(where + "is nonorientable, must have two sides");
   if (largest.rims.empty()) refuse(where + "is closed, must have a rim: cut it open");
   return kept;
 }
 
-Eigen::MatrixX2d conformal(const Laplacian& laplacian, const std::vector<const Chart*>& charts,
+/// Lays charts out, and takes those out of `charts` that collapse.
+Eigen::MatrixX2d conformal(const Laplacian& laplacian, std::vector<const Chart*>& charts,
                            const ParameterizationOptions& options, std::vector<int>& owner,
                            ParameterizationReport& report) {
   const auto n = std::ssize(laplacian.status);
@@ -76,6 +81,7 @@ Eigen::MatrixX2d conformal(const Laplacian& laplacian, const std::vector<const C
   std::vector<Eigen::MatrixX2d> maps;
   std::vector<std::vector<int>> members;
   std::vector<int> exponents, local(static_cast<std::size_t>(n), -1);
+  std::vector<const Chart*> kept;
   for (const Chart* chart : charts) {
     std::vector<int> points;
     for (const auto& corners : chart->triangles) points.insert(points.end(), corners.begin(), corners.end());
@@ -83,11 +89,22 @@ Eigen::MatrixX2d conformal(const Laplacian& laplacian, const std::vector<const C
     points.erase(std::unique(points.begin(), points.end()), points.end());
     for (std::size_t k = 0; k < points.size(); ++k) local[points[k]] = static_cast<int>(k);
     const int exponent = exponentOf(laplacian.positions, chart->triangles);
-    maps.push_back(conformalMap(function_name, laplacian.positions, *chart, points, local, options.solver, report));
-    placeAlone(function_name, laplacian.positions, *chart, exponent, local, maps.back());
+    Eigen::MatrixX2d map =
+        conformalMap(function_name, laplacian.positions, *chart, points, local, options.solver, report);
+    const Collapse collapse = placeAlone(laplacian.positions, *chart, exponent, local, map);
+    if (collapse.area_share > most_collapsed) {
+      if (chart == charts.front())
+        refuse(textOf(*chart) + "is too long for its rims: " + std::to_string(collapse.triangles) +
+               " triangles collapse in the plane; cut it open along its length");
+      ++report.collapsed_charts;
+      continue;
+    }
+    kept.push_back(chart);
+    maps.push_back(std::move(map));
     exponents.push_back(exponent);
     members.push_back(std::move(points));
   }
+  charts = std::move(kept);
   placeBesideEachOther(maps, exponents);
   std::vector<std::uint8_t> is_shared(static_cast<std::size_t>(n), 0);
   for (std::size_t c = 0; c < maps.size(); ++c) {
@@ -207,7 +224,7 @@ Eigen::MatrixX2d parameterize(const Laplacian& laplacian, const TrianglesRef& tr
   Workers(options.solver.threads, options.solver.progress).report("charts", 0);
   ParameterizationReport made;
   const std::vector<Chart> charts = findCharts(function_name, laplacian, triangles, &made.cut);
-  const std::vector<const Chart*> mapped = mappableCharts(charts, made);
+  std::vector<const Chart*> mapped = mappableCharts(charts, made);
   std::vector<int> owner(laplacian.status.size(), -1);
   Eigen::MatrixX2d uv;
   if (options.method == ParameterizationMethod::conformal) {
@@ -217,12 +234,12 @@ Eigen::MatrixX2d parameterize(const Laplacian& laplacian, const TrianglesRef& tr
     for (std::size_t i = 0; i < owner.size(); ++i)
       if (uv.row(static_cast<Eigen::Index>(i)).allFinite()) owner[i] = 0;
   }
-  std::vector<const Chart*> measured = mapped;
-  if (options.method == ParameterizationMethod::harmonic) measured.resize(1);  // others have no place of their own
-  measureMaps(laplacian.positions, measured, owner, uv, made);
+  made.charts = std::ssize(mapped);
+  for (const Chart* chart : mapped) made.rims += std::ssize(chart->rims);
+  if (options.method == ParameterizationMethod::harmonic) mapped.resize(1);  // others have no place of their own
+  measureMaps(laplacian.positions, mapped, owner, uv, made);
   copyToCoincident(laplacian, uv);
-  for (Eigen::Index i = 0; i < uv.rows(); ++i)
-    if (laplacian.status[i] == PointStatus::active && !uv.row(i).allFinite()) ++made.not_mapped;
+  made.not_mapped = uv.col(0).array().isNaN().count();
   made.seconds = watch.seconds();
   if (report != nullptr) *report = std::move(made);
   return uv;

@@ -21,6 +21,7 @@ namespace tufted {
 namespace {
 
 constexpr const char* function_name = "segments";
+constexpr int usual_count = 8;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 void checkArguments(const Laplacian& laplacian, const SegmentOptions& options, const Components& components) {
@@ -32,7 +33,8 @@ void checkArguments(const Laplacian& laplacian, const SegmentOptions& options, c
     throw InvalidInput(name + "Laplacian::positions has " + std::to_string(laplacian.positions.rows()) +
                        " rows, must have " + std::to_string(laplacian.status.size()) + ", one per point");
   }
-  if (options.count < 1) throw InvalidInput(name + "count = " + std::to_string(options.count) + ", must be at least 1");
+  if (options.count && *options.count < 1)
+    throw InvalidInput(name + "count = " + std::to_string(*options.count) + ", must be at least 1");
   std::vector<int> seen;
   for (const int seed : options.seeds) {
     if (seed < 0 || seed >= std::ssize(laplacian.status))
@@ -145,10 +147,11 @@ Segments voronoi(const Laplacian& laplacian, const SegmentOptions& options, cons
     return result;
   }
   Cells cells(laplacian, components, options.solver);
-  while (std::ssize(cells.seeds()) < options.count) {
+  while (std::ssize(cells.seeds()) < options.count.value_or(usual_count)) {
     const int seed = cells.farthest();
+    if (seed < 0 && !options.count) break;
     if (seed < 0)
-      throw InvalidInput(std::string(function_name) + ": count = " + std::to_string(options.count) +
+      throw InvalidInput(std::string(function_name) + ": count = " + std::to_string(*options.count) +
                          ", must be at most " + std::to_string(cells.seeds().size()) +
                          ", the number of different places");
     cells.addSeed(seed);
@@ -156,15 +159,14 @@ Segments voronoi(const Laplacian& laplacian, const SegmentOptions& options, cons
   return {.labels = cells.cells(), .areas = {}, .seeds = cells.seeds()};
 }
 
-Segments spectral(const Laplacian& laplacian, const SegmentOptions& options, const Components& components) {
+Segments spectral(const Laplacian& laplacian, int count, const SolverOptions& solver, const Components& components) {
   Segments result;
   result.labels.assign(laplacian.status.size(), -1);
-  if (options.count == 1) {
+  if (count == 1) {
     for (const int i : components.points) result.labels[i] = 0;
     return result;
   }
-  const SolverOptions& solver = options.solver;
-  const Spectrum found = spectrum(laplacian, options.count,
+  const Spectrum found = spectrum(laplacian, count,
                                   {.method = solver.method,
                                    .memory_limit = solver.memory_limit,
                                    .threads = solver.threads,
@@ -175,7 +177,7 @@ Segments spectral(const Laplacian& laplacian, const SegmentOptions& options, con
     if (found.vectors.row(i).norm() > 0) points.push_back(i);
   Eigen::MatrixXd rows = found.vectors(points, Eigen::all);
   rows.rowwise().normalize();
-  const std::vector<int> cluster = clusters(rows, laplacian.M(points), options.count);
+  const std::vector<int> cluster = clusters(rows, laplacian.M(points), count);
   for (std::size_t k = 0; k < points.size(); ++k) result.labels[points[k]] = cluster[k];
   return result;
 }
@@ -208,8 +210,15 @@ Segments segments(const Laplacian& laplacian, const SegmentOptions& options) {
   const Components components = findComponents(laplacian);
   checkArguments(laplacian, options, components);
   const bool is_spectral = options.method == SegmentMethod::spectral;
-  Segments result = is_spectral ? spectral(laplacian, options, components) : voronoi(laplacian, options, components);
-  finish(laplacian, is_spectral ? options.count : static_cast<int>(result.seeds.size()), result);
+  Segments result;
+  if (is_spectral) {
+    const int count = options.count ? *options.count : std::clamp(mostEigenpairs(laplacian), 1, usual_count);
+    result = spectral(laplacian, count, options.solver, components);
+    finish(laplacian, count, result);
+  } else {
+    result = voronoi(laplacian, options, components);
+    finish(laplacian, static_cast<int>(result.seeds.size()), result);
+  }
   result.seconds = watch.seconds();
   return result;
 }

@@ -7,11 +7,16 @@
 namespace tufted {
 namespace {
 
+template <class Function>
+Function* found(const char* name) {
+  return reinterpret_cast<Function*>(dlsym(RTLD_DEFAULT, name));
+}
+
 /// OpenBLAS keeps one number of threads for the whole process; it is put back when the last user leaves.
 struct Setting {
   // Looked up at run time, as Debian's alternatives decide which BLAS is used when the program starts.
-  int (*get)() = reinterpret_cast<int (*)()>(dlsym(RTLD_DEFAULT, "openblas_get_num_threads"));
-  void (*set)(int) = reinterpret_cast<void (*)(int)>(dlsym(RTLD_DEFAULT, "openblas_set_num_threads"));
+  int (*get)() = found<int()>("openblas_get_num_threads");
+  void (*set)(int) = found<void(int)>("openblas_set_num_threads");
   std::mutex mutex;
   int users = 0;
   int before = 1;
@@ -22,9 +27,26 @@ Setting& setting() {
   return instance;
 }
 
+/// OpenMP keeps for each thread how deep parallel regions may lie in one another: with 0 it starts no threads for them,
+/// whatever number they ask for. CHOLMOD asks for four.
+struct Nesting {
+  int (*get)() = found<int()>("omp_get_max_active_levels");
+  void (*set)(int) = found<void(int)>("omp_set_max_active_levels");
+};
+// Looked up when the library is loaded, as CHOLMOD's calls are bound then: later another OpenMP may come first.
+const Nesting nesting;
+
+/// Sets the depth, and returns the one before.
+int changeNesting(int levels) {
+  if (nesting.get == nullptr || nesting.set == nullptr) return levels;
+  const int before = nesting.get();
+  if (before != levels) nesting.set(levels);
+  return before;
+}
+
 }  // namespace
 
-SerialBlas::SerialBlas() {
+SerialBlas::SerialBlas() : nesting_(changeNesting(0)) {
   Setting& blas = setting();
   if (blas.get == nullptr || blas.set == nullptr) return;
   const std::lock_guard lock(blas.mutex);
@@ -34,6 +56,7 @@ SerialBlas::SerialBlas() {
 }
 
 SerialBlas::~SerialBlas() {
+  changeNesting(nesting_);
   Setting& blas = setting();
   if (blas.get == nullptr || blas.set == nullptr) return;
   const std::lock_guard lock(blas.mutex);

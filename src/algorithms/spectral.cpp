@@ -47,6 +47,9 @@ int exponentOf(double value) {
   return exponent;
 }
 
+/// The least width of the wave kernel: the logarithms of equal eigenvalues differ by rounding, and must count alike.
+constexpr double least_width = 1e-8;
+
 VectorXd logarithmic(double low, double high, int count) {
   if (count == 1) return VectorXd::Constant(1, std::exp((std::log(low) + std::log(high)) / 2));
   return VectorXd::LinSpaced(count, std::log(low), std::log(high)).array().exp();
@@ -91,8 +94,6 @@ VectorXd waveEnergies(const Spectrum& spectrum, int count) {
   if (count < 2) throw InvalidInput("waveEnergies: count = " + std::to_string(count) + ", must be at least 2");
   const Index first = firstPositive(spectrum, "waveEnergies");
   const double low = std::log(spectrum.values[first]), high = std::log(spectrum.values[spectrum.values.size() - 1]);
-  if (!(high > low))
-    throw InvalidInput("waveEnergies: spectrum has one positive eigenvalue alone, must have two that differ");
   return VectorXd::LinSpaced(count, low, high);
 }
 
@@ -114,7 +115,7 @@ MatrixXd waveKernelSignature(const Spectrum& spectrum, const VectorXd& energies,
 
 MatrixXd waveKernelSignature(const Spectrum& spectrum, int count) {
   const VectorXd energies = waveEnergies(spectrum, count);
-  return waveKernelSignature(spectrum, energies, 7 * (energies[1] - energies[0]));
+  return waveKernelSignature(spectrum, energies, std::max(7 * (energies[1] - energies[0]), least_width));
 }
 
 MatrixXd spectralEmbedding(const Spectrum& spectrum, Embedding embedding) {

@@ -253,15 +253,15 @@ Spectrum spectrum(const Laplacian& laplacian, int k, const SpectrumOptions& opti
   checkOptions(options);
   const Stopwatch watch;
   const Eigenproblem problem(laplacian);
-  const Index bound = problem.bound(options.null_space);
+  const Index most = problem.count(options.null_space);
   const std::string counted =
       std::string("active points of positive area") + (options.null_space ? "" : " without one per component");
-  if (bound < 2)
-    throw InvalidInput("spectrum: k = " + std::to_string(k) + ", and there are " + std::to_string(bound) + " " +
-                       counted + ", must be at least 2");
-  if (k < 1 || k >= bound)
-    throw InvalidInput("spectrum: k = " + std::to_string(k) + ", must be at least 1 and less than " +
-                       std::to_string(bound) + ", the number of " + counted);
+  if (most < 1)
+    throw InvalidInput("spectrum: k = " + std::to_string(k) + ", and there are no " + counted +
+                       ", must be at least one");
+  if (k < 1 || k > most)
+    throw InvalidInput("spectrum: k = " + std::to_string(k) + ", must be at least 1 and at most " +
+                       std::to_string(most) + ", the number of " + counted);
   Spectrum result{VectorXd::Zero(k), MatrixXd(problem.mass.size(), k), {}};
   const Index nulls = options.null_space ? std::min<Index>(k, problem.nulls()) : 0;
   result.report.null_space = static_cast<int>(nulls);
@@ -286,7 +286,7 @@ Spectrum spectrum(const Laplacian& laplacian, int k, const SpectrumOptions& opti
 
 int mostEigenpairs(const Laplacian& laplacian, bool null_space) {
   checkLaplacian("mostEigenpairs", laplacian);
-  return static_cast<int>(std::max<Index>(Eigenproblem(laplacian).bound(null_space) - 1, 0));
+  return static_cast<int>(Eigenproblem(laplacian).count(null_space));
 }
 
 }  // namespace tufted

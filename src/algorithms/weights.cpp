@@ -85,10 +85,7 @@ Eigen::MatrixXd boundedBiharmonicWeights(const Laplacian& laplacian, const std::
     if (handle[i] >= 0) has_handle[components.of[i]] = 1;
   std::vector<std::uint8_t> is_free(laplacian.status.size(), 0);
   for (const int i : components.points) {
-    if (has_handle[components.of[i]] == 0)
-      ++made.not_reached;
-    else if (handle[i] < 0)
-      is_free[i] = 1, ++made.free;
+    if (has_handle[components.of[i]] != 0 && handle[i] < 0) is_free[i] = 1, ++made.free;
   }
   const BoundedProblem problem(laplacian, components, options);
   Eigen::MatrixXd weights =
@@ -125,6 +122,7 @@ Eigen::MatrixXd boundedBiharmonicWeights(const Laplacian& laplacian, const std::
     weights.row(i) /= sum;
   }
   copyToCoincident(laplacian, weights);
+  made.not_reached = weights.col(0).array().isNaN().count();
   workers.report("done", 1);
   made.seconds = watch.seconds();
   if (report != nullptr) *report = made;

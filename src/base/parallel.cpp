@@ -1,5 +1,6 @@
 #include "base/parallel.h"
 
+#include <pthread.h>
 #include <tbb/global_control.h>
 #include <tbb/task_arena.h>
 #include <tbb/task_group.h>
@@ -41,9 +42,18 @@ int offeredThreads() {
   return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
 }
 
+/// Whether this process was forked after TBB had threads. It has none of them, but their locks as they were, some held
+/// for ever, so it does not use TBB.
+bool has_lost_threads = false;
+
 /// More than this never help, and each has working memory of its own.
 int mostThreads() {
   return std::max(16, 4 * offeredThreads());
+}
+
+int countFor(int threads) {
+  if (threads == 1 || has_lost_threads) return 1;
+  return std::max(1, std::min(threads > 0 ? threads : offeredThreads(), mostThreads()));
 }
 
 }  // namespace
@@ -52,7 +62,10 @@ int mostThreads() {
 /// the caller's thread does the work of all; OpenMP's would wait for each other, awake. Between two loops they stay
 /// with the team for a while: with a team for each loop it takes a tenth of a millisecond until they have come.
 struct Workers::Team : InWorkspace {
-  explicit Team(int count) : arena(std::min(count, offeredThreads())) {}  // TBB warns on stderr of more
+  explicit Team(int count) : arena(std::min(count, offeredThreads())) {  // TBB warns on stderr of more
+    static const int watched = pthread_atfork(nullptr, nullptr, [] { has_lost_threads = true; });
+    static_cast<void>(watched);
+  }
 
   /// Calls run(0) to run(count - 1), the first on this thread.
   template <class Run>
@@ -77,9 +90,7 @@ struct Workers::Team : InWorkspace {
 };
 
 Workers::Workers(int threads, const Progress& progress)
-    : count_(std::max(1, std::min(threads > 0 ? threads : offeredThreads(), mostThreads()))),
-      progress_(progress),
-      team_(count_ > 1 ? std::make_unique<Team>(count_) : nullptr) {}
+    : count_(countFor(threads)), progress_(progress), team_(count_ > 1 ? std::make_unique<Team>(count_) : nullptr) {}
 
 Workers::~Workers() = default;
 

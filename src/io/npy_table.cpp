@@ -192,6 +192,7 @@ class TableParser {
   /// Strides from the shape: all dimensions but that of the columns count items.
   void setShape() {
     std::vector<std::int64_t> shape = layout_.shape;
+    table_.dimensions = shape.size();
     if (has_members_ || (is_flat_ && shape.size() == 1)) shape.push_back(1);
     if (shape.size() < 2 || shape.size() > 3)
       refuse("is an array " + std::string(layout_.shape.empty() ? "" : "of ") + shapeText() + ", must be " +

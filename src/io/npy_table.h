@@ -27,6 +27,7 @@ struct NpyTable {
   std::vector<NpyColumn> members;      ///< of structures
   NpyColumn value;                     ///< the first value of each item of a plain array
   std::int64_t columns = 0;            ///< values of each item
+  std::size_t dimensions = 0;          ///< of the array
   std::int64_t width = 0, height = 1;  ///< H x W; height is 1 where there is one dimension of items
   std::size_t column_stride = 0, item_stride = 0, row_stride = 0;  ///< bytes from one to the next, of a plain array
   const char* values = nullptr;

@@ -4,6 +4,7 @@
 #include <bit>
 #include <cstdint>
 #include <cstring>
+#include <limits>
 #include <optional>
 
 #include "io/errors.h"
@@ -54,28 +55,33 @@ class BinaryOff {
     std::optional<Dialect> whole;
     for (const Dialect dialect : {standard, Dialect{false, false}, Dialect{true, true}, Dialect{true, false}}) {
       dialect_ = dialect;
-      if (!isWhole()) continue;
-      if (offset_ == bytes_.size()) return;
-      if (!whole) whole = dialect;
+      const std::optional<std::size_t> least = leastCorners();
+      if (!least) continue;
+      const bool are_polygons = *least >= 3;  // zeros look like faces without corners
+      const bool is_standard = !dialect.is_little_endian && dialect.has_face_colors;
+      if (offset_ == bytes_.size() && (are_polygons || is_standard)) return;
+      if (!whole && are_polygons) whole = dialect;
     }
     dialect_ = whole.value_or(standard);
   }
 
-  /// Whether all faces lie within the file and name vertices that there are.
-  bool isWhole() {
+  /// The least number of corners of a face; none where a face is not within the file or names a vertex that is not
+  /// there.
+  std::optional<std::size_t> leastCorners() {
+    std::size_t least = std::numeric_limits<std::size_t>::max();
     try {
       begin();
       offset_ += static_cast<std::size_t>(vertices_) * vertexBytes();
       for (std::int64_t f = 0; f < faces_; ++f) {
         const std::size_t corners = count(offset_, "corners");
-        if (corners < 3 && !dialect_.has_face_colors) return false;  // nobody writes those, and zeros look like them
+        least = std::min(least, corners);
         for (std::size_t c = 0; c < corners; ++c)
-          if (const std::int32_t vertex = integer(); vertex < 0 || vertex >= vertices_) return false;
+          if (const std::int32_t vertex = integer(); vertex < 0 || vertex >= vertices_) return std::nullopt;
         skipColor();
       }
-      return true;
+      return least;
     } catch (const IoError&) {
-      return false;
+      return std::nullopt;
     }
   }
 

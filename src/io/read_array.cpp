@@ -8,7 +8,7 @@
 Eigen::MatrixXd tufted::readArray(const std::filesystem::path& path) {
   const std::string bytes = io::readBytes(path);
   const io::NpyTable array = io::parseNpyTable(bytes, path, true);
-  if (array.height != 1) io::refuse(path, "is not an array of N or of N x c values");
+  if (array.dimensions > 2) io::refuse(path, "is not an array of N or of N x c values");
   if (array.end < bytes.size())
     io::refuseByte(path, array.end, std::to_string(bytes.size() - array.end) + " bytes behind the values of the array");
   Eigen::MatrixXd values(array.rows(), array.columns);

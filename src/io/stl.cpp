@@ -58,16 +58,26 @@ bool isBinary(std::string_view bytes) {
   return bytes.size() >= header_bytes && (bytes.size() - header_bytes) / facet_bytes >= binaryCount(bytes);
 }
 
+/// The first words of the first two lines.
+std::array<std::string, 2> firstWords(std::string_view bytes) {
+  const std::filesystem::path nowhere;
+  LineScanner scanner(nowhere, bytes.substr(0, most_of_name));
+  std::array<std::string, 2> words;
+  for (std::string& word : words)
+    if (scanner.next()) word = lower(scanner.tokens()[0]);
+  return words;
+}
+
 /// Binary files may begin with `solid` as well, and those that are cut off may be too short for their count. What is
 /// text but has another first word is taken for text, to name that word.
 bool isAscii(std::string_view bytes) {
   if (isBinary(bytes)) return false;
+  const auto [first, second] = firstWords(bytes);
+  if (first == "solid" && isOneOf(second, {"facet", "endsolid", "end"})) return true;
   const std::string_view start = bytes.substr(0, most_of_name);
-  if (start.find('\0') != std::string_view::npos) return false;
-  const auto tokens = firstTokens(start, {});
-  return (!tokens.empty() && lower(tokens[0]) == "solid") || std::all_of(start.begin(), start.end(), [](char c) {
-           return (c >= ' ' && c <= '~') || (c >= '\t' && c <= '\r');
-         });
+  if (first == "solid") return start.find('\0') == std::string_view::npos;
+  return std::all_of(start.begin(), start.end(),
+                     [](char c) { return (c >= ' ' && c <= '~') || (c >= '\t' && c <= '\r'); });
 }
 
 /// @returns where the last triangle ends
@@ -127,8 +137,7 @@ bool readAscii(LineScanner& scanner, Soup& soup) {
 }  // namespace
 
 bool looksLikeStl(std::string_view bytes) {
-  const auto tokens = firstTokens(bytes.substr(0, most_of_name), {});
-  if (!isBinary(bytes)) return !tokens.empty() && lower(tokens[0]) == "solid" && isAscii(bytes);
+  if (!isBinary(bytes)) return firstWords(bytes)[0] == "solid" && isAscii(bytes);
   return bytes.size() - header_bytes - facet_bytes * binaryCount(bytes) < facet_bytes;
 }
 

@@ -105,7 +105,8 @@ py::tuple parameterized(const Laplacian& laplacian, const Integers& faces, const
     options.solver = solving.options(called);
     return Eigen::MatrixXd(parameterize(laplacian, triangles, options, &report));
   });
-  return py::make_tuple(std::move(uv), report.quasi_conformal_error, report.triangles, report.flipped);
+  return py::make_tuple(std::move(uv), report.quasi_conformal_error, report.triangles, report.flipped, report.collapsed,
+                        report.not_mapped);
 }
 
 py::tuple minimal(const Laplacian& laplacian, const Integers& faces, const Integers& fixed, double tolerance,

@@ -53,8 +53,8 @@ py::tuple curvature(const Laplacian& laplacian, Points normals, Points tangents,
                         std::move(found.first), std::move(found.second));
 }
 
-py::tuple segmentsOf(const Laplacian& laplacian, const std::string& method, int count, const Integers& seeds,
-                     const Solving& solving, const py::object& progress) {
+py::tuple segmentsOf(const Laplacian& laplacian, const std::string& method, std::optional<int> count,
+                     const Integers& seeds, const Solving& solving, const py::object& progress) {
   SegmentOptions options = {
       .method = chosen<SegmentMethod>("segments: method", method,
                                       {{"voronoi", SegmentMethod::voronoi}, {"spectral", SegmentMethod::spectral}}),

@@ -151,6 +151,19 @@ TEST(FilterSignals, LeavesOddPointsAndMovesCopiesTogether) {
   EXPECT_EQ(spectralEmbedding(found).row(1000), spectralEmbedding(found).row(5));
 }
 
+TEST(WaveKernelSignature, OfEqualEigenvaluesIsTheMeanOfAll) {
+  // The three positive eigenvalues of a regular tetrahedron are equal, and the squares of vectors have the mean 1 / M
+  // less that of the constant.
+  const shapes::Mesh mesh = shapes::tetrahedron();
+  const Laplacian laplacian = meshLaplacian(mesh.points, mesh.triangles);
+  const Spectrum found = spectrum(laplacian, 3, {.null_space = false});
+  const MatrixXd expected =
+      ((laplacian.M.cwiseInverse().array() - 1 / laplacian.M.sum()) / 3).matrix().replicate(1, 100);
+  EXPECT_TRUE(waveKernelSignature(found).isApprox(expected, 1e-9));
+  const Spectrum one = spectrum(laplacian, 1, {.null_space = false});
+  EXPECT_TRUE(waveKernelSignature(one).isApprox(one.vectors.cwiseAbs2().replicate(1, 100), 1e-12));
+}
+
 TEST(Spectral, NamesWhatACallerGotWrong) {
   const Laplacian laplacian = pointCloudLaplacian(shapes::sphere(500).points);
   const Spectrum found = spectrum(laplacian, 5), constant = spectrum(laplacian, 1);

@@ -242,9 +242,9 @@ TEST(Spectrum, NamesWhatACallerGotWrong) {
     return std::string("accepted");
   };
   EXPECT_EQ(refusal(laplacian, 0),
-            "spectrum: k = 0, must be at least 1 and less than 500, the number of active points of positive area");
-  EXPECT_NE(refusal(laplacian, 500), "accepted");
-  EXPECT_NE(refusal(laplacian, 499, {.null_space = false}).find("less than 499, "), std::string::npos);
+            "spectrum: k = 0, must be at least 1 and at most 500, the number of active points of positive area");
+  EXPECT_NE(refusal(laplacian, 501), "accepted");
+  EXPECT_NE(refusal(laplacian, 500, {.null_space = false}).find("at most 499, "), std::string::npos);
   EXPECT_NE(refusal(pointCloudLaplacian(Points(0, 3)), 1), "accepted");
   EXPECT_EQ(refusal(laplacian, 5, {.tolerance = 1}), "spectrum: tolerance = 1, must lie in (0, 1)");
   EXPECT_EQ(refusal(laplacian, 5, {.max_iterations = 0}), "spectrum: max_iterations = 0, must be at least 1");
@@ -254,6 +254,19 @@ TEST(Spectrum, NamesWhatACallerGotWrong) {
   EXPECT_EQ(refusal(wrong, 5), "spectrum: M has values that are negative or not finite, must have none");
   wrong.M.conservativeResize(499);
   EXPECT_NE(refusal(wrong, 5), "accepted");
+}
+
+TEST(Spectrum, GivesAllPairsThatThereAre) {
+  const Laplacian laplacian = pointCloudLaplacian(shapes::sphere(300).points);
+  const double trace = laplacian.L.diagonal().cwiseQuotient(laplacian.M).sum();
+  for (const int dense_limit : {0, 3000}) {
+    const Spectrum positive = spectrum(laplacian, 299, {.dense_limit = dense_limit, .null_space = false});
+    EXPECT_EQ(positive.report.method, dense_limit == 0 ? "block Lanczos" : "dense");
+    EXPECT_GT(positive.values[0], 0);
+    EXPECT_NEAR(positive.values.sum(), trace, 1e-9 * trace) << dense_limit;
+    const Spectrum all = spectrum(laplacian, 300, {.dense_limit = dense_limit});
+    EXPECT_EQ(all.values.tail(299), positive.values);
+  }
 }
 
 TEST(Spectrum, FailsTypedWhereItCannotBeFound) {
@@ -300,7 +313,7 @@ TEST(MostEigenpairs, IsTheLargestCountThatSpectrumTakes) {
   laplacian.report.components = 1;
   for (const bool null_space : {true, false}) {
     const int most = mostEigenpairs(laplacian, null_space);
-    EXPECT_EQ(most, null_space ? 7 : 5);
+    EXPECT_EQ(most, null_space ? 8 : 6);
     EXPECT_EQ(spectrum(laplacian, most, {.null_space = null_space}).values.size(), most);
     EXPECT_THROW(spectrum(laplacian, most + 1, {.null_space = null_space}), InvalidInput);
   }

@@ -121,7 +121,7 @@ TEST(BoundedWeights, OfOddCloudsAreDefined) {
   EXPECT_EQ(weights(7, 0), 1);
   EXPECT_TRUE(weights.middleRows(1000, 500).array().isNaN().all());
   EXPECT_TRUE(weights.bottomRows(2).array().isNaN().all());
-  EXPECT_EQ(report.not_reached, 500);
+  EXPECT_EQ(report.not_reached, weights.col(0).array().isNaN().count());
   // Handles on both components: each knows only its own.
   const MatrixXd both = boundedBiharmonicWeights(laplacian, {{3}, {9}, {1200}});
   EXPECT_TRUE(both.topRows(1000).col(2).isZero(0));

@@ -125,11 +125,12 @@ TEST_F(ApplicationCommands, CountsAreCheckedBeforeTheBuild) {
   const std::string cloud = dir_.write("sphere.xyz", sphere(100));
   // A build with --normals fails, as the file has none.
   for (const std::string command : {"spectrum", "hks", "operators"}) {
-    expectRefusal({command, cloud, "--normals", "--count", "99"}, "--normals", 1);
-    expectRefusal({command, cloud, "--normals", "--count", "100"}, "--count = 100, must be less than 100");
+    const std::string most = command == "operators" ? "100" : "99", more = command == "operators" ? "101" : "100";
+    expectRefusal({command, cloud, "--normals", "--count", most}, "--normals", 1);
+    expectRefusal({command, cloud, "--normals", "--count", more}, "--count = " + more + ", must be at most " + most);
   }
   expectRefusal({"embed", cloud, "--normals", "--dimension", "100"}, "--dimension = 100");
-  expectRefusal({"filter", cloud, "--normals", "--positions"}, "--count = 100");
+  expectRefusal({"filter", cloud, "--normals", "--positions", "--count", "100"}, "--count = 100");
   expectRefusal({"filter", cloud, "--normals", "--positions", "--wavelength", "1"}, "--normals", 1);
 }
 

@@ -58,6 +58,24 @@ TEST_F(MovedPoints, ParameterizeWritesTheMapAndHowGoodItIs) {
   EXPECT_EQ(uv[2 * 72 + 1], 0);
 }
 
+TEST_F(MovedPoints, ParameterizeCountsEveryPointThatHasNoPlace) {
+  // A square, points that no triangle names, and one that is not finite; then also a closed surface.
+  const std::string beside = "0 0 0\n1 0 0\n1 1 0\n0 1 0\n5 5 5\n6 6 6\nnan 0 0\n", faces = "3 0 1 2\n3 0 2 3\n";
+  const std::string square = dir_.write("square.off", "OFF\n7 2 0\n" + beside + faces);
+  const std::string parts = dir_.write("parts.off", "OFF\n11 6 0\n" + beside + "8 0 0\n9 0 0\n8 1 0\n8 0 1\n" + faces +
+                                                        "3 7 9 8\n3 7 8 10\n3 8 9 10\n3 9 7 10\n");
+  const auto nans = [&](const std::string& file) {
+    const std::vector<double> found = values(file);
+    return std::count_if(found.begin(), found.end(), [](double value) { return std::isnan(value); });
+  };
+  EXPECT_TRUE(contains(run({"parameterize", square, "--out", in("map")}).out, "3 points, which are NaN"));
+  EXPECT_EQ(report("map")["report"]["not_mapped"], 3);
+  EXPECT_EQ(nans("map/uv.npy"), 2 * 3);
+  run({"weights", parts, "--handle", "0", "--handle", "2", "--out", in("weights")});
+  EXPECT_EQ(report("weights")["report"]["not_reached"], 7);
+  EXPECT_EQ(nans("weights/weights.npy"), 2 * 7);
+}
+
 TEST_F(MovedPoints, ParameterizeRefusesWhatItCannotLayOut) {
   expectRefusal({"parameterize", closed_}, "is closed, must have a rim", 1);
   expectRefusal({"parameterize", cloud_}, "is closed, must have a rim", 1);

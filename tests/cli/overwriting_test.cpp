@@ -160,8 +160,8 @@ TEST_F(Overwriting, NoOutputIsAnInputByWhateverWay) {
     if (place - reading.words.begin() > 1) options.insert(*(place - 1));
   }
   // Every option of any subcommand that names a file is among them.
-  for (const Words& words : readings) {
-    std::istringstream lines(runTufted({words[0], "--help"}).out);
+  for (const Reading& reading : readings) {
+    std::istringstream lines(runTufted({reading.words[0], "--help"}).out);
     for (std::string line; std::getline(lines, line);) {
       const bool names_input = contains(line, " TEXT ") || contains(line, " NPY ");
       const std::size_t begin = line.find("--");

@@ -295,7 +295,7 @@ std::vector<Malformed> malformedFiles() {
       {"padding_bomb.pcd", paddingBomb(), "byte 118: the compressed data hold 601 bytes"},
       {"overflow.pcd", overflowing(), "too short for 1073741824 points of 17179869196 bytes"},
       {"zeros.stl", std::string(1000, '\0'), "byte 84: 916 zero bytes behind a header that counts no points"},
-      {"glued.off", "OFF3 1\n0 0 0\n", "line 3: ends after 1 of 3 vertices"},
+      {"glued.off", "OFF3 1\n0.00000 0.00000 0.00000\n", "line 2: ends after 1 of 3 vertices"},
       {"glued_word.off", "OFFSET 3\n", "line 1: the header does not begin"},
       {"names.csv", "x,y\n1,2\n", "line 1"},
       {"others.csv", "a,b,c\n1,2,3\n", "line 1: has no fields x, y, z; has 'a', 'b', 'c'"},

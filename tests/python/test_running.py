@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 import tufted
-from support import sphere
+from support import sphere, torus_mesh
 
 LONG = """
 import numpy, sys, tufted
@@ -134,3 +134,37 @@ def test_memory_is_flat_over_hundreds_of_builds():
     for _ in range(400):
         use()
     assert memory() - before < 3.2e6
+
+
+SETTINGS = {  # methods that keep what is costly, each with settings of which every value needs another
+    "spectrum": lambda mesh, i: mesh.spectrum(4 + i),
+    "hks": lambda mesh, i: mesh.hks(k=4 + i),
+    "operators": lambda mesh, i: mesh.operators(4 + i),
+    "embed": lambda mesh, i: mesh.embed(2 + i),
+    "gradients": lambda mesh, i: mesh.gradients(regularization=1e-5 * i),
+    "distance": lambda mesh, i: mesh.distance(0, maximum=1 + 0.1 * i),
+    "split": lambda mesh, i: mesh.distance(0, split=i % 3),
+    "heat": lambda mesh, i: mesh.distance(0, method="heat", time_step=1 + 0.1 * i),
+    "nearest_source": lambda mesh, i: mesh.nearest_source([0, 9], maximum=1 + 0.1 * i),
+    "extend": lambda mesh, i: mesh.extend([0, 9], [1.0, 2.0], time_step=1 + 0.1 * i),
+    "transport": lambda mesh, i: mesh.transport(0, [1, 2, 3], time_step=1 + 0.1 * i),
+    "log_map": lambda mesh, i: mesh.log_map(0, time_step=1 + 0.1 * i),
+    "signed_distance": lambda mesh, i: mesh.signed_distance([[0, 20, 40]], time_step=1 + 0.1 * i),
+    "harmonic": lambda mesh, i: mesh.harmonic({0: 1.0, 9 + i: 2.0}),
+    "poisson": lambda mesh, i: mesh.poisson(mesh.M, {0: 1.0, 9 + i: 2.0}),
+    "smooth": lambda mesh, i: mesh.smooth(time_step=1 + 0.1 * i),
+    "deform": lambda mesh, i: mesh.deform([0, 9 + i], np.zeros((2, 3)), method="linear"),
+    "normals": lambda mesh, i: mesh.normals(viewpoint=[i, 2, 3]),
+}
+
+
+@pytest.mark.parametrize("name", SETTINGS)
+def test_memory_is_flat_over_the_values_of_a_setting(name):
+    mesh = tufted.Mesh(*torus_mesh(100, 50), threads=1)
+    for i in range(10):
+        SETTINGS[name](mesh, i)
+    before, kept = memory(), len(mesh._kept)
+    for i in range(10, 40):
+        SETTINGS[name](mesh, i)
+    assert len(mesh._kept) == kept
+    assert memory() - before < 4e6  # two vectors of eigenpairs, which grow; solvers take that each

@@ -240,8 +240,10 @@ def grid(n):
 def test_a_plane_is_laid_out_as_it_is():
     points, faces = grid(12)
     mesh = tufted.Mesh(points, faces)
-    uv, error, triangles, flipped = mesh.parameterize()
-    assert error == pytest.approx(1, abs=1e-8) and triangles == len(faces) and flipped == 0
+    uv, error, triangles, flipped, collapsed, not_mapped = mesh.parameterize()
+    assert error == pytest.approx(1, abs=1e-8) and triangles == len(faces) and flipped == collapsed == not_mapped == 0
+    with_others = tufted.Mesh(np.vstack([points, [[9, 9, 9], [np.nan] * 3]]), faces).parameterize()
+    assert with_others.not_mapped == 2 and np.isnan(with_others.uv[-2:]).all()
     lengths = np.linalg.norm(np.diff(points[::12], axis=0), axis=1)
     np.testing.assert_allclose(np.linalg.norm(np.diff(uv[::12], axis=0), axis=1), lengths, rtol=1e-7)
     rim = np.concatenate([np.arange(0, 144, 12), 132 + np.arange(1, 12), np.arange(131, 0, -12), np.arange(10, 0, -1)])

@@ -5,6 +5,7 @@
 
 #include "command.h"
 #include "console.h"
+#include "inactive.h"
 #include "input.h"
 #include "interrupt.h"
 #include "look.h"

@@ -44,9 +44,10 @@ void addSpectrumFolder(CLI::App& command, Eigenpairs& pairs) {
 
 void checkPairs(const Eigenpairs& pairs, const Operator& source) {
   if (pairs.folder.empty()) {
-    if (pairs.count < source.points()) return;
-    throw tufted::InvalidInput(pairs.option + " = " + std::to_string(pairs.count) + ", must be less than " +
-                               std::to_string(source.points()) + ", the number of points");
+    const int most = source.points() - (pairs.has_zeros ? 0 : 1);
+    if (!pairs.is_given || pairs.count <= most) return;
+    throw tufted::InvalidInput(pairs.option + " = " + std::to_string(pairs.count) + ", must be at most " +
+                               std::to_string(most) + ", of " + std::to_string(source.points()) + " points");
   }
   const std::vector<std::string> files = tufted::filesOfResult(pairs.folder);
   for (const char* name : {"evals.npy", "evecs.npy"})
@@ -55,10 +56,15 @@ void checkPairs(const Eigenpairs& pairs, const Operator& source) {
                             ", which `tufted spectrum` writes");
 }
 
+int countOf(const Eigenpairs& pairs, const Operator& source, bool null_space) {
+  if (pairs.is_given) return pairs.count;
+  return std::clamp(tufted::mostEigenpairs(source.laplacian, null_space), 1, pairs.count);
+}
+
 tufted::Spectrum computedPairs(const Eigenpairs& pairs, int count, const Operator& source,
                                const tufted::SpectrumOptions& options) {
-  return forOption(pairs.option + " " + std::to_string(pairs.count),
-                   [&] { return tufted::spectrum(source.laplacian, count, options); });
+  const auto compute = [&] { return tufted::spectrum(source.laplacian, count, options); };
+  return pairs.is_given ? forOption(pairs.option + " " + std::to_string(pairs.count), compute) : compute();
 }
 
 tufted::Spectrum readPositivePairs(const Eigenpairs& pairs, const Operator& source) {
@@ -77,11 +83,11 @@ tufted::Spectrum positivePairs(const Eigenpairs& pairs, const Operator& source) 
   }
   tufted::SpectrumOptions options = source.spectrumOptions();
   options.null_space = false;
-  return computedPairs(pairs, pairs.count, source, options);
+  return computedPairs(pairs, countOf(pairs, source, false), source, options);
 }
 
 tufted::Spectrum firstPairs(const Eigenpairs& pairs, const Operator& source) {
-  if (pairs.folder.empty()) return computedPairs(pairs, pairs.count, source, source.spectrumOptions());
+  if (pairs.folder.empty()) return computedPairs(pairs, countOf(pairs, source, true), source, source.spectrumOptions());
   tufted::Spectrum positive = readPositivePairs(pairs, source);
   const int nulls = nullSpace(source.laplacian);
   if (nulls == 0) return positive;

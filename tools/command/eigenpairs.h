@@ -11,9 +11,10 @@
 
 /// Which eigenpairs, as the options of a command state it.
 struct Eigenpairs {
-  int count = 0;                      ///< how many; the default of the command, until the user gives another
+  int count = 0;  ///< how many; the default of the command, of which there may be fewer, until the user gives another
   std::string option = {};            ///< name of the option that sets it
   bool is_given = false;              ///< whether the user gave it
+  bool has_zeros = false;             ///< whether the eigenvalues 0 are among them
   std::filesystem::path folder = {};  ///< given by --spectrum; empty: they are computed
 };
 
@@ -27,7 +28,9 @@ void addSpectrumFolder(CLI::App& command, Eigenpairs& pairs);
 /// @throws InvalidInput naming the option; IoError naming the file that is missing
 void checkPairs(const Eigenpairs& pairs, const Operator& source);
 
-/// So many first pairs, computed. @throws InvalidInput naming the option where there are fewer
+/// How many pairs to compute: those that the user asks for, or the default where there are as many.
+int countOf(const Eigenpairs& pairs, const Operator& source, bool null_space);
+/// So many first pairs, computed. @throws InvalidInput naming the option, if it is given, where there are fewer
 tufted::Spectrum computedPairs(const Eigenpairs& pairs, int count, const Operator& source,
                                const tufted::SpectrumOptions& options);
 /// The pairs of positive eigenvalues. Of a folder all that it has, if the user gave no number.

@@ -150,7 +150,7 @@ void addFilter(CLI::App& app, Run& run) {
   addSignalOptions(*command, settings->signals, "What to filter");
   command->add_flag("--positions", settings->positions, "Filter the positions of the points");
   CLI::Option* const count = addCount(*command, settings->pairs, "--count", 1,
-                                      "Number of eigenvectors, those of eigenvalue 0 not counted (100)");
+                                      "Number of eigenvectors, those of eigenvalue 0 not counted (100, or all)");
   addSpectrumFolder(*command, settings->pairs);
   addNumber(*command, "--wavelength", settings->wavelength, std::numeric_limits<double>::min(),
             std::numeric_limits<double>::max(), "Keep waves that are at least so long")

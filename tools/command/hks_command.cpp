@@ -123,7 +123,7 @@ Results compute(Settings& settings, Operator& source) {
 void addHks(CLI::App& app, Run& run) {
   using namespace hks_command;
   const auto [command, settings] = addOperatorCommand<Settings>(app, run, "hks", description, footer, compute, check);
-  addCount(*command, settings->pairs, "--count", 2, "Number of positive eigenvalues (100)");
+  addCount(*command, settings->pairs, "--count", 2, "Number of positive eigenvalues (100, or all)");
   addSpectrumFolder(*command, settings->pairs);
   CLI::Option* const samples =
       addNumber(*command, "--samples", settings->samples, 2, 1 << 16, "Times (16), or energies with --wave (100)")

@@ -33,7 +33,7 @@ has written, with the points (of meshes points.ply, which has the triangles).)";
 
 struct Settings {
   OperatorSettings source;
-  Eigenpairs pairs = {.count = 128};
+  Eigenpairs pairs = {.count = 128, .has_zeros = true};
   tufted::GradientOptions gradients;
 
   std::vector<std::string> files() const { return {"operators.npz"}; }
@@ -92,7 +92,7 @@ void addOperators(CLI::App& app, Run& run) {
   using namespace operators_command;
   const auto [command, settings] =
       addOperatorCommand<Settings>(app, run, "operators", description, footer, compute, check);
-  addCount(*command, settings->pairs, "--count", 1, "Number of eigenvalues, those that are 0 among them (128)");
+  addCount(*command, settings->pairs, "--count", 1, "Number of eigenvalues, those that are 0 among them (128, or all)");
   addSpectrumFolder(*command, settings->pairs);
   addNumber(*command, "--gradient-neighbors", settings->gradients.neighbors, 0, 10'000,
             "Neighbors in the fits of gradients, 0 for those in L (30 for clouds, 0 for meshes)")

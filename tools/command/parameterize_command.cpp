@@ -26,13 +26,15 @@ constexpr const char* footer =
              each other. A part has the area that it has on the surface.
   harmonic   the rim lies on a circle of radius 1, or where --rim puts it; each point is a mean of its neighbours, by
              the weights of L or by mean-value weights, which flip no triangle. The surface must be a disk.
-Of a cloud the triangles are those that `tufted view` shows. A closed or one-sided surface is refused.
+Of a cloud the triangles are those that `tufted view` shows. A closed or one-sided surface is refused, and conformal
+maps of tubes so long that triangles collapse: cut them open along their length.
 --rim is a text file of lines INDEX or INDEX U V, the points of the rim in order.
 
 Writes into DIR, renamed one after the other when all are complete:
   uv.npy       N x 2, float64; NaN at points that take no part, or in parts that no plane can hold
   points.ply   the points with the field uv, float32; points.pcd with --format pcd
-  report.json  method, charts, rims, flipped triangles, quasi_conformal_error (1: angles are kept), residual, seconds
+  report.json  method, charts, rims, flipped and collapsed triangles, quasi_conformal_error (1: angles are kept),
+               residual, seconds
 FILE and the options of building are those of `tufted laplacian`; --operator takes what that has written of a cloud
 with --format npz,ply,cover.)";
 
@@ -94,6 +96,7 @@ Results compute(Settings& settings, Operator& source) {
                               {"charts", made.charts},
                               {"closed", made.closed},
                               {"nonorientable", made.nonorientable},
+                              {"collapsed_charts", made.collapsed_charts},
                               {"cut", made.cut},
                               {"nonmanifold", made.nonmanifold},
                               {"rims", made.rims},
@@ -101,6 +104,7 @@ Results compute(Settings& settings, Operator& source) {
                               {"not_mapped", made.not_mapped},
                               {"triangles", made.triangles},
                               {"flipped", made.flipped},
+                              {"collapsed", made.collapsed},
                               {"quasi_conformal_error", made.quasi_conformal_error},
                               {"iterations", made.iterations},
                               {"residual", made.residual},
@@ -108,8 +112,8 @@ Results compute(Settings& settings, Operator& source) {
                               {"seconds", made.seconds}};
   results.summary.add("charts", "%lld, with %lld rims", static_cast<long long>(made.charts),
                       static_cast<long long>(made.rims));
-  results.summary.add("triangles", "%lld, %lld flipped", static_cast<long long>(made.triangles),
-                      static_cast<long long>(made.flipped));
+  results.summary.add("triangles", "%lld, %lld flipped, %lld collapsed", static_cast<long long>(made.triangles),
+                      static_cast<long long>(made.flipped), static_cast<long long>(made.collapsed));
   results.summary.add("angles", "quasi-conformal error %.4f, 1 where they are kept", made.quasi_conformal_error);
   results.summary.add("not mapped", "%lld points, which are NaN", static_cast<long long>(made.not_mapped));
   results.arrays = {{.name = "uv", .values = uv}};

@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -61,11 +62,14 @@ void check(Settings& settings, const Operator& source) {
 Results compute(Settings& settings, Operator& source) {
   Results results;
   settings.options.solver = source.solverOptions();
-  const std::string option =
-      settings.seeds.empty() ? "--count " + std::to_string(settings.options.count) : "--seeds " + settings.seeds;
-  forOption(option, [&] { requireTakingPart(settings.options.seeds, source); });
-  const tufted::Segments found =
-      forOption(option, [&] { return tufted::segments(source.laplacian, settings.options); });
+  const std::optional<int>& count = settings.options.count;
+  const auto compute = [&] {
+    requireTakingPart(settings.options.seeds, source);
+    return tufted::segments(source.laplacian, settings.options);
+  };
+  const tufted::Segments found = !settings.seeds.empty() ? forOption("--seeds " + settings.seeds, compute)
+                                 : count                 ? forOption("--count " + std::to_string(*count), compute)
+                                                         : compute();
   const bool is_spectral = settings.options.method == tufted::SegmentMethod::spectral;
   Eigen::VectorXd labels(std::ssize(found.labels));
   long long without = 0;
@@ -94,7 +98,7 @@ void addSegment(CLI::App& app, Run& run) {
       addOperatorCommand<Settings>(app, run, "segment", description, footer, compute, check);
   settings->source.needs_cover = true;
   CLI::Option* const count = addNumber(*command, "--count", settings->options.count, 1, std::numeric_limits<int>::max(),
-                                       "Number of segments (8)")
+                                       "Number of segments (8, or as many as there can be)")
                                  ->type_name("K");
   command->add_option("--seeds", settings->seeds, "Points whose cells are the segments")
       ->check(notEmpty)

@@ -46,7 +46,7 @@ Results compute(Settings& settings, Operator& source) {
   tufted::SpectrumOptions options = source.spectrumOptions();
   options.tolerance = settings.tolerance;
   options.null_space = settings.with_null_space;
-  const int nulls = nullSpace(source.laplacian), count = settings.pairs.count;
+  const int nulls = nullSpace(source.laplacian), count = countOf(settings.pairs, source, false);
   tufted::Spectrum spectrum =
       computedPairs(settings.pairs, count + (settings.with_null_space ? nulls : 0), source, options);
   Results results;
@@ -67,7 +67,7 @@ void addSpectrum(CLI::App& app, Run& run) {
   using namespace spectrum_command;
   const auto [command, settings] =
       addOperatorCommand<Settings>(app, run, "spectrum", description, footer, compute, check);
-  addCount(*command, settings->pairs, "--count", 1, "Number of positive eigenvalues (32)");
+  addCount(*command, settings->pairs, "--count", 1, "Number of positive eigenvalues (32, or all)");
   command->add_flag("--with-null-space", settings->with_null_space, "Write the eigenvalues 0 as well, first");
   addNumber(*command, "--tolerance", settings->tolerance, 1e-15, 0.5, "Relative accuracy of vectors (1e-10)")
       ->type_name("T");

@@ -54,6 +54,8 @@ class Parameterization(NamedTuple):
     quasi_conformal_error: float
     triangles: int
     flipped: int
+    collapsed: int
+    not_mapped: int
 
 class MinimalSurface(NamedTuple):
     points: _Floats
@@ -96,7 +98,7 @@ class Surface:
     @property
     def report(self) -> dict[str, Any]: ...
     def __len__(self) -> int: ...
-    def spectrum(self, k: int = 32, *, null_space: bool = True, tolerance: float = 1e-10,
+    def spectrum(self, k: int | None = None, *, null_space: bool = True, tolerance: float = 1e-10,
                  progress: _Progress = None) -> Spectrum: ...
     def hks(self, times: npt.ArrayLike | None = None, *, k: int = 100, samples: int = 16,
             spectrum: Spectrum | tuple[npt.ArrayLike, npt.ArrayLike] | None = None,
@@ -104,7 +106,7 @@ class Surface:
     def wks(self, energies: npt.ArrayLike | None = None, *, width: float | None = None, k: int = 100,
             samples: int = 100, spectrum: Spectrum | tuple[npt.ArrayLike, npt.ArrayLike] | None = None,
             progress: _Progress = None) -> _Floats: ...
-    def embed(self, dimension: int = 3, *, distance: Literal["commute", "biharmonic"] = "commute",
+    def embed(self, dimension: int | None = None, *, distance: Literal["commute", "biharmonic"] = "commute",
               progress: _Progress = None) -> _Floats: ...
     def filter(self, values: npt.ArrayLike, *, k: int = 100, gain: Callable[[float], float] | None = None,
                spectrum: Spectrum | tuple[npt.ArrayLike, npt.ArrayLike] | None = None,
@@ -142,12 +144,12 @@ class Surface:
                   progress: _Progress = None) -> Gradients: ...
     def divergence(self, vectors: npt.ArrayLike, *, neighbors: int | None = None, regularization: float = 0.0,
                    progress: _Progress = None) -> _Floats: ...
-    def operators(self, k: int = 128, *, neighbors: int | None = None, regularization: float = 0.0,
+    def operators(self, k: int | None = None, *, neighbors: int | None = None, regularization: float = 0.0,
                   progress: _Progress = None) -> dict[str, Any]: ...
     def normals(self, *, viewpoint: npt.ArrayLike | None = None, up: npt.ArrayLike | None = None,
                 progress: _Progress = None) -> _Floats: ...
     def curvature(self, *, method: Literal["fit", "laplacian"] = "fit", progress: _Progress = None) -> Curvature: ...
-    def segments(self, count: int = 8, *, method: Literal["voronoi", "spectral"] = "voronoi",
+    def segments(self, count: int | None = None, *, method: Literal["voronoi", "spectral"] = "voronoi",
                  seeds: npt.ArrayLike | None = None, progress: _Progress = None) -> Segments: ...
     def smooth(self, points: npt.ArrayLike | None = None, *, method: Literal["implicit", "taubin"] = "implicit",
                time_step: float = 1.0, lambda_: float = 0.5, mu: float = -0.53, iterations: int = 1,

@@ -80,8 +80,8 @@ class Distances:
         table, flat = check.columns("extend", "values", values, where.size)
         time_step = check.number("extend", "time_step", time_step)
         progress = check.callback("extend", progress)
-        solver = self._keep(("extend", time_step), lambda: _tufted.ExtensionSolver(
-            self._laplacian, time_step, self._solver(), progress))
+        solver = self._keep("extend", lambda: _tufted.ExtensionSolver(
+            self._laplacian, time_step, self._solver(), progress), time_step)
         result = solver.query(where, table, progress)
         return result[:, 0] if flat else result
 
@@ -95,8 +95,8 @@ class Distances:
         vectors = check.rows_of_three("transport", "vectors", np.atleast_2d(vectors), where.size)
         time_step = check.number("transport", "time_step", time_step)
         progress = check.callback("transport", progress)
-        solver = self._keep(("transport", time_step), lambda: _tufted.TransportSolver(
-            self._laplacian, *self._frame_parts(), time_step, self._solver(), progress))
+        solver = self._keep("transport", lambda: _tufted.TransportSolver(
+            self._laplacian, *self._frame_parts(), time_step, self._solver(), progress), time_step)
         return solver.query(where, vectors, progress)
 
     def log_map(self, source, *, axis=None, time_step=4.0, progress=None):
@@ -113,8 +113,8 @@ class Distances:
         time_step = check.number("log_map", "time_step", time_step)
         progress = check.callback("log_map", progress)
         axis = np.zeros(3) if axis is None else check.vector_of_three("log_map", "axis", axis)
-        solver = self._keep(("log_map", time_step), lambda: _tufted.LogMapSolver(
-            self._laplacian, *self._signed_frames(), time_step, self._solver(), progress))
+        solver = self._keep("log_map", lambda: _tufted.LogMapSolver(
+            self._laplacian, *self._signed_frames(), time_step, self._solver(), progress), time_step)
         coordinates, first, second = solver.query(int(where[0]), axis, progress)
         return LogMap(coordinates, np.vstack([first, second]))
 
@@ -129,8 +129,8 @@ class Distances:
         where = check.indices("signed_distance", "curve", curve, len(self))
         time_step = check.number("signed_distance", "time_step", time_step)
         progress = check.callback("signed_distance", progress)
-        solver = self._keep(("signed_distance", time_step), lambda: _tufted.SignedDistanceSolver(
-            self._laplacian, *self._signed_frames(), time_step, self._solver(), progress))
+        solver = self._keep("signed_distance", lambda: _tufted.SignedDistanceSolver(
+            self._laplacian, *self._signed_frames(), time_step, self._solver(), progress), time_step)
         return solver.query(where, progress)
 
     def _places(self, function, sources, faces, barycentric):
@@ -155,5 +155,5 @@ class Distances:
                     np.inf if maximum is None else check.number("distance", "maximum", maximum),
                     0.5 if time_step is None else check.number("distance", "time_step", time_step),
                     "mean" if unit is None else unit, True if open_boundary is None else bool(open_boundary))
-        return self._keep(("distance", *settings), lambda: _tufted.DistanceSolver(
-            self._laplacian, *settings, self._solver(), check.callback("distance", progress)))
+        return self._keep("distance", lambda: _tufted.DistanceSolver(
+            self._laplacian, *settings, self._solver(), check.callback("distance", progress)), settings)

@@ -90,13 +90,14 @@ class Equations:
             raise InvalidInput(f"divergence: vectors has {table.shape[1]} columns, must have 2")
         return _tufted.divergence(self._laplacian, self._gradients(neighbors, regularization, progress), table)
 
-    def operators(self, k=128, *, neighbors=None, regularization=0.0, progress=None):
+    def operators(self, k=None, *, neighbors=None, regularization=0.0, progress=None):
         """What networks such as DiffusionNet take, as `tufted operators` writes it.
 
+        k: number of eigenvalues, those that are 0 among them; None: 128, or as many as there are.
         Returns a dict of frames (N x 3 x 3), mass (N), L, gradX, gradY (N x N csc_matrix), evals (k), evecs (N x k).
         """
         slopes = self.gradients(neighbors=neighbors, regularization=regularization, progress=progress)
-        pairs = self.spectrum(k, progress=progress)
+        pairs = self.spectrum(self._count(k, 128, True), progress=progress)
         return {"frames": slopes.frames, "mass": self.M, "L": self.L, "evals": pairs.values, "evecs": pairs.vectors,
                 "gradX": slopes.X, "gradY": slopes.Y}
 
@@ -111,16 +112,16 @@ class Equations:
 
     def _interpolation_solver(self, function, kind, where, progress):
         with check.named(function):
-            return self._keep_last(kind, where.tobytes(), lambda: _tufted.InterpolationSolver(
-                self._laplacian, where, kind, self._solver(), progress))
+            return self._keep(kind, lambda: _tufted.InterpolationSolver(
+                self._laplacian, where, kind, self._solver(), progress), where.tobytes())
 
     def _gradients(self, neighbors, regularization, progress):
         if neighbors is not None:
             neighbors = check.whole("gradients", "neighbors", neighbors, 0)
         regularization = check.number("gradients", "regularization", regularization)
-        return self._keep(("gradients", neighbors, regularization), lambda: _tufted.gradients(
+        return self._keep("gradients", lambda: _tufted.gradients(
             self._laplacian, self._points, self._fitted_frames(), neighbors, regularization,
-            self._solving["threads"], check.callback("gradients", progress)))
+            self._solving["threads"], check.callback("gradients", progress)), (neighbors, regularization))
 
     def _fitted_frames(self):
         """Planes in which gradients are taken; None: fitted ones."""

@@ -49,6 +49,8 @@ class Parameterization(NamedTuple):
     quasi_conformal_error: float
     triangles: int
     flipped: int
+    collapsed: int
+    not_mapped: int
 
 
 class MinimalSurface(NamedTuple):

@@ -30,16 +30,16 @@ class Shape:
             self._laplacian, *self._signed_frames(None, progress), method, self._solving["threads"], progress)
         return Curvature(mean, gaussian, principal, np.stack([first, second], axis=1))
 
-    def segments(self, count=8, *, method="voronoi", seeds=None, progress=None):
+    def segments(self, count=None, *, method="voronoi", seeds=None, progress=None):
         """Cuts the surface into segments.
 
-        count: how many, >= 1; not used with seeds.
+        count: how many, >= 1; None: 8, or as many as there can be. Not used with seeds.
         method: "voronoi" cells of points far from each other, or "spectral" parts that narrow necks join.
         seeds: points whose Voronoi cells are the segments.
         Returns labels (N int32, 0 for the largest segment, -1: none), areas (length^2) and seeds (empty with
         "spectral").
         """
-        count = check.whole("segments", "count", count, 1)
+        count = None if count is None else check.whole("segments", "count", count, 1)
         where = np.zeros(0, np.int32) if seeds is None else check.indices("segments", "seeds", seeds, len(self))
         if method != "spectral":
             self._need_cover("segments")
@@ -63,9 +63,9 @@ class Shape:
         iterations = check.whole("smooth", "iterations", iterations, 1)
         progress = check.callback("smooth", progress)
         if method == "implicit" and not keep_volume:
-            key = time_step, None if fixed is None else fixed.tobytes()
-            solver = self._keep_last("smooth", key, lambda: _tufted.SmoothingSolver(
-                self._laplacian, time_step, fixed, self._solver(), progress))
+            solver = self._keep("smooth", lambda: _tufted.SmoothingSolver(
+                self._laplacian, time_step, fixed, self._solver(), progress),
+                (time_step, None if fixed is None else fixed.tobytes()))
             return solver.smooth(points, iterations, progress)
         return _tufted.smooth(
             self._laplacian, points, method, time_step, check.number("smooth", "lambda_", lambda_),
@@ -95,8 +95,10 @@ class Shape:
         radius 1 or where rim_positions puts it, and each other point is a mean of its neighbours.
         weights: of harmonic maps: of the "laplacian", or "mean-value", which flip no triangle.
         rim: of harmonic maps: the points of the rim in order; None: found. rim_positions: one row u, v for each.
-        Returns uv (N x 2, NaN where a point has no place), quasi_conformal_error (1: angles are kept), and how many
-        triangles were laid out and how many of them are flipped.
+        A conformal map in which more than a thousandth of the area collapses, as of long tubes, is refused.
+        Returns uv (N x 2, NaN where a point has no place), quasi_conformal_error (1: angles are kept), how many
+        triangles were laid out, how many of them are flipped and how many have collapsed, lower than 1e-7 of the map,
+        and for how many points uv is NaN (not_mapped).
         """
         where = np.zeros(0, np.int32) if rim is None else check.indices("parameterize", "rim", rim, len(self))
         places = np.zeros((0, 2))
@@ -140,10 +142,9 @@ class Shape:
         tolerance = check.number("deform", "tolerance", tolerance)
         max_iterations = check.whole("deform", "max_iterations", max_iterations, 1)
         progress = check.callback("deform", progress)
-        solver = self._keep_last("deform", (where.tobytes(), method, smoothness, tolerance, max_iterations),
-                                 lambda: _tufted.DeformationSolver(self._laplacian, where, method, smoothness,
-                                                                   tolerance, max_iterations, self._solver(),
-                                                                   progress))
+        settings = method, smoothness, tolerance, max_iterations
+        solver = self._keep("deform", lambda: _tufted.DeformationSolver(
+            self._laplacian, where, *settings, self._solver(), progress), (where.tobytes(), *settings))
         return Deformation(*solver.deform(places, progress))
 
     def _marks(self, function, fixed):

@@ -8,25 +8,25 @@ from ._tufted import InvalidInput
 
 
 class Spectral:
-    def spectrum(self, k=32, *, null_space=True, tolerance=1e-10, progress=None):
+    def spectrum(self, k=None, *, null_space=True, tolerance=1e-10, progress=None):
         """The k smallest eigenvalues of L x = lambda M x, with their vectors.
 
         The null space is exact: the eigenvalue 0 for each component. Vectors are M-orthonormal, and their largest entry
         is positive.
 
-        k: number of pairs, less than the number of active points.
+        k: number of pairs, at most as many as there are active points; None: 32, or as many as there are.
         null_space: False leaves out the eigenvalues 0.
         tolerance: relative accuracy of vectors, in (0, 1).
         Returns values (k, ascending, 1/length^2) and vectors (N x k, 1/length; 0 at points that take no part).
         """
-        pairs = self._pairs(k, null_space, tolerance, progress)
+        pairs = self._pairs(self._count(k, 32, null_space), null_space, tolerance, progress)
         return Spectrum(pairs.values, pairs.vectors)
 
     def hks(self, times=None, *, k=100, samples=16, spectrum=None, progress=None):
         """The heat kernel signature of every point: sum of exp(-lambda t) phi(x)^2 over the pairs of a spectrum.
 
         times: T times, length^2; None: `samples` of them, for which k pairs suffice.
-        k: number of positive eigenvalues to take; at most as many as there are.
+        k: number of positive eigenvalues to take; of more than there are, all.
         spectrum: what spectrum() returned, to be used instead of k.
         Returns N x T, 1/length^2.
         """
@@ -55,14 +55,17 @@ class Spectral:
             width = 7 * abs(energies[1] - energies[0])
         return _tufted.wks_at(pairs, energies, check.number("wks", "width", width))
 
-    def embed(self, dimension=3, *, distance="commute", progress=None):
+    def embed(self, dimension=None, *, distance="commute", progress=None):
         """Coordinates of every point between which Euclidean distances are spectral distances.
 
-        dimension: number of coordinates, one per positive eigenvalue.
+        dimension: number of coordinates, one per positive eigenvalue; None: 3, or as many as there are.
         distance: "commute" (commute times, no unit) or "biharmonic" (length).
         Returns N x dimension.
         """
-        pairs = self._pairs(check.whole("embed", "dimension", dimension, 1), False, 1e-10, progress)
+        if dimension is not None:
+            check.whole("embed", "dimension", dimension, 1)
+        with check.named("embed", k="dimension"):
+            pairs = self._pairs(self._count(dimension, 3, False), False, 1e-10, progress)
         return _tufted.embed(pairs, distance)
 
     def filter(self, values, *, k=100, gain=None, spectrum=None, progress=None):
@@ -82,8 +85,13 @@ class Spectral:
     def _pairs(self, k, null_space, tolerance, progress):
         k = check.whole("spectrum", "k", k, 1)
         tolerance = check.number("spectrum", "tolerance", tolerance)
-        return self._keep(("spectrum", k, bool(null_space), tolerance), lambda: _tufted.spectrum(
-            self._laplacian, k, bool(null_space), tolerance, self._solver(), check.callback("spectrum", progress)))
+        settings = k, bool(null_space), tolerance
+        return self._keep("spectrum", lambda: _tufted.spectrum(
+            self._laplacian, *settings, self._solver(), check.callback("spectrum", progress)), settings)
+
+    def _count(self, k, usual, null_space):
+        """k, or where it is None the usual number of pairs, if there are as many."""
+        return k if k is not None else max(1, min(usual, _tufted.most_eigenpairs(self._laplacian, bool(null_space))))
 
     def _positive(self, function, k, spectrum, progress):
         """Pairs of positive eigenvalues: the caller's, or the first k."""

@@ -24,10 +24,9 @@ class Surface(Spectral, Distances, Equations, Shape):
     """L and M of a cloud or a mesh, and all that is computed from them. Made by PointCloud, Mesh, read and load.
 
     Arrays that show the library's own memory (L, M, status, ...) cannot be written to; take a copy to change one.
-    What is costly to make, a factor or a spectrum, is kept, so a second call with the same options is quick; of the
-    factors for given pins, and for smoothing, the last one. Methods may run in several threads at once. All take
-    `progress`, a function of a stage's name and the fraction of it that is done, which stops the computation by
-    returning False; Ctrl-C stops it as well.
+    What is costly to make, a factor or a spectrum, is kept, so a second call with the same options is quick; of each
+    method the last one. Methods may run in several threads at once. All take `progress`, a function of a stage's name
+    and the fraction of it that is done, which stops the computation by returning False; Ctrl-C stops it as well.
     """
 
     def __init__(self, laplacian, points, faces, solving, options=None, geometry=None, source="",
@@ -191,18 +190,13 @@ class Surface(Spectral, Distances, Equations, Shape):
 
     # What its parts share
 
-    def _keep(self, key, make):
-        """What `make` returns, made by the first call with this key. Threads that come at once may make it twice."""
-        if key not in self._kept:
-            self._kept[key] = make()
-        return self._kept[key]
-
-    def _keep_last(self, name, key, make):
-        """What `make` returns, made anew where `key` is not that of the last call. For factors of which every key has
-        another one, and which would fill the memory."""
+    def _keep(self, name, make, settings=None):
+        """What `make` returns, made by the first call and by those whose settings are not those of the last one. Only
+        the last is kept, as others would fill the memory. Threads that come at once may make it twice."""
         kept = self._kept.get(name)
-        if kept is None or kept[0] != key:
-            kept = self._kept[name] = key, make()
+        if kept is None or kept[0] != settings:
+            self._kept.pop(name, None)  # before the new one takes memory
+            kept = self._kept[name] = settings, make()
         return kept[1]
 
     def _solver(self):
