@@ -67,8 +67,9 @@ Frames meshFrames(const Laplacian& laplacian, const PointsRef& points, const Tri
 /// Linear functions on a plane are exact. Where the neighbours nearly lie on one line more are taken, up to eight times
 /// as many. Rows of coincident points are those of their representative; other points that are not active have rows of
 /// zeros. The same bits result for any number of threads.
-/// @param points N x 3, those that the Laplacian was built from. Slopes are measured between Laplacian::positions, as
-///        lengths are: noisy points count where they were moved. Where none are stored, they are these points.
+/// @param points N x 3, between which slopes are measured: those that the Laplacian was built from or, for noisy
+/// clouds,
+///        Laplacian::positions, where they were moved
 /// @throws InvalidInput for arrays of different sizes, options out of range, or a Laplacian without frames, such as a
 ///         mesh's
 /// @throws Cancelled when `options.progress` returns false

@@ -49,7 +49,7 @@ CloudSteps cloudSteps(Preset preset);
 /// this times the longest side of the smaller of its two triangles, and triangles that flips leave flat but for
 /// rounding get a height of about 1e-7 of their longest side. Only edges that need it are lengthened, see
 /// Report::area_added. 0 lengthens nothing: what is flat contributes nothing, and rounding may break the guarantees.
-constexpr double default_mollify = 1e-9;
+constexpr double default_mollify = 1e-6;
 
 /// Options of pointCloudLaplacian().
 struct CloudOptions {

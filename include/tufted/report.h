@@ -36,7 +36,7 @@ struct Report {
   std::int64_t unplaced = 0;             ///< usable points that have no place in the structure of the scan
   std::int64_t cut_neighbors = 0;        ///< neighbours in the scan left out because the surface jumps in between
   std::int64_t grown_neighborhoods = 0;  ///< k doubled because the neighbours say too little, see Growth
-  std::int64_t split_neighborhoods = 0;  ///< neighbours of another sheet, or around a thin body, left out
+  std::int64_t split_neighborhoods = 0;  ///< neighbours of another sheet left out
   std::int64_t isolated_by_sheets = 0;   ///< points without a star: nearly all neighbours belong to other sheets
   std::int64_t outliers = 0;             ///< points without a star: they hover over a surface, see CloudSteps
   std::int64_t denoised = 0;             ///< points moved onto the surface, see CloudSteps::denoise and Lengths

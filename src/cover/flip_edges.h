@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "base/buffer.h"
+#include "cover/cotan_rounding.h"
 #include "cover/cover.h"
 #include "cover/geometry.h"
 
@@ -17,19 +18,13 @@ namespace tufted {
 
 constexpr double flip_below = -1e-10;  // on cot + cot; ties of cocircular quadrilaterals stay
 
-/// Whether the sum of two cotangents is further below 0 than rounding may bring it, which grows with them.
-template <class Real>
-bool isBeyondRounding(Real here, Real there) {
-  return here + there < flip_below - cotan_rounding * std::min(std::abs(here), std::abs(there));
-}
-
 /// Equation 2, but for rounding, which could flip an edge there and back for ever. An edge with both sides in one
 /// triangle is Delaunay: its two opposite angles sum to less than pi. So is one without an obtuse angle, which takes no
 /// roots to see.
 template <class Triangulation>
 bool isDelaunay(const Triangulation& t, int side, int mate) {
   return side / 3 == mate / 3 || !(isOppositeObtuse(t, side) || isOppositeObtuse(t, mate)) ||
-         !isBeyondRounding(oppositeCotan(t, side), oppositeCotan(t, mate));
+         !isBelowRounding(oppositeCotan(t, side), oppositeCotan(t, mate), -flip_below);
 }
 
 /// Length of the other diagonal, from a layout of both triangles in the plane with the common edge on the x axis
@@ -159,7 +154,7 @@ class RangeFlipper {
  private:
   // In exact arithmetic flips end. Rounding might make some go in circles, which this ends: a place is flipped at most
   // once in a round, and 300 times in all on the longest fans that were tried.
-  static constexpr int most_rounds = 1 << 20;
+  static constexpr int most_rounds = 1 << 16;
   static constexpr std::int64_t report_every = 1 << 16;  // flips
 
   template <class Report>

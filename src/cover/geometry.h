@@ -42,10 +42,6 @@ Real cotanNumerator(Real a, Real b, Real c) {
   return shorter * shorter + (longer - a) * (longer + a);
 }
 
-/// Share of the smaller cotangent by which the sum of two at an edge may miss 0. The weight is then within 1e-10 of a
-/// diagonal, a tenth of what counts as rounding there.
-constexpr double cotan_rounding = 1e-10;
-
 /// Cotangent of the angle opposite a. Infinite or NaN in a triangle of no area.
 template <class Real>
 Real oppositeCotan(Real a, Real b, Real c) {

@@ -10,6 +10,10 @@
 
 namespace tufted {
 
+/// No edge between points that differ is shorter than this, in a unit in which the median spread of the points is about
+/// 1: so that what is computed from lengths does not underflow.
+constexpr double shortest = 0x1p-250;
+
 /// lengthenShortEdges() with lengths in double or long double.
 template <class Triangulation>
 std::int64_t lengthenEdgesBelow(Triangulation& cover, double delta, const Workers& workers) {
@@ -26,7 +30,8 @@ std::int64_t lengthenEdgesBelow(Triangulation& cover, double delta, const Worker
       const Real own = longest[side / 3], other = longest[cover.glue[side] / 3];
       // The smaller face decides, as many long faces may end at a part of a mesh that is small. A face that is a point
       // has no say.
-      const Real least = delta * (std::min(own, other) > 0 ? std::min(own, other) : std::max(own, other));
+      Real least = delta * (std::min(own, other) > 0 ? std::min(own, other) : std::max(own, other));
+      if (cover.length[side] > 0) least = std::max<Real>(least, shortest);
       if (cover.length[side] >= least) continue;
       cover.length[side] = least;
       ++here;

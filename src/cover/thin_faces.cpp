@@ -16,6 +16,8 @@ namespace {
 
 /// A face with less slack than this, in its longest side, is thin: rounding of lengths in double is 1e-8 of its area.
 constexpr double thin_slack = 0x1p-26;
+/// The length of an edge between vertices that coincide while thin faces are flipped, in the longest side.
+constexpr double short_enough = 0x1p-40;
 /// The slack, in the longest side, of which rounding may be all: positions on a line are that in doubles only.
 constexpr long double straight_slack = 32 * std::numeric_limits<long double>::epsilon();
 
@@ -71,7 +73,8 @@ FlipCounts flipThinFaces(IntrinsicTriangulation& cover, const EdgeLengths& lengt
     }
   });
   straightenFlatFaces(precise, workers);
-  if (delta > 0) lengthened += lengthenEdgesBelow(precise, delta, workers);
+  // Angles beside an edge of length 0 are not defined. How long it is in the end follows from its faces after flips.
+  if (delta > 0) lengthened += lengthenEdgesBelow(precise, short_enough, workers);
   WholeCover whole(precise, workers);
   const FlipCounts counts = flipEdges(whole, workers);
   std::copy(precise.length.begin(), precise.length.end(), cover.length.begin());

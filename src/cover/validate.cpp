@@ -2,6 +2,7 @@
 #include <cmath>
 #include <limits>
 
+#include "cover/cotan_rounding.h"
 #include "cover/geometry.h"
 #include "tufted/intrinsic_triangulation.h"
 
@@ -13,7 +14,7 @@ namespace {
 bool isDelaunay(double here, double there, double tolerance) {
   const double sum = here + there;
   if (std::isinf(sum)) return sum > 0;
-  return !(sum < -tolerance - 1.01 * cotan_rounding * std::min(std::abs(here), std::abs(there)));
+  return !isBelowRounding(here, there, tolerance, 1.01 * cotan_tolerance);
 }
 
 }  // namespace

@@ -174,7 +174,7 @@ class BlockFitter {
       Neighborhood& neighborhood = neighborhoods_[i];
       finder_.refine(windows_.pointOf(w), neighborhood, plane_offsets_[i], plane_scratch_);
       while (2 * windows_.base[w] <= neighborhood.k) windows_.base[w] *= 2;
-      windows_.radius[w] = neighborhood.fit_radius;
+      windows_.radius[w] = neighborhood.radius;
       windows_.split[w] = neighborhood.split ? 1 : 0;
       takePlane(w, neighborhood.axes, windows_);
     }

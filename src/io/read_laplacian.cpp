@@ -109,15 +109,15 @@ Laplacian readUncheckedLaplacian(const std::filesystem::path& dir, bool with_cov
   const Path report_path = folder.reportPath();
   const Json& json = folder.report();
   if (!json.contains("report") || !json["report"].is_object()) io::refuse(report_path, "is no report of a Laplacian");
-  const Path mass_path = folder.pathOf("M.npy"), status_path = folder.pathOf("status.npy"),
-             representative_path = folder.pathOf("representative.npy"), boundary_path = folder.pathOf("boundary.npy"),
-             frames_path = folder.pathOf("frames.npy");
+  const Path matrix_path = folder.pathOf("L.npz"), mass_path = folder.pathOf("M.npy"),
+             status_path = folder.pathOf("status.npy"), representative_path = folder.pathOf("representative.npy"),
+             boundary_path = folder.pathOf("boundary.npy"), frames_path = folder.pathOf("frames.npy");
   Laplacian laplacian;
   const bool takes_cover = with_cover && folder.has("cover.npz");
   laplacian.kind = readKind(json, takes_cover, report_path);
   laplacian.report = readReport(json["report"], report_path);
   // The arrays with a value per point are not compressed, so the sizes of their files bound how many points L may have.
-  io::MatrixFile matrix(folder.pathOf("L.npz"));
+  io::MatrixFile matrix(matrix_path);
   const auto n = static_cast<std::size_t>(matrix.rows());
   const std::vector<double> mass = readArray(mass_path, n);
   laplacian.M = Eigen::Map<const VectorXd>(mass.data(), matrix.rows());
@@ -152,7 +152,7 @@ Laplacian readLaplacian(const std::filesystem::path& dir, bool with_cover) {
                "counts " + std::to_string(counted) + " points, and L has " + std::to_string(n) + " rows");
   io::requirePromises(dir, laplacian);
   laplacian.component = componentLabels(laplacian);
-  laplacian.component_edges = readEdges(folder, laplacian);
+  laplacian.component_edges = readEdges(io::ResultFolder(dir), laplacian);
   return laplacian;
 }
 

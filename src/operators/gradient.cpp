@@ -96,10 +96,9 @@ Gradients fitGradients(const Laplacian& laplacian, const PointsRef& points, cons
       .neighbors = options.neighbors.value_or(laplacian.kind == Kind::cloud ? cloud_neighbors : 0),
       .regularization = options.regularization,
       .planes = planes};
-  const PointsRef measured = laplacian.positions.rows() == points.rows() ? PointsRef(laplacian.positions) : points;
   std::vector<SlopeFitter> fitters;
   fitters.reserve(static_cast<std::size_t>(workers.count()));
-  for (int worker = 0; worker < workers.count(); ++worker) fitters.emplace_back(laplacian.L, measured, frames, fits);
+  for (int worker = 0; worker < workers.count(); ++worker) fitters.emplace_back(laplacian.L, points, frames, fits);
   Gradients result{SparseMatrix(n, n), SparseMatrix(n, n), frames, {}};
   const auto has_surface = [&](int i) {
     return laplacian.representative[i] == i && laplacian.status[i] == PointStatus::active;

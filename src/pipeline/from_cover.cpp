@@ -17,7 +17,8 @@
 namespace tufted {
 namespace {
 
-constexpr int most_rounds = 8;  // of lengthening and flips; one is usual where any is needed
+constexpr double all_edges = 1e-5;  // mean edge lengths, added to all where flips do not end otherwise
+constexpr int most_rounds = 8;      // of lengthening and flips; one is usual where any is needed
 
 /// The sum of value(f) for f in [0, size), with the same bits for any number of threads.
 template <class Value>
@@ -69,6 +70,14 @@ void finishFromCover(std::shared_ptr<IntrinsicTriangulation> cover, const CoverV
         delta > 0 ? lengthenShortEdges(*cover, delta, workers) + lengthenAtFlatFaces(*cover, workers) : 0;
     if (round > 0 && lengthened == 0) break;
     figures.lengthened_edges += lengthened;
+    const FlipCounts counts = flipToDelaunay(*cover, workers);
+    figures.flips = {figures.flips.flips + counts.flips, counts.failures};
+  }
+  // Lengths that rounding cannot tell apart may keep flips going in circles. The paper's one length for all edges ends
+  // that, at the cost of area, which is warned of.
+  if (delta > 0 && figures.flips.failures > 0) {
+    for (double& length : cover->length) length += all_edges * figures.mean.length;
+    figures.lengthened_edges = std::ssize(cover->length) / 2;
     const FlipCounts counts = flipToDelaunay(*cover, workers);
     figures.flips = {figures.flips.flips + counts.flips, counts.failures};
   }

@@ -29,6 +29,7 @@ std::optional<OwnAreas> finishFromStars(SurfaceStars built, RankedCloud cloud, c
 
   figures.flips = stars_and_cover->flip(metric, workers);
   clock.finish("flips", stars_and_cover->bytes());
+  if (figures.flips.failures > 0 && options.mollify > 0) return std::nullopt;
 
   stars_and_cover->assemble(metric, options.keep_cover, workers, result);
   if (result.report.components > 1)

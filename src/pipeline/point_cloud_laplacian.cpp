@@ -106,7 +106,8 @@ void buildCloudLaplacian(const PointsRef& points, const CloudOptions& options, C
   if (stars_agree && build == CloudBuild::automatic) {
     result.stored_cover.reset();
     own = finishFromStars(std::move(built), std::move(cloud), options, workers, clock, result);
-    // Flat triangles are so rare in stars that starting anew costs less than what it would take to keep the stars.
+    // Flat triangles and flips without an end are so rare that starting anew costs less than what it would take to keep
+    // the stars.
     if (!own) return buildCloudLaplacian(points, options, CloudBuild::whole_cover, result);
   } else {
     own = finishFromWholeCover(std::move(built), cloud, options, workers, clock, result);

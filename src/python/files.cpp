@@ -64,7 +64,7 @@ py::tuple stateOf(const Geometry& geometry) {
                                                            reinterpret_cast<const std::uint8_t*>(field.bytes.data()))));
   return py::make_tuple(geometry.format, geometry.points, geometry.normals, fields, geometry.width, geometry.height,
                         geometry.viewpoint, geometry.is_mesh, geometry.triangles, geometry.polygons,
-                        geometry.merged_vertices);
+                        geometry.merged_vertices, geometry.notes);
 }
 
 Geometry geometryFrom(const py::tuple& state) {
@@ -88,6 +88,7 @@ Geometry geometryFrom(const py::tuple& state) {
   geometry.triangles = state[8].cast<Triangles>();
   geometry.polygons = state[9].cast<std::int64_t>();
   geometry.merged_vertices = state[10].cast<std::int64_t>();
+  geometry.notes = state[11].cast<std::vector<std::string>>();
   return geometry;
 }
 

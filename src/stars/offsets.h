@@ -40,12 +40,6 @@ class OffsetBuffer {
   /// Makes the i-th offset 0, which adds nothing to sums.
   void clear(int i) { axis(0)[i] = axis(1)[i] = axis(2)[i] = 0; }
 
-  /// Leaves out all but the first.
-  void keepFirst(int count) {
-    for (int i = count; i < toPackets(count_); ++i) clear(i);
-    count_ = count;
-  }
-
   /// Takes those of the others whose heights are in the range; `others` may be this buffer.
   void takeConnected(const OffsetBuffer& others, const double* heights, const HeightRange& range) {
     const Offsets given = others.view();

@@ -2,7 +2,6 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <cmath>
 #include <span>
 
 #include "stars/neighborhood.h"
@@ -16,14 +15,8 @@ constexpr int most_splits = 3;
 constexpr int least_sheet = 3, least_plane = 9;      // points, p included
 constexpr double flat_sheet = 0.1, flat_few = 0.05;  // of the second variance; found by many, by two neighbours
 constexpr double far_flatter = 0.25;                 // than before
-/// Thickness of all neighbours, their first variance over the second, from which on they may lie around a thin body. A
-/// crease of a right angle has 0.28, the corner of a cube 0.29, at any scale.
-constexpr double thick = 0.4;
-/// Thickness of the nearest few over that of all, below which these do. Noise is as high around few points as around
-/// many, so there few are the thicker ones.
-constexpr double few_over_all = 0.5;
-constexpr int most_corners = 4;     // of the triangles at p whose planes a sheet is sought along
-constexpr double least_sine = 0.3;  // of their angles at p
+constexpr int most_corners = 4;                      // of the triangles at p whose planes a sheet is sought along
+constexpr double least_sine = 0.3;                   // of their angles at p
 
 double flatness(const PrincipalAxes& axes) {
   return axes.variance[1] > 0 ? axes.variance[0] / axes.variance[1] : 0;
@@ -182,22 +175,6 @@ void cutAlongPlanes(const PrincipalAxes& before, Neighborhood& neighborhood, Off
   }
 }
 
-/// Keeps the nearest few alone where all reach around a thin body, such as a cable: its far side is another sheet, but
-/// no gap of heights lies between.
-bool keepNearest(Neighborhood& neighborhood, OffsetBuffer& offsets) {
-  const int count = static_cast<int>(neighborhood.neighbors.size());
-  for (std::size_t j = few_neighbors.size(); j-- > 0;) {
-    if (count <= few_neighbors[j] || flatness(neighborhood.axes) < thick) continue;
-    if (!(flatness(neighborhood.axes_of_few[j]) < few_over_all * flatness(neighborhood.axes))) continue;
-    neighborhood.neighbors.resize(few_neighbors[j]);
-    offsets.keepFirst(few_neighbors[j]);
-    neighborhood.axes = neighborhood.axes_of_few[j];
-    neighborhood.k = few_neighbors[j];
-    neighborhood.radius = std::sqrt(neighborhood.neighbors.back().squared_distance);
-  }
-  return std::ssize(neighborhood.neighbors) < count;
-}
-
 }  // namespace
 
 bool keepSheet(const Eigen::Vector3d& normal, Neighborhood& neighborhood, OffsetBuffer& offsets,
@@ -223,10 +200,6 @@ void splitSheets(Neighborhood& neighborhood, OffsetBuffer& offsets, SheetScratch
     neighborhood.split = true;
   } else {
     neighborhood.restored = true;
-  }
-  if (!neighborhood.split && !neighborhood.isolated && keepNearest(neighborhood, offsets)) {
-    neighborhood.split = true;
-    neighborhood.restored = false;
   }
 }
 

@@ -263,9 +263,9 @@ shapes::Mesh tube(int rings, double length, bool is_closed) {
   return mesh;
 }
 
-/// Triangles whose height in the plane is below 1e-7 of the map's extent.
+/// Triangles whose height in the plane is below 1e-7 of the map's radius.
 std::int64_t lowTriangles(const shapes::Mesh& mesh, const MatrixX2d& uv) {
-  const double extent = (uv.colwise().maxCoeff() - uv.colwise().minCoeff()).norm();
+  const double extent = (uv.colwise().maxCoeff() - uv.colwise().minCoeff()).maxCoeff() / 2;
   std::int64_t count = 0;
   for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
     const auto side = [&](int a, int b) -> Eigen::RowVector2d {

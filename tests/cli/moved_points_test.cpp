@@ -71,7 +71,7 @@ TEST_F(MovedPoints, ParameterizeCountsEveryPointThatHasNoPlace) {
   EXPECT_TRUE(contains(run({"parameterize", square, "--out", in("map")}).out, "3 points, which are NaN"));
   EXPECT_EQ(report("map")["report"]["not_mapped"], 3);
   EXPECT_EQ(nans("map/uv.npy"), 2 * 3);
-  run({"weights", parts, "--handle", "0", "--handle", "2", "--out", in("weights")});
+  run({"weights", parts, "--handles", dir_.write("handles.txt", "0\n2\n"), "--out", in("weights")});
   EXPECT_EQ(report("weights")["report"]["not_reached"], 7);
   EXPECT_EQ(nans("weights/weights.npy"), 2 * 7);
 }

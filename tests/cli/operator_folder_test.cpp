@@ -45,7 +45,7 @@ TEST_F(OperatorFolder, GivesEveryCommandTheBitsOfTheFile) {
   all.push_back({"distance", "--source", "0", "--method", "heat"});
   all.push_back({"distance", "--source", "0", "--within", "0.4"});
   all.push_back({"curvature", "--method", "laplacian"});
-  all.push_back({"signed-distance", "--curve", "0,5,9"});
+  all.push_back({"signed-distance", "--curve", dir_.write("curve.txt", "0\n5\n9\n")});
   for (const std::vector<std::string>& parts : {std::vector<std::string>{}, {"--component", "0"}}) {
     for (std::vector<std::string> words : all) {
       words.insert(words.end(), parts.begin(), parts.end());

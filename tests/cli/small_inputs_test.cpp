@@ -1,4 +1,6 @@
 // Every subcommand with its defaults on the smallest clouds and meshes.
+#include <algorithm>
+
 #include "subcommands.h"
 
 namespace small_inputs_test {
@@ -17,12 +19,13 @@ class SmallInputs : public Subcommands {
                            {"embed", "--distance", "biharmonic"},
                            {"spectrum", "--with-null-space"},
                            {"distance", "--source", "0", "--method", "heat"},
-                           {"weights", "--handle", "0", "--handle", "1"},
-                           {"signed-distance", "--curve", "0,1"},
+                           {"weights", "--handles", dir_.write("handles.txt", "0\n1\n")},
+                           {"signed-distance", "--curve", in("handles.txt")},
                            {"smooth", "--method", "taubin"},
-                           {"deform", "--handle", "0=0,0,0", "--handle", "1=1,1,1"}});
+                           {"deform", "--handles", dir_.write("targets.txt", "0 0 0 0\n1 1 1 1\n")}});
     if (is_open) all.insert(all.end(), {{"parameterize"}, {"parameterize", "--method", "harmonic"}, {"minimal"}});
     for (std::vector<std::string> words : all) {
+      if (words[0] == "denoise" && file.ends_with(".off")) continue;  // of clouds
       words.insert(words.begin() + 1, file);
       words.insert(words.end(), {"--out", in("out")});
       std::string line;

@@ -112,7 +112,7 @@ TEST_F(View, OperatorsAndSpectraAreThoseOfTheLastResult) {
   }
   run({"spectrum", cloud_, "--count", "3", "--out", in("out")});
   run({"hks", cloud_, "--spectrum", in("out"), "--out", in("hks")});
-  expectRefusal({"green", "--operator", in("out"), "--source", "0"}, "is no report of a Laplacian", 1);
+  expectRefusal({"green", "--operator", in("out"), "--source", "0"}, "is of a run that did not write L.npz", 1);
   run({"green", cloud_, "--source", "0", "--out", in("out")});
   expectRefusal({"hks", cloud_, "--spectrum", in("out")}, "its last result has no evals.npy", 1);
 }

@@ -69,7 +69,7 @@ TEST_F(ResultFolder, FilesThatTheLastResultDoesNotListAreNotTaken) {
   overwrite({Format::npz});
   EXPECT_EQ(tufted::readPoints(dir_.path()).points.rows(), 0);
   overwrite({Format::ply});
-  EXPECT_EQ(refusal(), "report.json: is of a run that did not write M.npy");
+  EXPECT_EQ(refusal(), "report.json: is of a run that did not write L.npz");
   // Of another kind of result nothing of the Laplacian is taken.
   overwrite(all);
   tufted::writeResults(dir_.path(), laplacian_, geometry_, {{.name = "M", .values = laplacian_.M}});

@@ -80,7 +80,9 @@ TEST(Noise, IsFoundWhateverExactPointsLieFarAway) {
     points << noisy.points, (size * far).rowwise() + Eigen::RowVector3d(30, 0, 0);
     const Laplacian laplacian = pointCloudLaplacian(points);
     EXPECT_LT(off(laplacian.positions), 1.2 * alone) << far.rows();
-    EXPECT_EQ(laplacian.positions.bottomRows(far.rows()), points.bottomRows(far.rows())) << far.rows();
+    // What step 5 moves next to creases is moved in any case.
+    const Points unmoved = pointCloudLaplacian(points, withoutDenoise()).positions.bottomRows(far.rows());
+    EXPECT_TRUE(laplacian.positions.bottomRows(far.rows()) == unmoved) << far.rows();
   }
 }
 

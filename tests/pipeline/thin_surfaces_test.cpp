@@ -50,30 +50,6 @@ TEST_P(Ribbon, HasTheAreaOfItsCoverAndOfItsSurfaceWherePointsFillIt) {
 
 INSTANTIATE_TEST_SUITE_P(Widths, Ribbon, testing::Values(1e-1, 1e-2, 1e-3, 1e-4));
 
-/// Random points of a cylinder of length 1 without its ends, so many spacings around.
-Points cable(double around, std::uint64_t seed) {
-  constexpr double length = 1, along = 130;  // the length in spacings
-  shapes::Random random(seed);
-  const double radius = around / along * length / (2 * M_PI);
-  Points points(static_cast<Eigen::Index>(around * along), 3);
-  for (Eigen::Index i = 0; i < points.rows(); ++i) {
-    const double angle = 2 * M_PI * random.uniform();
-    points.row(i) << radius * std::cos(angle), radius * std::sin(angle), length * random.uniform();
-  }
-  return points;
-}
-
-// All 30 neighbours lie around the whole cable, and would pass for noise around its axis.
-TEST(Cable, HasItsAreaWhereNeighborhoodsReachAroundIt) {
-  for (const double around : {8.0, 10.0, 12.0, 16.0}) {
-    const double area = around / 130;
-    double sum = 0;
-    for (std::uint64_t seed = first_seed; seed <= last_seed; ++seed)
-      sum += pointCloudLaplacian(turned(cable(around, seed)), {.keep_cover = false}).report.area;
-    EXPECT_NEAR(sum / (last_seed - first_seed + 1), area, 0.1 * area) << around;
-  }
-}
-
 TEST(Line, HasAtMostFourTimesTheAreaOfItsCover) {
   for (const int n : {5, 10, 30, 31, 40, 300}) {
     for (const double scatter : {0.0, 1e-12, 1e-6}) {

@@ -99,13 +99,14 @@ inline std::vector<Algorithm> algorithms() {
        }},
       {"deform", true,
        [=](const Laplacian& laplacian, const Points&) -> MatrixXd {
-         return deform(laplacian, sources, Points(1.5 * laplacian.positions(sources, Eigen::all)));
+         return deform(laplacian, sources, Points(1.5 * laplacian.positions(sources, Eigen::all)),
+                       {.tolerance = 1e-9, .max_iterations = 1000});
        }},
       {"orientedFrames", true,
        [](const Laplacian& laplacian, const Points&) -> MatrixXd { return orientedFrames(laplacian).normals; }},
       {"gradients", true,
        [](const Laplacian& laplacian, const Points& points) -> MatrixXd {
-         const Gradients found = gradients(laplacian, points);
+         const Gradients found = gradients(laplacian, laplacian.positions);
          const VectorXd u = points.col(0);
          return ((found.X * u).array().square() + (found.Y * u).array().square()).sqrt();
        }},

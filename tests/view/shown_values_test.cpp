@@ -74,7 +74,9 @@ TEST(TicksOf, TellTheEndsApartWhereNumbersDifferInTheirLastDigits) {
         EXPECT_GE(ticks.values[i], offset - 1e-2 * span);
         EXPECT_LE(ticks.values[i], offset + 1.01 * span);
         EXPECT_LE(ticks.texts[i].size(), 12u) << ticks.texts[i];
-        if (i > 0) EXPECT_NE(ticks.texts[i], ticks.texts[i - 1]);
+        if (i > 0) {
+          EXPECT_NE(ticks.texts[i], ticks.texts[i - 1]);
+        }
       }
     }
   EXPECT_EQ(view::ticksOf(3.2e8, 3.2e8 + 60).offset, 3.2e8);

@@ -74,7 +74,7 @@ void addBuildOptions(CLI::App& command, Build& build) {
        build.seed,
        addNumber(
            command, "--mollify", build.mollify, 0.0, 1.0,
-           "Shortest edge, in the longest side of the smaller of its triangles; 0: flat triangles stay flat (1e-9)")
+           "Shortest edge, in the longest side of the smaller of its triangles; 0: flat triangles stay flat (1e-6)")
            ->type_name("D")});
 }
 

@@ -5,7 +5,6 @@
 
 #include "command.h"
 #include "console.h"
-#include "inactive.h"
 #include "input.h"
 #include "interrupt.h"
 #include "look.h"
@@ -19,6 +18,7 @@
 #include "tufted/errors.h"
 #include "tufted/io/results.h"
 #include "tufted/io/write.h"
+#include "warnings.h"
 
 namespace denoise_command {
 namespace {

@@ -56,11 +56,13 @@ Results compute(Settings& settings, Operator& source) {
   tufted::GradientOptions fitting = settings.gradients;
   fitting.threads = source.threads;
   fitting.progress = source.progress;
+  // Older folders do not have the positions, where noisy points were moved.
+  const tufted::Points& measured = source.laplacian.positions.rows() > 0 ? source.laplacian.positions : geometry.points;
   const tufted::Gradients gradients =
       geometry.is_mesh
           ? tufted::gradients(source.laplacian, geometry.points,
                               tufted::meshFrames(source.laplacian, geometry.points, geometry.triangles), fitting)
-          : tufted::gradients(source.laplacian, geometry.points, fitting);
+          : tufted::gradients(source.laplacian, measured, fitting);
   const tufted::Spectrum spectrum = firstPairs(settings.pairs, source);
   Results results;
   const auto count = static_cast<int>(spectrum.values.size());

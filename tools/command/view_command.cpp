@@ -6,13 +6,13 @@
 
 #include "command.h"
 #include "console.h"
-#include "inactive.h"
 #include "look.h"
 #include "options.h"
 #include "progress_bar.h"
 #include "scene_fields.h"
 #include "suggestion.h"
 #include "tufted/errors.h"
+#include "warnings.h"
 
 namespace view_command {
 namespace {

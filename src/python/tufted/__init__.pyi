@@ -177,7 +177,7 @@ class PointCloud(Surface):
     def __init__(self, points: npt.ArrayLike, preset: Literal["scan", "clean", "lidar"] = "scan", neighbors: int = 30,
                  normals: npt.ArrayLike | None = None, *, viewpoint: npt.ArrayLike | None = None,
                  image: tuple[int, int] | None = None, rings: npt.ArrayLike | Literal["find"] | None = None,
-                 neighborhoods: npt.ArrayLike | None = None, mollify: float = ...,
+                 neighborhoods: npt.ArrayLike | None = None, mollify: float = 1e-06,
                  gluing: Literal["star", "vertex-pair"] = "star", order: Literal["angle", "area", "random"] = "angle",
                  seed: int = 0, delaunay: Literal["star", "cgal"] = "star", threads: int = 0,
                  solver: Literal["automatic", "cholesky", "multigrid"] = "automatic", memory_limit: int = 0,
@@ -185,7 +185,7 @@ class PointCloud(Surface):
     def triangles(self, *, progress: _Progress = None) -> _Integers: ...
 
 class Mesh(Surface):
-    def __init__(self, points: npt.ArrayLike, faces: npt.ArrayLike, *, mollify: float = ...,
+    def __init__(self, points: npt.ArrayLike, faces: npt.ArrayLike, *, mollify: float = 1e-06,
                  order: Literal["angle", "area", "random"] = "angle", seed: int = 0, weld: bool = False,
                  threads: int = 0, solver: Literal["automatic", "cholesky", "multigrid"] = "automatic",
                  memory_limit: int = 0, progress: _Progress = None) -> None: ...
@@ -200,10 +200,10 @@ def denoise(points: npt.ArrayLike, *, image: tuple[int, int] | None = None, view
             threads: int = 0, progress: _Progress = None) -> Denoised: ...
 def load(directory: _Path, *, threads: int = 0, solver: Literal["automatic", "cholesky", "multigrid"] = "automatic",
          memory_limit: int = 0, progress: _Progress = None) -> Any: ...
-def point_cloud_laplacian(points: npt.ArrayLike, mollify_factor: float = ..., n_neighbors: int = 30,
+def point_cloud_laplacian(points: npt.ArrayLike, mollify_factor: float = 1e-06, n_neighbors: int = 30,
                           return_mass: bool = True, *, preset: Literal["scan", "clean", "lidar"] = "scan",
                           dummy: bool = True, threads: int = 0, progress: _Progress = None) -> Any: ...
-def mesh_laplacian(verts: npt.ArrayLike, faces: npt.ArrayLike, mollify_factor: float = ..., return_mass: bool = True,
+def mesh_laplacian(verts: npt.ArrayLike, faces: npt.ArrayLike, mollify_factor: float = 1e-06, return_mass: bool = True,
                    *, dummy: bool = True, threads: int = 0, progress: _Progress = None) -> Any: ...
 
 class _HeatSolver:

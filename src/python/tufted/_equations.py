@@ -119,8 +119,10 @@ class Equations:
         if neighbors is not None:
             neighbors = check.whole("gradients", "neighbors", neighbors, 0)
         regularization = check.number("gradients", "regularization", regularization)
+        # Older folders do not have the positions, where noisy points were moved.
+        points = self.positions if len(self.positions) == len(self) else self._points
         return self._keep("gradients", lambda: _tufted.gradients(
-            self._laplacian, self._points, self._fitted_frames(), neighbors, regularization,
+            self._laplacian, points, self._fitted_frames(), neighbors, regularization,
             self._solving["threads"], check.callback("gradients", progress)), (neighbors, regularization))
 
     def _fitted_frames(self):

@@ -20,9 +20,9 @@
 #include <vector>
 
 #include "../console.h"
-#include "../inactive.h"
 #include "../options.h"
 #include "../progress_bar.h"
+#include "../warnings.h"
 #include "children.h"
 #include "files.h"
 #include "table.h"

@@ -18,11 +18,11 @@
 #include <string_view>
 #include <utility>
 
-#include "../inactive.h"
 #include "../interrupt.h"
 #include "../options.h"
 #include "../peak_memory.h"
 #include "../structure.h"
+#include "../warnings.h"
 #include "tufted/check.h"
 #include "tufted/errors.h"
 #include "tufted/io/results.h"
