@@ -52,7 +52,7 @@ struct Gradients {
 /// @throws InvalidInput for indices out of range
 Frames meshFrames(const PointsRef& points, const TrianglesRef& triangles);
 
-/// As above for a mesh whose equal vertices are joined (MeshOptions::weld): joined vertices share the frame of all
+/// Frames of a mesh whose equal vertices are joined (MeshOptions::weld): joined vertices share the frame of all
 /// their triangles.
 /// @param points N x 3, of the mesh that the Laplacian was built from
 /// @param triangles F x 3, of the mesh that the Laplacian was built from
