@@ -59,6 +59,7 @@ struct CloudOptions {
   FaceOrder order = FaceOrder::angle;  ///< of the faces around an edge
   std::uint64_t seed = 0;              ///< for FaceOrder::random
   Delaunay delaunay = Delaunay::star;  ///< how the stars are found
+  /// 0 to 1, see default_mollify.
   double mollify = default_mollify;
   int threads = 0;         ///< at most this many; 0: one per processor
   bool keep_cover = true;  ///< false frees what the cover is built from (about 100 bytes per point, up to 700 on noise)
@@ -78,6 +79,7 @@ CloudOptions cloudOptions(Preset preset);
 struct MeshOptions {
   FaceOrder order = FaceOrder::angle;  ///< of the faces around an edge
   std::uint64_t seed = 0;              ///< for FaceOrder::random
+  /// 0 to 1, see default_mollify.
   double mollify = default_mollify;
   int threads = 0;         ///< at most this many; 0: one per processor
   bool keep_cover = true;  ///< false frees the cover (96 bytes per triangle)

@@ -114,7 +114,7 @@ std::string lower(std::string_view text) {
 }
 
 std::string plainName(std::string_view name) {
-  constexpr std::string_view around = "\"'` \t\r\n";
+  static constexpr std::string_view around = "\"'` \t\r\n";
   const auto strip = [&name] {
     const std::size_t begin = std::min(name.find_first_not_of(around), name.size());
     name = name.substr(begin, name.find_last_not_of(around) + 1 - begin);

@@ -5,7 +5,8 @@
 #include <iterator>
 
 std::string nothingActive(const tufted::Laplacian& laplacian) {
-  tufted::Report counts{.points = std::ssize(laplacian.status)};
+  tufted::Report counts;
+  counts.points = std::ssize(laplacian.status);
   for (const tufted::PointStatus status : laplacian.status) {
     if (status == tufted::PointStatus::active) return "";
     counts.not_finite += status == tufted::PointStatus::not_finite ? 1 : 0;

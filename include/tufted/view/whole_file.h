@@ -15,7 +15,7 @@ class WholeFile {
   ///        hidden folder lies in the nearest one above, and giveName() needs the directory.
   /// @throws IoError naming `path`, also where it is no regular file, such as a device or a pipe
   WholeFile(const std::filesystem::path& path, std::string_view bytes);
-  WholeFile(WholeFile&& other) noexcept;
+  WholeFile(WholeFile&& other) noexcept;  ///< takes the file over; `other` then removes nothing
   WholeFile& operator=(WholeFile&&) = delete;
   ~WholeFile();
 
