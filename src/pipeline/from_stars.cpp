@@ -32,6 +32,7 @@ std::optional<OwnAreas> finishFromStars(SurfaceStars built, RankedCloud cloud, c
   if (figures.flips.failures > 0 && options.mollify > 0) return std::nullopt;
 
   stars_and_cover->assemble(metric, options.keep_cover, workers, result);
+  if (result.report.degenerate_faces > 0 && options.mollify > 0) return std::nullopt;  // flips have made some flat
   if (result.report.components > 1)
     figures.by_component = stars_and_cover->componentEdges(result.component, result.report.components, workers);
   finishResult(figures, exponent, result);

@@ -14,9 +14,8 @@ namespace tufted {
 
 /// Algorithms 1 to 3 straight from the stars, see direct/star_union.h: the same result as finishFromCover() up to
 /// rounding, in half the time. The result keeps what the cover is made of, if the options say so.
-/// @returns ownAreas() with Mass::star, else empty ones. Nothing where a triangle is flat or flips do not end, and
-/// edges
-///          may be lengthened: only finishFromCover() does that
+/// @returns ownAreas() with Mass::star, else empty ones. Nothing where a triangle is flat, or flips make one flat or do
+/// not end, and edges may be lengthened: only finishFromCover() does that.
 std::optional<OwnAreas> finishFromStars(SurfaceStars built, RankedCloud cloud, const CloudOptions& options,
                                         const Workers& workers, StageClock& clock, Laplacian& result);
 
