@@ -84,7 +84,11 @@ class March {
         maximum_(maximum),
         workers_(workers) {}
 
-  void start(const MarchStart& start) { offer(labels_.labelAt(start.vertex, start.source, heap_), start.distance); }
+  void start(const MarchStart& start) {
+    const int label = labels_.labelAt(start.vertex, start.source, heap_);
+    // A source in a face may be nearer to the middle of a bent edge than to where that counts as lying.
+    offer(label, std::max(start.distance, straightTo(label)));
+  }
 
   MarchResult finish() {
     while (takeNearest()) spread();
@@ -194,15 +198,18 @@ class March {
     if (must_see || labels_.mayBe(c, distance)) offers_.push_back({c, distance});
   }
 
+  /// The straight line from the source; 0 where its position is not known. Middles of edges count as halfway between
+  /// their ends.
+  double straightTo(int label) const {
+    if (sources_.empty()) return 0;
+    return (faces_.position(labels_.vertexOf(label)) - sources_[static_cast<std::size_t>(labels_.sourceOf(label))])
+        .norm();
+  }
+
   /// Whether a distance is shorter than the straight line: the source unfolded into the triangle is nearer than it can
   /// be, as the edge between the other corners leads past what lies between them. That of a triangle whose sides are
   /// straight never is, if those of its other corners are not (Stewart's theorem).
-  bool isTooShort(int label, double distance) const {
-    if (sources_.empty()) return false;
-    const Eigen::Vector3d straight =
-        faces_.position(labels_.vertexOf(label)) - sources_[static_cast<std::size_t>(labels_.sourceOf(label))];
-    return distance < (1 - straight_rounding) * straight.norm();
-  }
+  bool isTooShort(int label, double distance) const { return distance < (1 - straight_rounding) * straightTo(label); }
 
   /// The distance through the triangle that the corners span in space, whose sides are straight.
   double distanceInSpace(int a, int b, int c, bool must_see) const {

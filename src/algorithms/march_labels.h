@@ -127,7 +127,7 @@ class LabelsOfSeveralSources {
   /// changes distances by a part that falls to a fifteenth with each edge; see docs/algorithm.md.
   static constexpr double reach = 4;
   /// Nor those that are farther than so many others, as where sources lie side by side.
-  static constexpr int most_nearer = 3;
+  static constexpr int most_nearer = 5;
 
   bool isNear(int label) const {
     const Label& own = labels_[label];

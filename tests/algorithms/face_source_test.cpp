@@ -189,7 +189,7 @@ TEST(FaceSource, IsExactOnPagesOfSlivers) {
   }
 }
 
-TEST(FaceSource, IsExactInFansAndInTrianglesWithoutArea) {
+TEST(FaceSource, IsNearlyExactInFansAndInTrianglesWithoutArea) {
   shapes::Random random(103);
   for (const int corner : {0, 1}) {
     for (const double height : {2., 2e-2}) {
@@ -198,9 +198,11 @@ TEST(FaceSource, IsExactInFansAndInTrianglesWithoutArea) {
       for (int face = 0; face < mesh.triangles.rows(); ++face) {
         const SurfacePoint source = SurfacePoint::inFace(mesh.points, mesh.triangles, face, randomWeights(random));
         const VectorXd exact = straight(mesh.points, placeOf(mesh.points, source));
-        // The lower plate is 450,000 times as long as high: what flips round off there is a height.
-        ASSERT_LE((solver.queryAt({source}) - exact).cwiseAbs().maxCoeff(), 0.01 + std::min(1.1 * height, 0.02))
-            << corner << " " << height << " " << face;
+        const VectorXd error = solver.queryAt({source}) - exact;
+        for (Eigen::Index i = 0; i < error.size(); ++i) {
+          ASSERT_LE(error[i], 0.01 * std::max(exact[i], height)) << corner << " " << height << " " << face;
+          ASSERT_GE(error[i], -1e-7 * exact[i]) << corner << " " << height << " " << face;  // no shorter than straight
+        }
       }
     }
   }

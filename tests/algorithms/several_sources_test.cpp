@@ -79,7 +79,7 @@ TEST(SeveralSources, AreAsNearAsTheNearestOfThemOnFlatMeshesWithObtuseAngles) {
     points.col(2).setZero();
     const Laplacian laplacian = meshLaplacian(points, oracles::stretchedDelaunay(points, 1));
     for (const int split : {0, 1, 2})
-      for (const int count : {3, 30}) expectLeast(laplacian, randomSources(900, count, seed), split, 1e-9);
+      for (const int count : {3, 30, 100}) expectLeast(laplacian, randomSources(900, count, seed), split, 1e-9);
   }
 }
 
@@ -114,9 +114,9 @@ TEST(SeveralSources, ReachPointsFewTimes) {
     solver.query(randomSources(n, count, 101), &several);
     EXPECT_LE(several.visits, 3 * one.visits) << count;
   }
-  // Side by side many are almost equally near: three go on, and those beside them end.
+  // Side by side many are almost equally near: five go on, and those beside them end.
   solver.query(firstPoints(100), &several);
-  EXPECT_LE(several.visits, 5 * one.visits);
+  EXPECT_LE(several.visits, 7 * one.visits);
 }
 
 TEST(SeveralSources, CountOnceWhereTheyAreTheSame) {
