@@ -1,6 +1,8 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "tufted/options.h"
 #include "tufted/scan_structure.h"
@@ -22,7 +24,10 @@ struct DenoiseReport {
   std::int64_t not_finite = 0;  ///< NaN, infinite, or beyond 1e70 median spreads or 1e152; they stay
   std::int64_t coincident = 0;  ///< equal to an earlier point; they move with it
   std::int64_t moved = 0;       ///< points that moved, without coincident ones
-  std::int64_t unplaced = 0;    ///< usable points that have no pixel of their own in the depth image; they stay
+  /// Points that stayed because those around them are a curve, or fill a volume, or are as thick as wide.
+  std::int64_t no_surface = 0;
+  double pixel_fill = 0;      ///< of the depth image, see pixelFill(); 0 without one
+  std::int64_t unplaced = 0;  ///< usable points that have no pixel of their own in the depth image; they stay
   /// Points that stayed because they hover over the surface of their neighbours; in a depth image those that no surface
   /// joins with another point in the 7 x 7 pixels around.
   std::int64_t outliers = 0;
@@ -31,6 +36,9 @@ struct DenoiseReport {
   double farthest_move = 0;  ///< the longest way of a point, in the caller's unit
   double seconds = 0;        ///< wall-clock
 };
+
+/// What a user must know, as warnings() of a Report.
+std::vector<std::string> warnings(const DenoiseReport& report);
 
 /// Points on the surface that noisy ones lie around.
 struct DenoisedPoints {

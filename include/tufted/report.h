@@ -33,11 +33,13 @@ struct Report {
   bool neighbors_clamped = false;        ///< the caller's k exceeded N - 1
   std::int64_t rejected_normals = 0;     ///< caller's normals that are zero or not finite, replaced by PCA
   std::int64_t rejected_neighbors = 0;   ///< caller's neighbours that are repeated, unusable or the point itself
+  double pixel_fill = 0;                 ///< of the depth image that the structure is of, see pixelFill(); 0 without
   std::int64_t unplaced = 0;             ///< usable points that have no place in the structure of the scan
   std::int64_t cut_neighbors = 0;        ///< neighbours in the scan left out because the surface jumps in between
   std::int64_t grown_neighborhoods = 0;  ///< k doubled because the neighbours say too little, see Growth
   std::int64_t split_neighborhoods = 0;  ///< neighbours of another sheet left out
   std::int64_t isolated_by_sheets = 0;   ///< points without a star: nearly all neighbours belong to other sheets
+  std::int64_t thick_neighborhoods = 0;  ///< thicker than half their width: thin things within, volumes, strong noise
   std::int64_t outliers = 0;             ///< points without a star: they hover over a surface, see CloudSteps
   std::int64_t denoised = 0;             ///< points moved onto the surface, see CloudSteps::denoise and Lengths
   /// The noise around each point that CloudSteps::denoise moved, or the smoothing of a depth image, is a standard
@@ -103,11 +105,13 @@ void visitNumbers(AnyReport& report, const Visit& visit) {
   visit("neighbors_clamped", report.neighbors_clamped);
   visit("rejected_normals", report.rejected_normals);
   visit("rejected_neighbors", report.rejected_neighbors);
+  visit("pixel_fill", report.pixel_fill);
   visit("unplaced", report.unplaced);
   visit("cut_neighbors", report.cut_neighbors);
   visit("grown_neighborhoods", report.grown_neighborhoods);
   visit("split_neighborhoods", report.split_neighborhoods);
   visit("isolated_by_sheets", report.isolated_by_sheets);
+  visit("thick_neighborhoods", report.thick_neighborhoods);
   visit("outliers", report.outliers);
   visit("denoised", report.denoised);
   visit("noise", report.noise);

@@ -21,6 +21,7 @@
 #include "tufted/options.h"
 #include "tufted/parameterization.h"
 #include "tufted/path.h"
+#include "tufted/pixel_fill.h"
 #include "tufted/polygons.h"
 #include "tufted/report.h"
 #include "tufted/scan_structure.h"

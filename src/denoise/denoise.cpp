@@ -62,11 +62,14 @@ void moveOntoSurface(const RankedCloud& cloud, const Workers& workers, DenoisedP
   const SurfaceMoves moves = surfaceMoves(cloud.points, source, workers);
   apply(
       moves.move, [&](int p) { return std::sqrt(moves.variance[p]); }, cloud, denoised);
+  denoised.report.no_surface = moves.no_surface;
   denoised.report.outliers = std::count(moves.outlier.begin(), moves.outlier.end(), 1);
 }
 
 void moveAlongRays(const RankedScan& scan, const RankedCloud& cloud, const Workers& workers, DenoisedPoints& denoised) {
-  const SurfaceImage image = surfaceImage(pixelGrid(scan), cloud.points, true, workers);
+  PixelGrid grid = pixelGrid(scan);
+  denoised.report.pixel_fill = pixelFill(grid);
+  const SurfaceImage image = surfaceImage(std::move(grid), cloud.points, true, workers);
   const auto noiseOf = [&](int p) { return image.noiseOf(p, cloud.points); };
   apply(image.windows.displacement, noiseOf, cloud, denoised);
   denoised.report.unplaced = image.unplaced;

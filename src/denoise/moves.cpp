@@ -169,7 +169,14 @@ SurfaceMoves surfaceMoves(const PointsView& points, const NeighborSource& source
   windows.resize(n, static_cast<int>(std::bit_floor(static_cast<unsigned>(stride))));
   NeighborLists lists(windows.size());
   const NoiseLevel noise = findNoise(fitter, workers, windows, lists);
-  if (std::ranges::find(noise.noisy, 1) == noise.noisy.end()) return result;
+  const auto countStaying = [&] {
+    for (int p = 0; p < n; ++p)
+      result.no_surface += noise.no_surface[p / windows.stride] != 0 && result.move.row(p).isZero(0) ? 1 : 0;
+  };
+  if (std::ranges::find(noise.noisy, 1) == noise.noisy.end()) {
+    countStaying();
+    return result;
+  }
 
   if (windows.stride > 1) fitThroughMiddles(points, workers, windows);
   const WindowChoice choice = chooseWindows(windows, noise, allOf(windows), workers);
@@ -177,6 +184,7 @@ SurfaceMoves surfaceMoves(const PointsView& points, const NeighborSource& source
       shareSurfaces(points, source, lists, windows, noise, choice, workers, result.move, result.variance);
   moveAlone(points, fitter, windows, noise, shared, workers, result);
   moveOntoRims(points, source, windows, noise, choice, workers, result.move);
+  countStaying();
   return result;
 }
 

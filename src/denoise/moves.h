@@ -15,6 +15,7 @@ struct SurfaceMoves {
   PointBuffer move;              ///< n x 3, exactly 0 where a point stays
   RawBuffer<double> variance;    ///< n, of the noise around each point that moves, in length^2; else of no meaning
   Buffer<std::uint8_t> outlier;  ///< n, 1 at points that stay because they lie far off the surface of their neighbours
+  std::int64_t no_surface = 0;   ///< points that stay because those around them are a curve or fill a volume
 
   /// How many points move.
   std::int64_t count() const;

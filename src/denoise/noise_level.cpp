@@ -93,7 +93,7 @@ RawBuffer<double> innerShares(const WindowFitter& fitter, const NeighborLists& l
 }
 
 /// Doubles base windows while the points in them are as thick as wide, or a line.
-/// @returns which are as thick as wide in the end
+/// @returns NoiseLevel::no_surface
 Buffer<std::uint8_t> widen(const WindowFitter& fitter, const Workers& workers, Windows& windows, NeighborLists& lists) {
   const int n = windows.size();
   RawBuffer<double> around = thicknessAround(windows, workers);
@@ -127,9 +127,9 @@ Buffer<std::uint8_t> widen(const WindowFitter& fitter, const Workers& workers, W
     makeWindows(fitter, back, windows, lists);
     around = thicknessAround(windows, workers);
   }
-  Buffer<std::uint8_t> is_thick(windows.base.size());
-  for (int w = 0; w < n; ++w) is_thick[w] = around[w] > 2 * thick || is_none[w] != 0 ? 1 : 0;
-  return is_thick;
+  for (int w = 0; w < n; ++w)
+    if (around[w] > 2 * thick) is_none[w] = 1;
+  return is_none;
 }
 
 /// The variance of the noise around each point: creases and bends only add to residuals, so a low quantile of them.
@@ -157,9 +157,8 @@ bool isOutlier(const Windows& windows, int p, double variance) {
 
 /// Where there is noise that can be told from the shape of the surface: the residuals of the two windows are alike, and
 /// no exact points are around.
-/// @param is_thick n, 1 at points in volumes
-void findNoisy(const Windows& windows, const Buffer<std::uint8_t>& is_thick, const Workers& workers,
-               NoiseLevel& noise) {
+/// @param noise whose `noisy` is found by the rest
+void findNoisy(const Windows& windows, const Workers& workers, NoiseLevel& noise) {
   const auto is_strong = [&](int p) { return noise.variance[p] > leastVariance(windows, p); };
   RawBuffer<double> exact_around(windows.base.size());  // share of exact points around each
   forEachPoint(windows, workers, [&](int p) {
@@ -182,7 +181,7 @@ void findNoisy(const Windows& windows, const Buffer<std::uint8_t>& is_thick, con
   noise.noisy.resize(windows.base.size());
   forEachPoint(windows, workers, [&](int p) {
     const double share = pooledMean(p, windows.near[p], [&](int q) { return sure[q]; });
-    const bool is_noisy = is_strong(p) && share > sure_share && noise.outlier[p] == 0 && is_thick[p] == 0;
+    const bool is_noisy = is_strong(p) && share > sure_share && noise.outlier[p] == 0 && noise.no_surface[p] == 0;
     noise.noisy[p] = is_noisy ? 1 : 0;
   });
 }
@@ -220,11 +219,11 @@ bool mayBeNoisy(const PointsView& points, const NeighborSource& source, const Wo
 NoiseLevel findNoise(const WindowFitter& fitter, const Workers& workers, Windows& windows, NeighborLists& lists) {
   NoiseLevel noise;
   makeWindows(fitter, allOf(windows), windows, lists);
-  const Buffer<std::uint8_t> is_thick = widen(fitter, workers, windows, lists);
+  noise.no_surface = widen(fitter, workers, windows, lists);
   noise.variance = noiseVariance(windows, workers);
   noise.outlier.resize(windows.base.size());
   for (int w = 0; w < windows.size(); ++w) noise.outlier[w] = isOutlier(windows, w, noise.variance[w]) ? 1 : 0;
-  findNoisy(windows, is_thick, workers, noise);
+  findNoisy(windows, workers, noise);
   return noise;
 }
 

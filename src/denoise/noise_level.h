@@ -12,6 +12,8 @@ struct NoiseLevel {
   RawBuffer<double> variance;    ///< of the noise around the middle of each, in length^2
   Buffer<std::uint8_t> outlier;  ///< whether the middle lies far off the surface of its neighbours
   Buffer<std::uint8_t> noisy;    ///< whether there is noise that can be told from the shape of the surface
+  /// Whether there is none: the points around are a curve, fill a volume, or are as thick as wide.
+  Buffer<std::uint8_t> no_surface;
 };
 
 /// Below this part of the spacing noise does nothing to a Laplacian.

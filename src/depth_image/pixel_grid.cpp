@@ -8,6 +8,7 @@
 #include <string>
 
 #include "neighbors/scan/pinhole.h"
+#include "neighbors/scan/pixel_fill.h"
 #include "tufted/errors.h"
 
 namespace tufted {
@@ -158,6 +159,12 @@ void findAxis(const PointsView& points, const Workers& workers, PixelGrid& grid)
     grid.rank[grid.pixel[p]] = -1;
     grid.pixel[p] = -1;
   }
+}
+
+double pixelFill(const PixelGrid& grid) {
+  return pixelFill(grid.row_line, grid.column_line, [&grid](int row, int column) {
+    return grid.rankAt(row + PixelGrid::margin, column + PixelGrid::margin) >= 0;
+  });
 }
 
 }  // namespace tufted

@@ -69,6 +69,9 @@ struct PixelGrid {
 /// at the sides
 PixelGrid pixelGrid(const RankedScan& scan, int around = 0);
 
+/// Of the pixels near points, the share that hold points; see tufted/pixel_fill.h.
+double pixelFill(const PixelGrid& grid);
+
 /// How far samples of so many pixels, row by row, are apart, so that they lie in all columns.
 std::int64_t sampleStride(std::int64_t pixels, std::int64_t samples, std::int64_t row);
 

@@ -51,9 +51,10 @@ const char* name(Sign sign) {
 }
 
 Json denoiseObject(const DenoiseReport& report) {
-  return {{"points", report.points},  {"not_finite", report.not_finite}, {"coincident", report.coincident},
-          {"moved", report.moved},    {"unplaced", report.unplaced},     {"outliers", report.outliers},
-          {"noise", report.noise},    {"mean_move", report.mean_move},   {"farthest_move", report.farthest_move},
+  return {{"points", report.points},       {"not_finite", report.not_finite},       {"coincident", report.coincident},
+          {"moved", report.moved},         {"no_surface", report.no_surface},       {"pixel_fill", report.pixel_fill},
+          {"unplaced", report.unplaced},   {"outliers", report.outliers},           {"noise", report.noise},
+          {"mean_move", report.mean_move}, {"farthest_move", report.farthest_move}, {"warnings", warnings(report)},
           {"seconds", report.seconds}};
 }
 

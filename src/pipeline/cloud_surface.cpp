@@ -87,7 +87,11 @@ CloudSurface findSurface(RankedCloud& cloud, const CloudOptions& options, const 
                          const Workers& workers, StageClock& clock, Report& report) {
   if (options.structure != nullptr) {
     RankedScan scan = rankScan(*options.structure, cloud, status, representative);
-    if (!options.structure->has_rings) return imageSurface(pixelGrid(scan), cloud, options, workers, clock, report);
+    if (!options.structure->has_rings) {
+      PixelGrid grid = pixelGrid(scan);
+      report.pixel_fill = pixelFill(grid);
+      return imageSurface(std::move(grid), cloud, options, workers, clock, report);
+    }
     const auto image = columnsOfRings(std::move(scan), cloud.points, workers);
     if (image) return imageSurface(pixelGrid(image->scan, image->columns), cloud, options, workers, clock, report);
   }

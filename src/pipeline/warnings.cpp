@@ -3,10 +3,14 @@
 #include <string>
 #include <vector>
 
+#include "tufted/denoise.h"
+#include "tufted/pixel_fill.h"
 #include "tufted/report.h"
 
 namespace tufted {
 namespace {
+
+constexpr double many_thick = 0.25;  // of the active points; of real scans at most .13, of cables 9 spacings around .5
 
 constexpr double much_area =
     1e-3;  // of the area of the triangles, so much that results differ by more than a plot shows
@@ -15,6 +19,15 @@ std::string percent(double share) {
   char text[32];
   std::snprintf(text, sizeof text, "%.2g %%", 100 * share);
   return text;
+}
+
+/// Of a depth image most of whose pixels are missing; empty for others.
+std::string sparseImage(double fill) {
+  if (fill == 0 || fill >= least_pixel_fill) return "";
+  return "only " + percent(fill) +
+         " of the pixels near points hold points: as a plain cloud, without its pixels, it "
+         "does better below " +
+         percent(least_pixel_fill);
 }
 
 }  // namespace
@@ -44,7 +57,18 @@ std::vector<std::string> warnings(const Report& report) {
   add(report.neighbors_clamped,
       "the neighbourhood of each point is the whole cloud, so that areas mean little: fewer neighbours than " +
           count(report.neighbors) + " may do better");
+  add(static_cast<double>(report.thick_neighborhoods) > many_thick * static_cast<double>(report.active),
+      "around " + count(report.thick_neighborhoods) + " of " + count(report.points) +
+          " points the neighbours are no surface but as thick as wide, as in volumes and on cables thinner than " +
+          count(report.neighbors) + " neighbours reach: areas may be far off, and fewer neighbours may do better");
+  add(!sparseImage(report.pixel_fill).empty(), sparseImage(report.pixel_fill));
   return all;
+}
+
+std::vector<std::string> warnings(const DenoiseReport& report) {
+  const std::string sparse = sparseImage(report.pixel_fill);
+  if (sparse.empty()) return {};
+  return {sparse};
 }
 
 }  // namespace tufted

@@ -84,7 +84,8 @@ py::tuple denoised(const Doubles& points, const std::optional<ScanStructure>& st
     return denoise(view, {.structure = structure ? &*structure : nullptr, .threads = threads, .progress = called});
   });
   const DenoiseReport& report = done.report;
-  return py::make_tuple(std::move(done.positions), std::move(done.noise), report.moved, report.outliers, report.noise);
+  return py::make_tuple(std::move(done.positions), std::move(done.noise), report.moved, report.outliers, report.noise,
+                        warnings(report));
 }
 
 py::tuple parameterized(const Laplacian& laplacian, const Integers& faces, const std::string& method,

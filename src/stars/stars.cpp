@@ -24,6 +24,7 @@ constexpr int group_size = NeighborhoodFinder::most_planes;  // frames come firs
 constexpr std::size_t usual_degree = 7;                      // on average over a block
 constexpr int most_doublings = 2;                            // of the neighbours of an open star
 constexpr double flat_share = 0.02;  // of the second variance, below which a neighbourhood is a plane
+constexpr double thick_share = 0.5;  // of the second variance: a cable 9 spacings around has more, one of 12 has not
 
 /// Memory, counts and times of one worker.
 struct WorkerState {
@@ -34,7 +35,8 @@ struct WorkerState {
   Neighborhood saved_neighborhood;
   DelaunayStar saved_star;
   StarMemory memory;
-  std::int64_t grown_neighborhoods = 0, split_neighborhoods = 0, isolated = 0, grown_stars = 0, closed_stars = 0;
+  std::int64_t grown_neighborhoods = 0, split_neighborhoods = 0, thick = 0, isolated = 0, grown_stars = 0,
+               closed_stars = 0;
   std::array<double, 3> seconds = {};  // neighbours, frames, stars
 };
 
@@ -86,12 +88,14 @@ class StarBuilder {
     state.grown_neighborhoods += neighborhood.grown ? 1 : 0;
     state.split_neighborhoods += neighborhood.split ? 1 : 0;
     state.isolated += neighborhood.isolated ? 1 : 0;
+    const Eigen::Vector3d& variance = neighborhood.axes.variance;
+    state.thick += variance[0] > thick_share * variance[1] && !liesOnOneLine(neighborhood.axes) ? 1 : 0;
     if (source_.normals.rows() > 0 && !source_.normals.row(p).isZero(0))
       neighborhood.axes.normal = source_.normals.row(p);
     support_.normals.row(p) = neighborhood.axes.normal;
     support_.fit_radius[p] = neighborhood.fit_radius;
     support_.isolated[p] = neighborhood.isolated ? 1 : 0;
-    stars_.flat[p] = neighborhood.axes.variance[0] < flat_share * neighborhood.axes.variance[1] ? 1 : 0;
+    stars_.flat[p] = variance[0] < flat_share * variance[1] ? 1 : 0;
   }
 
   /// The star among the neighbours.
@@ -237,6 +241,7 @@ BuiltStars buildStars(const RankedCloud& cloud, const NeighborSource& source, co
   for (const WorkerState& state : states) {
     report.grown_neighborhoods += state.grown_neighborhoods;
     report.split_neighborhoods += state.split_neighborhoods;
+    report.thick_neighborhoods += state.thick;
     report.isolated_by_sheets += state.isolated;
     report.grown_stars += state.grown_stars;
     report.closed_stars += state.closed_stars;

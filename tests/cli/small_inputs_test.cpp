@@ -66,14 +66,14 @@ TEST_F(SmallInputs, AllPairsThatThereAreCanBeAskedFor) {
 }
 
 TEST_F(SmallInputs, ADefaultCountIsThatOfWhatThereIs) {
-  const std::string cloud = dir_.write("sphere.xyz", sphere(40));
+  const std::string cloud = dir_.write("sphere.xyz", sphere(70));
   for (const std::vector<std::string>& words : std::vector<std::vector<std::string>>{{"hks"}, {"hks", "--wave"}}) {
     std::vector<std::string> all = words, none = words;
-    all.insert(all.end(), {cloud, "--count", "39", "--out", in("all")});
+    all.insert(all.end(), {cloud, "--count", "69", "--out", in("all")});
     none.insert(none.end(), {cloud, "--out", in("none")});
     run(all);
     run(none);
-    EXPECT_EQ(values("all/evals.npy").size(), 39u);
+    EXPECT_EQ(values("all/evals.npy").size(), 69u);
     EXPECT_EQ(values("all/evals.npy"), values("none/evals.npy"));
   }
   // Of two components one positive eigenvalue is less there.

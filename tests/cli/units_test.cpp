@@ -55,8 +55,11 @@ TEST_F(Units, TimeStepsOfDistancesThatCoverAllOrNothingAreRefused) {
   };
   expectBothRefused(with("1e12"), "--time-step 1e+12: heat goes 1");
   expectBothRefused(with("1e4"), ", beyond all points: ");
-  expectBothRefused(with("1e-300"), "--time-step 1e-300: heat goes 1");
-  expectBothRefused(with("5e-5"), ", less than a hundredth of the spacing: ");
+  for (const std::string step : {"1e-300", "5e-5"}) {
+    std::vector<std::string> command = with(step.c_str());
+    command.push_back(cloud_);
+    expectRefusal(command, "--time-step: " + step + " is not a number in [0.0001, 1e+12]");
+  }
   for (const char* step : {"0.001", "0.03", "0.5", "100"})
     run({"distance", cloud_, "--source", "0", "--method", "heat", "--time-step", step, "--out", in("out")});
 }

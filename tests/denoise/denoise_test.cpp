@@ -1,5 +1,6 @@
 #include "tufted/denoise.h"
 
+#include <gtest/gtest-spi.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
@@ -188,7 +189,16 @@ TEST(Denoise, LeavesCurvesAlone) {
                                    along(helix, count, noise, 113), along(knot, count, noise, 114)})
         EXPECT_EQ(denoise(points).positions, points) << count << " points with noise of " << noise << " spacings";
     }
+    EXPECT_EQ(denoise(along(circle, count, 0.1, 112)).report.no_surface, count);
   }
+}
+
+TEST(Denoise, DoesNotYetLeaveTightHelicesAlone) {
+  // 30 points a turn and turns as far apart as the radius: 32 neighbours are a ring, and 64 are taken for a thick
+  // surface. To be mended where the stage that moves points is made anew; this test says so when it is.
+  const Points helix =
+      along([](double t) { return Eigen::RowVector3d(std::cos(10 * t), std::sin(10 * t), 8 * t / 6.3); }, 300, 0, 1);
+  EXPECT_NONFATAL_FAILURE(EXPECT_EQ(denoise(helix).positions, helix), "");
 }
 
 TEST(Denoise, LeavesVolumesAlone) {
@@ -202,7 +212,11 @@ TEST(Denoise, LeavesVolumesAlone) {
     }
     Points noisy = ball;
     for (double& x : noisy.reshaped()) x += std::cbrt(1.0 / count) * random.normal();
-    for (const Points& points : {cube, ball, noisy}) EXPECT_EQ(denoise(points).positions, points) << count;
+    for (const Points& points : {cube, ball, noisy}) {
+      const DenoisedPoints done = denoise(points);
+      EXPECT_EQ(done.positions, points) << count;
+      EXPECT_GT(done.report.no_surface, 0.9 * count) << count;
+    }
   }
 }
 

@@ -469,3 +469,11 @@ def test_welded_vertices_keep_their_indices_and_rows(mesh, tmp_path):
             np.testing.assert_allclose(found, known[vertex], atol=1e-8)
         assert welded.path(a, b).length == pytest.approx(mesh.path(vertex[a], vertex[b]).length, abs=1e-12)
     assert tufted.Mesh(torn, torn_faces).report["components"] == len(faces)
+
+
+def test_sparse_depth_images_are_a_warning():
+    points = np.array([((i % 80 - 40) / 50, (i // 80 - 30) / 50, 1) for i in range(4800)])
+    points[np.random.default_rng(101).random(4800) < 0.7] = np.nan
+    for build in (tufted.PointCloud, tufted.denoise):
+        with pytest.warns(tufted.TuftedWarning, match="of the pixels near points hold points"):
+            build(points, image=(80, 60))

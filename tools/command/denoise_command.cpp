@@ -101,8 +101,9 @@ int runDenoise(Settings& settings) {
   bar.clear();
 
   Summary summary;
-  summary.add("points", "%lld, %lld moved, %lld outliers", static_cast<long long>(done.points),
-              static_cast<long long>(done.moved), static_cast<long long>(done.outliers));
+  summary.add("points", "%lld, %lld moved, %lld outliers, %lld on no surface", static_cast<long long>(done.points),
+              static_cast<long long>(done.moved), static_cast<long long>(done.outliers),
+              static_cast<long long>(done.no_surface));
   if (done.moved > 0) {
     summary.add("noise", "%.4g, standard deviation along the %s", done.noise,
                 scan ? "rays of a depth image" : "normal");
@@ -115,8 +116,10 @@ int runDenoise(Settings& settings) {
   summary.add("took", "%.3g s, peak memory %.0f MB", done.seconds, peakMemory());
   summary.add("written to", "%s", settings.out.c_str());
   addLook(settings.look, summary);
-  for (const std::string& note : geometry.notes) warn(bar, note);
-  sayResults(settings.console, summary, settings.out, geometry.notes);
+  std::vector<std::string> warnings = geometry.notes;
+  for (const std::string& line : tufted::warnings(done)) warnings.push_back(settings.input.name() + ": " + line);
+  for (const std::string& line : warnings) warn(bar, line);
+  sayResults(settings.console, summary, settings.out, warnings);
   return exit_done;
 }
 

@@ -116,6 +116,12 @@ Results compute(Settings& settings, Operator& source) {
                       static_cast<long long>(made.flipped), static_cast<long long>(made.collapsed));
   results.summary.add("angles", "quasi-conformal error %.4f, 1 where they are kept", made.quasi_conformal_error);
   results.summary.add("not mapped", "%lld points, which are NaN", static_cast<long long>(made.not_mapped));
+  if (made.collapsed > 0)
+    results.warnings.push_back(std::to_string(made.collapsed) +
+                               " triangles are lower in the plane than 1e-7 of the map");
+  if (made.collapsed_charts > 0)
+    results.warnings.push_back(std::to_string(made.collapsed_charts) +
+                               " parts are too long for their rims and are not mapped; cut them open");
   results.arrays = {{.name = "uv", .values = uv}};
   return results;
 }

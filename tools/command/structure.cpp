@@ -22,15 +22,9 @@ Structure structureFor(const tufted::Geometry& geometry) {
 
 std::string doubtOf(const tufted::Geometry& geometry, Structure structure) {
   if (structure != Structure::image || structureFor(geometry) == Structure::image) return "";
-  char text[200];
   const double fill = tufted::pixelFill(geometry.points, geometry.width, geometry.height, originOf(geometry));
-  if (fill > 0 && fill < tufted::least_pixel_fill) {
-    std::snprintf(text, sizeof text,
-                  "see points in %.0f %% of the pixels near points alone, must be %.0f for a depth image; --structure "
-                  "none does without pixels",
-                  100 * fill, 100 * tufted::least_pixel_fill);
-    return text;
-  }
+  if (fill > 0 && fill < tufted::least_pixel_fill) return "";  // its warning says so
+  char text[200];
   const auto& at = geometry.viewpoint;
   std::snprintf(text, sizeof text,
                 "of no pinhole camera at %.6g, %.6g, %.6g, the viewpoint of the file or 0 without one", at[0], at[1],

@@ -2,14 +2,13 @@
 
 #include <CLI/CLI.hpp>
 #include <cmath>
-#include <limits>
 
 #include "extent.h"
 #include "options.h"
 #include "tufted/errors.h"
 
 CLI::Option* addTimeStep(CLI::App& command, std::optional<double>& time_step, const std::string& text) {
-  return addNumber(command, "--time-step", time_step, std::numeric_limits<double>::min(), 1e12, text)->type_name("T");
+  return addNumber(command, "--time-step", time_step, 1e-4, 1e12, text)->type_name("T");
 }
 
 void checkTimeStep(const std::optional<double>& time_step, double time, const Operator& source) {

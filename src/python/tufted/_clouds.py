@@ -1,12 +1,13 @@
 """Clouds and meshes, from arrays and from files."""
 import json
 import os
+import warnings
 
 import numpy as np
 
 from . import _arguments as check
 from . import _tufted
-from ._results import Denoised
+from ._results import Denoised, TuftedWarning
 from ._surface import Surface
 from ._tufted import InvalidInput
 
@@ -161,8 +162,11 @@ def denoise(points, *, image=None, viewpoint=None, threads=0, progress=None):
         structure = _pixels(name, points, image, origin)
     elif viewpoint is not None:
         raise InvalidInput("denoise: viewpoint is given, must be None without image")
-    return Denoised(*_tufted.denoise(points, structure, check.whole(name, "threads", threads, 0),
-                                     check.callback(name, progress)))
+    *denoised, sentences = _tufted.denoise(points, structure, check.whole(name, "threads", threads, 0),
+                                           check.callback(name, progress))
+    for sentence in sentences:
+        warnings.warn(f"denoise: {sentence}", TuftedWarning, stacklevel=2)
+    return Denoised(*denoised)
 
 
 def _set_geometry(surface, geometry, source):

@@ -5,6 +5,10 @@ import numpy as np
 import scipy.sparse
 
 
+class TuftedWarning(UserWarning):
+    """Something about the data or the build that a user must know; the report's "warnings" have it as well."""
+
+
 class Spectrum(NamedTuple):
     """The first eigenpairs of L x = lambda M x."""
     values: np.ndarray

@@ -1,9 +1,11 @@
 """The part of Surface about its shape, and about new places of its points."""
+import warnings
+
 import numpy as np
 
 from . import _arguments as check
 from . import _tufted
-from ._results import Curvature, Deformation, MinimalSurface, Parameterization, Segments
+from ._results import Curvature, Deformation, MinimalSurface, Parameterization, Segments, TuftedWarning
 from ._tufted import InvalidInput
 
 
@@ -106,9 +108,13 @@ class Shape:
             places, _ = check.columns("parameterize", "rim_positions", rim_positions, where.size)
             if places.shape[1] != 2:
                 raise InvalidInput(f"parameterize: rim_positions has {places.shape[1]} columns, must have 2")
-        return Parameterization(*_tufted.parameterize(
+        result = Parameterization(*_tufted.parameterize(
             self._laplacian, self._surface_faces("parameterize"), method, weights, where, places, self._solver(),
             check.callback("parameterize", progress)))
+        if result.collapsed > 0:
+            warnings.warn(f"parameterize: {result.collapsed} triangles are lower in the plane than 1e-7 of the map",
+                          TuftedWarning, stacklevel=2)
+        return result
 
     def minimal_surface(self, fixed=None, *, tolerance=1e-4, max_iterations=300, progress=None):
         """The surface of the least area that its rim, or given points, span.

@@ -8,16 +8,13 @@ from . import _arguments as check
 from . import _tufted
 from ._distances import Distances
 from ._equations import Equations, frames_of
+from ._results import TuftedWarning
 from ._shape import Shape
 from ._spectral import Spectral
 from ._tufted import InvalidInput
 
 # Points that a notebook shows: a page of more would make its file larger than some ten megabytes.
 _LARGEST_PAGE = 500_000
-
-
-class TuftedWarning(UserWarning):
-    """Something about the data or the build that a user must know; the report's "warnings" have it as well."""
 
 
 class Surface(Spectral, Distances, Equations, Shape):

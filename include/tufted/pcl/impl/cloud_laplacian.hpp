@@ -110,7 +110,9 @@ Laplacian cloudLaplacian(const typename pcl::PointCloud<PointT>::ConstPtr& cloud
 }
 
 /// Says what a user must know of a build on PCL's console.
-inline void sayWarnings(const std::string& class_name, const Report& report) {
+/// @param report of a build or of denoise()
+template <class AnyReport>
+void sayWarnings(const std::string& class_name, const AnyReport& report) {
   if (report.points == 0) return;
   for (const std::string& sentence : warnings(report))
     PCL_WARN("[tufted::%s] %s\n", class_name.c_str(), sentence.c_str());

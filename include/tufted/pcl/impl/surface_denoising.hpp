@@ -21,6 +21,7 @@ void tufted::SurfaceDenoising<PointT>::applyFilter(PointCloud& output) {
     const DenoisedPoints denoised =
         denoise(detail::toPoints(*input_, all), {.structure = organized_ ? &structure : nullptr, .threads = threads_});
     report_ = denoised.report;
+    detail::sayWarnings(getClassName(), report_);
     output.is_dense = denoised.positions.allFinite();
     for (const pcl::index_t i : *indices_)
       if (denoised.noise[i] > 0)
