@@ -20,6 +20,11 @@ struct Operators {
 /// skipped.
 Operators cotanLaplacian(const Points& points, const Triangles& triangles);
 
+/// The cotan matrix and areas after plain intrinsic flips: one edge after the other, first in, first out, with no end
+/// but that all are Delaunay, in long doubles. Without lengthening, so triangles must have areas at the end.
+/// @param triangles closed, oriented and manifold; else std::runtime_error is thrown
+Operators flippedLaplacian(const Points& points, const Triangles& triangles);
+
 struct Spectrum {
   VectorXd values;          ///< ascending
   Eigen::MatrixXd vectors;  ///< N x k, M-orthonormal; zero on inactive points
