@@ -215,8 +215,14 @@ TEST_F(WeldedMesh, IsMovedByCopies) {
   targets.row(0) += Eigen::RowVector3d(0, 0, 0.3);
   targets.row(3) += Eigen::RowVector3d(0.1, 0, 0.2);
   expectSame(deform(*welded_, copies_, targets), deform(*shared_, sharedOf(copies_), targets), 1e-6);
-  expectSame(minimalSurface(*welded_, triangles_, {.fixed = copies_}),
-             minimalSurface(*shared_, shared_triangles_, {.fixed = sharedOf(copies_)}), 1e-6);
+  // Two of three positions: few points span no area.
+  std::vector<int> spread;
+  for (int i = 0; i + 1 < static_cast<int>(points_.rows()); ++i)
+    if (welded_->status[i] == PointStatus::coincident && shared_of_[i] % 3 != 0 &&
+        std::none_of(spread.begin(), spread.end(), [&](int other) { return shared_of_[other] == shared_of_[i]; }))
+      spread.push_back(i);
+  expectSame(minimalSurface(*welded_, triangles_, {.fixed = spread}),
+             minimalSurface(*shared_, shared_triangles_, {.fixed = sharedOf(spread)}), 1e-6);
   std::vector<std::uint8_t> fixed(points_.rows(), 0), shared_fixed(shared_points_.rows(), 0);
   for (const int i : copies_) fixed[i] = shared_fixed[shared_of_[i]] = 1;
   expectSame(smooth(*welded_, points_, {.fixed = &fixed}), smooth(*shared_, shared_points_, {.fixed = &shared_fixed}));
