@@ -69,7 +69,7 @@ TextHeading readHeading(std::string_view text) {
     const std::string_view whole = takeLine(rest), content = strip(whole);
     if (content.empty()) continue;
     if (content.starts_with('#') || content.starts_with("//")) {
-      std::vector<std::string> names = split(content.substr(content.find_first_not_of("#/")));
+      std::vector<std::string> names = split(content.substr(std::min(content.find_first_not_of("#/"), content.size())));
       if (!namePoints(names)) continue;
       heading.names = std::move(names);
       heading.is_comment = true;

@@ -92,6 +92,14 @@ TEST(Xyz, AFirstLineOfNamesNamesTheColumns) {
   ASSERT_NE(fieldNamed(geometry, "intensity"), nullptr);
 }
 
+TEST(Xyz, CommentsMayBeEmpty) {
+  for (const std::string empty : {"#", "# ", "//", "##", "#\r", "#/"}) {
+    const tufted::Geometry geometry = tufted::parse(empty + "\n# x y z\n" + empty + "\n1 2 3\n" + empty, "a.xyz");
+    EXPECT_EQ(geometry.points, (tufted::Points(1, 3) << 1, 2, 3).finished()) << empty;
+    EXPECT_TRUE(geometry.notes.empty()) << empty;
+  }
+}
+
 TEST(Xyz, ACommaMayEndALineAndCommentsMayHoldEmptyFields) {
   const TemporaryDir dir;
   const auto geometry = tufted::read(dir.write("a.csv", "// a,,b\n1, 2 ,3,\r\n4;5;6; # ,,\n"));
