@@ -58,9 +58,9 @@ std::vector<std::string> warnings(const Report& report) {
       "the neighbourhood of each point is the whole cloud, so that areas mean little: fewer neighbours than " +
           count(report.neighbors) + " may do better");
   add(static_cast<double>(report.thick_neighborhoods) > many_thick * static_cast<double>(report.active),
-      "around " + count(report.thick_neighborhoods) + " of " + count(report.points) +
-          " points the neighbours are no surface but as thick as wide, as in volumes and on cables thinner than " +
-          count(report.neighbors) + " neighbours reach: areas may be far off, and fewer neighbours may do better");
+      "the neighbourhoods of " + count(report.thick_neighborhoods) + " of " + count(report.points) +
+          " points are as thick as wide, as in volumes and on cables that " + count(report.neighbors) +
+          " neighbours reach around: areas may be far off, and fewer neighbours may do better");
   add(!sparseImage(report.pixel_fill).empty(), sparseImage(report.pixel_fill));
   return all;
 }
