@@ -48,8 +48,8 @@ struct ParameterizationReport {
   std::int64_t rims = 0;              ///< closed curves in which charts end
   std::int64_t triangles = 0;         ///< of charts that were laid out, without those that a shared point takes part in
   std::int64_t flipped = 0;           ///< of these, those whose area in the plane is not positive
-  /// Of these, those that are lower in the plane than 1e-7 of the map's extent but not so on the surface, as at the end
-  /// of long tubes, where the scale falls by a factor of e within each radius of the tube. They are not among
+  /// How many of `triangles` are lower in the plane than 1e-7 of the map's extent but not so on the surface, as at the
+  /// end of long tubes, where the scale falls by a factor of e within each radius of the tube. They are not among
   /// `flipped`.
   std::int64_t collapsed = 0;
   /// Mean over the triangles that are neither flipped nor collapsed, weighted by their area on the surface, of the

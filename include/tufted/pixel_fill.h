@@ -6,8 +6,8 @@
 
 namespace tufted {
 
-/// Of the pixels near those that hold points of an organized cloud (5 x 5), the share that hold points as well, in the
-/// mean over the latter. Holes do not lessen it, however large; where half of the pixels are missing at random it is a
+/// The share of pixels that hold points, among those near a pixel with a point (5 x 5), in the mean over the points of
+/// an organized cloud. Holes do not lessen it, however large; where half of the pixels are missing at random it is a
 /// half. Rows and columns without any point are left out, as in a build, unless those that hold points are more than 12
 /// times as far apart one way as the other; points at the origin count as missing.
 /// @param points width x height rows, row-major

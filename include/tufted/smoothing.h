@@ -21,9 +21,9 @@ enum class SmoothingMethod : std::uint8_t {
 /// Options of smooth().
 struct SmoothingOptions {
   SmoothingMethod method = SmoothingMethod::implicit;  ///< how points are smoothed
-  /// Of SmoothingMethod::implicit: time step t >= 0 in units of the mean squared edge length of each component, which
-  /// is ComponentEdges::mean_square, so that a component is smoothed as if it were alone. A wave of length 2 pi sqrt(t)
-  /// times the root of that unit loses half its height in a step, shorter ones more.
+  /// The time step of SmoothingMethod::implicit: t >= 0 in units of the mean squared edge length of each component,
+  /// which is ComponentEdges::mean_square, so that a component is smoothed as if it were alone. A wave of length 2 pi
+  /// sqrt(t) times the root of that unit loses half its height in a step, shorter ones more.
   double time_step = 1;
   /// Of SmoothingMethod::taubin: the part of the way to the mean of the neighbours, in (0, 1].
   double lambda = 0.5;

@@ -33,7 +33,7 @@ struct MarchResult {
 MarchResult march(const MarchFaces& faces, bool split, const std::vector<MarchStart>& starts, double maximum,
                   const Workers& workers, const SourcePositions& sources = {});
 
-/// The same from starts of one source, without a maximum, until a vertex has its distance. Those that are nearer have
+/// Marches from starts of one source, without a maximum, until a vertex has its distance. Those that are nearer have
 /// theirs, but for the last step, in which distances are limited by those of neighbours; others may be too large.
 MarchResult marchUntil(int vertex, const MarchFaces& faces, bool split, const std::vector<MarchStart>& starts,
                        const Workers& workers);

@@ -35,8 +35,8 @@ struct MarchFaces {
   int edges = 0;     ///< sides with the same ends and length are one edge
   int exponent = 0;  ///< lengths are in units of 2^exponent of the caller's
   std::vector<MarchFace> faces;
-  /// Of each vertex, in the unit of the lengths. Empty where they are not known; no face is bent then. The middle of an
-  /// edge lies halfway between its ends, though a bent edge leads past that.
+  /// Where each vertex lies, in the unit of the lengths. Empty where that is not known; no face is bent then. The
+  /// middle of an edge lies halfway between its ends, though a bent edge leads past that.
   std::vector<Eigen::Vector3d> positions;
   std::vector<int> corner_offset, corner_slots;  ///< vertices + 1; slots by the vertex at their corner
   std::vector<int> edge_offset, edge_slots;      ///< edges + 1; slots by the edge of their side

@@ -52,7 +52,7 @@ class FieldHeat {
   int size() const { return static_cast<int>(representative_.size()); }
   /// The root mean squared distance of neighbours on the component of an active point.
   double spacingAt(int point) const { return spacing_[components_.of[point]]; }
-  /// Of the component that has the most points.
+  /// The time step on the component that has the most points.
   double timeStep() const { return time_; }
   const SolverReport& report() const { return report_; }
 

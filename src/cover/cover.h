@@ -90,11 +90,6 @@ struct MeanLengths {
 MeanLengths measureLengths(IntrinsicTriangulation& cover, const PointsView& points, const PointsView& displacement,
                            const Workers& workers);
 
-/// Gives every edge at least `delta` times the longest side of the smaller of its two faces (in place of Section 4.5).
-/// Other faces stay as they are, and no triangle inequality breaks.
-/// @returns how many edges were shorter
-std::int64_t lengthenShortEdges(IntrinsicTriangulation& cover, double delta, const Workers& workers);
-
 /// Gives faces that are flat but for rounding a slack: each edge grows by a length at each of its two ends, which is 0
 /// but at vertices between the two shorter sides of such a face.
 /// @returns how many edges have grown

@@ -6,7 +6,6 @@
 #include "base/buffer.h"
 #include "cover/cover.h"
 #include "cover/geometry.h"
-#include "cover/short_edges.h"
 
 namespace tufted {
 namespace {
@@ -14,10 +13,6 @@ namespace {
 constexpr double enough_slack = 2 * flat_slack;  // so that rounding cannot make a face flat again
 
 }  // namespace
-
-std::int64_t lengthenShortEdges(IntrinsicTriangulation& cover, double delta, const Workers& workers) {
-  return lengthenEdgesBelow(cover, delta, workers);
-}
 
 std::int64_t lengthenAtFlatFaces(IntrinsicTriangulation& cover, const Workers& workers) {
   const auto missingAt = [&cover](int side) {  // slack at the corner opposite `side`

@@ -14,9 +14,12 @@ namespace tufted {
 /// 1: so that what is computed from lengths does not underflow.
 constexpr double shortest = 0x1p-250;
 
-/// lengthenShortEdges() with lengths in double or long double.
+/// Gives every edge at least `delta` times the longest side of the smaller of its two faces (in place of Section 4.5).
+/// Other faces stay as they are, and no triangle inequality breaks.
+/// @param cover with lengths in double or long double
+/// @returns how many edges were shorter
 template <class Triangulation>
-std::int64_t lengthenEdgesBelow(Triangulation& cover, double delta, const Workers& workers) {
+std::int64_t lengthenShortEdges(Triangulation& cover, double delta, const Workers& workers) {
   using Real = std::decay_t<decltype(cover.length[0])>;
   Buffer<Real> longest(static_cast<std::size_t>(cover.size()));  // side of each face
   workers.forBlocks("mollify", cover.size(), cheapest_block, [&](std::int64_t begin, std::int64_t end, int) {

@@ -74,7 +74,7 @@ FlipCounts flipThinFaces(IntrinsicTriangulation& cover, const EdgeLengths& lengt
   });
   straightenFlatFaces(precise, workers);
   // Angles beside an edge of length 0 are not defined. How long it is in the end follows from its faces after flips.
-  if (delta > 0) lengthened += lengthenEdgesBelow(precise, short_enough, workers);
+  if (delta > 0) lengthened += lengthenShortEdges(precise, short_enough, workers);
   WholeCover whole(precise, workers);
   const FlipCounts counts = flipEdges(whole, workers);
   std::copy(precise.length.begin(), precise.length.end(), cover.length.begin());

@@ -12,6 +12,7 @@
 #include "cover/edge_lengths.h"
 #include "cover/face_scale.h"
 #include "cover/geometry.h"
+#include "cover/short_edges.h"
 #include "pipeline/result.h"
 
 namespace tufted {

@@ -11,9 +11,7 @@ namespace tufted {
 namespace {
 
 constexpr double many_thick = 0.25;  // of the active points; of real scans at most .13, of cables 9 spacings around .5
-
-constexpr double much_area =
-    1e-3;  // of the area of the triangles, so much that results differ by more than a plot shows
+constexpr double much_area = 1e-3;   // of the area of the triangles; with more results differ in a plot
 
 std::string percent(double share) {
   char text[32];
@@ -21,13 +19,12 @@ std::string percent(double share) {
   return text;
 }
 
-/// Of a depth image most of whose pixels are missing; empty for others.
-std::string sparseImage(double fill) {
-  if (fill == 0 || fill >= least_pixel_fill) return "";
-  return "only " + percent(fill) +
-         " of the pixels near points hold points: as a plain cloud, without its pixels, it "
-         "does better below " +
-         percent(least_pixel_fill);
+/// Adds the warning of a depth image most of whose pixels are missing.
+void addSparseImage(double fill, std::vector<std::string>& all) {
+  if (fill == 0 || fill >= least_pixel_fill) return;
+  all.push_back("only " + percent(fill) +
+                " of the pixels near points hold points: as a plain cloud, without its pixels, it does better below " +
+                percent(least_pixel_fill));
 }
 
 }  // namespace
@@ -61,14 +58,14 @@ std::vector<std::string> warnings(const Report& report) {
       "the neighbourhoods of " + count(report.thick_neighborhoods) + " of " + count(report.points) +
           " points are as thick as wide, as in volumes and on cables that " + count(report.neighbors) +
           " neighbours reach around: areas may be far off, and fewer neighbours may do better");
-  add(!sparseImage(report.pixel_fill).empty(), sparseImage(report.pixel_fill));
+  addSparseImage(report.pixel_fill, all);
   return all;
 }
 
 std::vector<std::string> warnings(const DenoiseReport& report) {
-  const std::string sparse = sparseImage(report.pixel_fill);
-  if (sparse.empty()) return {};
-  return {sparse};
+  std::vector<std::string> all;
+  addSparseImage(report.pixel_fill, all);
+  return all;
 }
 
 }  // namespace tufted

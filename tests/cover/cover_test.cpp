@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "cover/geometry.h"
+#include "cover/short_edges.h"
 #include "shapes/shapes.h"
 #include "tufted/tufted.h"
 

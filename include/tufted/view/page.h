@@ -37,7 +37,7 @@ std::string pageOf(const Scene& scene, const PageOptions& options = {});
 /// @throws IoError naming `path`
 void writePage(const std::filesystem::path& path, const Scene& scene, const PageOptions& options = {});
 
-/// As writePage(), but the file has its name only after giveName(), and nothing is left without.
+/// Makes the file of writePage(), which gets its name only by giveName(); without that nothing of it is left.
 /// @throws as writePage()
 WholeFile preparePage(const std::filesystem::path& path, const Scene& scene, const PageOptions& options = {});
 

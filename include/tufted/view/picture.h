@@ -53,7 +53,7 @@ Picture drawPicture(const Scene& scene, const PictureOptions& options = {});
 /// @throws InvalidInput as drawPicture(); IoError naming `path`
 void writePicture(const std::filesystem::path& path, const Scene& scene, const PictureOptions& options = {});
 
-/// As writePicture(), but the file has its name only after giveName(), and nothing is left without.
+/// Makes the file of writePicture(), which gets its name only by giveName(); without that nothing of it is left.
 /// @throws as writePicture()
 WholeFile preparePicture(const std::filesystem::path& path, const Scene& scene, const PictureOptions& options = {});
 
