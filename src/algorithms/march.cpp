@@ -275,9 +275,13 @@ MarchResult marchOver(const Faces& faces, const std::vector<MarchStart>& starts,
     for (const MarchStart& start : starts) march.start(start);
     return march.finish();
   };
-  const bool has_several = std::any_of(starts.begin(), starts.end(),
-                                       [&](const MarchStart& start) { return start.source != starts[0].source; });
-  if (has_several) return finished(March(faces, LabelsOfSeveralSources(faces.size()), sources, maximum, workers));
+  int first = std::numeric_limits<int>::max(), last = -1;
+  for (const MarchStart& start : starts) {
+    first = std::min(first, start.source);
+    last = std::max(last, start.source);
+  }
+  if (first < last)
+    return finished(March(faces, LabelsOfSeveralSources(faces.size(), last + 1), sources, maximum, workers));
   return finished(March(faces, labelsOfOneSource(faces, starts), sources, maximum, workers));
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include "algorithms/march_heap.h"
@@ -48,7 +49,11 @@ class LabelsOfOneSource {
 /// that distances are those of a march from it alone, and goes no farther than that.
 class LabelsOfSeveralSources {
  public:
-  explicit LabelsOfSeveralSources(std::size_t vertices) : vertices_(vertices) { labels_.reserve(vertices); }
+  /// @param sources lie in [0, sources)
+  LabelsOfSeveralSources(std::size_t vertices, int sources)
+      : vertices_(vertices),
+        labels_((vertices + block - 1) / block * block),
+        free_(static_cast<std::size_t>(sources)) {}
 
   std::size_t size() const { return labels_.size(); }
   int vertexOf(int label) const { return labels_[label].vertex; }
@@ -59,7 +64,7 @@ class LabelsOfSeveralSources {
 
   /// @returns -1 if there is none
   int knownLabelAt(int vertex, int source) const {
-    int label = vertices_[vertex].label;
+    int label = vertex;
     while (label >= 0 && labels_[label].source != source) label = labels_[label].next;
     return label;
   }
@@ -67,18 +72,20 @@ class LabelsOfSeveralSources {
   int labelAt(int vertex, int source, MarchHeap& heap) {
     const int known = knownLabelAt(vertex, source);
     if (known >= 0) return known;
-    const int label = freeLabel(source, heap);
-    labels_[label] = {std::numeric_limits<double>::infinity(), vertex, source, vertices_[vertex].label, false, true};
-    vertices_[vertex].label = label;
-    ++vertices_[vertex].labels;
+    int label = vertex;
+    if (labels_[vertex].source >= 0) {
+      label = freeLabel(source, heap);
+      labels_[label].next = labels_[vertex].next;
+      labels_[vertex].next = label;
+    }
+    labels_[label].vertex = vertex;
+    labels_[label].source = source;
     return label;
   }
 
   void freeze(int label) {
     labels_[label].goes_on = isNear(label);
     labels_[label].is_frozen = true;
-    Vertex& vertex = vertices_[labels_[label].vertex];
-    vertex.nearest = std::min(vertex.nearest, labels_[label].distance);
   }
 
   /// Whether the source of a frozen label marches on from there.
@@ -86,41 +93,35 @@ class LabelsOfSeveralSources {
   /// Labels from which their source does not go on stand for its front beside where it does: the plane of a triangle
   /// extended, whether or not the source sees the vertex through it.
   bool mustSee(int label) const { return isNear(label); }
-  bool mayBe(int label, double distance) const { return distance > vertices_[labels_[label].vertex].nearest; }
+  bool mayBe(int label, double distance) const { return distance > nearest(labels_[label].vertex); }
 
   /// Says how long the edges at the vertex of a frozen label are.
-  void setReach(int label, double longest_edge) {
-    Vertex& vertex = vertices_[labels_[label].vertex];
-    vertex.limit = std::min(vertex.limit, vertex.nearest + reach * longest_edge);
-  }
+  void setReach(int label, double longest_edge) { labels_[labels_[label].vertex].longest_edge = longest_edge; }
 
   /// The nearest source of each vertex, of equally near ones the first.
   void takeNearest(std::vector<double>& distance, std::vector<int>& source) const {
-    distance.assign(vertices_.size(), std::numeric_limits<double>::infinity());
-    source.assign(vertices_.size(), -1);
-    for (const Label& label : labels_) {
-      if (label.vertex < 0) continue;
-      double& least = distance[label.vertex];
-      int& nearest = source[label.vertex];
-      if (label.distance > least || (label.distance == least && nearest >= 0 && nearest < label.source)) continue;
-      least = label.distance;
-      nearest = label.source;
+    distance.resize(vertices_);
+    source.resize(vertices_);
+    for (std::size_t v = 0; v < vertices_; ++v) {
+      const Label* first = &labels_[v];
+      for (int other = first->next; other >= 0; other = labels_[other].next) {
+        const Label& label = labels_[other];
+        if (std::pair(label.distance, label.source) < std::pair(first->distance, first->source)) first = &label;
+      }
+      distance[v] = first->distance;
+      source[v] = first->distance < std::numeric_limits<double>::infinity() ? first->source : -1;
     }
   }
 
  private:
+  /// The first label of a vertex has the number of the vertex, and says how long the edges there are.
   struct Label {
     double distance = std::numeric_limits<double>::infinity();
-    int vertex = -1;  ///< -1: not in use
-    int source = -1;
-    int next = -1;  ///< label of the same vertex; -1: none
+    double longest_edge = std::numeric_limits<double>::infinity();
+    int vertex = -1;
+    int source = -1;  ///< -1: not in use
+    int next = -1;    ///< label of the same vertex; -1: none
     bool is_frozen = false, goes_on = true;
-  };
-  struct Vertex {
-    double nearest = std::numeric_limits<double>::infinity();  ///< of its frozen labels
-    double limit = std::numeric_limits<double>::infinity();    ///< sources beyond it do not go on
-    int label = -1;                                            ///< one of its labels
-    int labels = 0;                                            ///< how many it has
   };
 
   /// Sources farther than the nearest one by this many times the longest edge there do not go on. What is left out
@@ -128,24 +129,31 @@ class LabelsOfSeveralSources {
   static constexpr double reach = 4;
   /// Nor those that are farther than so many others, as where sources lie side by side.
   static constexpr int most_nearer = 5;
-
-  bool isNear(int label) const {
-    const Label& own = labels_[label];
-    const Vertex& vertex = vertices_[own.vertex];
-    if (!(vertex.nearest < own.distance)) return true;
-    if (own.distance > vertex.limit) return false;
-    if (vertex.labels <= most_nearer) return true;
-    int nearer = 0;
-    for (int other = vertex.label; other >= 0; other = labels_[other].next)
-      nearer += static_cast<int>(labels_[other].is_frozen && labels_[other].distance < own.distance);
-    return nearer < most_nearer;
-  }
-
   /// Labels of a source that one comes to after another lie side by side, or most would not be in the cache.
   static constexpr int block = 8;
 
+  /// Of the frozen labels of a vertex.
+  double nearest(int vertex) const {
+    double least = std::numeric_limits<double>::infinity();
+    for (int label = vertex; label >= 0; label = labels_[label].next)
+      if (labels_[label].is_frozen) least = std::min(least, labels_[label].distance);
+    return least;
+  }
+
+  bool isNear(int label) const {
+    const Label& own = labels_[label];
+    if (label == own.vertex && own.next < 0) return true;
+    double least = own.distance;
+    int nearer = 0;
+    for (int other = own.vertex; other >= 0; other = labels_[other].next) {
+      if (!labels_[other].is_frozen || !(labels_[other].distance < own.distance)) continue;
+      least = std::min(least, labels_[other].distance);
+      ++nearer;
+    }
+    return nearer == 0 || (nearer < most_nearer && own.distance <= least + reach * labels_[own.vertex].longest_edge);
+  }
+
   int freeLabel(int source, MarchHeap& heap) {
-    if (source >= std::ssize(free_)) free_.resize(static_cast<std::size_t>(source) + 1, 0);
     int& free = free_[source];
     if (free % block == 0) {
       free = static_cast<int>(labels_.size());
@@ -155,8 +163,8 @@ class LabelsOfSeveralSources {
     return free++;
   }
 
-  std::vector<Vertex> vertices_;
-  std::vector<Label> labels_;  ///< in blocks
+  std::size_t vertices_;
+  std::vector<Label> labels_;  ///< one for each vertex, then others in blocks
   std::vector<int> free_;      ///< the next label of each source; a multiple of `block`: in a block to be made
 };
 
