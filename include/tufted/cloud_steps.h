@@ -22,13 +22,6 @@ enum class Filter {
   votes,   ///< by circumradius, more strictly where no other corner's star has the triangle
 };
 
-/// Positions from which the lengths of edges are measured.
-enum class Lengths {
-  points,    ///< the points themselves
-  denoised,  ///< points moved onto the surface where a neighbourhood is noise around a curved surface; not once more
-             ///< those that CloudSteps::denoise has moved
-};
-
 /// What M holds.
 enum class Mass {
   cover,  ///< a third of the area of each face of the cover around the point
@@ -50,10 +43,9 @@ struct CloudSteps {
   bool isolate_outliers = true;   ///< points that hover over a surface that does not reach to them lose their stars
   Filter filter = Filter::votes;  ///< which triangles are dropped
   /// Where there is noise, points are moved onto the surface first, as by denoise(), and everything is built from
-  /// there.
+  /// there. In a depth image they are moved along their rays, and stars are those of the points as they were.
   bool denoise = true;
-  Lengths lengths = Lengths::denoised;  ///< between which positions lengths are measured
-  Mass mass = Mass::star;               ///< what M holds
+  Mass mass = Mass::star;  ///< what M holds
 };
 
 }  // namespace tufted

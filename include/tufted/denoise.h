@@ -60,7 +60,7 @@ struct DenoisedPoints {
 /// faces that meet there. Neighbours of other surfaces that pass by are left out.
 ///
 /// Noise of a depth image lies along the line of sight, however strong it is, and pixels that are noise lie beside
-/// those of the same surface. So with `structure` ranges are smoothed over pixels, as in a build (Lengths::denoised):
+/// those of the same surface. So with `structure` ranges are smoothed over pixels, as in a build:
 /// the result is Laplacian::positions of pointCloudLaplacian() bit for bit.
 ///
 /// Points of exact data, outliers, points on curves and in volumes, and whatever cannot be told from the shape of the

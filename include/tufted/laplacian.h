@@ -87,8 +87,8 @@ struct Laplacian {
   std::vector<int> component;
   Frames frames;  ///< set on clouds; 0 x 3 on meshes, where those of meshFrames() may be stored
   /// N x 3, in the caller's unit: where the lengths of edges are measured. The caller's points, bit for bit, but for
-  /// noisy ones of a cloud, which are put back onto the surface (CloudSteps::denoise, Lengths::denoised). A point
-  /// that coincides with another lies where that one does. 0 x 3 where nobody has stored them.
+  /// noisy ones of a cloud, which are put back onto the surface (CloudSteps::denoise). A point that coincides with
+  /// another lies where that one does. 0 x 3 where nobody has stored them.
   Points positions;
   /// N; the standard deviation of the noise around each point that was moved onto the surface (CloudSteps::denoise, or
   /// the smoothing of a depth image), along the normal or the ray, in the caller's unit; 0 at points that stay. Size 0

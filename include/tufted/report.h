@@ -41,7 +41,7 @@ struct Report {
   std::int64_t isolated_by_sheets = 0;   ///< points without a star: nearly all neighbours belong to other sheets
   std::int64_t thick_neighborhoods = 0;  ///< thicker than half their width: thin things within, volumes, strong noise
   std::int64_t outliers = 0;             ///< points without a star: they hover over a surface, see CloudSteps
-  std::int64_t denoised = 0;             ///< points moved onto the surface, see CloudSteps::denoise and Lengths
+  std::int64_t denoised = 0;             ///< points moved onto the surface, see CloudSteps::denoise
   /// The noise around each point that CloudSteps::denoise moved, or the smoothing of a depth image, is a standard
   /// deviation along the normal, or the ray: this is the median over these points, in the caller's unit; 0 without any.
   double noise = 0;

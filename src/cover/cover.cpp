@@ -14,10 +14,9 @@ void resizeCover(IntrinsicTriangulation& cover, int vertices, std::int64_t trian
   cover.length.resize(static_cast<std::size_t>(6 * triangles));
 }
 
-MeanLengths measureLengths(IntrinsicTriangulation& cover, const PointsView& points, const PointsView& displacement,
-                           const Workers& workers) {
+MeanLengths measureLengths(IntrinsicTriangulation& cover, const PointsView& points, const Workers& workers) {
   const std::int64_t triangles = cover.size() / 2;
-  const EdgeLengths lengthOf{points, displacement};
+  const EdgeLengths lengthOf{points};
   // Per block, so that the means have the same bits always.
   Buffer<MeanLengths> sums((triangles + cheap_block - 1) / cheap_block);
   workers.forBlocks("lengths", triangles, cheap_block, [&](std::int64_t begin, std::int64_t end, int) {

@@ -86,9 +86,7 @@ struct MeanLengths {
 };
 
 /// Euclidean lengths of all sides (MEASUREEDGELENGTHS).
-/// @param displacement by vertex, added to `points`; 0 x 3: nothing
-MeanLengths measureLengths(IntrinsicTriangulation& cover, const PointsView& points, const PointsView& displacement,
-                           const Workers& workers);
+MeanLengths measureLengths(IntrinsicTriangulation& cover, const PointsView& points, const Workers& workers);
 
 /// Gives faces that are flat but for rounding a slack: each edge grows by a length at each of its two ends, which is 0
 /// but at vertices between the two shorter sides of such a face.

@@ -7,7 +7,7 @@
 #include <span>
 #include <utility>
 
-#include "stars/denoise.h"
+#include "denoise/quadratic_fit.h"
 #include "stars/tangent_frame.h"
 
 namespace tufted {
@@ -15,7 +15,7 @@ namespace {
 
 constexpr int least_members = 12;      // four times as many points as a plane has coefficients
 constexpr int least_curved = 24;       // four times as many as a quadratic has
-constexpr double bend = 4;             // chi squared that the quadratic's three further coefficients have to explain
+constexpr double least_bend = 4;       // chi squared that the quadratic's three further coefficients have to explain
 constexpr int member_rounds = 2;       // of choosing members and fitting; a third changes nothing
 constexpr double ambiguous = 2;        // sigmas: points nearer to a crease may belong to either face
 constexpr double member_height = 3;    // sigmas from a face, farther points are not of it
@@ -137,12 +137,12 @@ bool CreaseModel::fitFace(Face& face) {
   // The more of the plane's residuals a quadratic explains, in units of the noise, the more it counts (the estimator of
   // James and Stein). A decision for either would move one point by this one and the next by that one.
   const double residual = (s.hh - plane.dot(right)) * unit_ * unit_;
-  if (count >= least_curved && residual > bend * variance_) {
+  if (count >= least_curved && residual > least_bend * variance_) {
     HeightFit fit;
     fitHeights({&moments, 1}, {&fit, 1});
     const double gain = residual - fit.variance * static_cast<double>(count - std::ssize(fit.coefficient));
-    if (fit.is_valid && gain > bend * variance_) {
-      const double share = 1 - bend * variance_ / gain;
+    if (fit.is_valid && gain > least_bend * variance_) {
+      const double share = 1 - least_bend * variance_ / gain;
       for (int j = 0; j < std::ssize(face.coefficient); ++j)
         face.coefficient[j] = share * fit.coefficient[j] + (j < 3 ? (1 - share) * plane[j] : 0);
       face.is_plane = false;

@@ -6,8 +6,8 @@
 
 #include "denoise/crease_model.h"
 #include "denoise/pooling.h"
+#include "denoise/quadratic_fit.h"
 #include "denoise/window_surface.h"
-#include "stars/displacements.h"
 #include "stars/tangent_frame.h"
 
 namespace tufted {

@@ -10,11 +10,11 @@
 #include "denoise/middle_windows.h"
 #include "denoise/neighbor_lists.h"
 #include "denoise/pooling.h"
+#include "denoise/quadratic_fit.h"
 #include "denoise/rim_moves.h"
 #include "denoise/shared_surfaces.h"
 #include "denoise/window_choice.h"
 #include "denoise/window_surface.h"
-#include "stars/displacements.h"
 #include "stars/tangent_frame.h"
 
 namespace tufted {

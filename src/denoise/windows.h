@@ -8,8 +8,8 @@
 #include "base/buffer.h"
 #include "base/parallel.h"
 #include "base/point_buffer.h"
+#include "denoise/quadratic_fit.h"
 #include "neighbors/neighbor_source.h"
-#include "stars/denoise.h"
 #include "stars/offsets.h"
 
 namespace tufted {

@@ -91,7 +91,7 @@ OwnAreas chooseAreas(const Stars& stars, StarAreas areas, const Workers& workers
 }
 
 OwnAreas ownAreas(const Stars& stars, const PointsView& points, const Workers& workers) {
-  const EdgeLengths length{points, stars.displacement};
+  const EdgeLengths length{points};
   StarAreas areas;
   areas.resize(stars.size());
   workers.forBlocks("mass", stars.size(), cheap_block, [&](std::int64_t begin, std::int64_t end, int) {

@@ -36,7 +36,7 @@ struct OwnAreas {
 /// could get more than the whole surface. So no point gets more than 20 times the area of its star's triangles.
 OwnAreas chooseAreas(const Stars& stars, StarAreas areas, const Workers& workers);
 
-/// Measures all stars by the lengths between the moved points, and chooses.
+/// Measures all stars by the lengths between the points, and chooses.
 /// @param points n x 3, by rank
 /// @returns areas in units of `points` squared
 OwnAreas ownAreas(const Stars& stars, const PointsView& points, const Workers& workers);

@@ -60,7 +60,7 @@ bool StarUnion::appendFacesNear(const std::vector<Ball>& balls, std::vector<std:
   }
   std::call_once(boxes_once_, [this] {
     const Progress silent;
-    boxes_.emplace(length_.points, length_.displacement, Workers(threads_, silent));
+    boxes_.emplace(length_.points, Workers(threads_, silent));
   });
   boxes_->visitBalls(ranked, [&](int p) { cover_.appendFaces(p, faces, length); });
   for (std::size_t f = first_face; f < faces.size(); ++f)
@@ -71,7 +71,7 @@ bool StarUnion::appendFacesNear(const std::vector<Ball>& balls, std::vector<std:
 
 Buffer<ComponentEdges> StarUnion::componentEdges(const std::vector<int>& component, std::int64_t components,
                                                  const Workers& workers) const {
-  const EdgeLengths lengthOf{cloud_.points, stars_.displacement};
+  const EdgeLengths lengthOf{cloud_.points};
   return edgesByComponent(
       stars_.size(), components, workers, [&](int p) { return component[cloud_.input_index[p]]; },
       [&](int p, SideSums& sums) {

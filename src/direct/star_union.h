@@ -68,7 +68,7 @@ class StarUnion final : public CoverSource {
   const RankedCloud cloud_;
   const int size_, threads_;
   const bool has_own_areas_;
-  EdgeLengths length_{cloud_.points, stars_.displacement};
+  EdgeLengths length_{cloud_.points};
   RadialCycles cycles_;
   CoverNearFlips cover_;
   mutable std::once_flag once_;

@@ -77,7 +77,6 @@ Json optionsObject(const CloudOptions& options) {
                {"star_search", options.steps.star_search == StarSearch::once ? "once" : "thorough"},
                {"filter", options.steps.filter == Filter::radius ? "radius" : "votes"},
                {"denoise", options.steps.denoise},
-               {"lengths", options.steps.lengths == Lengths::points ? "points" : "denoised"},
                {"mass", options.steps.mass == Mass::cover ? "cover" : "star"},
                {"structure", name(options.structure)},
                {"given_normals", options.normals != nullptr},

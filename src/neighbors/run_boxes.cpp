@@ -10,14 +10,12 @@ constexpr std::int64_t run_size = 256;
 
 }  // namespace
 
-RunBoxes::RunBoxes(const PointsView& points, const PointsView& displacement, const Workers& workers)
-    : points_(points),
-      displacement_(displacement),
-      boxes_(static_cast<std::size_t>((points.rows() + run_size - 1) / run_size)) {
+RunBoxes::RunBoxes(const PointsView& points, const Workers& workers)
+    : points_(points), boxes_(static_cast<std::size_t>((points.rows() + run_size - 1) / run_size)) {
   workers.forBlocks("boxes", points.rows(), run_size, [this](std::int64_t begin, std::int64_t end, int) {
-    Box box = {position(static_cast<int>(begin)), position(static_cast<int>(begin))};
+    Box box = {points_.row(begin).transpose(), points_.row(begin).transpose()};
     for (int p = static_cast<int>(begin) + 1; p < end; ++p) {
-      const Eigen::Vector3d at = position(p);
+      const Eigen::Vector3d at = points_.row(p).transpose();
       box.least = box.least.cwiseMin(at);
       box.greatest = box.greatest.cwiseMax(at);
     }

@@ -15,8 +15,7 @@ namespace tufted {
 class RunBoxes {
  public:
   /// @param points n x 3, which must outlive this
-  /// @param displacement added to them, n x 3 or empty, which must outlive this
-  RunBoxes(const PointsView& points, const PointsView& displacement, const Workers& workers);
+  RunBoxes(const PointsView& points, const Workers& workers);
 
   /// Calls visit(p) for the points in any of the balls, each once, ascending.
   template <class Visit>
@@ -28,7 +27,7 @@ class RunBoxes {
         if (gapTo(boxes_[run], ball.center) <= ball.radius) near.push_back(ball);
       if (near.empty()) continue;
       for (int p = first(run), end = first(run + 1); p < end; ++p) {
-        const Eigen::Vector3d at = position(p);
+        const Eigen::Vector3d at = points_.row(p).transpose();
         if (std::any_of(near.begin(), near.end(),
                         [&at](const Ball& ball) { return (at - ball.center).norm() <= ball.radius; }))
           visit(p);
@@ -46,12 +45,8 @@ class RunBoxes {
     return (box.least - place).cwiseMax(place - box.greatest).cwiseMax(0).norm();
   }
   int first(std::size_t run) const;
-  Eigen::Vector3d position(int p) const {
-    const Eigen::Vector3d point = points_.row(p).transpose();
-    return displacement_.rows() > 0 ? point + displacement_.row(p).transpose() : point;
-  }
 
-  const PointsView points_, displacement_;
+  const PointsView points_;
   Buffer<Box> boxes_;
 };
 

@@ -46,12 +46,10 @@ CloudSteps cloudSteps(Preset preset) {
              .isolate_outliers = false,
              .filter = Filter::radius,
              .denoise = false,
-             .lengths = Lengths::points,
              .mass = Mass::cover};
   } else if (preset == Preset::lidar) {
     steps.growth = Growth::uneven;
     steps.split_sheets = false;
-    steps.denoise = false;
   }
   return steps;
 }

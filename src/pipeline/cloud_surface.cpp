@@ -35,12 +35,12 @@ RawBuffer<double> noiseOfMoved(const PointBuffer& moves, const Deviation& deviat
   return noise;
 }
 
-CloudSurface imageSurface(PixelGrid grid, const RankedCloud& cloud, const CloudOptions& options, const Workers& workers,
+/// Finds the stars of the points as they are, and moves these along their rays then.
+CloudSurface imageSurface(PixelGrid grid, RankedCloud& cloud, const CloudOptions& options, const Workers& workers,
                           StageClock& clock, Report& report) {
   const PointBuffer normals = rankedNormals(options.normals, cloud, report);
   report.neighbors = std::min(WindowPixels::count, std::max(0, cloud.size() - 1));
-  SurfaceImage surface =
-      surfaceImage(std::move(grid), cloud.points, options.steps.lengths == Lengths::denoised, workers);
+  SurfaceImage surface = surfaceImage(std::move(grid), cloud.points, options.steps.denoise, workers);
   report.unplaced = surface.unplaced;
   report.cut_neighbors = surface.windows.cut;
   RawBuffer<double> noise = noiseOfMoved(
@@ -49,13 +49,16 @@ CloudSurface imageSurface(PixelGrid grid, const RankedCloud& cloud, const CloudO
   const DepthImage image = surface.view(cloud.points);
   BuiltStars built = buildImageStars(image, normals, options, workers, report);
   clock.finish("stars", built.stars.bytes() + built.support.bytes());
-  built.stars.displacement = std::move(surface.windows.displacement);
   const bool is_whole_cloud = cloud.size() <= WindowPixels::count + 1;
   // Triangles are as large as they are between points on the surface.
   CloudSurface result{
       filteredStars(std::move(built), is_whole_cloud, image.moved, options, workers, report), {}, std::move(noise)};
   clock.restart();
   result.boundary = findImageBoundary(result.built.stars, image, workers);
+  if (surface.windows.place.rows() > 0) {
+    cloud.points = std::move(surface.windows.place);
+    cloud.move = std::move(surface.windows.displacement);
+  }
   return result;
 }
 

@@ -57,10 +57,10 @@ Buffer<SideSums> sidesOfTriangles(const IntrinsicTriangulation& cover, const Wor
 void finishFromCover(std::shared_ptr<IntrinsicTriangulation> cover, const CoverVertices& vertices, double delta,
                      bool keep_cover, const Workers& workers, StageClock& clock, Laplacian& result) {
   const double scale = faceScale(result.kind);
-  BuildFigures figures{.mean = measureLengths(*cover, vertices.points, vertices.displacement, workers)};
+  BuildFigures figures{.mean = measureLengths(*cover, vertices.points, workers)};
   const Buffer<SideSums> sides = sidesOfTriangles(*cover, workers);
   figures.triangles = cover->size() / 2;
-  const EdgeLengths lengths{vertices.points, vertices.displacement};
+  const EdgeLengths lengths{vertices.points};
   const double area = trianglesArea(*cover, lengths, workers);
   clock.finish("lengths", 0);
 

@@ -14,7 +14,6 @@ namespace tufted {
 /// The positions of a cover's vertices, and their numbers in the input.
 struct CoverVertices {
   const PointsView& points;        ///< by vertex, in units of 2^exponent of the caller's
-  const PointsView& displacement;  ///< by vertex, from the points to where lengths are measured; 0 x 3: nothing moves
   const Buffer<int>& input_index;  ///< the caller's index of each vertex
   int exponent;
 };

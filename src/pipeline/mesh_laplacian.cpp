@@ -99,8 +99,8 @@ void buildMeshLaplacian(const PointsRef& points, const TrianglesRef& triangles, 
 
   Buffer<int> input_index(n);
   std::iota(input_index.begin(), input_index.end(), 0);
-  finishFromCover(std::move(cover), {scaled, PointBuffer(), input_index, scaling.exponent}, options.mollify,
-                  options.keep_cover, workers, clock, result);
+  finishFromCover(std::move(cover), {scaled, input_index, scaling.exponent}, options.mollify, options.keep_cover,
+                  workers, clock, result);
   workers.report("done", 1);
 }
 

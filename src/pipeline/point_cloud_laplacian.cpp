@@ -42,14 +42,13 @@ OwnAreas finishFromWholeCover(SurfaceStars built, const RankedCloud& cloud, cons
   OwnAreas own;
   if (options.steps.mass == Mass::star) own = ownAreas(stars, cloud.points, workers);
   clock.finish("mass", 0);
-  const PointBuffer displacement = std::move(stars.displacement);
   release(built.support.radius);
   std::shared_ptr<IntrinsicTriangulation> cover = takeCover(result);
   addStars(stars, options.gluing, *cover, workers);
   built = {};
   glueEdges(*cover, cloud.points, {options.order, options.seed}, workers);
   clock.finish("cover", bytesOfCover(*cover));
-  finishFromCover(std::move(cover), {cloud.points, displacement, cloud.input_index, cloud.exponent}, options.mollify,
+  finishFromCover(std::move(cover), {cloud.points, cloud.input_index, cloud.exponent}, options.mollify,
                   options.keep_cover, workers, clock, result);
   return own;
 }
@@ -85,7 +84,7 @@ void buildCloudLaplacian(const PointsRef& points, const CloudOptions& options, C
   // Which way it faces, and where lengths are measured.
   setBoundaryAndNormals(surface.boundary, built.support.normals, cloud, workers, result);
   release(surface.boundary);
-  setPositions(points, built.stars.displacement, cloud, workers, result);
+  setPositions(points, cloud, workers, result);
   setNoise(surface.noise, cloud, result);
   release(surface.noise);
   cloud.move = {};

@@ -27,23 +27,19 @@ void setBoundaryAndNormals(const Buffer<Boundary>& boundary, const PointsView& n
   }
 }
 
-void setPositions(const PointsRef& points, const PointBuffer& displacement, const RankedCloud& cloud,
-                  const Workers& workers, Laplacian& result) {
+void setPositions(const PointsRef& points, const RankedCloud& cloud, const Workers& workers, Laplacian& result) {
   result.positions.resize(points.rows(), 3);
   workers.forBlocks("boundary", points.rows(), usual_block, [&](std::int64_t begin, std::int64_t end, int) {
     result.positions.middleRows(begin, end - begin) = points.middleRows(begin, end - begin);
   });
-  if (cloud.move.rows() == 0 && displacement.rows() == 0) return;
+  if (cloud.move.rows() == 0) return;
   const PowerOfTwo unit(cloud.exponent);
-  for (const PointBuffer* const way : {&cloud.move, &displacement}) {
-    if (way->rows() == 0) continue;
-    workers.forBlocks("boundary", cloud.size(), usual_block, [&](std::int64_t begin, std::int64_t end, int) {
-      for (std::int64_t p = begin; p < end; ++p) {
-        auto position = result.positions.row(cloud.input_index[p]);
-        for (int axis = 0; axis < 3; ++axis) unit.addTo(position[axis], way->row(p)[axis]);
-      }
-    });
-  }
+  workers.forBlocks("boundary", cloud.size(), usual_block, [&](std::int64_t begin, std::int64_t end, int) {
+    for (std::int64_t p = begin; p < end; ++p) {
+      auto position = result.positions.row(cloud.input_index[p]);
+      for (int axis = 0; axis < 3; ++axis) unit.addTo(position[axis], cloud.move.row(p)[axis]);
+    }
+  });
   for (Eigen::Index i = 0; i < points.rows(); ++i)
     if (result.status[i] == PointStatus::coincident)
       result.positions.row(i) = result.positions.row(result.representative[i]);

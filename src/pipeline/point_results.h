@@ -17,10 +17,8 @@ namespace tufted {
 void setBoundaryAndNormals(const Buffer<Boundary>& boundary, const PointsView& normals, const RankedCloud& cloud,
                            const Workers& workers, Laplacian& result);
 
-/// Sets where lengths are measured: the caller's points, of which noisy ones are displaced.
-/// @param displacement n x 3, by rank, in units of 2^exponent of the caller's, beside RankedCloud::move; 0 x 3: none
-void setPositions(const PointsRef& points, const PointBuffer& displacement, const RankedCloud& cloud,
-                  const Workers& workers, Laplacian& result);
+/// Sets where lengths are measured: the caller's points, of which noisy ones have moved.
+void setPositions(const PointsRef& points, const RankedCloud& cloud, const Workers& workers, Laplacian& result);
 
 /// Sets the noise around the points that were moved out of it.
 /// @param noise by rank, see CloudSurface::noise

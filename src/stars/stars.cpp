@@ -10,7 +10,6 @@
 #include "base/point_buffer.h"
 #include "base/power_of_two.h"
 #include "stars/blocks_in_order.h"
-#include "stars/displacements.h"
 #include "stars/neighborhood.h"
 #include "stars/offsets.h"
 #include "stars/star_gap.h"
@@ -30,7 +29,6 @@ constexpr double thick_share = 0.5;  // of the second variance: a cable 9 spacin
 struct WorkerState {
   Buffer<Neighborhood> neighborhoods;
   std::array<OffsetBuffer, group_size> offsets;
-  FitScratch fits;
   NeighborhoodScratch neighborhood;
   Neighborhood saved_neighborhood;
   DelaunayStar saved_star;
@@ -44,17 +42,15 @@ class StarBuilder {
  public:
   StarBuilder(const RankedCloud& cloud, const NeighborSource& source, const CloudOptions& options, BuiltStars& built)
       : points_(cloud.points),
-        moved_(cloud.move),
         source_(source),
         options_(options),
         finder_(cloud.points, source, options),
         wrapping_(options.delaunay),
-        denoises_(built.stars.displacement.rows() > 0),
         stars_(built.stars),
         support_(built.support) {}
 
   /// Leaves the stars in state.memory.block.
-  void build(std::int64_t begin, std::int64_t end, WorkerState& state, NoisyPoints& noisy) const {
+  void build(std::int64_t begin, std::int64_t end, WorkerState& state) const {
     const int count = static_cast<int>(end - begin);
     const int first = static_cast<int>(begin);
     state.neighborhoods.resize(std::max<std::size_t>(state.neighborhoods.size(), count));
@@ -72,9 +68,6 @@ class StarBuilder {
       finder_.fitPlanes(neighborhoods, state.offsets);
       for (int i = group; i < group_end; ++i)
         takeFrame(first + i, state.neighborhoods[i], state.offsets[i - group], state);
-      if (denoises_)
-        displaceNoisyPoints(moved_, first + group, neighborhoods, state.offsets, state.fits, stars_.displacement,
-                            noisy);
       state.seconds[1] += watch.restart();
       for (int i = group; i < group_end; ++i)
         wrapStar(first + i, state.neighborhoods[i], state.offsets[i - group], state);
@@ -178,12 +171,10 @@ class StarBuilder {
   }
 
   PointsView points_;
-  const PointBuffer& moved_;
   const NeighborSource& source_;
   const CloudOptions& options_;
   NeighborhoodFinder finder_;
   StarWrapping wrapping_;
-  bool denoises_;
   Stars& stars_;
   StarSupport& support_;
 };
@@ -195,7 +186,7 @@ std::int64_t Stars::triangles() const {
 }
 
 std::size_t Stars::bytes() const {
-  return bytesOf(triangle) + bytesOf(offset) + bytesOf(link) + bytesOf(ends) + bytesOf(flat) + displacement.bytes();
+  return bytesOf(triangle) + bytesOf(offset) + bytesOf(link) + bytesOf(ends) + bytesOf(flat);
 }
 
 std::size_t StarSupport::bytes() const {
@@ -209,33 +200,17 @@ BuiltStars buildStars(const RankedCloud& cloud, const NeighborSource& source, co
   Stars& stars = built.stars;
   StarSupport& support = built.support;
   makeRoom(n, built);
-  if (options.steps.lengths == Lengths::denoised && !source.isWholeCloud(n)) stars.displacement.setZero(n);
 
   Stopwatch wall;
   const std::int64_t blocks = (n + star_block - 1) / star_block;
-  Buffer<NoisyPoints> noisy(static_cast<std::size_t>(blocks));
   Buffer<WorkerState> states(workers.count());
   const StarBuilder builder(cloud, source, options, built);
   BlocksInOrder in_order(blocks, built);
   workers.forBlocks("stars", n, star_block, [&](std::int64_t begin, std::int64_t end, int worker) {
-    const std::size_t number = begin / star_block;
-    builder.build(begin, end, states[worker], noisy[number]);
-    in_order.take(number, states[worker].memory.block);
+    builder.build(begin, end, states[worker]);
+    in_order.take(begin / star_block, states[worker].memory.block);
   });
   finishOffsets(stars);
-
-  std::ptrdiff_t displaced = 0;
-  for (const NoisyPoints& points : noisy) displaced += std::ssize(points.rank);
-  report.denoised += displaced;
-  if (displaced > 0) {
-    const PointBuffer moved = stars.displacement;
-    workers.forBlocks("surface", blocks, 1, [&](std::int64_t begin, std::int64_t end, int worker) {
-      WorkerState& state = states[worker];
-      for (std::int64_t b = begin; b < end; ++b)
-        displaceOnceMore(cloud.points, moved, noisy[b], support.fit_radius, state.offsets, state.fits,
-                         stars.displacement);
-    });
-  }
 
   std::array<double, 3> seconds = {};
   for (const WorkerState& state : states) {

@@ -24,7 +24,6 @@ struct Stars {
   RawBuffer<std::uint8_t> triangle;  ///< per link entry, 0 where there is no triangle
   RawBuffer<std::uint8_t> ends;      ///< n, 1 where the surface ends at p: an open star or a lost triangle
   RawBuffer<std::uint8_t> flat;      ///< n, 1 where the neighbourhood is nearly a plane
-  PointBuffer displacement;          ///< n x 3, from each point to where lengths are measured; 0 x 3: nothing moves
 
   int size() const { return std::max(0, static_cast<int>(offset.size()) - 1); }
   /// The link entry after i in star p, cyclically.

@@ -22,7 +22,7 @@ IntrinsicTriangulation coverOf(const Points& points, const Triangles& triangles,
   resizeCover(cover, static_cast<int>(points.rows()), triangles.rows());
   for (int t = 0; t < triangles.rows(); ++t) addTriangle(cover, t, triangles(t, 0), triangles(t, 1), triangles(t, 2));
   glueEdges(cover, points, order, workers);
-  measureLengths(cover, points, Points(0, 3), workers);
+  measureLengths(cover, points, workers);
   return cover;
 }
 

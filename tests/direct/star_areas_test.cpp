@@ -28,8 +28,7 @@ TEST(StarAreas, AreNoMoreThanTwentyTimesTheTrianglesOfTheStar) {
     Report report;
     const Workers workers(2, silent);
     const NeighborSource source = neighborSource(options, cloud, status, representative, workers, report);
-    Stars stars = surfaceStars(cloud, source, options, workers, report).stars;
-    stars.displacement = PointBuffer();  // so that areas are those of the points themselves
+    const Stars stars = surfaceStars(cloud, source, options, workers, report).stars;
     const OwnAreas own = ownAreas(stars, cloud.points, workers);
     for (int p = 0; p < stars.size(); ++p) {
       double triangles = 0;

@@ -59,7 +59,7 @@ TEST_P(FlatSolid, NeedsItsFlips) {
     addTriangle(cover, t, bad.triangles(t, 0), bad.triangles(t, 1), bad.triangles(t, 2));
   }
   glueEdges(cover, bad.points, {}, workers);
-  measureLengths(cover, bad.points, Points(0, 3), workers);
+  measureLengths(cover, bad.points, workers);
   Buffer<int> input_index(n);
   for (int i = 0; i < n; ++i) input_index[i] = i;
   Laplacian before, after;

@@ -12,7 +12,7 @@
 #include "cover/geometry.h"
 #include "shapes/random.h"
 #include "shapes/shapes.h"
-#include "stars/denoise.h"
+#include "denoise/quadratic_fit.h"
 #include "stars/offsets.h"
 #include "stars/tangent_frame.h"
 #include "tufted/laplacian.h"

@@ -104,11 +104,7 @@ tufted::Laplacian buildLaplacian(const tufted::Geometry& geometry, const Input& 
   build.scan = structureOf(geometry, build.structure, input.name());
   if (build.scan) build.cloud.structure = &*build.scan;
   build.cloud.steps = tufted::cloudSteps(build.preset);
-  const bool is_image = build.structure == Structure::image;
-  if (build.denoise) {
-    build.cloud.steps.denoise = true;
-    if (is_image) build.cloud.steps.lengths = tufted::Lengths::denoised;
-  }
+  if (build.denoise) build.cloud.steps.denoise = true;
   // The position is at hand where a file states one, and where an image of depths leaves it at the origin.
   build.viewpoint = {geometry.viewpoint[0], geometry.viewpoint[1], geometry.viewpoint[2]};
   const bool is_given = !build.given_viewpoint.empty();

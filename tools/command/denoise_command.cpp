@@ -35,7 +35,7 @@ surface. Exact points, outliers, and whatever cannot be told from the shape of t
 An organized cloud that a pinhole camera saw from the file's viewpoint is a depth image, as any is with --structure
 image: its points move along the camera's rays. How noise grows with the distance the image tells itself: with the square
 as in stereo and structured light, hardly as in time of flight, or between.
-Every build does the same by itself, unless the preset is clean or lidar; --denoise asks for it with these, too.
+Every build does the same by itself, unless the preset is clean; --denoise asks for it with that, too.
 
 Writes into DIR, renamed one after the other when all are complete:
   positions.npy  N x 3, float64, in the order of the file

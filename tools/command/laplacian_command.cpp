@@ -52,7 +52,7 @@ Presets of clouds:
   clean  exact samples: the paper's steps and no others
   scan   depth images, laser scans, photogrammetry: noise, jumps, outliers, near sheets. Noisy points are moved onto the
          surface first, and M is the Voronoi area in each point's own star.
-  lidar  the same from a spinning scanner, whose rings would be taken for sheets; noise is smoothed for lengths alone
+  lidar  the same from a spinning scanner, whose rings would be taken for sheets
 
 Structures of scans:
   automatic  image for an organized cloud that a pinhole camera saw from the file's viewpoint, unless --neighbors or

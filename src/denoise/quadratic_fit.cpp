@@ -1,4 +1,4 @@
-#include "stars/denoise.h"
+#include "denoise/quadratic_fit.h"
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -11,9 +11,7 @@ namespace {
 
 constexpr int coefficients = 6;
 constexpr int least_points = 9;
-constexpr double noise_share = 0.2;
-constexpr double smallest_variance = 1e-24;  // of the fit radius squared; below, the variance is rounding
-constexpr double smallest_pivot = 1e-9;      // of the largest
+constexpr double smallest_pivot = 1e-9;  // of the largest
 
 /// Writes the sums into one lane of the systems.
 void put(const HeightMoments& moments, int lane, HeightSystems& systems) {
@@ -34,6 +32,14 @@ HeightMoments heightMoments(const Offsets& neighbors, const Eigen::Vector3d& nor
   axes.col(2) = normal * unit;
   kernels().sumHeights(neighbors, axes.data(), moments.sums);
   return moments;
+}
+
+void takeMoved(const PointsView& points, const PointBuffer& moved, int p, std::span<const int> neighbors,
+               OffsetBuffer& offsets) {
+  offsets.fill(static_cast<int>(neighbors.size()), [&](int i) -> Eigen::RowVector3d {
+    const int q = neighbors[i];
+    return points.row(q) - points.row(p) + moved.row(q) - moved.row(p);
+  });
 }
 
 void fitHeights(std::span<const HeightMoments> moments, std::span<HeightFit> fits) {
@@ -58,11 +64,6 @@ void fitHeights(std::span<const HeightMoments> moments, std::span<HeightFit> fit
       fit.is_valid = std::isfinite(fit.height);
     }
   }
-}
-
-bool isNoisy(const HeightFit& fit, double variance, double fit_radius) {
-  return fit.is_valid && variance >= smallest_variance * fit_radius * fit_radius &&
-         fit.variance > noise_share * variance;
 }
 
 }  // namespace tufted

@@ -1,4 +1,4 @@
-#include "stars/denoise.h"
+#include "denoise/quadratic_fit.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include "stars/offsets.h"
 #include "stars/tangent_frame.h"
 
-namespace tufted::denoise_test {
+namespace tufted::quadratic_fit_test {
 namespace {
 
 /// Row 0 at the middle, the others around it on h(u, v), all moved far away.
@@ -69,19 +69,6 @@ TEST(HeightFit, OfFewPointsOrPointsOfOneLineIsNone) {
   EXPECT_FALSE(fitAll(line).is_valid);
 }
 
-TEST(Noise, IsWhatNoCurvatureExplains) {
-  const auto isNoisySurface = [](const auto& height) {
-    const Points points = surface(30, height);
-    const PrincipalAxes axes = principalAxes(points, 0, allOthers(points));
-    const HeightFit fit = fitAll(points, axes.normal);
-    return isNoisy(fit, axes.variance[0] * axes.extent * axes.extent, 1.5);
-  };
-  EXPECT_FALSE(isNoisySurface([](int, double, double) { return 0.0; }));
-  EXPECT_FALSE(isNoisySurface([](int, double u, double v) { return std::sqrt(4 - u * u - v * v); }));
-  shapes::Random random(3);
-  EXPECT_TRUE(isNoisySurface([&](int, double, double) { return 1e-3 * random.normal(); }));
-}
-
 /// Against Eigen, on planes, lines, blobs and what lies between.
 TEST(PrincipalAxes, AreThoseOfEigenWhateverTheShape) {
   shapes::Random random(3);
@@ -107,4 +94,4 @@ TEST(PrincipalAxes, AreThoseOfEigenWhateverTheShape) {
 }
 
 }  // namespace
-}  // namespace tufted::denoise_test
+}  // namespace tufted::quadratic_fit_test

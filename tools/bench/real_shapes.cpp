@@ -1,0 +1,146 @@
+#include "bench/real_shapes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <numeric>
+#include <utility>
+
+#include "oracles/oracles.h"
+#include "tufted/components.h"
+#include "tufted/io/read.h"
+#include "tufted/laplacian.h"
+#include "tufted/spectrum.h"
+
+namespace tufted::bench {
+namespace {
+
+/// The mesh whose eigenvalues count as those of the shape has at least so many faces.
+constexpr Eigen::Index fine_faces = 60000;
+
+/// Each triangle cut into four at the middles of its sides.
+shapes::Mesh divided(const shapes::Mesh& mesh) {
+  std::map<std::pair<int, int>, int> middle;
+  std::vector<Eigen::RowVector3d> points;
+  for (Eigen::Index i = 0; i < mesh.points.rows(); ++i) points.emplace_back(mesh.points.row(i));
+  const auto middleOf = [&](int a, int b) {
+    const auto [place, is_new] = middle.try_emplace(std::minmax(a, b), static_cast<int>(points.size()));
+    if (is_new) points.emplace_back((mesh.points.row(a) + mesh.points.row(b)) / 2);
+    return place->second;
+  };
+  shapes::Mesh fine;
+  fine.triangles.resize(4 * mesh.triangles.rows(), 3);
+  for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
+    const int a = mesh.triangles(f, 0), b = mesh.triangles(f, 1), c = mesh.triangles(f, 2);
+    const int ab = middleOf(a, b), bc = middleOf(b, c), ca = middleOf(c, a);
+    fine.triangles.middleRows<4>(4 * f) << a, ab, ca, ab, b, bc, ca, bc, c, ab, bc, ca;
+  }
+  fine.points.resize(static_cast<Eigen::Index>(points.size()), 3);
+  for (std::size_t i = 0; i < points.size(); ++i) fine.points.row(static_cast<Eigen::Index>(i)) = points[i];
+  return fine;
+}
+
+/// x^T M x for the mass matrix of linear elements.
+double consistentNorm(const shapes::Mesh& mesh, const VectorXd& x) {
+  double sum = 0;
+  for (Eigen::Index f = 0; f < mesh.triangles.rows(); ++f) {
+    const Eigen::RowVector3i t = mesh.triangles.row(f);
+    const double area = oracles::surfaceArea(mesh.points, t);
+    const Eigen::Vector3d values(x[t[0]], x[t[1]], x[t[2]]);
+    sum += area / 12 * (values.squaredNorm() + values.sum() * values.sum());
+  }
+  return sum;
+}
+
+/// Linear elements with lumped masses have eigenvalues that are too small, with their own masses too large by about as
+/// much: the mean of both.
+VectorXd eigenvaluesOf(shapes::Mesh mesh, int count) {
+  while (mesh.triangles.rows() < fine_faces) mesh = divided(mesh);
+  const Spectrum found = spectrum(meshLaplacian(mesh.points, mesh.triangles), count, {.null_space = false});
+  VectorXd values = found.values;
+  for (int i = 0; i < count; ++i) values[i] *= (1 + 1 / consistentNorm(mesh, found.vectors.col(i))) / 2;
+  return values;
+}
+
+shapes::Mesh largestComponent(const Geometry& geometry) {
+  const Laplacian laplacian = meshLaplacian(geometry.points, geometry.triangles, {.weld = true});
+  const std::vector<int> label = componentLabels(laplacian);
+  std::map<int, double> area;
+  for (std::size_t i = 0; i < label.size(); ++i)
+    if (label[i] >= 0) area[label[i]] += laplacian.M[static_cast<Eigen::Index>(i)];
+  const int largest = std::max_element(area.begin(), area.end(), [](const auto& a, const auto& b) {
+                        return a.second < b.second;
+                      })->first;
+  shapes::Mesh mesh;
+  std::vector<int> number(label.size(), -1);
+  int points = 0;
+  mesh.points.resize(geometry.points.rows(), 3);
+  mesh.triangles.resize(geometry.triangles.rows(), 3);
+  Eigen::Index triangles = 0;
+  std::map<std::array<double, 3>, int> vertex;  // welded
+  for (std::size_t i = 0; i < label.size(); ++i) {
+    if (label[i] != largest) continue;
+    const Eigen::RowVector3d x = geometry.points.row(static_cast<Eigen::Index>(i));
+    const auto [place, is_new] = vertex.try_emplace({x[0], x[1], x[2]}, points);
+    if (is_new) mesh.points.row(points++) = x;
+    number[i] = place->second;
+  }
+  for (Eigen::Index f = 0; f < geometry.triangles.rows(); ++f) {
+    const auto numbered = geometry.triangles.row(f).unaryExpr([&](int i) { return number[i]; }).eval();
+    if (numbered.minCoeff() < 0 || numbered[0] == numbered[1] || numbered[1] == numbered[2] ||
+        numbered[2] == numbered[0])
+      continue;
+    mesh.triangles.row(triangles++) = numbered;
+  }
+  mesh.points.conservativeResize(points, 3);
+  mesh.triangles.conservativeResize(triangles, 3);
+  const Eigen::RowVector3d middle = mesh.points.colwise().mean();
+  mesh.points.rowwise() -= middle;
+  mesh.points /= mesh.points.cwiseAbs().maxCoeff();
+  return mesh;
+}
+
+}  // namespace
+
+std::vector<ShapeFile> shapeFiles(const std::filesystem::path& shapes) {
+  const std::filesystem::path cgal = std::filesystem::path(TUFTED_CGAL_DATA_DIR) / "meshes";
+  const auto choosing = {shapes / "elephant.obj",   shapes / "nefertiti.obj", shapes / "rocker-arm.obj",
+                         shapes / "suzanne.obj",    cgal / "armadillo.off",   cgal / "bull.off",
+                         cgal / "cow.off",          cgal / "elk.off",         cgal / "hand.off",
+                         cgal / "knot2.off",        cgal / "man.off",         cgal / "pinion_small.off",
+                         cgal / "anchor_dense.off", cgal / "joint.off"};
+  const auto held_out = {shapes / "bumpy-cube.obj",
+                         shapes / "fertility.off",
+                         shapes / "ogre.obj",
+                         shapes / "spot.obj",
+                         cgal / "ChineseDragon-10kv.off",
+                         cgal / "camel.off",
+                         cgal / "dino.off",
+                         cgal / "femur.off",
+                         cgal / "homer.off",
+                         cgal / "lion-head.off",
+                         cgal / "pig.off",
+                         cgal / "rotor_small.off",
+                         cgal / "couplingdown.off",
+                         cgal / "bunny00.off"};
+  std::vector<ShapeFile> files;
+  for (const auto& path : choosing) files.push_back({path, Half::choosing});
+  for (const auto& path : held_out) files.push_back({path, Half::held_out});
+  std::erase_if(files, [](const ShapeFile& file) { return !exists(file.path); });
+  return files;
+}
+
+RealShape realShape(const std::filesystem::path& path, int eigenvalues) {
+  RealShape shape{path.stem().string(), largestComponent(read(path, ReadAs::mesh)), 0, {}};
+  shape.area = oracles::surfaceArea(shape.mesh.points, shape.mesh.triangles);
+  if (eigenvalues > 0) shape.eigenvalues = eigenvaluesOf(shape.mesh, eigenvalues);
+  return shape;
+}
+
+Points sampleOf(const RealShape& shape, int points, double noise, std::uint64_t seed) {
+  const shapes::Cloud cloud = shapes::sampleMesh(shape.mesh, points, seed);
+  if (noise == 0) return cloud.points;
+  return shapes::withNoise(cloud, noise * std::sqrt(shape.area / points), seed + 100).points;
+}
+
+}  // namespace tufted::bench

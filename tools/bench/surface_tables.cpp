@@ -1,0 +1,145 @@
+// tufted_surface: how well noise is told from detail on real shapes and scans. See --help.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <exception>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "base/median.h"
+#include "bench/real_shapes.h"
+#include "oracles/oracles.h"
+#include "tufted/denoise.h"
+#include "tufted/io/read.h"
+#include "tufted/laplacian.h"
+#include "tufted/spectrum.h"
+
+namespace tufted::bench {
+namespace {
+
+constexpr int eigenvalues = 40;
+
+struct Settings {
+  std::filesystem::path real = std::filesystem::path(TUFTED_DATA_DIR).parent_path() / "real";
+  Half half = Half::both;
+  std::vector<int> points = {8000, 20000};
+  std::vector<double> noise = {0, .1, .3, .6};
+  std::uint64_t first_seed = 101;
+  int seeds = 5;
+
+  bool asksFor(Half of_file) const { return half == Half::both || half == of_file; }
+};
+
+/// A way to build.
+struct Column {
+  std::string name;
+  CloudOptions options;
+};
+
+std::vector<Column> columns() {
+  CloudOptions as_measured;
+  as_measured.steps.denoise = false;
+  return {{"clean", cloudOptions(Preset::clean)}, {"default", {}}, {"as measured", as_measured}};
+}
+
+/// Geometric means over seeds of the error of the eigenvalues, and means of the error of the area.
+struct ShapeRow {
+  std::vector<double> error, area;
+};
+
+ShapeRow shapeRow(const RealShape& shape, int points, double noise, const Settings& settings) {
+  const std::vector<Column> builds = columns();
+  ShapeRow row{std::vector<double>(builds.size(), 0), std::vector<double>(builds.size(), 0)};
+  for (int s = 0; s < settings.seeds; ++s) {
+    const Points cloud = sampleOf(shape, points, noise, settings.first_seed + static_cast<std::uint64_t>(s));
+    for (std::size_t c = 0; c < builds.size(); ++c) {
+      const Laplacian laplacian = pointCloudLaplacian(cloud, builds[c].options);
+      const VectorXd found = spectrum(laplacian, eigenvalues, {.null_space = false}).values;
+      row.error[c] += std::log(oracles::meanRelativeError(found, shape.eigenvalues)) / settings.seeds;
+      row.area[c] += (laplacian.report.area / shape.area - 1) / settings.seeds;
+    }
+  }
+  for (double& error : row.error) error = std::exp(error);
+  return row;
+}
+
+void printShapes(const Settings& settings) {
+  const std::vector<Column> builds = columns();
+  std::printf("| shape | points | noise |");
+  for (const Column& build : builds) std::printf(" %s |", build.name.c_str());
+  std::printf("\n|---|---|---|");
+  for (std::size_t c = 0; c < builds.size(); ++c) std::printf("---|");
+  std::printf("\n");
+  std::map<std::pair<int, double>, std::vector<std::vector<double>>> ratios;  // to the best column, by column
+  for (const auto& [path, half] : shapeFiles(settings.real / "shapes")) {
+    if (!settings.asksFor(half)) continue;
+    const RealShape shape = realShape(path, eigenvalues);
+    for (const int points : settings.points) {
+      for (const double noise : settings.noise) {
+        const ShapeRow row = shapeRow(shape, points, noise, settings);
+        std::printf("| %s | %d | %g |", shape.name.c_str(), points, noise);
+        for (std::size_t c = 0; c < builds.size(); ++c)
+          std::printf(" %.1e (%+.1f %%) |", row.error[c], 100 * row.area[c]);
+        std::printf("\n");
+        std::fflush(stdout);
+        const double best = *std::min_element(row.error.begin(), row.error.end());
+        auto& of_row = ratios[{points, noise}];
+        of_row.resize(builds.size());
+        for (std::size_t c = 0; c < builds.size(); ++c) of_row[c].push_back(row.error[c] / best);
+      }
+    }
+  }
+  for (const auto& [row, of_row] : ratios) {
+    std::printf("| over the best: median; worst | %d | %g |", row.first, row.second);
+    for (const auto& of_column : of_row) {
+      Buffer<double> values(of_column.begin(), of_column.end());
+      const double worst = *std::max_element(of_column.begin(), of_column.end());
+      std::printf(" %.2f; %.2f |", medianOf(std::move(values)), worst);
+    }
+    std::printf("\n");
+  }
+}
+
+void printVertices(const Settings& settings) {
+  std::printf("| vertices of | points | moved |\n|---|---|---|\n");
+  for (const auto& [path, half] : shapeFiles(settings.real / "shapes")) {
+    if (!settings.asksFor(half)) continue;
+    const RealShape shape = realShape(path, 0);
+    const DenoiseReport report = denoise(shape.mesh.points).report;
+    std::printf("| %s | %d | %.1f %% |\n", shape.name.c_str(), static_cast<int>(report.points),
+                100 * static_cast<double>(report.moved) / static_cast<double>(report.points));
+  }
+}
+
+}  // namespace
+}  // namespace tufted::bench
+
+int main(int argc, char** argv) {
+  namespace bench = tufted::bench;
+  bench::Settings settings;
+  const std::map<std::string, void (*)(const bench::Settings&)> tables = {{"shapes", bench::printShapes},
+                                                                          {"vertices", bench::printVertices}};
+  const std::map<std::string, bench::Half> halves = {
+      {"choosing", bench::Half::choosing}, {"held-out", bench::Half::held_out}, {"both", bench::Half::both}};
+  std::vector<std::string> known, names;
+  for (const auto& [name, print] : tables) known.push_back(name);
+  CLI::App app("Tables of what is noise and what is detail, on real shapes and scans.");
+  app.add_option("TABLE", names, "Which (all)")->check(CLI::IsMember(known));
+  app.add_option("--real", settings.real, "Folder of shapes/ and scans/");
+  app.add_option("--half", settings.half, "Which half of the files")->transform(CLI::CheckedTransformer(halves));
+  app.add_option("--points", settings.points, "Points drawn on a shape");
+  app.add_option("--noise", settings.noise, "Its standard deviation in spacings");
+  app.add_option("--seed", settings.first_seed, "The first seed; constants are chosen on 1 to 9");
+  app.add_option("--seeds", settings.seeds, "How many seeds");
+  CLI11_PARSE(app, argc, argv);
+  try {
+    for (const std::string& name : names.empty() ? known : names) tables.at(name)(settings);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "tufted_surface: %s\n", error.what());
+    return 1;
+  }
+}
