@@ -10,9 +10,9 @@
 
 #include "base/buffer.h"
 #include "cover/geometry.h"
+#include "denoise/quadratic_fit.h"
 #include "shapes/random.h"
 #include "shapes/shapes.h"
-#include "denoise/quadratic_fit.h"
 #include "stars/offsets.h"
 #include "stars/tangent_frame.h"
 #include "tufted/laplacian.h"

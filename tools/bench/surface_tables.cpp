@@ -1,5 +1,6 @@
 // tufted_surface: how well noise is told from detail on real shapes and scans. See --help.
 #include <CLI/CLI.hpp>
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "base/median.h"
+#include "bench/real_scans.h"
 #include "bench/real_shapes.h"
 #include "oracles/oracles.h"
 #include "tufted/denoise.h"
@@ -115,6 +117,36 @@ void printVertices(const Settings& settings) {
   }
 }
 
+constexpr const char* prediction_columns = "points | as measured | denoised | moved |\n|---|---|---|---|---|\n";
+
+void printRow(const std::string& name, Eigen::Index points, const Prediction& found) {
+  std::printf("| %s | %d | %.4f | %.4f | %.0f %% |\n", name.c_str(), static_cast<int>(points), found.as_measured,
+              found.denoised, 100 * found.moved);
+  std::fflush(stdout);
+}
+
+void printHidden(const Settings& settings) {
+  std::printf("| half of the points of | %s", prediction_columns);
+  for (const auto& [path, half] : scanFiles(settings.real / "scans")) {
+    if (!settings.asksFor(half)) continue;
+    const Points scan = finitePoints(path);
+    printRow(path.stem().string(), scan.rows(), predictHidden(scan));
+  }
+}
+
+/// Two views of one thing; the second is turned and moved near the first as its README says.
+void printSecond(const Settings& settings) {
+  const std::filesystem::path scans = settings.real / "scans";
+  if (!exists(scans / "bun000.ply") || !exists(scans / "bun045.ply")) return;
+  const Points first = read(scans / "bun000.ply", ReadAs::cloud).points;
+  const Points second = read(scans / "bun045.ply", ReadAs::cloud).points;
+  const Eigen::Quaterniond turn(0.955586, 0.00548449, -0.294635, -0.0038555);
+  const Eigen::RowVector3d shift(-0.0520211, -0.000383981, -0.0109223);
+  const Points near = (second * turn.normalized().toRotationMatrix()).rowwise() + shift;
+  std::printf("| second scan of | %s", prediction_columns);
+  printRow("bun000", first.rows(), predictSecond(first, near));
+}
+
 }  // namespace
 }  // namespace tufted::bench
 
@@ -122,7 +154,9 @@ int main(int argc, char** argv) {
   namespace bench = tufted::bench;
   bench::Settings settings;
   const std::map<std::string, void (*)(const bench::Settings&)> tables = {{"shapes", bench::printShapes},
-                                                                          {"vertices", bench::printVertices}};
+                                                                          {"vertices", bench::printVertices},
+                                                                          {"hidden", bench::printHidden},
+                                                                          {"second", bench::printSecond}};
   const std::map<std::string, bench::Half> halves = {
       {"choosing", bench::Half::choosing}, {"held-out", bench::Half::held_out}, {"both", bench::Half::both}};
   std::vector<std::string> known, names;
