@@ -14,8 +14,8 @@ constexpr double thick = 0.25;            // smallest by middle variance: window
 constexpr double still_thick = 0.6;       // a crease does not get thinner in a wider window, noise does
 constexpr double share_to_widen = 0.002;  // of the points; fewer are left
 /// Bounds of the share of a base window's points within half its radius: 1/2 along a curve, 1/4 on a surface and 1/8 in
-/// a volume. Scan lines have up to .34 and surfaces in thick noise down to .19, once their windows are widened.
-constexpr double curve_share = 0.35, volume_share = 0.18;
+/// a volume. Noisy scan lines have up to .40 and surfaces in thick noise down to .19, once their windows are widened.
+constexpr double curve_share = 0.41, volume_share = 0.18;
 /// The same where sheets were told apart, as in the layers of a lattice: two sheets 2 spacings apart have more.
 constexpr double thin_volume_share = 0.155;
 constexpr double chi_median = 0.94;      // median of chi squared by its degrees of freedom, of which there are 11

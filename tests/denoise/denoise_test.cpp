@@ -193,6 +193,16 @@ TEST(Denoise, LeavesCurvesAlone) {
   }
 }
 
+TEST(Denoise, TakesNoScanLinesForCurves) {
+  const shapes::Cloud lines = shapes::sphere(16000, Sampling::scanLines(20));
+  const double half_spacing = std::sqrt(std::numbers::pi / 16000);
+  for (const std::uint64_t seed : {201, 202, 203}) {
+    const DenoisedPoints done = denoise(withNoise(lines, half_spacing, seed).points);
+    EXPECT_EQ(done.report.no_surface, 0);
+    EXPECT_LT(rmsDistance(done.positions, toSphere), 0.15 * half_spacing);
+  }
+}
+
 TEST(Denoise, DoesNotYetLeaveTightHelicesAlone) {
   // 30 points a turn and turns as far apart as the radius: 32 neighbours are a ring, and 64 are taken for a thick
   // surface. To be mended where the stage that moves points is made anew; this test says so when it is.
