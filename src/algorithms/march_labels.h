@@ -132,7 +132,7 @@ class LabelsOfSeveralSources {
   /// Labels of a source that one comes to after another lie side by side, or most would not be in the cache.
   static constexpr int block = 8;
 
-  /// Of the frozen labels of a vertex.
+  /// The least distance among the frozen labels of a vertex, infinite if it has none.
   double nearest(int vertex) const {
     double least = std::numeric_limits<double>::infinity();
     for (int label = vertex; label >= 0; label = labels_[label].next)

@@ -86,7 +86,8 @@ Points rowsOf(const Points& points, const std::vector<std::size_t>& which, int c
   return some;
 }
 
-/// Of the fits through all numbers of neighbours the least root of the mean squared heights.
+/// The root of the mean squared height of the queries, in spacings, by the degree and the number of neighbours that
+/// make it least.
 double bestFit(const NearestPoints& seen, const Points& queries, double spacing) {
   const std::vector<int> counts = {8, 12, 16, 24, 48, 96};
   Eigen::ArrayXXd squares = Eigen::ArrayXXd::Zero(static_cast<Eigen::Index>(counts.size()), 2);

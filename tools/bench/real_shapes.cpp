@@ -1,9 +1,9 @@
 #include "bench/real_shapes.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <map>
-#include <numeric>
 #include <utility>
 
 #include "oracles/oracles.h"
