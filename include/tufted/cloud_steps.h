@@ -42,6 +42,9 @@ struct CloudSteps {
   StarSearch star_search = StarSearch::thorough;  ///< when stars are wrapped again
   bool isolate_outliers = true;   ///< points that hover over a surface that does not reach to them lose their stars
   Filter filter = Filter::votes;  ///< which triangles are dropped
+  /// Where the stars of a quadrilateral of points disagree about its diagonal, as on grids that lie on curved surfaces,
+  /// they all take the one that is Delaunay in space.
+  bool settle_diagonals = true;
   /// Where there is noise, points are moved onto the surface first, as by denoise(), and everything is built from
   /// there. In a depth image they are moved along their rays, and stars are those of the points as they were.
   bool denoise = true;

@@ -49,6 +49,7 @@ struct Report {
   std::int64_t closed_stars = 0;           ///< open stars that closed with two or four times the neighbours
   std::int64_t open_stars = 0;             ///< points whose Voronoi cell is not compact
   std::int64_t dropped_triangles = 0;      ///< star triangles removed: filtered, with outliers, too flat, across jumps
+  std::int64_t settled_diagonals = 0;      ///< quadrilaterals whose stars were made to agree, see CloudSteps
   std::array<std::int64_t, 3> votes = {};  ///< distinct triangles found by 1, 2, 3 of their corners
 
   // Meshes
@@ -119,6 +120,7 @@ void visitNumbers(AnyReport& report, const Visit& visit) {
   visit("closed_stars", report.closed_stars);
   visit("open_stars", report.open_stars);
   visit("dropped_triangles", report.dropped_triangles);
+  visit("settled_diagonals", report.settled_diagonals);
   visit("votes", report.votes);
   visit("repeated_vertex_triangles", report.repeated_vertex_triangles);
   visit("not_finite_triangles", report.not_finite_triangles);

@@ -76,6 +76,7 @@ Json optionsObject(const CloudOptions& options) {
                {"isolate_outliers", options.steps.isolate_outliers},
                {"star_search", options.steps.star_search == StarSearch::once ? "once" : "thorough"},
                {"filter", options.steps.filter == Filter::radius ? "radius" : "votes"},
+               {"settle_diagonals", options.steps.settle_diagonals},
                {"denoise", options.steps.denoise},
                {"mass", options.steps.mass == Mass::cover ? "cover" : "star"},
                {"structure", name(options.structure)},

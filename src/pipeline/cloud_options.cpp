@@ -45,6 +45,7 @@ CloudSteps cloudSteps(Preset preset) {
              .star_search = StarSearch::once,
              .isolate_outliers = false,
              .filter = Filter::radius,
+             .settle_diagonals = false,
              .denoise = false,
              .mass = Mass::cover};
   } else if (preset == Preset::lidar) {

@@ -4,6 +4,7 @@
 
 #include "base/stage_clock.h"
 #include "stars/agreement.h"
+#include "stars/diagonals.h"
 #include "stars/outliers.h"
 #include "stars/star_filter.h"
 
@@ -15,6 +16,10 @@ SurfaceStars filteredStars(BuiltStars built, bool is_whole_cloud, const PointsVi
   StageClock clock(report);
   if (!is_whole_cloud) filterStars(result, points, options.steps.filter, workers, report);
   result.disagrees = findDisagreement(result.stars, workers);
+  if (options.steps.settle_diagonals) {
+    report.settled_diagonals = settleDiagonals(points, result.disagrees, workers, result.stars);
+    if (report.settled_diagonals > 0) result.disagrees = findDisagreement(result.stars, workers);
+  }
   countVotes(result.stars, result.disagrees, workers, report);
   clock.finish("filter", 0);
   return result;

@@ -8,6 +8,7 @@
 
 #include "depth_image/image.h"
 #include "shapes/random.h"
+#include "tufted/spectrum.h"
 
 namespace tufted::panorama_test {
 namespace {
@@ -57,13 +58,30 @@ TEST(Panorama, OfAWallIsAPlane) {
   }
 }
 
-TEST(Panorama, OfASphereFromWithinHasItsArea) {
+/// The image's own triangles, two to a cell.
+Laplacian meshOf(const Points& points) {
+  Triangles triangles(2 * (columns - 1) * (rows - 1), 3);
+  for (int i = 0; i < triangles.rows(); ++i) {
+    const int cell = i / 2, here = cell / (columns - 1) * columns + cell % (columns - 1);
+    if (i % 2 == 0)
+      triangles.row(i) << here, here + 1, here + columns;
+    else
+      triangles.row(i) << here + 1, here + columns + 1, here + columns;
+  }
+  return meshLaplacian(points, triangles);
+}
+
+TEST(Panorama, OfASphereFromWithinHasItsAreaAndSpectrum) {
   const double radius = 3;
   const Points points = panorama([&](const Eigen::RowVector3d&) { return radius; });
   const Laplacian laplacian = laplacianOf(points);
   const double highest = (rows / 2 - 1) * step, lowest = -rows / 2 * step;
   const double area = radius * radius * (columns - 1) * step * (std::sin(highest) - std::sin(lowest));
   EXPECT_NEAR(laplacian.M.sum(), area, 1e-3 * area);
+  EXPECT_NEAR(laplacian.cover_areas.sum(), area, 1e-3 * area);
+  const SpectrumOptions options{.null_space = false};
+  const VectorXd values = spectrum(laplacian, 10, options).values, truth = spectrum(meshOf(points), 10, options).values;
+  EXPECT_LT((values.cwiseQuotient(truth).array() - 1).abs().maxCoeff(), 2e-3);
 }
 
 TEST(Panorama, OfANoisyWallIsNearlyThatOfTheWall) {
