@@ -15,14 +15,13 @@ namespace tufted {
 /// Errors of L, M and cover_areas against values recomputed from the faces of the cover; L is assembled once more,
 /// corner by corner.
 ///
-/// For the cover of a cloud that was built from stars, masses are compared with the areas of the stars; on meshes and
-/// with Mass::cover, with the areas of the cover. If the stars no longer exist, as with other gluings and after reading
-/// from files, single masses cannot be compared. The sum of M must then lie within what areas of stars can be: between
-/// 3/40 of and 30 times the area of the cover without Report::area_added.
+/// Masses are compared with the areas of the cover, and with Mass::star, where the surface of a cloud ends, with the
+/// areas of the stars. If the stars no longer exist, as with other gluings and after reading from files, masses there
+/// are not compared.
 struct SurfaceCheck {
   double weight_error = 0;         ///< greatest |L_ij - L'_ij| over the larger diagonal of L' at i and j
   double area_error = 0;           ///< greatest relative error of cover_areas, 0 where these are not known
-  double mass_error = 0;           ///< greatest relative error of M, 0 where `masses_compared` is false
+  double mass_error = 0;           ///< greatest relative error of M
   bool masses_compared = false;    ///< each mass was compared with the area it must be
   std::int64_t coarse_points = 0;  ///< points not compared, for lengths below 1e-292, where doubles have fewer digits
 };

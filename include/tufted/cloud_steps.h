@@ -25,9 +25,8 @@ enum class Filter {
 /// What M holds.
 enum class Mass {
   cover,  ///< a third of the area of each face of the cover around the point
-  /// The Voronoi area in the point's own star, which noise, rims and uneven sampling distort less. It is replaced by
-  /// the mixed area of Meyer et al. 2003 where the surface ends or bends next to the point, or a Voronoi area there
-  /// exceeds 20 times the mixed area: so no point gets more than 20 times the triangles of its star.
+  /// The same, but where the surface ends at a point the mixed area (Meyer et al. 2003) in the point's own star: there
+  /// neighbours' stars lack triangles, and the areas of the cover are too small.
   star,
 };
 

@@ -46,8 +46,9 @@ class CoverSource {
   virtual ~CoverSource() = default;
   /// The tufted cover, which is built by the first call. Any number of threads may call.
   virtual const IntrinsicTriangulation& cover() const = 0;
-  /// The area of each point in its own star, N values in length^2, which Mass::star takes for M wherever it is
-  /// positive; size 0 with Mass::cover. Measured again with each call, by all threads of the build.
+  /// The mixed area in its own star of each point where the surface ends, N values in length^2, 0 elsewhere: Mass::star
+  /// takes it for M wherever it is positive. Size 0 with Mass::cover. Measured again with each call, by all threads of
+  /// the build.
   virtual VectorXd starAreas() const { return {}; }
   /// The faces that points in some balls have found, without building the cover: all of them, if the balls are a little
   /// larger than the part of the surface that is asked about. A face that is there more often is appended more often.

@@ -75,9 +75,6 @@ struct Report {
   double area = 0;                   ///< sum of M
   double cover_area = 0;             ///< sum of the cover's areas; equal to `area` with Mass::cover
   std::int64_t star_masses = 0;      ///< points whose mass is an area of their own star, see Mass::star; 0 on meshes
-  std::int64_t cover_masses = 0;     ///< points whose mass is the cover's because their own star holds no triangle
-  std::int64_t bounded_masses = 0;   ///< points whose mass comes from parts of their triangles because a Voronoi area
-                                     ///< in or next to their star exceeds what stars hold, see Mass::star
   std::int64_t nonzeros = 0;         ///< stored entries of L
   std::int64_t components = 0;       ///< connected components among active points
   std::int64_t clamped_weights = 0;  ///< negative weights set to 0, within 1e-9 of the larger diagonal
@@ -137,8 +134,6 @@ void visitNumbers(AnyReport& report, const Visit& visit) {
   visit("area", report.area);
   visit("cover_area", report.cover_area);
   visit("star_masses", report.star_masses);
-  visit("cover_masses", report.cover_masses);
-  visit("bounded_masses", report.bounded_masses);
   visit("nonzeros", report.nonzeros);
   visit("components", report.components);
   visit("clamped_weights", report.clamped_weights);

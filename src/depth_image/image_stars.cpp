@@ -107,9 +107,7 @@ class ImageStarBuilder {
   }
 
   static PixelFrame frameOfLane(const PixelStars& found, int lane) {
-    return {{found.normal_x[lane], found.normal_y[lane], found.normal_z[lane]},
-            found.fit_radius[lane],
-            isFlat(found.height_variance[lane], found.second_variance[lane])};
+    return {{found.normal_x[lane], found.normal_y[lane], found.normal_z[lane]}, found.fit_radius[lane]};
   }
 
   void takeCertain(int p, int lane, const PixelStars& found, DelaunayStar& star) const {
@@ -205,7 +203,6 @@ class ImageStarBuilder {
     support_.normals.row(p) = frame.normal;
     support_.fit_radius[p] = frame.radius;
     support_.isolated[p] = 0;
-    stars_.flat[p] = frame.is_flat ? 1 : 0;
     const auto isOneSurface = [this](int a, int b) { return image_.isOneSurface(a, b); };
     storeStar(p, 1 / unit, isOneSurface, memory, stars_);
   }

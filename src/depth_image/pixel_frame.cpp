@@ -1,21 +1,10 @@
 #include "depth_image/pixel_frame.h"
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
-#include "stars/tangent_frame.h"
-
 namespace tufted {
-namespace {
-
-constexpr double flat_share = 0.02;  // of the second variance, as in stars.cpp
-
-}  // namespace
-
-bool isFlat(double height_variance, double second) {
-  return height_variance < flat_share * second;
-}
-
 std::optional<PixelFrame> fitFrame(const DepthImage& image, const PixelWindow& window, int p) {
   const int count = window.count();
   const Offsets offsets = window.offsets();
@@ -54,22 +43,9 @@ std::optional<PixelFrame> fitFrame(const DepthImage& image, const PixelWindow& w
 PixelFrame frameOf(const Eigen::Vector3d& normal, const PixelWindow& window) {
   const int count = window.count();
   const Offsets offsets = window.offsets();
-  const Eigen::Vector3d x = tangentOf(normal), y = normal.cross(x);
-  double squares = 0, heights = 0, height_sum = 0, uu = 0, uv = 0, vv = 0;
-  for (int i = 0; i < count; ++i) {
-    const Eigen::Vector3d d(offsets.x[i], offsets.y[i], offsets.z[i]);
-    const double h = d.dot(normal), u = d.dot(x), v = d.dot(y);
-    squares += h * h + u * u + v * v;
-    heights += h * h;
-    height_sum += h;
-    uu += u * u;
-    uv += u * v;
-    vv += v * v;
-  }
-  const double n = count + 1;
-  const double variance = heights / n - (height_sum / n) * (height_sum / n);
-  const double middle = (uu + vv) / 2, second = (middle - std::hypot((uu - vv) / 2, uv)) / n;
-  return {normal, std::sqrt(2 * squares / std::max(1, count)), isFlat(variance, second)};
+  double squares = 0;
+  for (int i = 0; i < count; ++i) squares += Eigen::Vector3d(offsets.x[i], offsets.y[i], offsets.z[i]).squaredNorm();
+  return {normal, std::sqrt(2 * squares / std::max(1, count))};
 }
 
 }  // namespace tufted

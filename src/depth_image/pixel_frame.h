@@ -11,18 +11,14 @@ namespace tufted {
 struct PixelFrame {
   Eigen::Vector3d normal;  ///< unit length, from the surface to the sensor
   double radius = 0;       ///< that of a disk with the mean squared distance of the points used
-  bool is_flat = false;    ///< these points are nearly on a plane
 };
-
-/// @param second the smaller variance along the plane
-bool isFlat(double height_variance, double second);
 
 /// The plane along which positions change with rows and columns, by least squares over the points of the window. Noise
 /// along the line of sight, however large, does not turn it by its mean, as it turns principal axes.
 /// @returns nothing where the pixels are on one line
 std::optional<PixelFrame> fitFrame(const DepthImage& image, const PixelWindow& window, int p);
 
-/// The frame that a given normal makes, with the size and the flatness of the window.
+/// The frame that a given normal makes, with the size of the window.
 PixelFrame frameOf(const Eigen::Vector3d& normal, const PixelWindow& window);
 
 }  // namespace tufted

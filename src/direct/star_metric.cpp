@@ -22,8 +22,8 @@ struct BlockSums {
 
 class StarMeasurer {
  public:
-  StarMeasurer(const Stars& stars, const EdgeLengths& length, StarMetric& metric, StarAreas* own_areas)
-      : stars_(stars), length_(length), metric_(metric), own_areas_(own_areas) {}
+  StarMeasurer(const Stars& stars, const EdgeLengths& length, StarMetric& metric)
+      : stars_(stars), length_(length), metric_(metric) {}
 
   void measure(int begin, int end, TriangleFanBuffer& buffer, BlockSums& sums) const {
     forEachTriangleFan(stars_, length_, Numbers{begin, end}, buffer,
@@ -37,7 +37,6 @@ class StarMeasurer {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     double area = 0, first = nan, before = nan;  // cotangents opposite spokes, in the first and the last triangle
     bool is_flat = false;
-    if (own_areas_ != nullptr) own_areas_->measure(stars_, p, fans, at);
     for (int i = begin; i < end; ++i, ++at) {
       if (!stars_.hasTriangle(i)) {
         metric_.cotan_sum[i] = before = nan;
@@ -62,21 +61,19 @@ class StarMeasurer {
   const Stars& stars_;
   const EdgeLengths& length_;
   StarMetric& metric_;
-  StarAreas* const own_areas_;
 };
 
 }  // namespace
 
-StarMetric measureStars(const Stars& stars, const EdgeLengths& length, RawBuffer<double> memory, const Workers& workers,
-                        StarAreas* own_areas) {
+StarMetric measureStars(const Stars& stars, const EdgeLengths& length, RawBuffer<double> memory,
+                        const Workers& workers) {
   StarMetric metric;
   metric.cotan_sum = std::move(memory);
   metric.cotan_sum.resize(stars.link.size());
   metric.area.resize(stars.size());
   metric.is_flat.resize(stars.size());
-  if (own_areas != nullptr) own_areas->resize(stars.size());
   Buffer<BlockSums> sums((stars.size() + cheap_block - 1) / cheap_block);
-  const StarMeasurer measurer(stars, length, metric, own_areas);
+  const StarMeasurer measurer(stars, length, metric);
   workers.forBlocks("lengths", stars.size(), cheap_block, [&](std::int64_t begin, std::int64_t end, int) {
     TriangleFanBuffer buffer;
     measurer.measure(static_cast<int>(begin), static_cast<int>(end), buffer, sums[begin / cheap_block]);

@@ -6,7 +6,6 @@
 #include "base/parallel.h"
 #include "cover/cover.h"
 #include "cover/edge_lengths.h"
-#include "direct/star_areas.h"
 #include "stars/stars.h"
 
 namespace tufted {
@@ -21,8 +20,7 @@ struct StarMetric {
 };
 
 /// @param memory for cotan_sum, whatever is in it: new pages cost more than what is written to them
-/// @param[out] own_areas if given, what chooseAreas() takes, on the same way
-StarMetric measureStars(const Stars& stars, const EdgeLengths& length, RawBuffer<double> memory, const Workers& workers,
-                        StarAreas* own_areas = nullptr);
+StarMetric measureStars(const Stars& stars, const EdgeLengths& length, RawBuffer<double> memory,
+                        const Workers& workers);
 
 }  // namespace tufted

@@ -5,6 +5,7 @@
 #include "base/power_of_two.h"
 #include "cover/component_edges.h"
 #include "cover/face_scale.h"
+#include "direct/star_areas.h"
 #include "direct/star_rows.h"
 
 namespace tufted {
@@ -20,11 +21,8 @@ StarUnion::StarUnion(Stars stars, Buffer<std::uint8_t> disagrees, RankedCloud cl
       cycles_(stars_, disagrees_, cloud_.points, workers),
       cover_(stars_, length_, cycles_) {}
 
-StarMetric StarUnion::measure(RawBuffer<double> memory, const Workers& workers, OwnAreas* own) {
-  StarAreas areas;
-  StarMetric metric = measureStars(stars_, length_, std::move(memory), workers, own != nullptr ? &areas : nullptr);
-  if (own != nullptr) *own = chooseAreas(stars_, std::move(areas), workers);
-  return metric;
+StarMetric StarUnion::measure(RawBuffer<double> memory, const Workers& workers) const {
+  return measureStars(stars_, length_, std::move(memory), workers);
 }
 
 FlipCounts StarUnion::flip(const StarMetric& metric, const Workers& workers) {
@@ -86,7 +84,7 @@ Buffer<ComponentEdges> StarUnion::componentEdges(const std::vector<int>& compone
 VectorXd StarUnion::starAreas() const {
   if (!has_own_areas_) return {};
   const Progress silent;
-  const RawBuffer<double> areas = ownAreas(stars_, cloud_.points, Workers(threads_, silent)).area;
+  const RawBuffer<double> areas = ownAreas(stars_, cloud_.points, Workers(threads_, silent));
   const PowerOfTwo area_unit(2 * cloud_.exponent);
   VectorXd result = VectorXd::Zero(size_);
   for (int p = 0; p < cloud_.size(); ++p) result[cloud_.input_index[p]] = area_unit.times(areas[p]);

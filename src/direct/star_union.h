@@ -38,8 +38,7 @@ class StarUnion final : public CoverSource {
 
   /// Lengths, and the cotangents and areas that follow.
   /// @param memory is used again
-  /// @param[out] own if given, ownAreas()
-  StarMetric measure(RawBuffer<double> memory, const Workers& workers, OwnAreas* own);
+  StarMetric measure(RawBuffer<double> memory, const Workers& workers) const;
 
   /// Algorithm 2.
   FlipCounts flip(const StarMetric& metric, const Workers& workers);

@@ -203,7 +203,7 @@ void checkCover(const Laplacian& laplacian, const Workers& workers, LaplacianChe
   check.surface = checkSurface(laplacian, check.faults);
   if (!check.surface->masses_compared) {
     check.not_checked.emplace_back(
-        "mass: only the sum of M was compared with the cover, since the stars that each mass was measured in are not "
+        "mass: M was not compared where the surface ends, since the stars that these masses were measured in are not "
         "kept");
   }
 }

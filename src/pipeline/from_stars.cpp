@@ -10,35 +10,33 @@
 
 namespace tufted {
 
-std::optional<OwnAreas> finishFromStars(SurfaceStars built, RankedCloud cloud, const CloudOptions& options,
-                                        const Workers& workers, StageClock& clock, Laplacian& result) {
+bool finishFromStars(SurfaceStars built, RankedCloud cloud, const CloudOptions& options, const Workers& workers,
+                     StageClock& clock, Laplacian& result) {
   const int exponent = cloud.exponent;
   RawBuffer<double> memory = std::move(built.support.radius);
   BuildFigures figures{.triangles = built.stars.triangles()};
-  const bool has_own_areas = options.steps.mass == Mass::star;
   const auto stars_and_cover = std::allocate_shared<StarUnion>(
       WorkspaceAllocator<StarUnion>(), std::move(built.stars), std::move(built.disagrees), std::move(cloud),
-      static_cast<int>(result.status.size()), has_own_areas, workers);
+      static_cast<int>(result.status.size()), options.steps.mass == Mass::star, workers);
   clock.finish("cover", 0);
 
-  OwnAreas own;
-  const StarMetric metric = stars_and_cover->measure(std::move(memory), workers, has_own_areas ? &own : nullptr);
-  if (metric.has_flat && options.mollify > 0) return std::nullopt;
+  const StarMetric metric = stars_and_cover->measure(std::move(memory), workers);
+  if (metric.has_flat && options.mollify > 0) return false;
   figures.mean = metric.mean;
   clock.finish("lengths", bytesOf(metric.cotan_sum) + bytesOf(metric.area));
 
   figures.flips = stars_and_cover->flip(metric, workers);
   clock.finish("flips", stars_and_cover->bytes());
-  if (figures.flips.failures > 0 && options.mollify > 0) return std::nullopt;
+  if (figures.flips.failures > 0 && options.mollify > 0) return false;
 
   stars_and_cover->assemble(metric, options.keep_cover, workers, result);
-  if (result.report.degenerate_faces > 0 && options.mollify > 0) return std::nullopt;  // flips have made some flat
+  if (result.report.degenerate_faces > 0 && options.mollify > 0) return false;  // flips have made some flat
   if (result.report.components > 1)
     figures.by_component = stars_and_cover->componentEdges(result.component, result.report.components, workers);
   finishResult(figures, exponent, result);
   if (options.keep_cover) result.cover_source = stars_and_cover;
   clock.finish("matrices", bytesOfMatrices(result));
-  return own;
+  return true;
 }
 
 }  // namespace tufted

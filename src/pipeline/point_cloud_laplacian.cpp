@@ -1,5 +1,4 @@
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 
@@ -7,6 +6,7 @@
 #include "base/point_buffer.h"
 #include "base/stage_clock.h"
 #include "cover/cover.h"
+#include "direct/star_areas.h"
 #include "neighbors/morton.h"
 #include "pipeline/build.h"
 #include "pipeline/cloud_options.h"
@@ -35,22 +35,16 @@ constexpr std::int64_t most_entries = most_triangles - most_triangles / 64;
 }
 
 /// Algorithms 1 to 3 on the whole cover.
-/// @returns ownAreas() with Mass::star, else nothing
-OwnAreas finishFromWholeCover(SurfaceStars built, const RankedCloud& cloud, const CloudOptions& options,
-                              const Workers& workers, StageClock& clock, Laplacian& result) {
-  Stars& stars = built.stars;
-  OwnAreas own;
-  if (options.steps.mass == Mass::star) own = ownAreas(stars, cloud.points, workers);
-  clock.finish("mass", 0);
+void finishFromWholeCover(SurfaceStars built, const RankedCloud& cloud, const CloudOptions& options,
+                          const Workers& workers, StageClock& clock, Laplacian& result) {
   release(built.support.radius);
   std::shared_ptr<IntrinsicTriangulation> cover = takeCover(result);
-  addStars(stars, options.gluing, *cover, workers);
+  addStars(built.stars, options.gluing, *cover, workers);
   built = {};
   glueEdges(*cover, cloud.points, {options.order, options.seed}, workers);
   clock.finish("cover", bytesOfCover(*cover));
   finishFromCover(std::move(cover), {cloud.points, cloud.input_index, cloud.exponent}, options.mollify,
                   options.keep_cover, workers, clock, result);
-  return own;
 }
 
 }  // namespace
@@ -97,23 +91,24 @@ void buildCloudLaplacian(const PointsRef& points, const CloudOptions& options, C
 
   // The union of all stars, glued to its tufted cover (Algorithm 1), measured and mollified (Section 4.5), flipped to
   // intrinsic Delaunay (Algorithm 2), and L and M (Algorithm 3): straight from the stars where these agree.
-  const bool has_own_areas = options.steps.mass == Mass::star;
-  const Buffer<int> input_index = has_own_areas ? cloud.input_index : Buffer<int>();
   const int exponent = cloud.exponent;
-  const bool stars_agree = options.gluing == Gluing::star && options.order == FaceOrder::angle;
-  std::optional<OwnAreas> own;
-  if (stars_agree && build == CloudBuild::automatic) {
+  Buffer<int> input_index;
+  RawBuffer<double> own;
+  if (options.steps.mass == Mass::star) {
+    input_index = cloud.input_index;
+    own = ownAreas(built.stars, cloud.points, workers);
+  }
+  clock.finish("mass", bytesOf(own));
+  if (options.gluing == Gluing::star && options.order == FaceOrder::angle && build == CloudBuild::automatic) {
     result.stored_cover.reset();
-    own = finishFromStars(std::move(built), std::move(cloud), options, workers, clock, result);
     // Flat triangles and flips without an end are so rare that starting anew costs less than what it would take to keep
     // the stars.
-    if (!own) return buildCloudLaplacian(points, options, CloudBuild::whole_cover, result);
+    if (!finishFromStars(std::move(built), std::move(cloud), options, workers, clock, result))
+      return buildCloudLaplacian(points, options, CloudBuild::whole_cover, result);
   } else {
-    own = finishFromWholeCover(std::move(built), cloud, options, workers, clock, result);
+    finishFromWholeCover(std::move(built), cloud, options, workers, clock, result);
   }
-
-  // With Mass::star a point's area is what belongs to it in its own star.
-  if (has_own_areas) setOwnAreas(*own, input_index, exponent, result);
+  setOwnAreas(own, input_index, exponent, result);
   setTangents(workers, result);
   clock.finish("tangents", static_cast<std::size_t>(result.frames.tangents.size()) * sizeof(double));
   workers.report("done", 1);

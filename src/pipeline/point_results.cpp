@@ -78,16 +78,15 @@ void setTangents(const Workers& workers, Laplacian& result) {
   });
 }
 
-void setOwnAreas(const OwnAreas& own, const Buffer<int>& input_index, int exponent, Laplacian& result) {
+void setOwnAreas(const RawBuffer<double>& own, const Buffer<int>& input_index, int exponent, Laplacian& result) {
   const PowerOfTwo area_unit(2 * exponent);
-  for (std::size_t p = 0; p < input_index.size(); ++p) {
+  for (std::size_t p = 0; p < own.size(); ++p) {
     const int i = input_index[p];
-    if (result.status[i] != PointStatus::active) continue;
-    if (own.area[p] > 0) result.M[i] = area_unit.times(own.area[p]);
-    ++(own.area[p] > 0 ? result.report.star_masses : result.report.cover_masses);
+    if (result.status[i] != PointStatus::active || !(own[p] > 0)) continue;
+    result.M[i] = area_unit.times(own[p]);
+    ++result.report.star_masses;
   }
-  result.report.bounded_masses = own.bounded;
-  result.report.area = result.M.sum();
+  if (result.report.star_masses > 0) result.report.area = result.M.sum();
 }
 
 }  // namespace tufted

@@ -3,7 +3,6 @@
 #include "base/buffer.h"
 #include "base/parallel.h"
 #include "base/point_buffer.h"
-#include "direct/star_areas.h"
 #include "neighbors/morton.h"
 #include "tufted/laplacian.h"
 
@@ -31,8 +30,8 @@ void faceViewpoint(const Eigen::Vector3d& viewpoint, const Workers& workers, Lap
 void setTangents(const Workers& workers, Laplacian& result);
 
 /// Makes the stars' own areas M where they are positive and the point has a row.
-/// @param own by rank, in units of 2^(2 exponent) of the caller's
+/// @param own by rank, in units of 2^(2 exponent) of the caller's; may be empty
 /// @param input_index the caller's index of each rank
-void setOwnAreas(const OwnAreas& own, const Buffer<int>& input_index, int exponent, Laplacian& result);
+void setOwnAreas(const RawBuffer<double>& own, const Buffer<int>& input_index, int exponent, Laplacian& result);
 
 }  // namespace tufted

@@ -127,7 +127,6 @@ struct PixelsAround {
 struct PixelStars {
   alignas(64) double normal_x[kernel_packet], normal_y[kernel_packet], normal_z[kernel_packet];  ///< to the sensor
   alignas(64) double fit_radius[kernel_packet];  ///< of a disk with the mean squared distance of all points around
-  alignas(64) double height_variance[kernel_packet], second_variance[kernel_packet];  ///< second: the smaller in plane
   /// Circumradii of the triangles: radius[2 c] is that of the triangle whose rim starts at number 2 c of PixelsAround,
   /// radius[2 c + 1] that of the one whose rim ends at number 2 c + 2. Both are the same triangle where the corner,
   /// number 2 c + 1, is not in the link.

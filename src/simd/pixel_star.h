@@ -89,33 +89,25 @@ struct InvertedPixels {
 
 TUFTED_INLINE InvertedPixels invertPixels(const VectorPart* offset, const PlaneOfPixels& plane, bool is_stretched,
                                           int part, PixelStars& stars) {
-  const Part zero = broadcastPart(0), least = broadcastPart(least_square), most = broadcastPart(most_square);
+  const Part least = broadcastPart(least_square), most = broadcastPart(most_square);
   InvertedPixels inverted;
-  Part nearest = most, furthest = least, h1 = zero, hh = zero, uu = zero, uv = zero, vv = zero;
+  Part nearest = most, furthest = least, squares = broadcastPart(0);
   inverted.nearest_of_ring = most;
   for (int i = 0; i < pixels_around; ++i) {
     const Part u = dot(offset[i], plane.x), v = dot(offset[i], plane.y), h = dot(offset[i], plane.normal);
-    const Part square = u * u + v * v;
-    h1 = h1 + h;
-    hh = hh + h * h;
-    uu = uu + u * u;
-    uv = uv + u * v;
-    vv = vv + v * v;
+    const Part square = u * u + v * v, in_space = square + h * h;
+    squares = squares + in_space;
     nearest = min(nearest, square);
     furthest = max(furthest, square);
     const bool is_next = i >= pixels_beside && (!is_stretched || around_row[i] == 2 || around_row[i] == -2);
-    if (is_next) inverted.nearest_of_ring = min(inverted.nearest_of_ring, square + h * h);
+    if (is_next) inverted.nearest_of_ring = min(inverted.nearest_of_ring, in_space);
     const Part inverse = broadcastPart(1) / square;
     inverted.point[i] = {u * inverse, v * inverse};
   }
   inverted.is_in_range = logicalAnd(isLess(least, nearest), isLess(furthest, most));
 
-  // frameOf() of pixel_frame.cpp computes the same variances and the same radius for one point.
-  const Part share = broadcastPart(1.0 / (pixels_around + 1)), half = broadcastPart(0.5);
-  const Part difference = half * (uu - vv), mean = h1 * share;
-  store(hh * share - mean * mean, stars.height_variance + part);
-  store(share * (half * (uu + vv) - squareRoot(difference * difference + uv * uv)), stars.second_variance + part);
-  store(squareRoot(broadcastPart(2.0 / pixels_around) * (hh + uu + vv)), stars.fit_radius + part);
+  // frameOf() of pixel_frame.cpp computes the same radius for one point.
+  store(squareRoot(broadcastPart(2.0 / pixels_around) * squares), stars.fit_radius + part);
   return inverted;
 }
 

@@ -41,7 +41,6 @@ void StarWrapping::wrap(int p, const Eigen::Vector3d& normal, double unit, const
 void makeRoom(int n, BuiltStars& built) {
   built.stars.offset.assign(static_cast<std::size_t>(n) + 1, 0);
   built.stars.ends.resize(n);
-  built.stars.flat.resize(n);
   built.support.fit_radius.resize(n);
   built.support.isolated.resize(n);
   built.support.normals.resize(n);

@@ -22,7 +22,6 @@ namespace {
 constexpr int group_size = NeighborhoodFinder::most_planes;  // frames come first, then stars from the same offsets
 constexpr std::size_t usual_degree = 7;                      // on average over a block
 constexpr int most_doublings = 2;                            // of the neighbours of an open star
-constexpr double flat_share = 0.02;  // of the second variance, below which a neighbourhood is a plane
 constexpr double thick_share = 0.5;  // of the second variance: a cable 9 spacings around has more, one of 12 has not
 
 /// Memory, counts and times of one worker.
@@ -88,7 +87,6 @@ class StarBuilder {
     support_.normals.row(p) = neighborhood.axes.normal;
     support_.fit_radius[p] = neighborhood.fit_radius;
     support_.isolated[p] = neighborhood.isolated ? 1 : 0;
-    stars_.flat[p] = variance[0] < flat_share * variance[1] ? 1 : 0;
   }
 
   /// The star among the neighbours.
@@ -186,7 +184,7 @@ std::int64_t Stars::triangles() const {
 }
 
 std::size_t Stars::bytes() const {
-  return bytesOf(triangle) + bytesOf(offset) + bytesOf(link) + bytesOf(ends) + bytesOf(flat);
+  return bytesOf(triangle) + bytesOf(offset) + bytesOf(link) + bytesOf(ends);
 }
 
 std::size_t StarSupport::bytes() const {

@@ -23,7 +23,6 @@ struct Stars {
   RawBuffer<int> link;               ///< ranks
   RawBuffer<std::uint8_t> triangle;  ///< per link entry, 0 where there is no triangle
   RawBuffer<std::uint8_t> ends;      ///< n, 1 where the surface ends at p: an open star or a lost triangle
-  RawBuffer<std::uint8_t> flat;      ///< n, 1 where the neighbourhood is nearly a plane
 
   int size() const { return std::max(0, static_cast<int>(offset.size()) - 1); }
   /// The link entry after i in star p, cyclically.
@@ -35,7 +34,7 @@ struct Stars {
 
 /// What the steps from stars to the cover look at beside the stars: the neighbourhoods in which they were found.
 struct StarSupport {
-  RawBuffer<double> radius;          ///< circumradius in the tangent plane, per link entry
+  RawBuffer<double> radius;          ///< circumradius in the tangent plane, per link entry as stars were wrapped
   RawBuffer<double> fit_radius;      ///< n, r_k: distance to the last neighbour before a star grows
   RawBuffer<std::uint8_t> isolated;  ///< n, 1 for points without a star: outliers, and where all others lie elsewhere
   PointBuffer normals;               ///< n x 3

@@ -109,7 +109,7 @@ TEST(Solver, FindsNothingWhereTheMeanIsAllThereIs) {
     const VectorXd x = Solver::laplacian(laplacian, {.method = method}).solve(laplacian.M, &report);
     EXPECT_LE(x.cwiseAbs().maxCoeff(), 1e-14 * laplacian.M.sum());
     EXPECT_LE(report.residual, 1e-13);
-    EXPECT_LE(report.backward_error, 1e-13);
+    EXPECT_LE(report.backward_error, 1e-12);  // of what rounding leaves of M less its mean
   }
 }
 

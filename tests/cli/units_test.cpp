@@ -39,7 +39,7 @@ TEST_F(Units, WavesLongerThanAllOrShorterThanThePointsTellAreRefused) {
 }
 
 TEST_F(Units, TimesOfHeatThatIsEvenOrStaysWhereItIsAreRefused) {
-  expectBothRefused({"hks", "--count", "10", "--times", "1,1000"}, "--times 1000: heat goes 31.6228, and after 17.9");
+  expectBothRefused({"hks", "--count", "10", "--times", "1,1000"}, "--times 1000: heat goes 31.6228, and after 18.1");
   expectBothRefused({"hks", "--count", "10", "--times", "1e-4,1"},
                     "--times 0.0001: heat goes 0.01, not to the next point: ");
   run({"hks", cloud_, "--count", "10", "--times", "0.05,15", "--out", in("out")});

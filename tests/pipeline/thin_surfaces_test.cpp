@@ -69,13 +69,5 @@ TEST(Line, HasAtMostFourTimesTheAreaOfItsCover) {
   }
 }
 
-TEST(MassReport, CountsBoundedAreasOfRibbonsAndNextToNoneOfSurfaces) {
-  EXPECT_GT(pointCloudLaplacian(ribbon(1000, 1e-3, first_seed)).report.bounded_masses, 10);
-  std::int64_t bounded = 0;
-  for (std::uint64_t seed = first_seed; seed <= last_seed; ++seed)
-    bounded += pointCloudLaplacian(shapes::sphere(16000, shapes::Sampling::uniform, seed).points).report.bounded_masses;
-  EXPECT_LE(bounded, 160000 / 500);
-}
-
 }  // namespace
 }  // namespace tufted::thin_surfaces_test

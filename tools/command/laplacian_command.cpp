@@ -51,7 +51,7 @@ Sign and scale:
 Presets of clouds:
   clean  exact samples: the paper's steps and no others
   scan   depth images, laser scans, photogrammetry: noise, jumps, outliers, near sheets. Noisy points are moved onto the
-         surface first, and M is the Voronoi area in each point's own star.
+         surface first, stars agree on the diagonals of grids, and M is measured in a point's own star at rims.
   lidar  the same from a spinning scanner, whose rings would be taken for sheets
 
 Structures of scans:
