@@ -17,10 +17,11 @@ bool agreeOn(const Stars& stars, int p, int i) {
 
 }  // namespace
 
-Buffer<std::uint8_t> findDisagreement(const Stars& stars, const Workers& workers) {
+Buffer<std::uint8_t> findDisagreement(const Stars& stars, const Workers& workers, const Buffer<std::uint8_t>& among) {
   Buffer<std::uint8_t> disagrees(stars.size());
   workers.forBlocks("agreement", stars.size(), cheap_block, [&](std::int64_t begin, std::int64_t end, int) {
     for (int p = static_cast<int>(begin); p < end; ++p) {
+      if (!among.empty() && among[p] == 0) continue;
       for (int i = stars.offset[p]; i < stars.offset[p + 1]; ++i) {
         if (agreeOn(stars, p, i)) continue;
         // Link vertex i may not know of p at all. Several threads may write the same 1.

@@ -14,7 +14,9 @@ namespace tufted {
 /// two neighbours, and no other star has p in its link. Then each edge at p lies in two triangles, of which all three
 /// stars have a copy, and the cover around p is known from its star: with Gluing::star all copies of an edge have two
 /// faces, and front and back mirror each other.
-Buffer<std::uint8_t> findDisagreement(const Stars& stars, const Workers& workers);
+/// @param among n flags of the points that may not agree; empty: all
+Buffer<std::uint8_t> findDisagreement(const Stars& stars, const Workers& workers,
+                                      const Buffer<std::uint8_t>& among = {});
 
 /// The link entry of star p that holds q, or -1.
 inline int entryOf(const Stars& stars, int p, int q) {

@@ -18,7 +18,8 @@ SurfaceStars filteredStars(BuiltStars built, bool is_whole_cloud, const PointsVi
   result.disagrees = findDisagreement(result.stars, workers);
   if (options.steps.settle_diagonals) {
     report.settled_diagonals = settleDiagonals(points, result.disagrees, workers, result.stars);
-    if (report.settled_diagonals > 0) result.disagrees = findDisagreement(result.stars, workers);
+    // A point that agrees is no corner of what was settled, and agrees still.
+    if (report.settled_diagonals > 0) result.disagrees = findDisagreement(result.stars, workers, result.disagrees);
   }
   countVotes(result.stars, result.disagrees, workers, report);
   clock.finish("filter", 0);
