@@ -46,7 +46,7 @@ TEST(Scans, ScanLinesAreNoWorseThanTheHullOfTheirPoints) {
     const auto lines = shapes::sphere(16000, shapes::Sampling::scanLines(anisotropy));
     const auto [L, M] = oracles::cotanLaplacian(lines.points, oracles::convexHullMesh(lines.points));
     const double hull = oracles::meanRelativeError(oracles::smallestEigenvalues(L, M, 33), lines.eigenvalues.head(33));
-    // Both are Delaunay, and differ in the diagonals of what lies on one circle: by 2e-5, from one hull to the next too.
+    // Both are Delaunay; diagonals of what lies on one circle differ, by 2e-5, from one hull to the next too.
     EXPECT_LE(spectrumError(lines, scan, 33), (1 + 1e-4) * hull) << anisotropy;
   }
 }
