@@ -14,9 +14,12 @@
 namespace tufted {
 namespace {
 
-constexpr double tie = 1e-9;  // of pseudo-angles, 4 to a turn: sums that differ by less count as equal
-/// Of the sums of opposite angles, in rad: cells of grids differ by less; with more, as between points of random
-/// samples where the surface is as curved as they are far apart, the diagonal says something about the surface.
+// Bounds of the difference of two sums of opposite angles. Both sums are compared as pseudo-angles, which for sums near
+// two right angles, as those of cells of grids are, differ by as much as the sums do in rad.
+/// Sums that differ by less than this count as equal.
+constexpr double tie = 1e-9;
+/// Sums of cells of grids differ by less than this. Where they differ by more, as among random samples of a surface as
+/// curved as they are far apart, the diagonal says something about the surface, and each star keeps what it has.
 constexpr double most_difference = 0.01;
 constexpr int least_degree = 3;  // of a closed star
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "shapes/shapes.h"
-#include "stars/surface_stars.h"
+#include "support/cloud_stars.h"
 #include "tufted/tufted.h"
 
 namespace tufted::cover_near_flips_test {
@@ -21,14 +21,8 @@ const Progress silent;
 class ShearedSphere : public testing::Test {
  protected:
   ShearedSphere() {
-    std::vector<PointStatus> status;
-    std::vector<int> representative;
-    cloud_ = rankPoints(shapes::sphere(20000).points, status, representative);
-    const CloudOptions options = cloudOptions(Preset::clean);
-    Report report;
-    const Workers workers(1, silent);
-    const NeighborSource source = neighborSource(options, cloud_, status, representative, workers, report);
-    SurfaceStars built = surfaceStars(cloud_, source, options, workers, report);
+    auto [cloud, built] = support::starsOf(shapes::sphere(20000).points, cloudOptions(Preset::clean));
+    cloud_ = std::move(cloud);
     stars_ = std::move(built.stars);
     disagrees_ = std::move(built.disagrees);
     for (int p = 0; p < cloud_.size(); ++p) cloud_.points.row(p)[0] += 3 * cloud_.points.row(p)[2];

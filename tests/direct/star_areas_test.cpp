@@ -6,7 +6,7 @@
 #include <Eigen/Geometry>
 
 #include "shapes/shapes.h"
-#include "stars/surface_stars.h"
+#include "support/cloud_stars.h"
 #include "tufted/laplacian.h"
 
 namespace tufted::star_areas_test {
@@ -21,15 +21,9 @@ TEST(StarAreas, ArePartsOfTheTrianglesWhereTheSurfaceEnds) {
   const Points noisy = shapes::withNoise(shapes::sphere(3000), 0.02).points;
   const Points steps = shapes::sphere(3000, shapes::Sampling::densityStep(100)).points;
   for (const Points& points : {ribbon, line, noisy, steps}) {
-    std::vector<PointStatus> status;
-    std::vector<int> representative;
-    const RankedCloud cloud = rankPoints(points, status, representative);
-    const CloudOptions options;
-    Report report;
-    const Workers workers(2, silent);
-    const NeighborSource source = neighborSource(options, cloud, status, representative, workers, report);
-    const Stars stars = surfaceStars(cloud, source, options, workers, report).stars;
-    const RawBuffer<double> own = ownAreas(stars, cloud.points, workers);
+    const auto [cloud, built] = support::starsOf(points);
+    const Stars& stars = built.stars;
+    const RawBuffer<double> own = ownAreas(stars, cloud.points, Workers(2, silent));
     for (int p = 0; p < stars.size(); ++p) {
       double triangles = 0;
       for (int i = stars.offset[p]; i < stars.offset[p + 1]; ++i) {

@@ -8,24 +8,13 @@
 #include "base/buffer.h"
 #include "base/parallel.h"
 #include "shapes/shapes.h"
-#include "stars/surface_stars.h"
+#include "support/cloud_stars.h"
 #include "tufted/laplacian.h"
 
 namespace tufted::agreement_test {
 namespace {
 
 const Progress silent;
-
-SurfaceStars starsOf(const Points& points) {
-  std::vector<PointStatus> status;
-  std::vector<int> representative;
-  const RankedCloud cloud = rankPoints(points, status, representative);
-  const CloudOptions options = cloudOptions(Preset::clean);
-  Report report;
-  const Workers workers(1, silent);
-  const NeighborSource source = neighborSource(options, cloud, status, representative, workers, report);
-  return surfaceStars(cloud, source, options, workers, report);
-}
 
 /// The third corners of the triangles of star p that have the spoke to q; ascending, -1 for none.
 std::pair<int, int> cornersBeside(const Stars& stars, int p, int q) {
@@ -44,7 +33,7 @@ TEST(Agreement, IsThatOfEveryStarWithEachOfItsLinkVertices) {
   const Points noisy = shapes::withNoise(shapes::sphere(20000), 0.005).points;
   const Points square = shapes::square(20000, shapes::Sampling::uniform, shapes::Rim::none, 1).points;
   for (const Points& points : {noisy, square, shapes::squareLattice(130).points}) {
-    const SurfaceStars built = starsOf(points);
+    const SurfaceStars built = support::starsOf(points, cloudOptions(Preset::clean)).built;
     const Stars& stars = built.stars;
     Buffer<std::uint8_t> expected(stars.size());
     for (int p = 0; p < stars.size(); ++p) {

@@ -14,7 +14,7 @@
 #include "shapes/random.h"
 #include "shapes/shapes.h"
 #include "stars/agreement.h"
-#include "stars/surface_stars.h"
+#include "support/cloud_stars.h"
 #include "tufted/laplacian.h"
 #include "tufted/spectrum.h"
 
@@ -75,22 +75,11 @@ std::vector<Grid> grids() {
           })};
 }
 
-struct StarsOfCloud {
-  RankedCloud cloud;
-  SurfaceStars built;
-};
-
-StarsOfCloud starsOf(const Points& points, bool settles) {
-  std::vector<PointStatus> status;
-  std::vector<int> representative;
-  StarsOfCloud result{rankPoints(points, status, representative), {}};
+/// Stars that have not settled their diagonals.
+support::CloudStars starsOf(const Points& points) {
   CloudOptions options;
-  options.steps.settle_diagonals = settles;
-  Report report;
-  const Workers workers(1, silent);
-  const NeighborSource source = neighborSource(options, result.cloud, status, representative, workers, report);
-  result.built = surfaceStars(result.cloud, source, options, workers, report);
-  return result;
+  options.steps.settle_diagonals = false;
+  return support::starsOf(points, options);
 }
 
 double meanRatio(const VectorXd& values, const VectorXd& of) {
@@ -117,7 +106,7 @@ TEST(Diagonals, OfGridsOnCurvedSurfacesHaveThreeVotesPerTriangle) {
 }
 
 TEST(Diagonals, LeaveStarsThatAgreeAsTheyAre) {
-  const StarsOfCloud lattice = starsOf(shapes::squareLattice(40).points, false);
+  const support::CloudStars lattice = starsOf(shapes::squareLattice(40).points);
   Stars stars = lattice.built.stars;
   settleDiagonals(lattice.cloud.points, lattice.built.disagrees, Workers(1, silent), stars);
   EXPECT_EQ(stars.link, lattice.built.stars.link);
@@ -164,7 +153,7 @@ TEST(Diagonals, DependNeitherOnNumbersNorOnTheDirectionOfStarsNorOnThreads) {
   std::vector<Grid> samples = grids();
   samples.push_back({"noise", shapes::withNoise(shapes::sphere(20000), 0.008).points, {}});
   for (const Grid& sample : samples) {
-    const StarsOfCloud given = starsOf(sample.points, false);
+    const support::CloudStars given = starsOf(sample.points);
     const int n = given.cloud.size();
     Stars settled = given.built.stars;
     const auto count = settleDiagonals(given.cloud.points, given.built.disagrees, Workers(1, silent), settled);
@@ -186,7 +175,7 @@ TEST(Diagonals, DependNeitherOnNumbersNorOnTheDirectionOfStarsNorOnThreads) {
 
 TEST(Diagonals, LeaveClosedStarsThreeNeighbours) {
   for (const double noise : {0.01, 0.05}) {
-    const StarsOfCloud given = starsOf(shapes::withNoise(shapes::sphere(3000), noise).points, false);
+    const support::CloudStars given = starsOf(shapes::withNoise(shapes::sphere(3000), noise).points);
     Stars settled = given.built.stars;
     settleDiagonals(given.cloud.points, given.built.disagrees, Workers(1, silent), settled);
     for (int p = 0; p < settled.size(); ++p) {
