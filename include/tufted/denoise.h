@@ -51,22 +51,20 @@ struct DenoisedPoints {
 
 /// Moves the points of a noisy scan onto the surface, without a radius to choose.
 ///
-/// Quadratics are fitted to the heights of 16, 32, 64 and 128 neighbours over tangent planes (twice to eight times as
-/// many where the noise exceeds the spacing). The residuals of the smaller two say whether there is noise, and how
-/// much; the widest window whose bend the noise still hides counts, which is found as in Lepski ("On a problem of
-/// adaptive estimation in Gaussian white noise", 1991). Where that is a wide one, windows around every eighth point
-/// serve all points near them, which move onto the weighted mean of their surfaces, and the widest is one of 320
-/// points, known by 40 of those windows. Other points have windows of their own. Next to creases points move onto the
-/// faces that meet there. Neighbours of other surfaces that pass by are left out.
+/// Quadratics are fitted to the heights of 16, 32, 64, 128 and 256 neighbours around every third point. Where small
+/// ones predict points equally well whatever their size, there is noise, which is independent from point to point;
+/// where wider ones do worse, there is detail, and points stay. Of the sizes that with the least expected error counts,
+/// noise that is left and bias that shows, and points move onto the weighted mean of the surfaces around. Next to
+/// creases those count whose points lie on one face. Neighbours of other surfaces that pass by are left out.
 ///
 /// Noise of a depth image lies along the line of sight, however strong it is, and pixels that are noise lie beside
 /// those of the same surface. So with `structure` ranges are smoothed over pixels, as in a build:
 /// the result is Laplacian::positions of pointCloudLaplacian() bit for bit.
 ///
 /// Points of exact data, outliers, points on curves and in volumes, and whatever cannot be told from the shape of the
-/// surface stay exactly where they are. A permuted cloud (with its structure) gives the permuted result; moved or
-/// turned clouds that moved or turned, up to rounding below 1,000 points, else up to a tenth of the noise, since other
-/// points are every eighth then; any number of threads the same bits.
+/// surface stay exactly where they are. Decisions look at neighbourhoods only: points of a crop, away from where it was
+/// cut, move as those of the whole. A permuted cloud (with its structure) gives the permuted result; moved or turned
+/// clouds that moved or turned, up to rounding (to floats, of the move); any number of threads the same bits.
 /// @param points N x 3; NaN and infinite rows stay as they are
 /// @throws InvalidInput for a negative number of threads, more than 2^31 points, and a structure that has rings,
 /// another size than the points, no finite origin, columns that are not whole, or more pixels than ScanStructure says

@@ -12,7 +12,7 @@
 #include "denoise/moves.h"
 #include "depth_image/image_stars.h"
 #include "neighbors/morton.h"
-#include "neighbors/neighbor_source.h"
+#include "neighbors/neighbors.h"
 #include "neighbors/scan/ranked_scan.h"
 #include "tufted/errors.h"
 
@@ -58,8 +58,7 @@ void apply(const PointBuffer& moves, const Deviation& deviation, const RankedClo
 }
 
 void moveOntoSurface(const RankedCloud& cloud, const Workers& workers, DenoisedPoints& denoised) {
-  const NeighborSource source = windowSource(std::make_unique<NeighborSearch>(cloud.points, workers), cloud.size());
-  const SurfaceMoves moves = surfaceMoves(cloud.points, source, workers);
+  const SurfaceMoves moves = surfaceMoves(cloud.points, NeighborSearch(cloud.points, workers), workers);
   apply(
       moves.move, [&](int p) { return std::sqrt(moves.variance[p]); }, cloud, denoised);
   denoised.report.no_surface = moves.no_surface;

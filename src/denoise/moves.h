@@ -5,8 +5,7 @@
 
 #include "base/parallel.h"
 #include "base/point_buffer.h"
-#include "denoise/noise_level.h"
-#include "neighbors/neighbor_source.h"
+#include "neighbors/neighbors.h"
 
 namespace tufted {
 
@@ -21,12 +20,8 @@ struct SurfaceMoves {
   std::int64_t count() const;
 };
 
-/// Where windows find their neighbours.
-/// @param search among n points
-NeighborSource windowSource(std::unique_ptr<NeighborSearch> search, int n);
-
 /// Finds the surface within the noise, and how each point gets onto it.
-/// @param source see windowSource()
-SurfaceMoves surfaceMoves(const PointsView& points, const NeighborSource& source, const Workers& workers);
+/// @param search among the points
+SurfaceMoves surfaceMoves(const PointsView& points, const NeighborSearch& search, const Workers& workers);
 
 }  // namespace tufted

@@ -1,245 +1,231 @@
 #include "denoise/noise_level.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
-
-#include "denoise/neighbor_lists.h"
-#include "denoise/pooling.h"
+#include <limits>
+#include <span>
+#include <utility>
 
 namespace tufted {
 namespace {
 
-constexpr int most_widenings = 3;
-constexpr double thick = 0.25;            // smallest by middle variance: windows of less than four sigmas are widened
-constexpr double still_thick = 0.6;       // a crease does not get thinner in a wider window, noise does
-constexpr double share_to_widen = 0.002;  // of the points; fewer are left
-/// Bounds of the share of a base window's points within half its radius: 1/2 along a curve, 1/4 on a surface and 1/8 in
-/// a volume. Noisy scan lines have up to .40 and surfaces in thick noise down to .19, once their windows are widened.
-constexpr double curve_share = 0.41, volume_share = 0.18;
-/// The same where sheets were told apart, as in the layers of a lattice: two sheets 2 spacings apart have more.
-constexpr double thin_volume_share = 0.155;
-constexpr double chi_median = 0.94;      // median of chi squared by its degrees of freedom, of which there are 11
-constexpr int low_rank = 3;              // of 33: a tenth
-constexpr double low_correction = 1.12;  // of that low quantile of medians, to the variance
-constexpr double alone = 1. / 3;         // of the neighbours, which are left where those of other surfaces are left out
-constexpr int outlier_rounds = 4;
-constexpr double outlier_growth = 2;  // of the residuals' variance by the noise's, around an outlier
-constexpr double exact = 0.2;         // of the least noise's variance: residuals below are those of exact points
-constexpr double exact_share = 0.1;   // of the points around
-constexpr double noise_growth = 1.4;  // of the residuals' variance from window to window: noise 1, a crease 2 to 3
-constexpr double sure_share = 0.15;   // of the points around
+constexpr double least_noise = 0.01;  // of the spacing: less does nothing to a Laplacian
+constexpr int least_fits = 9;         // of a pool
+constexpr double thick = 0.15;        // smallest by middle variance: three sigmas of noise
+constexpr int widest = sizes - 2;     // of the sizes whose errors are compared with the next
+constexpr double thinner = 0.8;       // by four times as many: 1/4 where noise makes it thick, 1 where shape does
+/// Errors grow by less than this from one size of fits to the next where there is hardly anything but noise; by less
+/// than the second where they are `rough` spacings, which no triangulation could tell from noise; not at all where they
+/// are `too_rough` times as large: trees and bushes look like noise as well, but never quite.
+constexpr double white_growth = 1.3, rough_growth = 2.3, rough = 0.4, too_rough = 2;
+constexpr double least_even = 0.25;  // of squared errors, the median by the mean: .45 of white noise, less at creases
+constexpr double detail_growth = 3;  // of errors where there is no noise
+constexpr double least_noisy = 0.2;  // of the errors, the part that is noise
+constexpr double share = 0.4;        // of the points around, that have white errors where there is noise
+/// Bounds of the share of neighbours within half the distance: 1/2 along a curve, 1/4 on a surface, 1/8 in a volume.
+constexpr double curve_share = 0.41, volume_share = 0.185;
+constexpr double volume_thickness = 0.5;
+constexpr double none_share = 0.2;   // of the points around, that see no surface where there is none
+constexpr double white_error = 1.3;  // of errors by the variance of the noise, what chance makes of white noise
+constexpr double by_chance = 1;      // standard deviations of the residuals' variance: more shows a crease
+constexpr double unknown = std::numeric_limits<double>::infinity();
 
-// A first look at the noise takes samples, which are windows around some points.
-constexpr int sample_stride = 64, least_samples = 64, most_samples = 1000;
-constexpr int widest_judged = 2;     // of Windows::fits, that with 64 neighbours
-constexpr double sample_growth = 2;  // of residuals' variance from 16 to 64 neighbours: noise 1, a crease 4
-constexpr double least_share = 0.05, most_exact = 0.5;  // of the samples like noise, of those around them exact
-constexpr int samples_around = 16;                      // one after the other along the curve, next to each other
-
-/// The median thickness around each point.
-RawBuffer<double> thicknessAround(const Windows& windows, const Workers& workers) {
-  RawBuffer<double> around(windows.base.size());
-  forEachPoint(windows, workers, [&](int p) {
-    const Windows::Pool& pool = windows.stride > 1 ? windows.far[p] : windows.near[p];
-    around[p] = pooledMedian(p, pool, [&](int q) { return windows.thickness[q]; });
-  });
-  return around;
+/// By how much the surface over a point changes from the next smaller size.
+double change(const LocalSurface& surface, int size) {
+  const SurfaceFit &wide = surface.fit[size], &narrow = surface.fit[size - 1];
+  if (!narrow.isValid()) return 0;
+  double cosine = 0;
+  for (int axis = 0; axis < 3; ++axis) cosine += double{wide.normal[axis]} * narrow.normal[axis];
+  return wide.height() - narrow.height() * cosine;
 }
 
-void makeWindows(const WindowFitter& fitter, std::span<const int> which, Windows& windows, NeighborLists& lists) {
-  fitter.take(which, windows, &lists);
-  fitter.spreadPools(which, lists, windows);
-}
+/// Statistics over the pool of a centre.
+class Pool {
+ public:
+  /// All arguments are borrowed.
+  Pool(const SurfaceFits& fits, int center) : fits_(fits), pool_(fits.poolOf(center)) {}
 
-/// Doubles the base windows of some. Of windows around every so many points each stands for more of them then: it takes
-/// the place of those beside it.
-/// @param step how often they were doubled before
-/// @param waits those that may be doubled; overwritten
-/// @returns how many points are concerned
-int widenOnce(const WindowFitter& fitter, int step, const RawBuffer<double>& around, Buffer<std::uint8_t>& waits,
-              Windows& windows, NeighborLists& lists) {
-  const int apart = windows.stride > 1 ? 2 << step : 1, n = windows.size();
-  Buffer<int> which;
-  for (int w = 0; w < n; w += apart) {
-    const bool is_wider =
-        waits[w] != 0 && (windows.line[w] != 0 || around[w] > thick) && 8 * windows.base[w] <= windows.pointOf(n) - 1;
-    std::fill(waits.begin() + w, waits.begin() + std::min(w + apart, n), is_wider ? 1 : 0);
-    if (is_wider) which.push_back(w);
+  /// The mean of a value over all that have a fit of a size, unknown where few have.
+  template <class Value>
+  double mean(int size, const Value& value) const {
+    double sum = 0;
+    int count = 0;
+    for (const int c : pool_) {
+      const LocalSurface& surface = fits_.surface[c];
+      if (!surface.fit[size].isValid()) continue;
+      sum += value(surface);
+      ++count;
+    }
+    return count < least_fits ? unknown : sum / count;
   }
-  if (static_cast<double>(which.size()) * apart < share_to_widen * n) return 0;
-  for (const int w : which) windows.base[w] *= 2;
-  makeWindows(fitter, which, windows, lists);
-  for (const int w : which)
-    for (int other = w + 1; other < std::min(w + apart, n); ++other) windows.copy(w, other);
-  return static_cast<int>(which.size());
-}
-
-/// The share of the points of each base window, but the farthest, that lie within half its radius.
-RawBuffer<double> innerShares(const WindowFitter& fitter, const NeighborLists& lists, const Workers& workers,
-                              const Windows& windows) {
-  RawBuffer<double> share(windows.base.size());
-  forEachPoint(windows, workers, [&](int w) {
-    const std::span<const int> list = lists.of(windows.copied(w));
-    const auto base = std::min<std::size_t>(windows.base[w], list.size());
-    const Eigen::RowVector3d middle = fitter.points().row(windows.pointOf(windows.copied(w)));
-    const auto squareTo = [&](int p) { return (fitter.points().row(p) - middle).squaredNorm(); };
-    share[w] = 0;
-    if (base < 2) return;
-    const double within = squareTo(list[base - 1]) / 4;
-    for (const int p : list.first(base - 1)) share[w] += squareTo(p) <= within ? 1 : 0;
-    share[w] /= static_cast<double>(base - 1);
-  });
-  return share;
-}
-
-/// Doubles base windows while the points in them are as thick as wide, or a line.
-/// @returns NoiseLevel::no_surface
-Buffer<std::uint8_t> widen(const WindowFitter& fitter, const Workers& workers, Windows& windows, NeighborLists& lists) {
-  const int n = windows.size();
-  RawBuffer<double> around = thicknessAround(windows, workers);
-  const RawBuffer<double> first = around;
-  Buffer<std::uint8_t> waits(windows.base.size(), 1), was_line(windows.base.size(), 0);
-  for (int w = 0; w < n; ++w) {
-    was_line[w] = windows.line[w];
-    if (windows.split[w] != 0) waits[w] = 0;  // sheets would be taken for one that is thick
+  /// Of predictions, squared.
+  double error(int size) const {
+    return mean(size, [&](const LocalSurface& surface) { return surface.fit[size].squaredError(); });
   }
-  for (int step = 0; step < most_widenings; ++step) {
-    if (widenOnce(fitter, step, around, waits, windows, lists) == 0) break;
-    around = thicknessAround(windows, workers);
+  double leverage(int size) const {
+    return mean(size, [&](const LocalSurface& surface) { return surface.fit[size].leverage; });
   }
-  // What stays thick is a crease or a volume.
-  const RawBuffer<double> inner = innerShares(fitter, lists, workers, windows);
-  Buffer<std::uint8_t> is_none(windows.base.size(), 0);
-  forEachPoint(windows, workers, [&](int w) {
-    const double share = pooledMean(w, windows.near[w], [&](int q) { return inner[q]; });
-    if (share > curve_share || share < (around[w] > thick ? volume_share : thin_volume_share)) is_none[w] = 1;
-  });
-  Buffer<int> back;
-  for (int w = 0; w < n; ++w)
-    if (is_none[w] == 0 && windows.base[w] > Windows::first_base && around[w] > thick &&
-        around[w] > still_thick * first[w] && was_line[w] == 0)
-      back.push_back(w);
-  for (const int w : back) {
-    windows.base[w] = Windows::first_base;
-    windows.is_copy[w] = 0;
-  }
-  if (!back.empty()) {
-    makeWindows(fitter, back, windows, lists);
-    around = thicknessAround(windows, workers);
-  }
-  for (int w = 0; w < n; ++w)
-    if (around[w] > 2 * thick) is_none[w] = 1;
-  return is_none;
-}
-
-/// The variance of the noise around each point: creases and bends only add to residuals, so a low quantile of them.
-RawBuffer<double> noiseVariance(const Windows& windows, const Workers& workers) {
-  RawBuffer<double> median(windows.base.size()), variance(windows.base.size());
-  forEachPoint(windows, workers, [&](int p) {
-    const double found = pooledMedian(p, windows.near[p], [&](int q) { return windows.fits[q][0].variance; });
-    median[p] = std::min(found / chi_median, windows.radius[p] * windows.radius[p]);
-  });
-  forEachPoint(windows, workers, [&](int p) {
-    variance[p] = low_correction * pooledQuantile(p, windows.near[p], low_rank, [&](int q) { return median[q]; });
-  });
-  return variance;
-}
-
-bool isOutlier(const Windows& windows, int p, double variance) {
-  const WindowFit& fit = windows.fits[p][Windows::base_size];
-  if (!(variance > leastVariance(windows, p))) return false;  // exact points, of which none moves
-  // Its neighbours belong to a surface that does not reach it, or lie so far away that the fit goes through it.
-  if (fit.count < alone * windows.base[p] || (std::isfinite(fit.variance) && fit.leverage > most_leverage)) return true;
-  if (!std::isfinite(fit.variance) || !(fit.variance > outlier_growth * variance)) return false;
-  const double sigma = std::sqrt(variance * (1 - fit.leverage));
-  return std::abs(fit.height) > std::max(outlier_sigmas * sigma, outlier_spacings * windows.spacing(p));
-}
-
-/// Where there is noise that can be told from the shape of the surface: the residuals of the two windows are alike, and
-/// no exact points are around.
-/// @param noise whose `noisy` is found by the rest
-void findNoisy(const Windows& windows, const Workers& workers, NoiseLevel& noise) {
-  const auto is_strong = [&](int p) { return noise.variance[p] > leastVariance(windows, p); };
-  RawBuffer<double> exact_around(windows.base.size());  // share of exact points around each
-  forEachPoint(windows, workers, [&](int p) {
-    const double bound = exact * leastVariance(windows, p);
-    exact_around[p] =
-        pooledMean(p, windows.near[p], [&](int q) { return windows.fits[q][0].variance < bound ? 1 : 0; });
-  });
-  Buffer<std::uint8_t> sure(windows.base.size());
-  forEachPoint(windows, workers, [&](int p) {
-    double small = 0, base = 0, exact_points = 0;  // sums over the pool
-    forEachPooled(p, windows.near[p], [&](int q, int times) {
-      small += times * residualOf(windows.fits[q][0]);
-      base += times * residualOf(windows.fits[q][Windows::base_size]);
-      exact_points += times * exact_around[q];
+  double squaredChange(int size) const {
+    return mean(size, [&](const LocalSurface& surface) {
+      const double by = change(surface, size);
+      return by * by;
     });
-    const bool is_sure =
-        is_strong(p) && exact_points < exact_share * (Windows::pooled + 1) && base < noise_growth * small;
-    sure[p] = is_sure ? 1 : 0;
-  });
-  noise.noisy.resize(windows.base.size());
-  forEachPoint(windows, workers, [&](int p) {
-    const double share = pooledMean(p, windows.near[p], [&](int q) { return sure[q]; });
-    const bool is_noisy = is_strong(p) && share > sure_share && noise.outlier[p] == 0 && noise.no_surface[p] == 0;
-    noise.noisy[p] = is_noisy ? 1 : 0;
+  }
+  double thickness(int size) const {
+    return median([&](int c) { return fits_.surface[c].fit[size].thickness; });
+  }
+  template <class Test>
+  std::ptrdiff_t count(const Test& test) const {
+    return std::ranges::count_if(pool_, test);
+  }
+  double innerShare() const {
+    double sum = 0;
+    for (const int c : pool_) sum += fits_.surface[c].inner_share;
+    return sum / static_cast<double>(pool_.size());
+  }
+  /// The median of the values that are not negative, -1 where fewer than `least` are.
+  template <class Value>
+  double median(const Value& value, double least = 0) const {
+    std::array<double, SurfaceFits::most_pooled> values;
+    auto end = values.begin();
+    for (const int c : pool_) {
+      *end = value(c);
+      if (*end >= 0) ++end;
+    }
+    const auto count = end - values.begin();
+    if (count == 0 || static_cast<double>(count) < least) return -1;
+    std::nth_element(values.begin(), values.begin() + count / 2, end);
+    return values[count / 2];
+  }
+
+ private:
+  const SurfaceFits& fits_;
+  std::span<const int> pool_;
+};
+
+/// What predictions around a centre say.
+struct Predictions {
+  int size = 0;          ///< the smallest whose windows are wider than the noise is thick
+  double error = 0;      ///< by fits of that size
+  double median = 0;     ///< of what `error` is the mean of
+  double wider = 0;      ///< by the next
+  double roughness = 0;  ///< the first in (`rough` spacings)^2
+  bool no_surface = false;
+
+  Predictions(const SurfaceFits& fits, int center) {
+    const Pool pool(fits, center);
+    double thickness = pool.thickness(0);
+    while (size < widest && thickness > thick) {
+      if (!(pool.thickness(size + 2) < thinner * thickness)) break;
+      thickness = pool.thickness(++size);
+    }
+    const double inner = pool.innerShare(), spacing = fits.surface[center].spacing;
+    no_surface = inner > curve_share || (inner < volume_share && thickness > volume_thickness);
+    error = pool.error(size);
+    median = pool.median([&](int c) { return fits.surface[c].fit[size].squaredError(); });
+    wider = pool.error(size + 1);
+    roughness = error / (rough * rough * spacing * spacing);
+  }
+
+  /// The variance of the noise where errors are white, else -1.
+  double whiteVariance() const {
+    const double rough_share = std::min(1.0, roughness * roughness);
+    const double growth =
+        roughness > too_rough * too_rough ? 1 : white_growth + (rough_growth - white_growth) * rough_share;
+    if (!(wider < growth * error) || !(median > least_even * error)) return -1;
+    return std::max(least_noisy * error, error - std::max(0.0, wider - error) / (detail_growth - 1));
+  }
+};
+
+/// The size of the fit with the least expected squared error: noise that is left by its leverage, and the bias that
+/// errors beyond noise show. -1 where a point itself has less.
+int bestSize(const SurfaceFits& fits, int center, int smallest, double variance) {
+  const Pool pool(fits, center);
+  double least = variance, bias = 0, narrower = 1;
+  int best = -1;
+  for (int size = smallest; size < sizes; ++size) {
+    const double error = pool.error(size);
+    if (!std::isfinite(error)) break;
+    const double leverage = pool.leverage(size);
+    if (size == smallest)
+      bias = (error - variance) * (1 - leverage);
+    else
+      bias = std::max({bias, pool.squaredChange(size) - variance * std::max(0.0, narrower - leverage),
+                       (error - white_error * variance) * (1 - leverage)});
+    bias = std::max(bias, 0.0);
+    if (bias + leverage * variance < least) {
+      least = bias + leverage * variance;
+      best = size;
+    }
+    narrower = leverage;
+  }
+  return best;
+}
+
+double leastVariance(const SurfaceFits& fits, int center) {
+  const double least = least_noise * fits.surface[center].spacing;
+  return least * least;
+}
+
+/// Calls visit(c) for each centre.
+template <class Visit>
+void forEachCenter(const SurfaceFits& fits, const Workers& workers, const Visit& visit) {
+  workers.forBlocks("noise", fits.count(), star_block, [&](std::int64_t begin, std::int64_t end, int) {
+    for (auto c = static_cast<int>(begin); c < end; ++c) visit(c);
   });
 }
 
 }  // namespace
 
-double leastVariance(const Windows& windows, int w) {
-  const double least = least_noise * windows.spacing(w);
-  return least * least;
+double excessOf(const SurfaceFit& fit, int size, double variance) {
+  return (fit.variance / variance - 1) * std::sqrt((fit_sizes[size] - 5) / 2.0);
 }
 
-bool mayBeNoisy(const PointsView& points, const NeighborSource& source, const Workers& workers) {
-  const auto n = static_cast<int>(points.rows());
-  if (n <= Windows::first_base) return false;
-  Windows windows;
-  windows.resize(n, std::max(n / most_samples, std::clamp(n / least_samples, 1, sample_stride)));
-  windows.fitted = widest_judged + 1;
-  WindowFitter(points, source, workers).take(allOf(windows), windows);
-  int like_noise = 0;  // where most windows around are not exact
-  for (int begin = 0; begin < windows.size(); begin += samples_around) {
-    const int end = std::min(begin + samples_around, windows.size());
-    int like_noise_here = 0, exact_here = 0;
-    for (int w = begin; w < end; ++w) {
-      const auto& fits = windows.fits[w];
-      const double least = leastVariance(windows, w);
-      const double widest = fits[widest_judged].variance;
-      like_noise_here += fits[0].variance > least && widest < sample_growth * fits[0].variance ? 1 : 0;
-      exact_here += fits[0].variance < exact * least ? 1 : 0;
-    }
-    if (exact_here < most_exact * (end - begin)) like_noise += like_noise_here;
-  }
-  return like_noise > least_share * windows.size();
-}
-
-NoiseLevel findNoise(const WindowFitter& fitter, const Workers& workers, Windows& windows, NeighborLists& lists) {
-  NoiseLevel noise;
-  makeWindows(fitter, allOf(windows), windows, lists);
-  noise.no_surface = widen(fitter, workers, windows, lists);
-  noise.variance = noiseVariance(windows, workers);
-  noise.outlier.resize(windows.base.size());
-  for (int w = 0; w < windows.size(); ++w) noise.outlier[w] = isOutlier(windows, w, noise.variance[w]) ? 1 : 0;
-  findNoisy(windows, workers, noise);
+RawBuffer<LocalNoise> findNoise(const SurfaceFits& fits, const Workers& workers) {
+  const auto count = static_cast<std::size_t>(fits.count());
+  RawBuffer<LocalNoise> noise(count);
+  RawBuffer<double> white(count);
+  RawBuffer<std::uint8_t> smallest(count), is_none(count);
+  forEachCenter(fits, workers, [&](int c) {
+    const Predictions predictions(fits, c);
+    smallest[c] = static_cast<std::uint8_t>(predictions.size);
+    is_none[c] = predictions.no_surface ? 1 : 0;
+    const bool has_noise = !predictions.no_surface && predictions.error > leastVariance(fits, c);
+    white[c] = has_noise ? predictions.whiteVariance() : -1;
+  });
+  forEachCenter(fits, workers, [&](int c) {
+    noise[c] = {};
+    const Pool pool(fits, c);
+    noise[c].no_surface = pool.count([&](int q) { return is_none[q] != 0; }) > none_share * fits.pool_size;
+    if (noise[c].no_surface) return;
+    const double variance = pool.median([&](int q) { return white[q]; }, share * fits.pool_size);
+    if (!(variance > leastVariance(fits, c))) return;
+    LocalNoise& around = noise[c];
+    around.variance = variance;
+    around.size = bestSize(fits, c, smallest[c], variance);
+    while (around.size > smallest[c] && excessOf(fits.surface[c].fit[around.size], around.size, variance) > by_chance)
+      --around.size;
+  });
   return noise;
 }
 
-void findOutliers(const WindowFitter& fitter, std::span<const int> which, NeighborLists& lists, const Workers& workers,
-                  Windows& windows, NoiseLevel& noise) {
-  Buffer<std::uint8_t> is_new(windows.base.size(), 0);
-  for (int round = 0; round < outlier_rounds; ++round) {
-    const Buffer<int> found = listedWhere(
-        which, workers, [&](int p) { return noise.outlier[p] == 0 && isOutlier(windows, p, noise.variance[p]); });
-    if (found.empty()) return;
-    for (const int p : found) noise.outlier[p] = is_new[p] = 1;
-    const Buffer<int> holding = listedWhere(
-        which, workers, [&](int p) { return std::ranges::any_of(lists.of(p), [&](int q) { return is_new[q] != 0; }); });
-    fitter.refit(holding, lists, noise.outlier, windows);
-    for (const int p : found) is_new[p] = 0;
-  }
+Buffer<std::uint8_t> whereNoiseMayBe(const PointsView& points, const NeighborSearch& search, const Workers& workers) {
+  Buffer<std::uint8_t> may_be(static_cast<std::size_t>(points.rows()), 1);
+  Centers few = fewCenters(points, workers);
+  if (std::ssize(few.rank) < SurfaceFits::most_pooled) return may_be;
+  const SurfaceFits fits = fitSurfaces(points, search, std::move(few), workers);
+  RawBuffer<std::uint8_t> is_sure(static_cast<std::size_t>(fits.count()));
+  forEachCenter(fits, workers, [&](int c) {
+    const Predictions predictions(fits, c);
+    const bool has_noise =
+        predictions.error > leastVariance(fits, c) && !(predictions.wider > rough_growth * predictions.error);
+    is_sure[c] = !predictions.no_surface && !has_noise ? 1 : 0;
+  });
+  workers.forBlocks("noise", points.rows(), usual_block, [&](std::int64_t begin, std::int64_t end, int) {
+    for (std::int64_t p = begin; p < end; ++p) may_be[p] = is_sure[fits.centers.near[p]] != 0 ? 0 : 1;
+  });
+  return may_be;
 }
 
 }  // namespace tufted

@@ -1,55 +1,30 @@
 #pragma once
 
-#include <span>
+#include <cstdint>
 
 #include "base/parallel.h"
-#include "denoise/windows.h"
+#include "denoise/surface_fits.h"
 
 namespace tufted {
 
-/// What windows say about noise.
-struct NoiseLevel {
-  RawBuffer<double> variance;    ///< of the noise around the middle of each, in length^2
-  Buffer<std::uint8_t> outlier;  ///< whether the middle lies far off the surface of its neighbours
-  Buffer<std::uint8_t> noisy;    ///< whether there is noise that can be told from the shape of the surface
-  /// Whether there is none: the points around are a curve, fill a volume, or are as thick as wide.
-  Buffer<std::uint8_t> no_surface;
+/// The noise around a centre, and which fit says best where the surface is.
+struct LocalNoise {
+  double variance = 0;      ///< along the normal, in length^2
+  int size = -1;            ///< of fit_sizes, that of the fit with the least expected error; -1 where points stay
+  bool no_surface = false;  ///< the points around are a curve or fill a volume
 };
 
-/// Below this part of the spacing noise does nothing to a Laplacian.
-constexpr double least_noise = 0.01;
+/// By how much the residuals of a fit vary more than noise of a variance explains, in standard deviations of chance.
+double excessOf(const SurfaceFit& fit, int size, double variance);
 
-/// A fit in a base window with more leverage passes through its point and says nothing about it. Inside a surface the
-/// leverage is about .2, at a corner .7.
-constexpr double most_leverage = 0.9;
+/// Finds noise by predicting points from their neighbours. White noise makes predictions from 16 and from 32 neighbours
+/// equally wrong, but for the predictions' own variance, which squaredError() takes away; from wider windows detail is
+/// predicted worse by a factor of two to four.
+/// @returns one for each centre
+RawBuffer<LocalNoise> findNoise(const SurfaceFits& fits, const Workers& workers);
 
-/// An outlier lies so many sigmas and spacings off the surface of its neighbours. Of normal noise one point in a
-/// million is that many sigmas off; nearer ones than a spacing do little harm.
-constexpr double outlier_sigmas = 5, outlier_spacings = 1;
-
-/// Residuals of a window without a bend have a variance below this, in variances of the noise; those of a window across
-/// a crease have 2 and more.
-constexpr double explained = 1.3;
-
-/// The least variance of noise that matters around a window.
-double leastVariance(const Windows& windows, int w);
-
-/// Whether a few windows spread over the cloud have residuals like those of noise. Where hardly any have, there is none
-/// to speak of; this takes next to no time.
-/// @param source by search, for Windows::first_base neighbours
-bool mayBeNoisy(const PointsView& points, const NeighborSource& source, const Workers& workers);
-
-/// Makes windows, wider ones where the points are as thick as wide, and decides where there is noise.
-/// @param windows with room
-/// @param[out] lists gets the neighbours of each window that is no copy
-NoiseLevel findNoise(const WindowFitter& fitter, const Workers& workers, Windows& windows, NeighborLists& lists);
-
-/// Finds outliers, leaves them out of the fits around them, and looks again for those that had hidden behind them.
-/// @param which windows that are looked at, ascending
-/// @param lists their neighbours
-/// @param windows around every point
-/// @param noise whose outliers are found
-void findOutliers(const WindowFitter& fitter, std::span<const int> which, NeighborLists& lists, const Workers& workers,
-                  Windows& windows, NoiseLevel& noise);
+/// A first look, for next to nothing: where there may be noise.
+/// @returns n, 1 there
+Buffer<std::uint8_t> whereNoiseMayBe(const PointsView& points, const NeighborSearch& search, const Workers& workers);
 
 }  // namespace tufted

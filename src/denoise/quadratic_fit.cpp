@@ -34,14 +34,6 @@ HeightMoments heightMoments(const Offsets& neighbors, const Eigen::Vector3d& nor
   return moments;
 }
 
-void takeMoved(const PointsView& points, const PointBuffer& moved, int p, std::span<const int> neighbors,
-               OffsetBuffer& offsets) {
-  offsets.fill(static_cast<int>(neighbors.size()), [&](int i) -> Eigen::RowVector3d {
-    const int q = neighbors[i];
-    return points.row(q) - points.row(p) + moved.row(q) - moved.row(p);
-  });
-}
-
 void fitHeights(std::span<const HeightMoments> moments, std::span<HeightFit> fits) {
   for (std::size_t first = 0; first < moments.size(); first += kernel_packet) {
     const auto part = moments.subspan(first, std::min<std::size_t>(kernel_packet, moments.size() - first));

@@ -5,7 +5,6 @@
 #include <limits>
 #include <span>
 
-#include "base/point_buffer.h"
 #include "simd/kernels.h"
 #include "stars/offsets.h"
 
@@ -31,12 +30,6 @@ struct HeightMoments {
 
 /// @param normal unit length
 HeightMoments heightMoments(const Offsets& neighbors, const Eigen::Vector3d& normal, double fit_radius);
-
-/// Takes the offsets from p to its neighbours, all where they have been moved to. Moves may be far smaller than
-/// positions are far from the origin: they are added to differences.
-/// @param moved n x 3, how far each point has moved
-void takeMoved(const PointsView& points, const PointBuffer& moved, int p, std::span<const int> neighbors,
-               OffsetBuffer& offsets);
 
 /// Least squares over {1, u, v, u^2, u v, v^2}, each as if it were alone.
 void fitHeights(std::span<const HeightMoments> moments, std::span<HeightFit> fits);

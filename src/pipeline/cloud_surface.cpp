@@ -62,17 +62,12 @@ CloudSurface imageSurface(PixelGrid grid, RankedCloud& cloud, const CloudOptions
   return result;
 }
 
-constexpr double least_moved = 0.05;  // of the points; fewer do not pay for a second search
-
 /// Moves the points of the cloud onto the surface within its noise, and searches among them from then on.
 /// @returns see CloudSurface::noise
 RawBuffer<double> moveOntoSurface(RankedCloud& cloud, NeighborSource& source, const Workers& workers, Report& report) {
   if (source.search == nullptr || source.isWholeCloud(cloud.size())) return {};
-  NeighborSource of_windows = windowSource(std::move(source.search), cloud.size());
-  SurfaceMoves moves;
-  if (mayBeNoisy(cloud.points, of_windows, workers)) moves = surfaceMoves(cloud.points, of_windows, workers);
-  source.search = std::move(of_windows.search);
-  if (static_cast<double>(moves.count()) < least_moved * cloud.size()) return {};
+  SurfaceMoves moves = surfaceMoves(cloud.points, *source.search, workers);
+  if (moves.count() == 0) return {};
   RawBuffer<double> noise = noiseOfMoved(
       moves.move, [&](int p) { return std::sqrt(moves.variance[p]); }, cloud.exponent, report);
   workers.forBlocks("noise", cloud.size(), usual_block, [&](std::int64_t begin, std::int64_t end, int) {

@@ -54,13 +54,6 @@ struct HeightSolutions {
   alignas(64) double least_pivot[kernel_packet], most_pivot[kernel_packet];
 };
 
-/// A quadratic through heights over a plane through the origin.
-struct PlaneQuadratic {
-  double axes[9];         ///< u and v in the plane, and its normal, one after the other: unit vectors
-  double unit;            ///< of lengths
-  double coefficient[6];  ///< of 1, u, v, u^2, u v, v^2, in units
-};
-
 /// Unit vectors, one per lane, or zeros.
 struct Normals {
   alignas(64) double x[kernel_packet], y[kernel_packet], z[kernel_packet];
@@ -199,11 +192,6 @@ struct Kernels {
   void (*sumHeights)(const Offsets& offsets, const double* axes, HeightSums& sums);
   /// Solves each system with the same bits as if it were alone.
   void (*solveHeights)(const HeightSystems& systems, HeightSolutions& solutions);
-  /// The way of each offset to `up` over the quadratic, along the normal of the quadratic there, and the height of the
-  /// offset over it, by the formulas of surfaceAt().
-  /// @param[out] height, x, y, z room for whole packets
-  void (*moveOnto)(const Offsets& offsets, const PlaneQuadratic& quadratic, double up, double* height, double* x,
-                   double* y, double* z);
   /// Heights along `normal`, and the range of those connected with 0 by gaps of at most `gap`.
   /// @param[out] heights room for whole packets
   HeightRange (*connectedHeights)(const Offsets& offsets, const double* normal, double gap, double* heights);

@@ -185,36 +185,6 @@ void solveHeights(const HeightSystems& systems, HeightSolutions& solutions) {
   store(largest, solutions.most_pivot);
 }
 
-void moveOnto(const Offsets& offsets, const PlaneQuadratic& given, double up, double* height, double* x, double* y,
-              double* z) {
-  const PlaneQuadratic quadratic = given;  // a copy, which what is written below cannot change
-  const double *const u_axis = quadratic.axes, *const v_axis = u_axis + 3, *const normal = u_axis + 6;
-  const Part one = broadcastPart(1), two = broadcastPart(2), target = broadcastPart(up);
-  const Part unit = broadcastPart(quadratic.unit), per_unit = one / unit;
-  Part c[6];
-  for (int i = 0; i < 6; ++i) c[i] = broadcastPart(quadratic.coefficient[i]);
-  for (int i = 0; i < offsets.count; i += part_size) {
-    const Part dx = loadPart(&offsets.x[i]), dy = loadPart(&offsets.y[i]), dz = loadPart(&offsets.z[i]);
-    const auto along = [&](const double* axis) {
-      return dx * broadcastPart(axis[0]) + dy * broadcastPart(axis[1]) + dz * broadcastPart(axis[2]);
-    };
-    const Part u = along(u_axis) * per_unit, v = along(v_axis) * per_unit;
-    const Part surface = unit * (c[0] + c[1] * u + c[2] * v + c[3] * u * u + c[4] * u * v + c[5] * v * v);
-    const Part u_slope = c[1] + two * c[3] * u + c[4] * v, v_slope = c[2] + c[4] * u + two * c[5] * v;
-    const auto across = [&](int axis) {
-      return broadcastPart(normal[axis]) - u_slope * broadcastPart(u_axis[axis]) -
-             v_slope * broadcastPart(v_axis[axis]);
-    };
-    const Part nx = across(0), ny = across(1), nz = across(2);
-    const Part per_length = one / squareRoot(nx * nx + ny * ny + nz * nz);
-    const Part over = (along(normal) - surface) * per_length, per_normal = (target - over) * per_length;
-    store(over, height + i);
-    store(per_normal * nx, x + i);
-    store(per_normal * ny, y + i);
-    store(per_normal * nz, z + i);
-  }
-}
-
 constexpr double least_gap = 1e-3;  // between the two smallest eigenvalues over the largest, for the closed form
 constexpr int most_steps = 8;
 
@@ -313,25 +283,10 @@ void measureTriangleFans(const TriangleFans& given) {
 }  // namespace
 
 extern const Kernels TUFTED_KERNELS;
-const Kernels TUFTED_KERNELS = {takeWithin,
-                                rankValues,
-                                extent,
-                                sumOffsets,
-                                sumHeights,
-                                solveHeights,
-                                moveOnto,
-                                connectedHeights,
-                                connectedHeightsAlong,
-                                keepConnected,
-                                findSmallest,
-                                project,
-                                measureTriangleFans,
-                                wrapInvertedPackets,
-                                wrapPixels,
-                                fitSquares<2>,
-                                fitSquares<3>,
-                                joinPixels,
-                                spacingsOf,
-                                squaresWithin};
+const Kernels TUFTED_KERNELS = {takeWithin,          rankValues,   extent,           sumOffsets,
+                                sumHeights,          solveHeights, connectedHeights, connectedHeightsAlong,
+                                keepConnected,       findSmallest, project,          measureTriangleFans,
+                                wrapInvertedPackets, wrapPixels,   fitSquares<2>,    fitSquares<3>,
+                                joinPixels,          spacingsOf,   squaresWithin};
 
 }  // namespace tufted

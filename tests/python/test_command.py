@@ -258,7 +258,7 @@ def test_from_a_folder_all_results_are_the_same(tmp_path):
 def test_gradients_are_those_of_the_moved_points(tmp_path):
     np.save(tmp_path / "noisy.npy", sphere(3000, noise=0.01))
     cloud = tufted.read(tmp_path / "noisy.npy")
-    assert cloud.report["denoised"] == 3000
+    assert cloud.report["denoised"] > 2900
     run("operators", tmp_path / "noisy.npy", "--count", "4", "--out", tmp_path / "out")
     written = np.load(tmp_path / "out/operators.npz")
 
