@@ -68,7 +68,7 @@ Centers manyCenters(const PointsView& points, const NeighborSearch& search, cons
   const auto isBefore = [&](int p, int q) {
     return order[p] != order[q] ? order[p] < order[q] : hashOf(points, p) < hashOf(points, q);
   };
-  /// Of p and its nearest the one that comes first.
+  // The point that comes first among p and its nearest.
   const auto next = [&](int p) {
     int first = p;
     for (const int q : nearest[p])

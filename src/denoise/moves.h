@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstdint>
-#include <memory>
 
 #include "base/parallel.h"
 #include "base/point_buffer.h"

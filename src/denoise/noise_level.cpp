@@ -59,7 +59,7 @@ class Pool {
     }
     return count < least_fits ? unknown : sum / count;
   }
-  /// Of predictions, squared.
+  /// The mean squared error of the predictions by fits of a size.
   double error(int size) const {
     return mean(size, [&](const LocalSurface& surface) { return surface.fit[size].squaredError(); });
   }
@@ -116,10 +116,8 @@ struct Predictions {
   Predictions(const SurfaceFits& fits, int center) {
     const Pool pool(fits, center);
     double thickness = pool.thickness(0);
-    while (size < widest && thickness > thick) {
-      if (!(pool.thickness(size + 2) < thinner * thickness)) break;
+    while (size < widest && thickness > thick && pool.thickness(size + 2) < thinner * thickness)
       thickness = pool.thickness(++size);
-    }
     const double inner = pool.innerShare(), spacing = fits.surface[center].spacing;
     no_surface = inner > curve_share || (inner < volume_share && thickness > volume_thickness);
     error = pool.error(size);

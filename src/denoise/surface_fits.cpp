@@ -10,6 +10,7 @@
 
 #include "denoise/listed_search.h"
 #include "denoise/quadratic_fit.h"
+#include "stars/sheets.h"
 #include "stars/tangent_frame.h"
 
 namespace tufted {
@@ -74,14 +75,8 @@ class SurfaceFitter {
     heights_.resize(static_cast<std::size_t>(size));
     const Eigen::Vector3d normal(fit.normal[0], fit.normal[1], fit.normal[2]);
     const HeightRange range = kernels().connectedHeights(first, normal.data(), gap * fit.radius, heights_.data());
-    const auto isOut = [&](double height) { return height < range.lowest || height > range.highest; };
-    if (std::none_of(heights_.begin(), heights_.end(), isOut)) {
-      moments = heightMoments(first, normal, fit.radius);
-      return;
-    }
-    sheet_.fill(size, [&](int i) { return Eigen::RowVector3d(first.x[i], first.y[i], first.z[i]); });
-    sheet_.takeConnected(sheet_, heights_.data(), range);
-    moments = heightMoments(sheet_.view(), normal, fit.radius);
+    if (!isWhole(range)) sheet_.takeConnected(first, heights_.data(), range);
+    moments = heightMoments(isWhole(range) ? first : sheet_.view(), normal, fit.radius);
   }
 
   PointsView points_;

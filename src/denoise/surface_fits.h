@@ -29,12 +29,13 @@ struct SurfaceFit {
   std::array<float, 3> normal{};       ///< of the plane, unit length
   float radius = 0;                    ///< distance to the last neighbour
   float leverage = 1;                  ///< variance of the height over the point by that of each point's
-  /// Of the residuals: their sum of squares by the points but 6. Infinite where there is no fit.
+  /// The variance of the residuals: their sum of squares by the number of points less 6. It is infinite where there is
+  /// no fit.
   float variance = std::numeric_limits<float>::infinity();
   float thickness = 1;  ///< smallest by middle variance of the points
 
   bool isValid() const { return variance < std::numeric_limits<float>::infinity(); }
-  /// Of the quadratic over the point, along the normal.
+  /// The height of the quadratic over the point, along the normal of the plane.
   double height() const { return double{coefficient[0]} * radius; }
   /// The square of what the other points, by the same fit without the point, predict its height wrong by, divided by
   /// what it would be on average by the variance of noise that is independent from point to point.

@@ -37,13 +37,10 @@ class OffsetBuffer {
     for (int i = count; i < toPackets(count); ++i) x[i] = y[i] = z[i] = 0;
   }
 
-  /// Makes the i-th offset 0, which adds nothing to sums.
-  void clear(int i) { axis(0)[i] = axis(1)[i] = axis(2)[i] = 0; }
-
-  /// Takes those of the others whose heights are in the range; `others` may be this buffer.
-  void takeConnected(const OffsetBuffer& others, const double* heights, const HeightRange& range) {
-    const Offsets given = others.view();
-    if (this != &others) resize(given.count);
+  /// Takes those of the given offsets whose heights are in the range; they may be a view of this buffer.
+  void takeConnected(const Offsets& given, const double* heights, const HeightRange& range) {
+    const bool is_own = !memory_.empty() && given.x == axis(0);
+    if (!is_own) resize(given.count);
     count_ = kernels().keepConnected(given, heights, range, axis(0), axis(1), axis(2));
   }
 

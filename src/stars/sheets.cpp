@@ -28,10 +28,6 @@ bool isSheet(int neighbors, const PrincipalAxes& axes, const PrincipalAxes& befo
          flatness(axes) < far_flatter * flatness(before);
 }
 
-bool isWhole(const HeightRange& range) {
-  return range.lowest <= range.bottom && range.highest >= range.top;
-}
-
 /// Whether all are reached from p along `normal`. Leaves their heights and the range of those that are.
 bool isOneSheet(const Offsets& neighbors, const Eigen::Vector3d& normal, double fit_radius, SheetScratch& scratch) {
   scratch.heights.resize(static_cast<std::size_t>(toPackets(neighbors.count)));
@@ -48,7 +44,7 @@ void takeReached(Neighborhood& neighborhood, OffsetBuffer& offsets, const SheetS
     kept += scratch.heights[i] >= scratch.range.lowest && scratch.heights[i] <= scratch.range.highest ? 1 : 0;
   }
   neighbors.resize(kept);
-  offsets.takeConnected(offsets, scratch.heights.data(), scratch.range);
+  offsets.takeConnected(offsets.view(), scratch.heights.data(), scratch.range);
 }
 
 /// As keepSheet(), and saves all neighbours before the first are left out.
@@ -95,7 +91,7 @@ std::span<TriedSheet> trySheets(const OffsetBuffer& all, double fit_radius, Shee
     if (isWhole(range[i])) continue;
     for (int j = 0; j < all.count(); ++j) scratch.heights[j] = scratch.heights_along[kernel_packet * j + i];
     TriedSheet& sheet = scratch.tried[count];
-    sheet.offsets.takeConnected(all, scratch.heights.data(), range[i]);
+    sheet.offsets.takeConnected(all.view(), scratch.heights.data(), range[i]);
     if (sheet.offsets.count() + 1 < least_plane) continue;
     sheet.first_normal = {planes.x[i], planes.y[i], planes.z[i]};
     ++count;
@@ -122,7 +118,7 @@ void cutAlongOwnPlanes(std::span<TriedSheet> sheets, const Neighborhood& neighbo
   for (TriedSheet& sheet : sheets) {
     sheet.second_normal = sheet.axes.normal;
     if (isOneSheet(sheet.offsets.view(), sheet.second_normal, neighborhood.fit_radius, scratch)) continue;
-    sheet.offsets.takeConnected(sheet.offsets, scratch.heights.data(), scratch.range);
+    sheet.offsets.takeConnected(sheet.offsets.view(), scratch.heights.data(), scratch.range);
     listed[count++] = &sheet;
   }
   fitPlanes(std::span(listed).first(count), neighborhood.radius);

@@ -33,6 +33,11 @@ struct SheetScratch {
   std::array<TriedSheet, most_tried> tried;
 };
 
+/// Whether all heights are connected with 0.
+inline bool isWhole(const HeightRange& range) {
+  return range.lowest <= range.bottom && range.highest >= range.top;
+}
+
 /// Keeps the neighbours whose heights along `normal` are reached from p over gaps of at most a quarter of the fit
 /// radius. Returns whether some were left out.
 bool keepSheet(const Eigen::Vector3d& normal, Neighborhood& neighborhood, OffsetBuffer& offsets, SheetScratch& scratch);

@@ -1,6 +1,5 @@
 #include "tufted/denoise.h"
 
-#include <gtest/gtest-spi.h>
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>

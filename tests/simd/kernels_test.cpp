@@ -89,7 +89,7 @@ TEST(Kernels, KeepWhatIsReachedInItsOrder) {
       }
       OffsetBuffer in_place = offsets;
       chooseKernels(kernel);
-      in_place.takeConnected(in_place, heights.data(), range);
+      in_place.takeConnected(in_place.view(), heights.data(), range);
       chooseKernels(nullptr);
       ASSERT_EQ(in_place.count(), size);
       EXPECT_TRUE(std::equal(expected[2].begin(), expected[2].end(), in_place.view().z));
