@@ -20,8 +20,7 @@ constexpr int first_rings = 2;  // of the window that the plane is fitted to and
 constexpr int enough = 12;      // points in a window; where there are fewer it is widened
 constexpr int most_rings = 24;
 constexpr int most_certain_rings = 12;
-constexpr double left_at_rims = 0.5;  // of the noise, where a root was fitted
-constexpr double low_angle = 0.15;    // cosine between sight and normal, 8.6 degrees above the surface
+constexpr double low_angle = 0.15;  // cosine between sight and normal, 8.6 degrees above the surface
 
 constexpr std::uint64_t first_window = WindowPixels::rings(first_rings);
 static_assert(WindowPixels::inRings(first_rings) == pixels_around && WindowPixels::inRings(1) == pixels_beside);
@@ -178,14 +177,12 @@ class ImageStarBuilder {
   /// Where the ranges of an image are noise, so are points far away, and the window of SurfaceWindows is the widest.
   /// But along the rim of a body that curves away from the sensor neighbours in space are many pixels apart. Such a
   /// surface is seen at a low angle, so that noise lies along it; and its points are farther from each other than noise
-  /// goes, or the angle would be one of noise. Where a rim was found points have less of that.
+  /// goes, or the angle would be one of noise.
   int mostRingsOfStar(int p, const PixelFrame& frame) const {
     if (image_.grid.goes_round) return WindowPixels::reach;
     const Eigen::Vector3d sight = (image_.points.row(p) - image_.grid.origin).transpose();
     const bool is_low = std::abs(sight.dot(frame.normal)) < low_angle * sight.norm();
-    const bool at_rim = !image_.windows.at_rim.empty() && image_.windows.at_rim[p] != 0;
-    const double noise = image_.test.tolerance.atRange(sight.norm(), image_.grid.depthOf(image_.points.row(p))) *
-                         (at_rim ? left_at_rims : 1);
+    const double noise = image_.test.tolerance.atRange(sight.norm(), image_.grid.depthOf(image_.points.row(p)));
     if (is_low && noise <= frame.radius) return most_rings;
     return is_exact_ ? most_certain_rings : WindowPixels::reach;
   }

@@ -25,8 +25,8 @@ struct SurfaceImage {
     return noise.atRange(windows.range[p], grid.depthOf(points.row(p)));
   }
   std::size_t bytes() const {
-    return grid.bytes() + bytesOf(windows.around) + bytesOf(windows.range) + bytesOf(windows.at_rim) +
-           windows.displacement.bytes() + windows.place.bytes();
+    return grid.bytes() + bytesOf(windows.around) + bytesOf(windows.range) + windows.displacement.bytes() +
+           windows.place.bytes();
   }
   /// @param points of the cloud, borrowed
   DepthImage view(const PointsView& points) const {

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "depth_image/steep_rim.h"
 #include "depth_image/surface_windows.h"
 
 namespace tufted {
@@ -134,12 +133,9 @@ bool ImageTile::take(const PixelGrid& grid, const PointsView& points, int top, i
   for (int row = 0; row < all_rows; ++row)
     kernels().joinPixels(pixelsAt(row * pixels_in_word), steps, tolerance.of_inverse, tolerance.of_depth,
                          joined_[row].data());
-  const JumpTest test{tolerance};
   if (grid.goes_round) {
     findSlopes(grid, points, top, left);
-    for (int row = 0; row < all_rows; ++row) joinAlongSlopes(row, test);
-  } else {
-    for (int row = 0; row < all_rows; ++row) joinToRims(grid, points, test, row);
+    for (int row = 0; row < all_rows; ++row) joinAlongSlopes(row, {tolerance});
   }
   return true;
 }
@@ -166,31 +162,21 @@ void ImageTile::findSlopes(const PixelGrid& grid, const PointsView& points, int 
   }
 }
 
-template <class Joins>
-void ImageTile::joinMore(int row, const Joins& joins) {
+void ImageTile::joinAlongSlopes(int row, const JumpTest& test) {
   for (int i = 0; i < steps_down; ++i) {
     const PixelStep& step = ways.down[i];
     if (row + step.row >= all_rows) continue;
     const std::uint64_t both = is_filled_[row] & stepped(is_filled_[row + step.row], step.column);
     std::uint64_t more = 0;
     forEachPixel(both & ~joined_[row][i], [&](int column) {
-      const int a = row * pixels_in_word + column;
-      more |= std::uint64_t{joins(i, a, a + ways.down_shift[i])} << column;
+      const int a = row * pixels_in_word + column, b = a + ways.down_shift[i];
+      const double x = x_[a] - x_[b], y = y_[a] - y_[b], z = z_[a] - z_[b];
+      const Rise rise = riseBetween(slope_[a], slope_[b], step);
+      more |= std::uint64_t{test.joins(x * x + y * y + z * z, range_[a], range_[b], ways.most_of_rings[i], rise)}
+              << column;
     });
     joined_[row][i] |= more;
   }
-}
-
-void ImageTile::joinAlongSlopes(int row, const JumpTest& test) {
-  joinMore(row, [&](int step, int a, int b) {
-    const double x = x_[a] - x_[b], y = y_[a] - y_[b], z = z_[a] - z_[b];
-    const Rise rise = riseBetween(slope_[a], slope_[b], ways.down[step]);
-    return test.joins(x * x + y * y + z * z, range_[a], range_[b], ways.most_of_rings[step], rise);
-  });
-}
-
-void ImageTile::joinToRims(const PixelGrid& grid, const PointsView& points, const JumpTest& test, int row) {
-  joinMore(row, [&](int, int a, int b) { return goesOnToRim(grid, points, test, rank_[a], rank_[b]); });
 }
 
 std::int64_t ImageTile::findWindows(int row, std::array<std::uint64_t, pixels_in_word>& windows) {

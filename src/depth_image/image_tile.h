@@ -57,14 +57,8 @@ class ImageTile {
 
   std::uint64_t own_ = 0;  ///< the pixels of a row that are of the image and not of the halo
   void findSlopes(const PixelGrid& grid, const PointsView& points, int top, int left);
-  /// Joins pixels of a row with others that no step has led to yet where joins(step, a, b) says so: the number of the
-  /// step down, and the two pixels.
-  template <class Joins>
-  void joinMore(int row, const Joins& joins);
   /// Joins pixels of a row with others as well where the step between them is steep and the slope goes on.
   void joinAlongSlopes(int row, const JumpTest& test);
-  /// Joins pixels of a row with others as well where a surface goes on to its rim, see goesOnToRim().
-  void joinToRims(const PixelGrid& grid, const PointsView& points, const JumpTest& test, int row);
 
   std::array<int, all_pixels> rank_{};
   Values x_{}, y_{}, z_{}, range_{}, inverse_{};

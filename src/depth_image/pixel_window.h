@@ -6,7 +6,6 @@
 #include "base/buffer.h"
 #include "base/point_buffer.h"
 #include "depth_image/pixel_grid.h"
-#include "depth_image/steep_rim.h"
 #include "depth_image/surface_windows.h"
 #include "depth_image/window_pixels.h"
 #include "neighbors/neighbors.h"
@@ -35,7 +34,7 @@ struct DepthImage {
     const double x = p[0] - q[0], y = p[1] - q[1], z = p[2] - q[2];
     const double squared_step = x * x + y * y + z * z, range_a = windows.range[a], range_b = windows.range[b];
     if (test.joins(squared_step, range_a, range_b, most)) return true;
-    if (!grid.goes_round) return goesOnToRim(grid, points, test, a, b);
+    if (!grid.goes_round) return false;
     const Rise rise = riseBetween(windows.slope[a], windows.slope[b], grid.stepBetween(a, b));
     return test.joins(squared_step, range_a, range_b, most, rise);
   }

@@ -16,11 +16,7 @@ namespace tufted {
 namespace {
 
 constexpr std::array<int, 4> strides = {3, SmoothedRanges::widest_stride, 5, 2};  // pixels apart, pass by pass
-constexpr int widest_of_bent = 3;
-constexpr double harmless = 0.0004;  // of the squared spacing: a fiftieth of it in noise
-/// A twentieth of the spacing is harmless at edges, where a plane is fitted to a part of a window: values some pixels
-/// apart share errors of the pass before, and the plane carries these on to the edge.
-constexpr double harmless_at_edges = 0.0025;
+constexpr double harmless = 0.0004;       // of the squared spacing: a fiftieth of it in noise
 constexpr std::int64_t samples = 500;     // packets of pixels, to see what noise smoothed values have
 constexpr double quiet = 0.25;            // of the windows have nothing but noise
 constexpr double usual = 0.75;            // of the windows are of one surface
@@ -185,12 +181,10 @@ class RangeSmoother {
           has_narrow = true;
           range = smoothedNearer({narrow.value[lane], narrow.variance[lane]}, before, variance);
         }
-      } else if (before.variance > harmless_at_edges * smoothed_.spacing_squared[at + lane]) {
+      } else {
         std::uint64_t around = 0;
         for (int i = 0; i < WindowPixels::count; ++i) around |= std::uint64_t{packet.within[i] >> lane & 1U} << i;
-        // Wide windows hold more than one bend, and rings lie too far apart.
-        const bool may_bend = stride_ <= widest_of_bent && !smoothed_.goes_round;
-        range = smoothedFurther({rows.at + lane, rows.row_step, rows.column_step}, around, before, variance, may_bend);
+        range = smoothedFurther({rows.at + lane, rows.row_step, rows.column_step}, around, before, variance);
       }
       if (!range) continue;
       after_[at + lane] = range->inverse;
@@ -234,7 +228,7 @@ void smoothFurther(const RangeNoise& noise, bool changes_sides, const Workers& w
   for (const int stride : strides) {
     if (smoothed.goes_round) {
       // The rings of a scanner are few rows: 55 of them are most of the image, and no longer one surface.
-      if (stride == SmoothedRanges::widest_stride || (stride != strides[0] && !is_white)) continue;
+      if (stride == SmoothedRanges::widest_stride) continue;
       repeatBeyondSeam(smoothed, workers);
     }
     const RangeSmoother smoother(noise, stride, smoothed, after);

@@ -41,9 +41,8 @@ struct SmoothedRanges {
 
 /// Where what is left of the noise is not small against the spacing of the pixels, as on walls far away, smooths again
 /// over pixels that are 3 apart, then 9: over 19 pixels, then 55, and more by what was smoothed before. Two more
-/// passes, 5 and 2 apart, take what noise lies between those distances. The rings of a scanner get all but the second
-/// where noise is white, and else the first alone. What noise the values still have is known where it is white, and
-/// else told by the image.
+/// passes, 5 and 2 apart, take what noise lies between those distances. The rings of a scanner get all but the second.
+/// What noise the values still have is known where it is white, and else told by the image.
 /// @param changes_sides see changesSidesFreely()
 void smoothFurther(const RangeNoise& noise, bool changes_sides, const Workers& workers, SmoothedRanges& smoothed);
 

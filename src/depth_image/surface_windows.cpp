@@ -4,7 +4,6 @@
 #include <array>
 #include <numeric>
 
-#include "depth_image/faint_jumps.h"
 #include "depth_image/image_tile.h"
 #include "depth_image/missing_pixels.h"
 #include "depth_image/smoothed_ranges.h"
@@ -77,11 +76,10 @@ class WindowFinder {
       if ((is_filled >> lane & 1U) == 0) continue;
       SmoothedRange range{rows.at[lane], 0};
       if ((is_wanted >> lane & 1U) != 0) {
-        const auto smoothed = smoothedInverseDepth({rows.at + lane, rows.row_step, rows.column_step}, around[lane],
-                                                   {narrow.value[lane], narrow.variance[lane]},
-                                                   {wide.value[lane], wide.variance[lane]}, noise[lane]);
-        range = smoothed.value_or(range);
-        if (range.at_rim) windows_.at_rim[tile.rankAt(row, column + lane)] = 1;
+        range = smoothedInverseDepth({rows.at + lane, rows.row_step, rows.column_step}, around[lane],
+                                     {narrow.value[lane], narrow.variance[lane]},
+                                     {wide.value[lane], wide.variance[lane]}, noise[lane], spacing_squared[lane])
+                    .value_or(range);
       }
       smoothed_->inverse[at + lane] = range.inverse;
       smoothed_->variance[at + lane] = range.variance;
@@ -108,7 +106,6 @@ SurfaceWindows findSurfaceWindows(const PixelGrid& grid, const PointsView& point
   if (grid.goes_round) windows.slope.resize(n);
   SmoothedRanges smoothed;
   if (smooths) smoothed.clear(grid, workers);
-  if (smooths) windows.at_rim.assign(n, 0);
   const WindowFinder finder(grid, points, noise, windows, smooths ? &smoothed : nullptr);
   Buffer<ImageTile> tiles(workers.count());
   Buffer<std::int64_t> cut(workers.count());
@@ -118,7 +115,6 @@ SurfaceWindows findSurfaceWindows(const PixelGrid& grid, const PointsView& point
   });
   windows.cut = std::accumulate(cut.begin(), cut.end(), std::int64_t{0});
   if (!smooths) return windows;
-  cutFaintJumps(grid, points, noise, windows, smoothed);
   fillMissingPixels(grid, noise, workers, smoothed);
   smoothFurther(noise, changesSidesFreely(grid, points, smoothed, noise, workers), workers, smoothed);
   moveAlongRays(grid, points, smoothed, workers, windows);

@@ -20,13 +20,12 @@ struct SurfaceWindows {
   /// from pixel to pixel lead to, farther from p each, none of which goes along the line of sight. Pixels without a
   /// point are stepped over, but where a pixel beside them knows better.
   Buffer<std::uint64_t> around;
-  RawBuffer<double> range;      ///< n, from the sensor; not set where a point has no pixel
-  Buffer<InverseSlope> slope;   ///< n, as range; 0 entries where the image does not go round
-  PointBuffer displacement;     ///< n x 3, along the ray, onto the surface; 0 x 3 without smoothing
-  PointBuffer place;            ///< n x 3, where that leads to; 0 x 3 without smoothing
-  Buffer<std::uint8_t> at_rim;  ///< n, whether a root was fitted at p, see fitRim(); 0 entries without smoothing
-  std::int64_t cut = 0;         ///< points in windows that a jump of the surface leaves out
-  std::int64_t moved = 0;       ///< points whose displacement is not 0
+  RawBuffer<double> range;     ///< n, from the sensor; not set where a point has no pixel
+  Buffer<InverseSlope> slope;  ///< n, as range; 0 entries where the image does not go round
+  PointBuffer displacement;    ///< n x 3, along the ray, onto the surface; 0 x 3 without smoothing
+  PointBuffer place;           ///< n x 3, where that leads to; 0 x 3 without smoothing
+  std::int64_t cut = 0;        ///< points in windows that a jump of the surface leaves out
+  std::int64_t moved = 0;      ///< points whose displacement is not 0
 };
 
 /// @param noise see rangeNoise()

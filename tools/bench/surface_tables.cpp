@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "base/median.h"
+#include "bench/real_images.h"
 #include "bench/real_scans.h"
 #include "bench/real_shapes.h"
 #include "oracles/oracles.h"
@@ -147,6 +148,23 @@ void printSecond(const Settings& settings) {
   printRow("bun000", first.rows(), predictSecond(first, near));
 }
 
+void printImageRow(const std::string& name, const ImagePrediction& found) {
+  std::printf("| %s | %.3f | %.3f | %.3f |\n", name.c_str(), found.as_measured, found.by_tree, found.by_pixels);
+  std::fflush(stdout);
+}
+
+void printImages(const Settings& settings) {
+  std::printf("| depth image | as measured | denoised by the tree | by its pixels |\n|---|---|---|---|\n");
+  const std::filesystem::path scans = settings.real / "scans";
+  for (const auto& [path, half] : imageFiles(scans))
+    if (settings.asksFor(half))
+      printImageRow(path.stem().string() + ", hidden rows", predictHiddenRows(realImage(path)));
+  const std::filesystem::path one = scans / "capture0004.pcd", other = scans / "capture0005.pcd";
+  if (!settings.asksFor(Half::held_out) || !exists(one) || !exists(other)) return;
+  printImageRow("capture0005 from 0004", predictSecondView(realImage(one), realImage(other)));
+  printImageRow("capture0004 from 0005", predictSecondView(realImage(other), realImage(one)));
+}
+
 }  // namespace
 }  // namespace tufted::bench
 
@@ -156,7 +174,8 @@ int main(int argc, char** argv) {
   const std::map<std::string, void (*)(const bench::Settings&)> tables = {{"shapes", bench::printShapes},
                                                                           {"vertices", bench::printVertices},
                                                                           {"hidden", bench::printHidden},
-                                                                          {"second", bench::printSecond}};
+                                                                          {"second", bench::printSecond},
+                                                                          {"images", bench::printImages}};
   const std::map<std::string, bench::Half> halves = {
       {"choosing", bench::Half::choosing}, {"held-out", bench::Half::held_out}, {"both", bench::Half::both}};
   std::vector<std::string> known, names;
