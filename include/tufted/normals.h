@@ -46,8 +46,10 @@ struct OrientationReport {
 /// triangles of a mesh agree (meshFrames() says Orientation::given) they say what is one side, and only whole
 /// components turn.
 ///
-/// Where normals turn, so do tangents, and cross(normal, tangent) stays. Coincident points have the frame of their
-/// representative; other points that are not active keep theirs.
+/// Normals of a cloud that came without any are then fitted anew: by a quadratic through two rings of neighbours in L,
+/// or by a plane through the ten nearest of these points, whichever leaves less variance. Tangents turn with their
+/// normals: where a normal only changes its sign, cross(normal, tangent) stays. Coincident points have the frame of
+/// their representative; other points that are not active keep theirs.
 /// @param laplacian with positions; with frames, as that of a cloud has
 /// @throws InvalidInput for arrays of the wrong size, a Laplacian without positions or frames, positions or frames of
 /// active points that are not finite, a viewpoint that is not, or an `up` that is not or is 0

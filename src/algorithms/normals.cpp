@@ -14,6 +14,7 @@
 
 #include "algorithms/check_frames.h"
 #include "algorithms/connected.h"
+#include "algorithms/fine_normals.h"
 #include "algorithms/signed_sets.h"
 #include "base/disjoint_sets.h"
 #include "base/parallel.h"
@@ -298,7 +299,9 @@ Frames orientedFrames(const Laplacian& laplacian, const Frames& frames, const Or
   const Stopwatch watch;
   OrientationReport made;
   Frames result = frames;
+  const bool is_fine = laplacian.kind == Kind::cloud && frames.orientation != Orientation::given;
   if (options.viewpoint != nullptr) {
+    if (is_fine) takeFineNormals(laplacian, result);
     const Eigen::RowVector3d viewpoint = options.viewpoint->transpose() / 2;
     for (Eigen::Index i = 0; i < result.normals.rows(); ++i) {
       if (laplacian.status[i] != PointStatus::active) continue;
@@ -308,6 +311,7 @@ Frames orientedFrames(const Laplacian& laplacian, const Frames& frames, const Or
     turnOutwards(laplacian, options.up, result.normals, made);  // its triangles say what is one side
   } else {
     orientAlike(laplacian, options, result.normals, made);
+    if (is_fine) takeFineNormals(laplacian, result);
   }
   for (Eigen::Index i = 0; i < result.normals.rows(); ++i) {
     const int source = laplacian.representative[i];

@@ -76,8 +76,7 @@ void buildCloudLaplacian(const PointsRef& points, const CloudOptions& options, C
   if (std::ssize(built.stars.link) > most_entries) tooMany(cloud.size(), std::ssize(built.stars.link));
 
   // Which way it faces, and where lengths are measured.
-  const PointBuffer& fine = built.support.fine_normals;
-  setBoundaryAndNormals(surface.boundary, fine.rows() > 0 ? fine : built.support.normals, cloud, workers, result);
+  setBoundaryAndNormals(surface.boundary, built.support.normals, cloud, workers, result);
   release(surface.boundary);
   setPositions(points, cloud, workers, result);
   setNoise(surface.noise, cloud, result);
@@ -85,7 +84,7 @@ void buildCloudLaplacian(const PointsRef& points, const CloudOptions& options, C
   cloud.move = {};
   result.frames.orientation = options.normals != nullptr ? Orientation::given : Orientation::arbitrary;
   if (options.normals == nullptr && viewpoint != nullptr) faceViewpoint(*viewpoint, workers, result);
-  built.support.normals = built.support.fine_normals = {};
+  built.support.normals = {};
   release(built.support.fit_radius);
   release(built.support.isolated);
   clock.finish("boundary", 0);

@@ -11,11 +11,10 @@
 namespace tufted {
 namespace {
 
-constexpr int most_growth = 8;           // a neighbourhood grows to at most 8 k
-constexpr double more_likely = 1.2;      // times the square that holds more neighbours where they are spread evenly
-constexpr double crowd = 0.4;            // of the neighbours within half the radius; on an even surface it is a quarter
-constexpr int least_neighbors = 3;       // for a plane and a star
-constexpr double least_agreement = 0.5;  // cosine between the normals of the nearest few and of all: less is noise
+constexpr int most_growth = 8;       // a neighbourhood grows to at most 8 k
+constexpr double more_likely = 1.2;  // times the square that holds more neighbours where they are spread evenly
+constexpr double crowd = 0.4;        // of the neighbours within half the radius; on an even surface it is a quarter
+constexpr int least_neighbors = 3;   // for a plane and a star
 
 constexpr std::size_t nested_sets = few_neighbors.size() + 1;
 
@@ -131,13 +130,6 @@ void NeighborhoodFinder::refine(int p, Neighborhood& neighborhood, OffsetBuffer&
     for (std::size_t j = 0; j < nested_sets; ++j) takeAxes(j, axes[j], neighborhood);
   }
   splitSheets(neighborhood, offsets, scratch.sheets);
-}
-
-Eigen::Vector3d NeighborhoodFinder::fineNormal(const Neighborhood& neighborhood) const {
-  const PrincipalAxes& few = neighborhood.axes_of_few.front();
-  const bool is_known = splitsSheets() && !neighborhood.split && !neighborhood.grown && !liesOnOneLine(few) &&
-                        std::abs(few.normal.dot(neighborhood.axes.normal)) >= least_agreement;
-  return is_known ? few.normal : neighborhood.axes.normal;
 }
 
 bool NeighborhoodFinder::grow(int p, int most, Neighborhood& neighborhood, OffsetBuffer& offsets,

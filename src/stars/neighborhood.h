@@ -68,10 +68,6 @@ class NeighborhoodFinder {
   /// @param offsets of the neighbours, before and after
   bool grow(int p, int most, Neighborhood& neighborhood, OffsetBuffer& offsets, NeighborhoodScratch& scratch) const;
 
-  /// The normal of the nearest few after refine(), where they are on one sheet and not on a line. A surface bends less
-  /// among them, and where it was noisy the points have been moved onto it. Else that of the plane.
-  Eigen::Vector3d fineNormal(const Neighborhood& neighborhood) const;
-
   /// The most neighbours that refine() asks for.
   int mostNeighbors() const;
 

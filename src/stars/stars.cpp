@@ -82,11 +82,9 @@ class StarBuilder {
     state.isolated += neighborhood.isolated ? 1 : 0;
     const Eigen::Vector3d& variance = neighborhood.axes.variance;
     state.thick += variance[0] > thick_share * variance[1] && !liesOnOneLine(neighborhood.axes) ? 1 : 0;
-    const bool is_given = source_.normals.rows() > 0 && !source_.normals.row(p).isZero(0);
-    if (is_given) neighborhood.axes.normal = source_.normals.row(p);
+    if (source_.normals.rows() > 0 && !source_.normals.row(p).isZero(0))
+      neighborhood.axes.normal = source_.normals.row(p);
     support_.normals.row(p) = neighborhood.axes.normal;
-    if (support_.fine_normals.rows() > 0)
-      support_.fine_normals.row(p) = is_given ? neighborhood.axes.normal : finder_.fineNormal(neighborhood);
     support_.fit_radius[p] = neighborhood.fit_radius;
     support_.isolated[p] = neighborhood.isolated ? 1 : 0;
   }
@@ -190,7 +188,7 @@ std::size_t Stars::bytes() const {
 }
 
 std::size_t StarSupport::bytes() const {
-  return bytesOf(radius) + bytesOf(fit_radius) + bytesOf(isolated) + normals.bytes() + fine_normals.bytes();
+  return bytesOf(radius) + bytesOf(fit_radius) + bytesOf(isolated) + normals.bytes();
 }
 
 BuiltStars buildStars(const RankedCloud& cloud, const NeighborSource& source, const CloudOptions& options,
@@ -200,7 +198,6 @@ BuiltStars buildStars(const RankedCloud& cloud, const NeighborSource& source, co
   Stars& stars = built.stars;
   StarSupport& support = built.support;
   makeRoom(n, built);
-  if (options.steps.denoise) support.fine_normals.resize(n);
 
   Stopwatch wall;
   const std::int64_t blocks = (n + star_block - 1) / star_block;

@@ -37,8 +37,7 @@ struct StarSupport {
   RawBuffer<double> radius;          ///< circumradius in the tangent plane, per link entry as stars were wrapped
   RawBuffer<double> fit_radius;      ///< n, r_k: distance to the last neighbour before a star grows
   RawBuffer<std::uint8_t> isolated;  ///< n, 1 for points without a star: outliers, and where all others lie elsewhere
-  PointBuffer normals;               ///< n x 3, of the planes that the stars were found in
-  PointBuffer fine_normals;          ///< n x 3, of the nearest few; 0 x 3 where noise was not looked for
+  PointBuffer normals;               ///< n x 3
 
   std::size_t bytes() const;
 };

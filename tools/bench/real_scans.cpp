@@ -1,8 +1,5 @@
 #include "bench/real_scans.h"
 
-#include <flann/algorithms/dist.h>
-#include <flann/algorithms/kdtree_single_index.h>
-
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
@@ -10,6 +7,7 @@
 #include <random>
 
 #include "base/median.h"
+#include "bench/nearest_points.h"
 #include "tufted/denoise.h"
 #include "tufted/io/read.h"
 
@@ -21,46 +19,6 @@ constexpr int most_queries = 4000;
 constexpr double most_height = 5;  // spacings; farther points are no noise
 constexpr int icp_rounds = 30;
 constexpr double overlap = 3;  // spacings: a point farther from the other scan lies beside it
-
-/// Finds the nearest of some points.
-class NearestPoints {
- public:
-  explicit NearestPoints(const Points& points)
-      : points_(points),
-        index_(flann::Matrix<double>(points_.data(), static_cast<std::size_t>(points_.rows()), 3),
-               flann::KDTreeSingleIndexParams()) {
-    index_.buildIndex();
-  }
-  const Points& points() const { return points_; }
-  /// Ascending by distance.
-  std::vector<std::size_t> of(const Eigen::RowVector3d& place, int count) const {
-    const auto k = std::min(static_cast<std::size_t>(count), static_cast<std::size_t>(points_.rows()));
-    flann::KNNSimpleResultSet<double> nearest(k);
-    index_.findNeighbors(nearest, place.data(), flann::SearchParams(flann::FLANN_CHECKS_UNLIMITED));
-    std::vector<std::size_t> found(k);
-    std::vector<double> squared(k);
-    nearest.copy(found.data(), squared.data(), k);
-    return found;
-  }
-
- private:
-  Points points_;
-  flann::KDTreeSingleIndex<flann::L2_Simple<double>> index_;
-};
-
-/// The plane of some points.
-struct Frame {
-  Eigen::RowVector3d middle;
-  Eigen::Matrix3d axes;  ///< columns: along the plane, along the plane, normal
-};
-
-Frame frameOf(const Points& points) {
-  const Eigen::RowVector3d middle = points.colwise().mean();
-  const Eigen::MatrixX3d d = points.rowwise() - middle;
-  const Eigen::Matrix3d covariance = d.transpose() * d;
-  const Eigen::Matrix3d vectors = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(covariance).eigenvectors();
-  return {middle, vectors.rowwise().reverse()};
-}
 
 /// The height of a place over the plane or the quadratic through points near it.
 double heightOver(const Points& points, const Eigen::RowVector3d& place, int degree) {
@@ -78,12 +36,6 @@ double heightOver(const Points& points, const Eigen::RowVector3d& place, int deg
   for (Eigen::Index i = 0; i < points.rows(); ++i) system.row(i) = terms(at(i, 0), at(i, 1));
   const VectorXd coefficients = system.colPivHouseholderQr().solve(at.col(2));
   return here[2] - terms(here[0], here[1]).dot(coefficients);
-}
-
-Points rowsOf(const Points& points, const std::vector<std::size_t>& which, int count) {
-  Points some(count, 3);
-  for (int i = 0; i < count; ++i) some.row(i) = points.row(static_cast<Eigen::Index>(which[i]));
-  return some;
 }
 
 /// The root of the mean squared height of the queries, in spacings, by the degree and the number of neighbours that

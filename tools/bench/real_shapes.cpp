@@ -137,10 +137,10 @@ RealShape realShape(const std::filesystem::path& path, int eigenvalues) {
   return shape;
 }
 
-Points sampleOf(const RealShape& shape, int points, double noise, std::uint64_t seed) {
+shapes::Cloud sampleOf(const RealShape& shape, int points, double noise, std::uint64_t seed) {
   const shapes::Cloud cloud = shapes::sampleMesh(shape.mesh, points, seed);
-  if (noise == 0) return cloud.points;
-  return shapes::withNoise(cloud, noise * std::sqrt(shape.area / points), seed + 100).points;
+  if (noise == 0) return cloud;
+  return shapes::withNoise(cloud, noise * std::sqrt(shape.area / points), seed + 100);
 }
 
 }  // namespace tufted::bench

@@ -35,8 +35,8 @@ struct RealShape {
 /// @throws IoError
 RealShape realShape(const std::filesystem::path& path, int eigenvalues);
 
-/// Points drawn on a shape, uniformly by area, with noise in all directions.
+/// Points drawn on a shape, uniformly by area, with noise in all directions, and the normals there without it.
 /// @param noise standard deviation in spacings, the root of the area per point
-Points sampleOf(const RealShape& shape, int points, double noise, std::uint64_t seed);
+shapes::Cloud sampleOf(const RealShape& shape, int points, double noise, std::uint64_t seed);
 
 }  // namespace tufted::bench

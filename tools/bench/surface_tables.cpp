@@ -2,16 +2,20 @@
 #include <CLI/CLI.hpp>
 #include <Eigen/Geometry>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <limits>
 #include <map>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "base/median.h"
+#include "bench/nearest_points.h"
 #include "bench/real_images.h"
 #include "bench/real_scans.h"
 #include "bench/real_shapes.h"
@@ -19,6 +23,7 @@
 #include "tufted/denoise.h"
 #include "tufted/io/read.h"
 #include "tufted/laplacian.h"
+#include "tufted/normals.h"
 #include "tufted/spectrum.h"
 
 namespace tufted::bench {
@@ -58,7 +63,7 @@ ShapeRow shapeRow(const RealShape& shape, int points, double noise, const Settin
   const std::vector<Column> builds = columns();
   ShapeRow row{std::vector<double>(builds.size(), 0), std::vector<double>(builds.size(), 0)};
   for (int s = 0; s < settings.seeds; ++s) {
-    const Points cloud = sampleOf(shape, points, noise, settings.first_seed + static_cast<std::uint64_t>(s));
+    const Points cloud = sampleOf(shape, points, noise, settings.first_seed + static_cast<std::uint64_t>(s)).points;
     for (std::size_t c = 0; c < builds.size(); ++c) {
       const Laplacian laplacian = pointCloudLaplacian(cloud, builds[c].options);
       const VectorXd found = spectrum(laplacian, eigenvalues, {.null_space = false}).values;
@@ -118,6 +123,51 @@ void printVertices(const Settings& settings) {
   }
 }
 
+/// The median angle between normals and those of the surface, in degrees.
+double medianAngle(const Points& normals, const Points& exact) {
+  Buffer<double> angles;
+  for (Eigen::Index i = 0; i < exact.rows(); ++i)
+    if (normals.row(i).allFinite() && !normals.row(i).isZero())
+      angles.push_back(std::acos(std::min(1.0, std::abs(normals.row(i).dot(exact.row(i))))) * 180 / std::numbers::pi);
+  return medianOf(std::move(angles));
+}
+
+/// Normals beside those of planes through so many nearest points, of which nobody knows the best beforehand.
+void printNormals(const Settings& settings) {
+  constexpr std::array<int, 4> windows = {10, 16, 30, 48};
+  std::printf("| shape | points | noise | planes of 10; 16; 30; 48 | normals() | over the best | signs right |\n");
+  std::printf("|---|---|---|---|---|---|---|\n");
+  for (const auto& [path, half] : shapeFiles(settings.real / "shapes")) {
+    if (!settings.asksFor(half)) continue;
+    const RealShape shape = realShape(path, 0);
+    for (const int points : settings.points) {
+      for (const double noise : settings.noise) {
+        const shapes::Cloud cloud = sampleOf(shape, points, noise, settings.first_seed);
+        const NearestPoints nearest(cloud.points);
+        std::array<Points, windows.size()> planes;
+        planes.fill(Points(points, 3));
+        for (int i = 0; i < points; ++i) {
+          const std::vector<std::size_t> near = nearest.of(cloud.points.row(i), windows.back());
+          for (std::size_t w = 0; w < windows.size(); ++w)
+            planes[w].row(i) = frameOf(rowsOf(cloud.points, near, windows[w])).axes.col(2);
+        }
+        const Points normals = orientedFrames(pointCloudLaplacian(cloud.points)).normals;
+        const double found = medianAngle(normals, cloud.normals);
+        double best = std::numeric_limits<double>::infinity();
+        std::printf("| %s | %d | %g |", shape.name.c_str(), points, noise);
+        for (std::size_t w = 0; w < windows.size(); ++w) {
+          const double angle = medianAngle(planes[w], cloud.normals);
+          best = std::min(best, angle);
+          std::printf("%s %.2f", w > 0 ? ";" : "", angle);
+        }
+        const auto right = ((normals.array() * cloud.normals.array()).rowwise().sum() > 0).count();
+        std::printf(" | %.2f | %.2f | %.1f %% |\n", found, found / best, 100.0 * static_cast<double>(right) / points);
+        std::fflush(stdout);
+      }
+    }
+  }
+}
+
 constexpr const char* prediction_columns = "points | as measured | denoised | moved |\n|---|---|---|---|---|\n";
 
 void printRow(const std::string& name, Eigen::Index points, const Prediction& found) {
@@ -171,11 +221,9 @@ void printImages(const Settings& settings) {
 int main(int argc, char** argv) {
   namespace bench = tufted::bench;
   bench::Settings settings;
-  const std::map<std::string, void (*)(const bench::Settings&)> tables = {{"shapes", bench::printShapes},
-                                                                          {"vertices", bench::printVertices},
-                                                                          {"hidden", bench::printHidden},
-                                                                          {"second", bench::printSecond},
-                                                                          {"images", bench::printImages}};
+  const std::map<std::string, void (*)(const bench::Settings&)> tables = {
+      {"shapes", bench::printShapes}, {"vertices", bench::printVertices}, {"hidden", bench::printHidden},
+      {"second", bench::printSecond}, {"images", bench::printImages},     {"normals", bench::printNormals}};
   const std::map<std::string, bench::Half> halves = {
       {"choosing", bench::Half::choosing}, {"held-out", bench::Half::held_out}, {"both", bench::Half::both}};
   std::vector<std::string> known, names;
