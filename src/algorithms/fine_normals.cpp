@@ -111,6 +111,12 @@ std::span<const Eigen::Vector3d> fewOf(std::span<const Eigen::Vector3d> offsets)
   return offsets.first(count);
 }
 
+/// A normal of one of both signs: fits round differently on either side.
+Eigen::Vector3d upright(const Eigen::Vector3d& normal) {
+  const double decides = normal.z() != 0 ? normal.z() : normal.y() != 0 ? normal.y() : normal.x();
+  return decides < 0 ? Eigen::Vector3d(-normal) : normal;
+}
+
 }  // namespace
 
 void takeFineNormals(const Laplacian& laplacian, Frames& frames) {
@@ -120,7 +126,7 @@ void takeFineNormals(const Laplacian& laplacian, Frames& frames) {
     const std::span<const Eigen::Vector3d> offsets = rings.offsetsFrom(p);
     if (offsets.size() < least_points) continue;
     const Eigen::Vector3d before = frames.normals.row(p), tangent = frames.tangents.row(p);
-    const std::optional<Fit> bent = quadraticThrough(offsets, before), near = planeThrough(fewOf(offsets));
+    const std::optional<Fit> bent = quadraticThrough(offsets, upright(before)), near = planeThrough(fewOf(offsets));
     if (!bent || !near) continue;
     const Eigen::Vector3d& found = near->variance <= bent->variance ? near->normal : bent->normal;
     const double cosine = found.dot(before);

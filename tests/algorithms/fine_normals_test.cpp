@@ -47,6 +47,14 @@ TEST(FineNormals, AreWithTangentsAnOrthonormalFrame) {
   }
 }
 
+TEST(FineNormals, OfBothSignsAreTheSameBits) {
+  const Laplacian laplacian = pointCloudLaplacian(shapes::withNoise(shapes::ellipsoid(2000), 0.003).points);
+  const Eigen::Vector3d inside(0, 0, 0), outside(1000, 0, 0);
+  const Points one = orientedFrames(laplacian, {.viewpoint = &inside}).normals,
+               other = orientedFrames(laplacian, {.viewpoint = &outside}).normals;
+  EXPECT_EQ(one.cwiseAbs(), other.cwiseAbs());
+}
+
 TEST(FineNormals, OfTheCallerStay) {
   const shapes::Cloud cloud = shapes::torus(1000);
   CloudOptions options;

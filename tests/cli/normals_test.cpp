@@ -97,7 +97,9 @@ TEST_F(Normals, DecideOnTheSignOfCurvature) {
   EXPECT_EQ(report("out")["report"]["undetermined"], 0);
   run({"curvature", file, "--viewpoint", "0,0,0", "--out", in("in")});
   const std::vector<double> inward = values("in/curvature.npy");
-  for (int i = 0; i < 2000; ++i) EXPECT_NEAR(inward[4 * i], -outward[4 * i], 1e-9);
+  // Towards a viewpoint frames are those of the tangent planes, else they are fitted anew, and curvature hardly depends
+  // on which.
+  for (int i = 0; i < 2000; ++i) EXPECT_NEAR(inward[4 * i], -outward[4 * i], 1e-6);
   run({"curvature", file, "--method", "laplacian", "--out", in("laplacian")});
   EXPECT_EQ(values("laplacian/curvature.npy").size(), 2000u);
   EXPECT_FALSE(std::filesystem::exists(in("laplacian/principal_directions.npy")));
