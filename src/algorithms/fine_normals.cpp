@@ -7,6 +7,8 @@
 #include <span>
 #include <vector>
 
+#include "operators/rings.h"
+
 namespace tufted {
 namespace {
 
@@ -23,7 +25,7 @@ struct Fit {
   double variance;  ///< of the heights over it
 };
 
-/// @param offsets from one of the points to all, itself included
+/// @param offsets from one of the points to all, itself included; at most 1 long
 std::optional<Fit> planeThrough(std::span<const Eigen::Vector3d> offsets) {
   const auto count = static_cast<double>(offsets.size());
   Eigen::Vector3d sum = Eigen::Vector3d::Zero();
@@ -41,15 +43,13 @@ std::optional<Fit> planeThrough(std::span<const Eigen::Vector3d> offsets) {
 
 /// A quadratic over the plane of a normal, and once more over its own.
 std::optional<Fit> quadraticThrough(std::span<const Eigen::Vector3d> offsets, Eigen::Vector3d normal) {
-  const double extent = offsets.back().norm();
   double variance = 0;
   for (int round = 0; round < 2; ++round) {
     const Eigen::Vector3d u = normal.unitOrthogonal(), v = normal.cross(u);
     Eigen::Matrix<double, terms, terms> left = Eigen::Matrix<double, terms, terms>::Zero();
     Eigen::Matrix<double, terms, 1> right = Eigen::Matrix<double, terms, 1>::Zero();
     double squares = 0;
-    for (const Eigen::Vector3d& offset : offsets) {
-      const Eigen::Vector3d d = offset / extent;
+    for (const Eigen::Vector3d& d : offsets) {
       const double x = d.dot(u), y = d.dot(v), height = d.dot(normal);
       const Eigen::Matrix<double, terms, 1> base{1, x, y, x * x, x * y, y * y};
       left += base * base.transpose();
@@ -60,48 +60,26 @@ std::optional<Fit> quadraticThrough(std::span<const Eigen::Vector3d> offsets, Ei
     const auto pivots = factor.vectorD();
     if (!(pivots.minCoeff() > singular * pivots.maxCoeff())) return std::nullopt;
     const Eigen::Matrix<double, terms, 1> found = factor.solve(right);
-    variance =
-        std::max(0.0, squares - found.dot(right)) * extent * extent / static_cast<double>(offsets.size() - terms);
+    variance = std::max(0.0, squares - found.dot(right)) / static_cast<double>(offsets.size() - terms);
     normal = (normal - found[1] * u - found[2] * v).normalized();
   }
   return Fit{normal, variance};
 }
 
-/// The points within two edges of L around some points.
-class TwoRings {
- public:
-  explicit TwoRings(const Laplacian& laplacian)
-      : laplacian_(laplacian), last_(static_cast<std::size_t>(laplacian.L.cols()), -1) {}
-
-  /// From p to all, the nearest first, which is p itself.
-  std::span<const Eigen::Vector3d> offsetsFrom(int p) {
-    points_.clear();
-    take(p, p);
-    takeNeighbors(p, p);
-    for (std::size_t i = 1, ring = points_.size(); i < ring; ++i) takeNeighbors(points_[i], p);
-    offsets_.clear();
-    for (const int q : points_) offsets_.emplace_back(laplacian_.positions.row(q) - laplacian_.positions.row(p));
-    std::sort(offsets_.begin(), offsets_.end(),
-              [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return a.squaredNorm() < b.squaredNorm(); });
-    return offsets_;
-  }
-
- private:
-  void take(int q, int p) {
-    if (last_[q] == p) return;
-    last_[q] = p;
-    points_.push_back(q);
-  }
-  void takeNeighbors(int q, int p) {
-    for (SparseMatrix::InnerIterator entry(laplacian_.L, q); entry; ++entry)
-      if (entry.value() != 0) take(static_cast<int>(entry.row()), p);
-  }
-
-  const Laplacian& laplacian_;
-  std::vector<int> last_;  ///< the point that each was last taken for
-  std::vector<int> points_;
-  std::vector<Eigen::Vector3d> offsets_;
-};
+/// From p to the points of its first two rings, over the farthest, the nearest first, which is p itself.
+void takeOffsets(int p, const Points& positions, Rings& rings, std::vector<Eigen::Vector3d>& offsets) {
+  rings.start(p);
+  rings.grow();
+  rings.grow();
+  offsets.clear();
+  for (const int q : rings.points()) offsets.emplace_back(positions.row(q) - positions.row(p));
+  // No square of these overflows or underflows.
+  double extent = 0;
+  for (const Eigen::Vector3d& d : offsets) extent = std::max(extent, d.stableNorm());
+  for (Eigen::Vector3d& d : offsets) d /= extent;
+  std::sort(offsets.begin(), offsets.end(),
+            [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return a.squaredNorm() < b.squaredNorm(); });
+}
 
 /// The nearest few of at least so many, and those that are as far away as the last of them.
 std::span<const Eigen::Vector3d> fewOf(std::span<const Eigen::Vector3d> offsets) {
@@ -120,10 +98,11 @@ Eigen::Vector3d upright(const Eigen::Vector3d& normal) {
 }  // namespace
 
 void takeFineNormals(const Laplacian& laplacian, Frames& frames) {
-  TwoRings rings(laplacian);
+  Rings rings(laplacian.L);
+  std::vector<Eigen::Vector3d> offsets;
   for (int p = 0; p < static_cast<int>(frames.normals.rows()); ++p) {
     if (laplacian.status[p] != PointStatus::active) continue;
-    const std::span<const Eigen::Vector3d> offsets = rings.offsetsFrom(p);
+    takeOffsets(p, laplacian.positions, rings, offsets);
     if (offsets.size() < least_points) continue;
     const Eigen::Vector3d before = frames.normals.row(p), tangent = frames.tangents.row(p);
     const std::optional<Fit> bent = quadraticThrough(offsets, upright(before)), near = planeThrough(fewOf(offsets));

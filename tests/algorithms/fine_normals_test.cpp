@@ -55,6 +55,13 @@ TEST(FineNormals, OfBothSignsAreTheSameBits) {
   EXPECT_EQ(one.cwiseAbs(), other.cwiseAbs());
 }
 
+TEST(FineNormals, DoNotDependOnTheUnit) {
+  const Points points = shapes::torus(2000).points;
+  const Points normals = orientedFrames(pointCloudLaplacian(points)).normals;
+  for (const double unit : {0x1p-560, 0x1p300})  // squares of the first are 0
+    EXPECT_LE((orientedFrames(pointCloudLaplacian(unit * points)).normals - normals).cwiseAbs().maxCoeff(), 1e-9);
+}
+
 TEST(FineNormals, OfTheCallerStay) {
   const shapes::Cloud cloud = shapes::torus(1000);
   CloudOptions options;
