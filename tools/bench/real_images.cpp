@@ -3,11 +3,13 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
-#include <functional>
 #include <limits>
-#include <utility>
+#include <optional>
+#include <vector>
 
 #include "base/buffer.h"
+#include "bench/nearest_points.h"
+#include "bench/plane_steps.h"
 #include "tufted/denoise.h"
 #include "tufted/io/read.h"
 
@@ -99,13 +101,27 @@ ImagePrediction predict(const RealImage& seen, const Buffer<Target>& targets, in
           bestOf(seen, denoise(seen.points, {.structure = &structure}).positions, targets, side)};
 }
 
-bool isWellInside(const RealImage& image, double row, double column) {
-  return row > widest && column > widest && row < image.height - 1 - widest && column < image.width - 1 - widest;
+/// A place in an image.
+struct Pixel {
+  double row, column;
+
+  int nearest(int width) const {
+    return static_cast<int>(std::lround(row)) * width + static_cast<int>(std::lround(column));
+  }
+};
+
+bool isWellInside(const RealImage& image, const Pixel& pixel) {
+  return pixel.row > widest && pixel.column > widest && pixel.row < image.height - 1 - widest &&
+         pixel.column < image.width - 1 - widest;
 }
 
 /// u = focal x / z + column, by least squares over all pixels, and the same of the rows.
 struct Pinhole {
   double focal, row, column;
+
+  Pixel pixelOf(const Eigen::Vector3d& point) const {
+    return {focal * point.y() / point.z() + row, focal * point.x() / point.z() + column};
+  }
 };
 
 Pinhole pinholeOf(const RealImage& image) {
@@ -122,54 +138,36 @@ Pinhole pinholeOf(const RealImage& image) {
   return {found[0], found[1], found[2]};
 }
 
-/// The plane around a pixel; a zero normal where there is none.
-struct Plane {
-  Eigen::Vector3d middle, normal;
-};
-
-Plane planeAt(const RealImage& image, int pixel) {
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
-  int count = 0;
+/// The plane around a pixel; nothing where there is none.
+std::optional<Frame> planeAt(const RealImage& image, int pixel) {
+  std::vector<std::size_t> near;
   for (int i = -widest; i <= widest; i += 4)
     for (int j = -widest; j <= widest; j += 4) {
-      const Eigen::Vector3d point = image.points.row(pixel + i * image.width + j);
-      if (!(std::abs(point.z() / image.points(pixel, 2) - 1) <= alike)) continue;
-      sum += point;
-      squares += point * point.transpose();
-      ++count;
+      const int other = pixel + i * image.width + j;
+      if (std::abs(image.points(other, 2) / image.points(pixel, 2) - 1) <= alike)
+        near.push_back(static_cast<std::size_t>(other));
     }
-  if (count < 30) return {sum, Eigen::Vector3d::Zero()};
-  const Eigen::Vector3d middle = sum / count;
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(squares / count - middle * middle.transpose());
-  return {middle, axes.eigenvectors().col(0)};
+  if (near.size() < 30) return std::nullopt;
+  return frameOf(rowsOf(image.points, near, static_cast<int>(near.size())));
 }
 
 /// Brings a view near another onto it.
 Eigen::Isometry3d registered(const RealImage& image, const RealImage& other, const Pinhole& camera) {
   Eigen::Isometry3d pose = Eigen::Isometry3d::Identity();
   for (double farthest = 0.3; farthest > 2e-3; farthest *= 0.9) {
-    Eigen::Matrix<double, 6, 6> left = Eigen::Matrix<double, 6, 6>::Zero();
-    Eigen::Matrix<double, 6, 1> right = Eigen::Matrix<double, 6, 1>::Zero();
+    PlaneSteps steps;
     for (int i = 0; i < other.points.rows(); i += 23) {
       const Eigen::Vector3d point = pose * other.points.row(i).transpose();
-      const double column = camera.focal * point.x() / point.z() + camera.column,
-                   row = camera.focal * point.y() / point.z() + camera.row;
-      if (!isWellInside(image, row, column)) continue;
-      const int pixel = static_cast<int>(std::lround(row)) * image.width + static_cast<int>(std::lround(column));
-      const Plane plane = planeAt(image, pixel);
-      const double height = (point - plane.middle).dot(plane.normal);
-      if (plane.normal.isZero() || std::abs(height) > std::max(0.02, farthest)) continue;
-      Eigen::Matrix<double, 6, 1> base;
-      base << point.cross(plane.normal), plane.normal;
-      base /= point.z() * point.z();  // as noise grows
-      left += base * base.transpose();
-      right -= base * height / (point.z() * point.z());
+      const Pixel seen = camera.pixelOf(point);
+      if (!isWellInside(image, seen)) continue;
+      const std::optional<Frame> plane = planeAt(image, seen.nearest(image.width));
+      if (!plane) continue;
+      const Eigen::Vector3d normal = plane->axes.col(2);
+      const double height = (point - plane->middle.transpose()).dot(normal);
+      if (std::abs(height) > std::max(0.02, farthest)) continue;
+      steps.add(point, normal, height, std::pow(point.z(), -4));  // as noise grows
     }
-    const Eigen::Matrix<double, 6, 1> step = left.ldlt().solve(right);
-    const double angle = step.head<3>().norm();
-    const Eigen::Vector3d axis = angle > 0 ? Eigen::Vector3d(step.head<3>() / angle) : Eigen::Vector3d::UnitX();
-    pose = Eigen::Translation3d(step.tail<3>()) * Eigen::AngleAxisd(angle, axis) * pose;
+    pose = steps.motion() * pose;
   }
   return pose;
 }
@@ -184,7 +182,8 @@ ImagePrediction predictHiddenRows(const RealImage& image) {
     if (row % 2 == 0) continue;
     seen.points.row(i).setConstant(no_value);
     const Target target{static_cast<double>(row), static_cast<double>(column), inverseAt(image, i), i};
-    if (i % every == 0 && isWellInside(image, row, column) && isInside(image, target)) targets.push_back(target);
+    if (i % every == 0 && isWellInside(image, {target.row, target.column}) && isInside(image, target))
+      targets.push_back(target);
   }
   return predict(seen, targets, 0);
 }
@@ -195,11 +194,9 @@ ImagePrediction predictSecondView(const RealImage& image, const RealImage& other
   Buffer<Target> targets;
   for (int i = 0; i < other.points.rows(); i += every) {
     const Eigen::Vector3d point = pose * other.points.row(i).transpose();
-    const double column = camera.focal * point.x() / point.z() + camera.column,
-                 row = camera.focal * point.y() / point.z() + camera.row;
-    if (!isWellInside(image, row, column)) continue;
-    const int pixel = static_cast<int>(std::lround(row)) * image.width + static_cast<int>(std::lround(column));
-    const Target target{row, column, 1 / point.z(), pixel};
+    const Pixel seen = camera.pixelOf(point);
+    if (!isWellInside(image, seen)) continue;
+    const Target target{seen.row, seen.column, 1 / point.z(), seen.nearest(image.width)};
     if (isInside(image, target)) targets.push_back(target);
   }
   return predict(image, targets, block);
@@ -208,15 +205,6 @@ ImagePrediction predictSecondView(const RealImage& image, const RealImage& other
 RealImage realImage(const std::filesystem::path& path) {
   const Geometry geometry = read(path, ReadAs::cloud);
   return {geometry.points, geometry.width, geometry.height};
-}
-
-std::vector<ShapeFile> imageFiles(const std::filesystem::path& scans) {
-  std::vector<ShapeFile> files = scanFiles(scans);
-  std::erase_if(files, [](const ShapeFile& file) {
-    const Geometry geometry = read(file.path, ReadAs::cloud);
-    return geometry.width != 640 || geometry.height != 480;
-  });
-  return files;
 }
 
 }  // namespace tufted::bench

@@ -1,9 +1,7 @@
 #pragma once
 
 #include <filesystem>
-#include <vector>
 
-#include "bench/real_scans.h"
 #include "tufted/types.h"
 
 // Real depth images, of which nobody knows where the surface lies: inverse depths that a method has not seen are
@@ -15,6 +13,8 @@ namespace tufted::bench {
 struct RealImage {
   Points points;  ///< row by row; not finite where a pixel is missing
   int width = 0, height = 0;
+
+  bool isOne() const { return width == 640 && height == 480; }
 };
 
 /// Root of the mean squared error of predicted inverse depths, in 1e-3 / m, by planes and quadratics over windows of 3
@@ -33,8 +33,5 @@ ImagePrediction predictSecondView(const RealImage& image, const RealImage& other
 
 /// @throws IoError
 RealImage realImage(const std::filesystem::path& path);
-
-/// The depth images among scanFiles().
-std::vector<ShapeFile> imageFiles(const std::filesystem::path& scans);
 
 }  // namespace tufted::bench

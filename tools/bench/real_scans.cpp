@@ -8,6 +8,7 @@
 
 #include "base/median.h"
 #include "bench/nearest_points.h"
+#include "bench/plane_steps.h"
 #include "tufted/denoise.h"
 #include "tufted/io/read.h"
 
@@ -100,8 +101,7 @@ Prediction predictSecond(const Points& scan, Points other) {
   };
   for (int round = 0; round < icp_rounds; ++round) {
     const Points sample = someOf(other, random);
-    Eigen::Matrix<double, 6, 6> left = Eigen::Matrix<double, 6, 6>::Zero();
-    Eigen::Matrix<double, 6, 1> right = Eigen::Matrix<double, 6, 1>::Zero();
+    PlaneSteps steps;
     for (Eigen::Index i = 0; i < sample.rows(); ++i) {
       const Eigen::RowVector3d place = sample.row(i);
       if (round > icp_rounds / 2 && isBeside(place)) continue;
@@ -109,17 +109,10 @@ Prediction predictSecond(const Points& scan, Points other) {
       const Eigen::Vector3d normal = frame.axes.col(2);
       const double height = (place - frame.middle).dot(normal);
       if (std::abs(height) > most_height * spacing) continue;
-      Eigen::Matrix<double, 6, 1> row;
-      row << place.transpose().cross(normal), normal;
-      left += row * row.transpose();
-      right -= height * row;
+      steps.add(place.transpose(), normal, height);
     }
-    const Eigen::Matrix<double, 6, 1> step = left.ldlt().solve(right);
-    const Eigen::Vector3d turn = step.head<3>(), shift = step.tail<3>();
-    const Eigen::Matrix3d rotation = turn.norm() > 0
-                                         ? Eigen::AngleAxisd(turn.norm(), turn.normalized()).toRotationMatrix()
-                                         : Eigen::Matrix3d(Eigen::Matrix3d::Identity());
-    other = ((other * rotation.transpose()).rowwise() + shift.transpose()).eval();
+    const Eigen::Isometry3d motion = steps.motion();
+    other = ((other * motion.linear().transpose()).rowwise() + motion.translation().transpose()).eval();
   }
   std::vector<std::size_t> inside;
   for (std::size_t i = 0; i < static_cast<std::size_t>(other.rows()); ++i)

@@ -206,13 +206,16 @@ void printImageRow(const std::string& name, const ImagePrediction& found) {
 void printImages(const Settings& settings) {
   std::printf("| depth image | as measured | denoised by the tree | by its pixels |\n|---|---|---|---|\n");
   const std::filesystem::path scans = settings.real / "scans";
-  for (const auto& [path, half] : imageFiles(scans))
-    if (settings.asksFor(half))
-      printImageRow(path.stem().string() + ", hidden rows", predictHiddenRows(realImage(path)));
+  for (const auto& [path, half] : scanFiles(scans)) {
+    if (!settings.asksFor(half)) continue;
+    const RealImage image = realImage(path);
+    if (image.isOne()) printImageRow(path.stem().string() + ", hidden rows", predictHiddenRows(image));
+  }
   const std::filesystem::path one = scans / "capture0004.pcd", other = scans / "capture0005.pcd";
   if (!settings.asksFor(Half::held_out) || !exists(one) || !exists(other)) return;
-  printImageRow("capture0005 from 0004", predictSecondView(realImage(one), realImage(other)));
-  printImageRow("capture0004 from 0005", predictSecondView(realImage(other), realImage(one)));
+  const RealImage first = realImage(one), second = realImage(other);
+  printImageRow("capture0005 from 0004", predictSecondView(first, second));
+  printImageRow("capture0004 from 0005", predictSecondView(second, first));
 }
 
 }  // namespace
