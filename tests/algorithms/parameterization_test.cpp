@@ -11,6 +11,7 @@
 
 #include "shapes/shapes.h"
 #include "support/defined_values.h"
+#include "support/maps.h"
 #include "support/odd_cloud.h"
 #include "support/refusal.h"
 #include "tufted/tufted.h"
@@ -19,16 +20,10 @@ namespace tufted::parameterization_test {
 namespace {
 
 using Eigen::MatrixX2d;
+using support::mapMesh;
+using support::mean_value;
 using support::refusal;
-
-const ParameterizationOptions tutte{.method = ParameterizationMethod::harmonic};
-const ParameterizationOptions mean_value{.method = ParameterizationMethod::harmonic,
-                                         .weights = HarmonicWeights::mean_value};
-
-MatrixX2d mapMesh(const shapes::Mesh& mesh, const ParameterizationOptions& options = {},
-                  ParameterizationReport* report = nullptr) {
-  return parameterize(meshLaplacian(mesh.points, mesh.triangles), mesh.triangles, options, report);
-}
+using support::tutte;
 
 /// Half of an icosphere.
 shapes::Mesh hemisphere(int subdivisions) {
@@ -238,100 +233,6 @@ TEST(Tutte, IsLinearWithALinearRim) {
     const MatrixX2d uv = mapMesh(square, options);
     EXPECT_LE((uv - square.points.leftCols(2)).cwiseAbs().maxCoeff(), 1e-13);
   }
-}
-
-/// A tube of radius 1 along z, of `rings` rings of 24 points; the first one may be closed by a point.
-shapes::Mesh tube(int rings, double length, bool is_closed) {
-  const int sides = 24;
-  shapes::Mesh mesh;
-  mesh.points.resize(sides * rings + (is_closed ? 1 : 0), 3);
-  mesh.triangles.resize(2 * sides * (rings - 1) + (is_closed ? sides : 0), 3);
-  const auto at = [](int ring, int side) { return sides * ring + side % sides; };
-  Eigen::Index t = 0;
-  for (int ring = 0; ring < rings; ++ring) {
-    for (int side = 0; side < sides; ++side) {
-      const double angle = 2 * M_PI * side / sides;
-      mesh.points.row(at(ring, side)) << std::cos(angle), std::sin(angle), length * ring / (rings - 1);
-      if (ring + 1 == rings) continue;
-      mesh.triangles.row(t++) << at(ring, side), at(ring, side + 1), at(ring + 1, side + 1);
-      mesh.triangles.row(t++) << at(ring, side), at(ring + 1, side + 1), at(ring + 1, side);
-    }
-  }
-  for (int side = 0; is_closed && side < sides; ++side)
-    mesh.triangles.row(t++) << at(0, side + 1), at(0, side), sides * rings;
-  if (is_closed) mesh.points.bottomRows<1>().setZero();
-  return mesh;
-}
-
-/// Triangles whose height in the plane is below 1e-7 of the map's radius.
-std::int64_t lowTriangles(const shapes::Mesh& mesh, const MatrixX2d& uv) {
-  const double extent = (uv.colwise().maxCoeff() - uv.colwise().minCoeff()).maxCoeff() / 2;
-  std::int64_t count = 0;
-  for (Eigen::Index t = 0; t < mesh.triangles.rows(); ++t) {
-    const auto side = [&](int a, int b) -> Eigen::RowVector2d {
-      return uv.row(mesh.triangles(t, b)) - uv.row(mesh.triangles(t, a));
-    };
-    const double twice = std::abs(side(0, 1).x() * side(0, 2).y() - side(0, 1).y() * side(0, 2).x());
-    const double longest = std::max({side(0, 1).norm(), side(1, 2).norm(), side(2, 0).norm()});
-    count += twice <= 1e-7 * extent * longest ? 1 : 0;
-  }
-  return count;
-}
-
-TEST(Parameterize, RefusesTubesThatAreTooLong) {
-  for (const bool is_closed : {false, true}) {
-    const shapes::Mesh stub = tube(40, 10, is_closed);
-    ParameterizationReport report;
-    const MatrixX2d uv = mapMesh(stub, {}, &report);
-    EXPECT_TRUE(uv.allFinite());
-    EXPECT_EQ(report.collapsed, 0);
-    EXPECT_EQ(lowTriangles(stub, uv), 0);
-    for (const double length : {35., 52., 100., 400., 2000.}) {
-      std::string why;
-      try {
-        why = refusal([&] { mapMesh(tube(200, length, is_closed)); });
-      } catch (const SolverFailure&) {
-        continue;  // the scales of the map leave doubles, which the check of the solution may see first
-      }
-      EXPECT_NE(why.find("is too long for its rims: "), std::string::npos) << length << why;
-    }
-  }
-}
-
-TEST(Parameterize, LeavesOutPartsThatCollapse) {
-  shapes::Mesh mesh = shapes::gridSquare(100);  // larger than the tube
-  const shapes::Mesh pole = tube(200, 52, false);
-  const auto points = static_cast<int>(mesh.points.rows()), triangles = static_cast<int>(mesh.triangles.rows());
-  mesh.points.conservativeResize(points + pole.points.rows(), 3);
-  mesh.points.bottomRows(pole.points.rows()) = pole.points.rowwise() + Eigen::RowVector3d(9, 0, 0);
-  mesh.triangles.conservativeResize(triangles + pole.triangles.rows(), 3);
-  mesh.triangles.bottomRows(pole.triangles.rows()) = pole.triangles.array() + points;
-  ParameterizationReport report;
-  const MatrixX2d uv = mapMesh(mesh, {}, &report);
-  EXPECT_EQ(report.charts, 1);
-  EXPECT_EQ(report.rims, 1);
-  EXPECT_EQ(report.collapsed_charts, 1);
-  EXPECT_EQ(report.not_mapped, pole.points.rows());
-  EXPECT_EQ(report.triangles, triangles);
-  EXPECT_TRUE(uv.topRows(points).allFinite());
-  EXPECT_TRUE(uv.bottomRows(pole.points.rows()).array().isNaN().all());
-}
-
-TEST(Parameterize, CountsTrianglesThatCollapse) {
-  const shapes::Mesh finger = tube(150, 39, true);  // in a harmonic map, too, the scale falls by e within each radius
-  for (const ParameterizationOptions& options : {tutte, mean_value}) {
-    ParameterizationReport report;
-    const auto low = static_cast<double>(lowTriangles(finger, mapMesh(finger, options, &report)));
-    EXPECT_GT(low, 1000);
-    EXPECT_NEAR(static_cast<double>(report.collapsed), low, 0.05 * low);  // another measure of the extent
-    EXPECT_EQ(report.flipped, 0);
-  }
-  // Needles that are as low on the surface are none.
-  shapes::Mesh flat = shapes::gridSquare(10);
-  flat.points.row(60) = flat.points.row(61) + Eigen::RowVector3d(-1e-9, 0, 0);
-  ParameterizationReport report;
-  mapMesh(flat, {}, &report);
-  EXPECT_EQ(report.collapsed, 0);
 }
 
 TEST(Parameterize, GivesOddCloudsADefinedResult) {
