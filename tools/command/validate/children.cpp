@@ -1,80 +1,55 @@
 #include "children.h"
 
 #include <fcntl.h>
+#include <poll.h>
 #include <spawn.h>
-#include <sys/mman.h>
-#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
+#include <array>
 #include <cerrno>
 #include <chrono>
 #include <csignal>
 #include <list>
 #include <system_error>
-#include <thread>
+#include <utility>
 
 #include "../interrupt.h"
 #include "tufted/errors.h"
-
-extern char** environ;
 
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr auto tick = std::chrono::milliseconds(5);  // between two looks at the children and at Ctrl-C
-constexpr off_t longest_output = 1 << 24;            // bytes of stdout that are kept, the last
-constexpr off_t longest_error = 4096;                // of stderr
+constexpr int milliseconds_between_looks = 50;
 
-std::system_error systemError(int error, const char* what) {
-  return {error, std::generic_category(), what};
-}
-
-/// A file in memory that a child writes to. Other children do not inherit it.
-class Output {
- public:
-  Output() : file_(memfd_create("output", MFD_CLOEXEC)) {
-    if (file_ < 0) throw systemError(errno, "cannot make a file in memory");
-  }
-  ~Output() { close(file_); }
-  Output(const Output&) = delete;
-  Output& operator=(const Output&) = delete;
-
-  int file() const { return file_; }
-
-  std::string last(off_t most) const {
-    const off_t size = lseek(file_, 0, SEEK_END), count = std::min(size, most);
-    std::string text(static_cast<std::size_t>(count), '\0');
-    text.resize(static_cast<std::size_t>(std::max<ssize_t>(0, pread(file_, text.data(), text.size(), size - count))));
-    return text;
-  }
-
- private:
-  const int file_;
-};
-
-/// A running child; killed when it goes out of scope before its end.
+/// A running process of this program; killed when it goes out of scope before its end.
 class Child {
  public:
-  Child(std::size_t number, std::vector<std::string> arguments) : number_(number), start_(Clock::now()) {
-    arguments.insert(arguments.begin(), "tufted");
-    std::vector<char*> argv;
-    argv.reserve(arguments.size() + 1);
+  Child(std::size_t number, std::vector<std::string> arguments) : number_(number) {
+    std::array<int, 2> ends = {};
+    // Other children must not inherit the pipe, or it would stay open when this one ends.
+    if (pipe2(ends.data(), O_CLOEXEC) != 0)
+      throw std::system_error(errno, std::generic_category(), "cannot open a pipe");
+    output_ = ends[0];
+    std::vector<char*> argv = {arguments.front().data()};
     for (std::string& argument : arguments) argv.push_back(argument.data());
     argv.push_back(nullptr);
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-    posix_spawn_file_actions_adddup2(&actions, out_.file(), STDOUT_FILENO);
-    posix_spawn_file_actions_adddup2(&actions, err_.file(), STDERR_FILENO);
-    // Not fork, which threads that wait for work do not survive.
+    posix_spawn_file_actions_adddup2(&actions, ends[1], STDOUT_FILENO);
+    posix_spawn_file_actions_adddup2(&actions, ends[1], STDERR_FILENO);
+    // Not fork(), which threads that wait for work do not survive.
     const int error = posix_spawn(&pid_, "/proc/self/exe", &actions, nullptr, argv.data(), environ);
     posix_spawn_file_actions_destroy(&actions);
-    if (error != 0) throw systemError(error, "cannot start a process");
+    close(ends[1]);
+    if (error == 0) return;
+    close(output_);
+    throw std::system_error(error, std::generic_category(), "cannot start a process");
   }
   ~Child() {
+    close(output_);
     if (pid_ == 0) return;
     kill(pid_, SIGKILL);
     waitpid(pid_, nullptr, 0);
@@ -82,46 +57,52 @@ class Child {
   Child(const Child&) = delete;
   Child& operator=(const Child&) = delete;
 
+  int output() const { return output_; }
   std::size_t number() const { return number_; }
+  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
+  std::string& text() { return text_; }
 
-  /// Whether it has ended, and how. The memory that wait4 tells survives exec, and so includes ours.
-  bool hasEnded(ChildEnd& end) {
-    rusage usage = {};
-    if (wait4(pid_, &end.status, WNOHANG, &usage) != pid_) return false;
-    pid_ = 0;
-    end.seconds = std::chrono::duration<double>(Clock::now() - start_).count();
-    end.peak_memory = static_cast<double>(usage.ru_maxrss) / 1024;  // Linux counts in KB
-    end.out = out_.last(longest_output);
-    end.err = err_.last(longest_error);
-    return true;
+  /// Takes what it has written. @returns whether it has closed its output, as it does when it ends
+  bool read() {
+    std::array<char, 1 << 16> part = {};
+    const ssize_t count = ::read(output_, part.data(), part.size());
+    if (count > 0) text_.append(part.data(), static_cast<std::size_t>(count));
+    return count == 0;
+  }
+  int wait() {
+    int status = 0;
+    waitpid(std::exchange(pid_, 0), &status, 0);
+    return status;
   }
 
  private:
   const std::size_t number_;
-  const Clock::time_point start_;
-  const Output out_, err_;
+  const Clock::time_point start_ = Clock::now();
+  int output_ = -1;
   pid_t pid_ = 0;
+  std::string text_;
 };
 
 }  // namespace
 
-void runChildren(const std::vector<std::vector<std::string>>& arguments, int jobs,
-                 const std::function<void(std::size_t, ChildEnd)>& ended, const std::function<void()>& wait) {
-  // Under a limit of memory OpenBLAS's threads look for room for ever, and the process cannot end.
-  setenv("OPENBLAS_NUM_THREADS", "1", 1);
+void runChildren(const std::vector<std::vector<std::string>>& arguments, std::size_t jobs,
+                 const std::function<void(std::size_t, int, double, std::string)>& ended,
+                 const std::function<void()>& wait) {
   std::list<Child> running;
   std::size_t next = 0;
   while (next < arguments.size() || !running.empty()) {
     if (interrupted()) throw tufted::Cancelled("cancelled");
-    for (; next < arguments.size() && running.size() < static_cast<std::size_t>(jobs); ++next)
-      running.emplace_back(next, arguments[next]);
+    for (; next < arguments.size() && running.size() < jobs; ++next) running.emplace_back(next, arguments[next]);
     wait();
-    std::this_thread::sleep_for(tick);
-    running.remove_if([&ended](Child& child) {
-      ChildEnd end;
-      const bool has_ended = child.hasEnded(end);
-      if (has_ended) ended(child.number(), std::move(end));
-      return has_ended;
+    std::vector<pollfd> outputs;
+    for (const Child& child : running) outputs.push_back({child.output(), POLLIN, 0});
+    poll(outputs.data(), outputs.size(), milliseconds_between_looks);
+    auto output = outputs.begin();
+    running.remove_if([&](Child& child) {
+      if ((output++)->revents == 0 || !child.read()) return false;
+      const int status = child.wait();
+      ended(child.number(), status, child.seconds(), std::move(child.text()));
+      return true;
     });
   }
 }

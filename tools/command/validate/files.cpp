@@ -1,7 +1,7 @@
 #include "files.h"
 
 #include <algorithm>
-#include <deque>
+#include <iterator>
 #include <set>
 #include <system_error>
 
@@ -12,40 +12,32 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Lists a folder: its readable files into `found`, its folders to the front of `folders` and links to such to the end,
-/// so that those come last. @returns why it cannot be listed, or an empty string
-std::string list(const fs::path& folder, std::vector<Found>& found, std::deque<fs::path>& folders) {
+/// Adds the files below a folder. Links to folders go to `links`, to be followed when all that is no link was seen.
+void addBelow(const fs::path& folder, std::set<fs::path>& seen, std::vector<fs::path>& links,
+              std::vector<Found>& found) {
   std::error_code error, ignored;
-  std::vector<fs::directory_entry> entries;
-  for (auto at = fs::directory_iterator(folder, error); !error && at != fs::directory_iterator(); at.increment(error))
-    entries.push_back(*at);
-  std::sort(entries.begin(), entries.end());  // of two links to one folder the first counts
-  for (const fs::directory_entry& entry : entries) {
-    // A file that cannot be looked at is for the reader to refuse.
-    if (!entry.is_directory(ignored)) {
-      // Arrays of numpy are rarely points: results are such arrays.
-      if (tufted::isReadable(entry.path()) && entry.path().extension() != ".npy") found.push_back({entry.path(), ""});
-    } else if (entry.is_symlink(ignored)) {
-      folders.push_back(entry.path());
-    } else {
-      folders.push_front(entry.path());
-    }
+  const fs::path canonical = fs::canonical(folder, error);
+  if (!error && !seen.insert(canonical).second) return;
+  for (auto at = fs::directory_iterator(folder, error); !error && at != fs::directory_iterator(); at.increment(error)) {
+    const bool is_folder = at->is_directory(ignored);
+    if (is_folder && at->is_symlink(ignored))
+      links.push_back(*at);
+    else if (is_folder)
+      addBelow(*at, seen, links, found);
+    else if (tufted::isReadable(*at) && at->path().extension() != ".npy")  // most arrays are results and not points
+      found.push_back({*at});
   }
-  return error ? "cannot list: " + error.message() : "";
+  if (error) found.push_back({folder, "cannot list: " + error.message()});
 }
 
 std::vector<Found> filesBelow(const fs::path& top) {
   std::vector<Found> found;
   std::set<fs::path> seen;  // links may lead back
-  std::deque<fs::path> folders = {top};
-  while (!folders.empty()) {
-    const fs::path folder = std::move(folders.front());
-    folders.pop_front();
-    std::error_code error;
-    const fs::path canonical = fs::canonical(folder, error);
-    if (!error && !seen.insert(canonical).second) continue;
-    std::string refusal = list(folder, found, folders);
-    if (!refusal.empty()) found.push_back({folder, std::move(refusal)});
+  for (std::vector<fs::path> folders = {top}; !folders.empty();) {
+    std::vector<fs::path> links;
+    for (const fs::path& folder : folders) addBelow(folder, seen, links, found);
+    std::sort(links.begin(), links.end());  // of two links to one folder the first counts
+    folders = std::move(links);
   }
   std::sort(found.begin(), found.end(), [](const Found& a, const Found& b) { return a.path < b.path; });
   return found;
@@ -60,12 +52,10 @@ std::vector<Found> findFiles(const std::vector<fs::path>& paths) {
     std::error_code error;
     const fs::file_status status = fs::status(path, error);
     if (status.type() == fs::file_type::not_found) throw tufted::IoError(path.string() + ": no such file or folder");
-    if (fs::is_directory(status)) {
-      const std::vector<Found> below = filesBelow(path);
-      found.insert(found.end(), below.begin(), below.end());
-    } else {
-      found.push_back({path, ""});
-    }
+    if (fs::is_directory(status))
+      std::ranges::move(filesBelow(path), std::back_inserter(found));
+    else
+      found.push_back({path});
     names += (names.empty() ? "" : ", ") + path.string();
   }
   if (found.empty() && !paths.empty())

@@ -4,15 +4,14 @@
 #include <string>
 #include <vector>
 
-/// A file to validate, or what `tufted laplacian` wrote into a folder, or a folder that holds neither.
+/// A file to validate, or a folder that cannot be listed.
 struct Found {
   std::filesystem::path path;
-  std::string refusal = {};  ///< of a folder: why it cannot be listed; else empty
-  bool is_operator = false;  ///< the folder of --operator
+  std::string refusal = {};  ///< why a folder cannot be listed
 };
 
-/// What `paths` stand for, in their order: a file stands for itself, whatever its name, and a folder for the files
-/// below it, sorted, that the readers know by their extension. Links to folders are followed; a folder that is reached
-/// in several ways goes by one path, its own where it can.
-/// @throws tufted::IoError where a path is missing, or there is nothing at all
+/// What `paths` stand for, in their order: a file for itself, whatever its name, and a folder for the files below it
+/// that have the extension of a reader, sorted. Links to folders are followed; a folder that can be reached in several
+/// ways counts once, by the path without links if there is one.
+/// @throws tufted::IoError where a path is missing, or there is no file at all
 std::vector<Found> findFiles(const std::vector<std::filesystem::path>& paths);

@@ -1,7 +1,6 @@
 #include "table.h"
 
 #include <algorithm>
-#include <cstdint>
 #include <cstdio>
 #include <utility>
 
@@ -9,97 +8,64 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::string integer(const Json& value) {
-  return std::to_string(value.get<std::int64_t>());
-}
-
-std::string printed(const char* format, double value) {
-  char text[32];
-  std::snprintf(text, sizeof(text), format, value);
-  return text;
-}
-
-std::string rounded(const Json& value) {
-  return printed("%.0f", value.get<double>());
-}
-
-std::string hundredths(const Json& value) {
-  return printed("%.2f", value.get<double>());
-}
-
-std::string magnitude(const Json& value) {
-  return value == 0 ? "0" : printed("%.0e", value.get<double>());
-}
-
-std::string yesOrNo(const Json& value) {
-  return value.get<bool>() ? "yes" : "NO";
-}
-
 struct Column {
   const char* title;
   int width;
   const char* member;
-  std::string (*text)(const Json&);
+  const char* format;  ///< of numbers that are no integers
 };
 
-constexpr Column columns[] = {
-    {"points", 9, "points", integer},
-    {"faces", 9, "faces", integer},
-    {"seconds", 8, "seconds", hundredths},
-    {"MB", 6, "memory_mb", rounded},
-    {"nnz/row", 8, "nonzeros_per_row", hundredths},
-    {"flips", 9, "flips", integer},
-    {">0", 4, "positive_off_diagonals", integer},
-    {"clamped", 8, "largest_clamped", magnitude},
-    {"asym", 6, "symmetry_error", magnitude},
-    {"rowsum", 7, "row_sum_error", magnitude},
-    {"recomp", 7, "weight_error", magnitude},
-    {"psd", 4, "definite", yesOrNo},
-    {"parts", 6, "components", integer},
-    {"active", 9, "active", integer},
-    {"not fin", 8, "not_finite_points", integer},
-    {"coinc", 7, "coincident", integer},
-    {"isol", 6, "isolated", integer},
-};
+constexpr Column columns[] = {{"points", 9, "points", ""},
+                              {"faces", 9, "faces", ""},
+                              {"seconds", 8, "seconds", "%.2f"},
+                              {"MB", 6, "memory_mb", "%.0f"},
+                              {"nnz/row", 8, "nonzeros_per_row", "%.2f"},
+                              {"flips", 9, "flips", ""},
+                              {">0", 4, "positive_off_diagonals", ""},
+                              {"clamped", 8, "largest_clamped", "%.0e"},
+                              {"asym", 6, "symmetry_error", "%.0e"},
+                              {"rowsum", 7, "row_sum_error", "%.0e"},
+                              {"recomp", 7, "weight_error", "%.0e"},
+                              {"psd", 4, "definite", ""},
+                              {"parts", 6, "components", ""},
+                              {"active", 9, "active", ""},
+                              {"not fin", 8, "not_finite_points", ""},
+                              {"coinc", 7, "coincident", ""},
+                              {"isol", 6, "isolated", ""}};
+
+std::string cell(const Json& row, const Column& column) {
+  const Json value = row.value(column.member, Json());
+  if (value.is_null()) return "-";
+  if (value.is_boolean()) return value.get<bool>() ? "yes" : "NO";
+  if (!value.is_number_float() || value == 0) return value.is_number_float() ? "0" : value.dump();
+  char text[32];
+  std::snprintf(text, sizeof(text), column.format, value.get<double>());
+  return text;
+}
 
 std::string aligned(const std::string& text, int width) {
-  const int gap = width - static_cast<int>(text.size());
-  return std::string(std::max(gap, 1), ' ') + text;
-}
-
-/// One line whatever the text: names of files and messages may hold anything.
-std::string oneLine(std::string text) {
-  std::replace_if(
-      text.begin(), text.end(), [](unsigned char c) { return c < ' ' || c == 127; }, '?');
-  return text;
-}
-
-std::string resultCell(std::string text) {
-  constexpr std::size_t width = 7;
-  text.resize(std::max(width, text.size()), ' ');
-  return text;
+  return std::string(static_cast<std::size_t>(std::max(width - static_cast<int>(text.size()), 1)), ' ') + text;
 }
 
 }  // namespace
 
 std::string tableHeader() {
-  std::string line = resultCell("result");
+  std::string line = "result ";
   for (const Column& column : columns) line += aligned(column.title, column.width);
   return line + "  file";
 }
 
 std::string tableLine(const Json& row) {
-  std::string line = resultCell(row.at("result").get<std::string>());
-  for (const Column& column : columns) {
-    const auto member = row.find(column.member);
-    const bool known = member != row.end() && !member->is_null();
-    line += aligned(known ? column.text(*member) : "-", column.width);
-  }
+  std::string line = row.at("result").get<std::string>();
+  line.resize(std::max(line.size(), std::size_t{7}), ' ');  // "REFUSED" is the longest
+  for (const Column& column : columns) line += aligned(cell(row, column), column.width);
   line += "  " + row.at("file").get<std::string>();
   std::string separator = ": ";
-  for (const char* member : {"reasons", "not_checked"}) {
-    if (!row.contains(member)) continue;
-    for (const Json& reason : row[member]) line += std::exchange(separator, "; ") + reason.get<std::string>();
-  }
-  return oneLine(line);
+  for (const char* member : {"reasons", "not_checked"})
+    for (const Json& reason : row.value(member, Json::array()))
+      line += std::exchange(separator, "; ") + reason.get<std::string>();
+  // Names of files and messages may hold anything, but this is one line.
+  std::ranges::replace_if(
+      line, [](unsigned char c) { return c < ' ' || c == 127; }, '?');
+  return line;
 }

@@ -1,0 +1,271 @@
+#include <sys/wait.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <cstddef>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include "command.h"
+#include "console.h"
+#include "options.h"
+#include "progress_bar.h"
+#include "tufted/errors.h"
+#include "validate/children.h"
+#include "validate/files.h"
+#include "validate/one_file.h"
+#include "validate/table.h"
+#include "warnings.h"
+
+namespace validate_command {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr const char* name = "validate";
+
+constexpr const char* description = "Build L and M for files or whole folders and check everything that they promise.";
+
+constexpr const char* footer =
+    R"(Example:
+  tufted validate scans --json
+
+Takes files, and folders with all that is below them and has a known extension; links to folders are followed.
+Each file has a process of its own, so that none can stop the run; a shell's `ulimit -d KB` limits the memory of each.
+Prints a line per file, in the order given:
+
+  result   OK, EMPTY (nothing broke, but no point is active: L and M are zero), REFUSED (the reader gives its reason;
+           also a folder that cannot be listed) or FAILED (what broke, or how the process ended)
+  seconds  from the start of its process to its end: reading, building, checking
+  MB       peak memory of its process
+  nnz/row  stored entries of L per active point
+  flips    intrinsic edge flips
+  >0       off-diagonals of L that are positive
+  clamped  largest negative weight set to 0, over the diagonal
+  asym     greatest |L_ij - L_ji| over the larger diagonal
+  rowsum   greatest |sum of a row| over its diagonal
+  recomp   greatest difference of L from the same assembled once more from the faces of its cover, over the larger
+           diagonal; - where there is no cover
+  psd      whether L + 1e-12 diag(L) of the active points has a Cholesky factor
+  parts    connected components
+  active, not fin(ite), coinc(ident), isol(ated): points by status
+
+The intrinsic triangulation is checked as well, and M against the areas that it must hold. What could not be checked is
+said behind the file's name. The exit code is 1 if a file FAILED, and 0 otherwise.
+
+--operator takes what `tufted laplacian --out DIR` has written: --sign igl and --dummy are undone, and the same is
+checked, of the intrinsic triangulation if --format had `cover`. A folder without it all, or one whose arrays do not fit
+each other, is REFUSED.)";
+
+constexpr double most_seconds = 1e9;     // that --time may have
+constexpr std::size_t most_text = 4096;  // bytes that are shown of what a process said that gave no result
+
+struct Settings {
+  std::vector<std::filesystem::path> paths, operators;
+  tufted::ReadAs as = tufted::ReadAs::automatic;
+  int jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+  double seconds = 600;  ///< limit per file, 0 for none
+  bool is_one = false;   ///< judge the only file in this process
+  Console console;
+};
+
+/// The command line on which this program judges one file.
+std::vector<std::string> wordsForOne(const std::filesystem::path& path, bool is_operator, const Settings& settings) {
+  const double seconds = settings.seconds > 0 ? std::max(1e-6, settings.seconds) : 0;  // to_string has six digits
+  std::vector<std::string> words = {
+      "validate", "--one", "--jobs", std::to_string(settings.jobs), "--time", std::to_string(seconds)};
+  for (const auto& [word, as] : kinds)
+    if (as == settings.as) words.insert(words.end(), {"--as", word});
+  if (is_operator) words.emplace_back("--operator");
+  words.push_back(std::filesystem::absolute(path).string());  // which never looks like an option
+  return words;
+}
+
+/// How a process ended that gave no result.
+std::string describeEnd(int status, const std::string& text, double limit) {
+  std::ostringstream reason;
+  if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM) {
+    reason << "took longer than --time " << limit;
+  } else if (WIFSIGNALED(status)) {
+    const int signal = WTERMSIG(status);
+    reason << "its process was ended by signal " << signal << " (" << strsignal(signal) << ")";
+    if (signal == SIGKILL) reason << ", as the system does when memory runs out";
+  } else {
+    reason << "its process ended with code " << WEXITSTATUS(status) << " and no result";
+  }
+  if (!text.empty()) reason << ": " << text.substr(text.size() - std::min(text.size(), most_text));
+  return reason.str();
+}
+
+/// What is known about a file whose process has ended.
+Json describeFile(const std::string& file, int status, double seconds, const std::string& text, double limit) {
+  Json row = {{"file", file}, {"result", "FAILED"}, {"reasons", Json::array()}, {"seconds", seconds}};
+  const Json found = Json::parse(text, nullptr, false);
+  if (found.is_object() && WIFEXITED(status) && WEXITSTATUS(status) == exit_done)
+    row.update(found);
+  else
+    row["reasons"].push_back(describeEnd(status, text, limit));
+  return row;
+}
+
+void print(const std::string& line) {
+  if (std::puts(line.c_str()) < 0 || std::fflush(stdout) != 0)
+    throw tufted::IoError("standard output: cannot write the results");
+}
+
+/// The rows in the order of the files, each printed as soon as all before it are known.
+class Results {
+ public:
+  Results(std::size_t files, const Console& console)
+      : rows_(files), as_lines_(!console.json && !console.quiet), as_json_(console.json), bar_(console.quiet) {
+    if (as_lines_) print(tableHeader());
+  }
+
+  void add(std::size_t number, Json row) {
+    ++known_;
+    ++counts_[row.at("result")];
+    for (const Json& warning : row.value("warnings", Json::array())) warn(bar_, warning.get<std::string>());
+    rows_[number] = std::move(row);
+    for (; as_lines_ && printed_ < rows_.size() && !rows_[printed_].is_null(); ++printed_) {
+      bar_.clear();
+      print(tableLine(rows_[printed_]));
+    }
+  }
+
+  void showProgress() {
+    bar_.show("validate, " + std::to_string(known_) + " of " + std::to_string(rows_.size()),
+              static_cast<double>(known_) / static_cast<double>(rows_.size()));
+  }
+
+  /// @throws std::runtime_error where files failed
+  void sumUp(double seconds) {
+    bar_.clear();
+    const int ok = counts_["OK"], empty = counts_["EMPTY"], refused = counts_["REFUSED"], failed = counts_["FAILED"];
+    std::ostringstream text;
+    text.precision(1);
+    text << std::fixed << countText(static_cast<std::int64_t>(rows_.size()), "file") << ": " << ok << " OK, ";
+    if (empty > 0) text << empty << " EMPTY, ";
+    text << refused << " REFUSED, " << failed << " FAILED, " << seconds << " s";
+    if (as_lines_) print(text.str());
+    const Json summary = {{"files", rows_.size()}, {"ok", ok},         {"empty", empty},
+                          {"refused", refused},    {"failed", failed}, {"seconds", seconds}};
+    const Json document = {{"tufted", TUFTED_VERSION}, {"files", rows_}, {"summary", summary}};
+    if (as_json_) print(document.dump(2, ' ', false, Json::error_handler_t::replace));
+    const std::string of = " of " + std::to_string(rows_.size()) + " ";
+    const std::string none = empty > 0 ? std::to_string(empty) + of + "EMPTY: no point is active" : "";
+    if (failed > 0)
+      throw std::runtime_error(std::to_string(failed) + of + "FAILED" + (none.empty() ? "" : ", ") + none);
+    if (!none.empty()) warn(bar_, none);
+  }
+
+ private:
+  std::vector<Json> rows_;
+  bool as_lines_, as_json_;
+  ProgressBar bar_;
+  std::size_t known_ = 0, printed_ = 0;
+  std::map<std::string, int> counts_;  ///< by result
+};
+
+constexpr const char* protection = "./";
+
+bool isInBrackets(const std::string& argument) {
+  return argument.starts_with('[') && argument.ends_with(']');
+}
+
+/// A transformation, as CLI11 has them.
+std::string withoutProtection(std::string& path) {
+  if (path.starts_with(protection) && isInBrackets(path.substr(std::strlen(protection))))
+    path.erase(0, std::strlen(protection));
+  return "";  // no error
+}
+
+int runValidate(Settings settings) {
+  const auto start = std::chrono::steady_clock::now();
+  std::vector<Found> files = findFiles(settings.paths);
+  const std::size_t first_operator = files.size();
+  for (const std::filesystem::path& folder : settings.operators) {
+    if (!std::filesystem::is_directory(folder)) throw tufted::IoError(folder.string() + ": no such folder");
+    files.push_back({folder});
+  }
+  settings.jobs = std::min<int>(settings.jobs, static_cast<int>(files.size()));
+  // Where `ulimit -d` is low, OpenBLAS's threads look for room for ever, and the process cannot end.
+  setenv("OPENBLAS_NUM_THREADS", "1", 1);
+
+  Results results(files.size(), settings.console);
+  std::vector<std::vector<std::string>> words;  // for each process
+  std::vector<std::size_t> numbers;             // and of its file
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    if (files[i].refusal.empty()) {
+      words.push_back(wordsForOne(files[i].path, i >= first_operator, settings));
+      numbers.push_back(i);
+    } else {
+      results.add(i, {{"file", files[i].path.string()}, {"result", "REFUSED"}, {"reasons", {files[i].refusal}}});
+    }
+  }
+  const auto ended = [&](std::size_t process, int status, double seconds, const std::string& text) {
+    const std::size_t i = numbers[process];
+    results.add(i, describeFile(files[i].path.string(), status, seconds, text, settings.seconds));
+  };
+  runChildren(words, static_cast<std::size_t>(settings.jobs), ended, [&] { results.showProgress(); });
+  results.sumUp(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  return exit_done;
+}
+
+/// In the process of one file.
+int runOne(const Settings& settings) {
+  const bool is_operator = !settings.operators.empty();
+  const int processors = static_cast<int>(std::thread::hardware_concurrency());
+  return judge({.path = is_operator ? settings.operators.front() : settings.paths.front(),
+                .is_operator = is_operator,
+                .as = settings.as,
+                .threads = std::max(1, processors / settings.jobs),
+                .seconds = settings.seconds});
+}
+
+}  // namespace
+}  // namespace validate_command
+
+void protectBrackets(std::vector<std::string>& arguments) {
+  using namespace validate_command;
+  if (arguments.empty() || arguments.front() != name) return;
+  for (std::string& argument : arguments)
+    if (isInBrackets(argument)) argument.insert(0, protection);
+}
+
+void addValidate(CLI::App& app, Run& run) {
+  using namespace validate_command;
+  CLI::App& command = *app.add_subcommand(name, description);
+  command.footer(footer);
+  const auto settings = std::make_shared<Settings>();
+  CLI::Option* const paths = command.add_option("PATH", settings->paths, "Files and folders")
+                                 ->check(notEmpty)
+                                 ->transform(CLI::Validator(withoutProtection, ""));
+  command.add_option("--operator", settings->operators, "A Laplacian that `tufted laplacian --out DIR` wrote")
+      ->allow_extra_args(false)  // what follows may be PATH
+      ->check(notEmpty)
+      ->transform(CLI::Validator(withoutProtection, ""))
+      ->type_name("DIR");
+  addNumber(command, "--jobs", settings->jobs, 1, 1024, "At most this many files at once (processors)")->type_name("N");
+  addNumber(command, "--time", settings->seconds, 0.0, most_seconds, "Limit per file in seconds, 0 for none (600)")
+      ->type_name("S");
+  addChoice(command, "--as", settings->as, kinds, "Take files that may be either as one of them")->needs(paths);
+  command.add_flag("--one", settings->is_one)->group("");  // not in the help
+  addConsole(command, settings->console);
+  command.callback([&run, settings] {
+    if (settings->paths.empty() && settings->operators.empty()) throw CLI::RequiredError("PATH or --operator");
+    run = [=] { return settings->is_one ? runOne(*settings) : runValidate(*settings); };
+  });
+}
