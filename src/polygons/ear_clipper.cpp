@@ -9,10 +9,11 @@ namespace {
 using Eigen::Vector2d;
 
 // Keys of corners that have no quality; all qualities are above -3/2.
-constexpr double not_a_number = -2;
-constexpr double clipped = -3;
+constexpr double not_a_number = -2;  // of a corner that waits for others
+constexpr double clipped = -3;       // of a corner that is gone
 
-// From how many corners on, and up to which quality, a corner is straight.
+// From so many corners on a corner of a quality below `straight`, which is rounding of coordinates, is straight:
+// comparing each with all others on its line would take the square of their number.
 constexpr std::size_t many_corners = 1000;
 constexpr double straight = 0x1p-40;
 

@@ -24,7 +24,8 @@ using view::LabelColumn;
 using view::LevelColumn;
 using view::PageBlocks;
 
-/// Steps of the radii of discs to a factor of two, and the one of the lower quartile.
+/// Sizes of discs to a factor of two, 19 % apart, which takes nearly half a byte per point; and the byte of the lower
+/// quartile.
 constexpr double radius_steps = 4;
 constexpr std::uint8_t radius_middle = 128;
 /// Pages are as large as their window; the direction of the eye does not depend on it.

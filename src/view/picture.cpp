@@ -17,6 +17,7 @@ namespace tufted {
 
 namespace {
 
+/// Pixels of a picture, each way; the samples of the largest take 7 GB.
 constexpr int least_size = 16;
 constexpr int most_size = 8192;
 
