@@ -25,8 +25,9 @@ using Eigen::VectorXcd;
 /// L_C is singular, so B times this times the number of points over that of the rim is added. It must stay above what a
 /// factor rounds by, and far below the second eigenvalue, which is about the squared length of an edge.
 constexpr double least_shift = 1e-13;
-/// The shift grows by this factor, `most_shifts` times at most, while the matrix is not positive definite.
+/// While the matrix is not positive definite, the shift grows by this factor.
 constexpr double shift_growth = 100;
+/// How often the shift grows at most.
 constexpr int most_shifts = 4;
 /// Eigenvectors that are iterated together. Only the first is taken; nearly equal eigenvalues beside it do not slow it
 /// down then.

@@ -32,7 +32,7 @@ constexpr int last_rings = 12;
 /// Each window has this many times the rings of the one before: 4, 5, 6, 7, 8, 10, 12. Growing by one ring gives the
 /// same errors for more fits.
 constexpr double ring_growth = 1.25;
-/// A window that has this many points gets no further ring; 12 rings of an even sampling have fewer.
+/// A window with more points than this gets no further ring; 12 rings of an even sampling have fewer.
 constexpr int most_points = 800;
 /// A fit that misses the heights by less than this part of its radius leaves only rounding, as on a plane or a sphere;
 /// taken for noise, that would choose wide windows.

@@ -12,9 +12,10 @@ using Eigen::Vector2d;
 constexpr double not_a_number = -2;  // of a corner that waits for others
 constexpr double clipped = -3;       // of a corner that is gone
 
-// From so many corners on a corner of a quality below `straight`, which is rounding of coordinates, is straight:
-// comparing each with all others on its line would take the square of their number.
+// In polygons of so many corners nearly straight corners count as straight: comparing each with all others on its line
+// would take the square of their number.
 constexpr std::size_t many_corners = 1000;
+/// The quality up to which a corner of such a polygon is straight: rounding of coordinates.
 constexpr double straight = 0x1p-40;
 
 double squaredEdges(const Vector2d& a, const Vector2d& b, const Vector2d& c) {

@@ -16,14 +16,15 @@ namespace tufted::view {
 
 namespace {
 
-/// Smaller pictures, in pixels, have no room for words.
+/// Pixels below which a picture has no room for words.
 constexpr int least_width = 240;
+/// Pixels below which a picture has no room for words.
 constexpr int least_height = 160;
 /// Labels that are named: the map has no more colours.
 constexpr std::size_t most_swatches = 20;
-/// In sizes of its letters: the width of the legend, which is the bar and numbers of seven characters, of the bar, and
-/// the height of a line.
+/// The width of the legend, in sizes of its letters: the bar and numbers of seven characters.
 constexpr double legend_width = 9;
+/// The width of its bar and the height of its lines, in sizes of its letters.
 constexpr double bar_width = 1.3;
 constexpr double line_height = 1.4;
 /// Texts that are too long have letters that are smaller by this factor at most.

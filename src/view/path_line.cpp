@@ -14,15 +14,19 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// In letter sizes: the line is five pixels of 900 wide, more than an isoline, its rim two more on each side.
+/// The width of the line, in letter sizes: five pixels of 900, wider than an isoline.
 constexpr double line_width = 0.24;
+/// The width of its rim: two pixels on each side.
 constexpr double rim_width = 0.46;
-/// Dashes are thinner, as they lie farther away, three widths long, with gaps of the same length.
+/// The width of dashes: thinner than the line, as it lies farther away.
 constexpr double dash_width = 0.14;
+/// The length of dashes and of the gaps between them: three widths.
 constexpr double dash_length = 0.45;
-/// The circles of the ends are three times as wide as the line; half of a ring is open.
+/// The circles of the ends: three times as wide as the line.
 constexpr double end_width = 0.75;
+/// The same with their rims.
 constexpr double end_rim_width = 1;
+/// The hole of a ring: half of the circle.
 constexpr double ring_hole = 0.35;
 /// A path so far behind a triangle, in its longest side, still lies on it: paths run straight between edges of the
 /// cover, and these need not be the mesh's.

@@ -28,9 +28,9 @@ constexpr float least_cosine = 0.25F;
 /// Near its middle a disc stands forward, by this share of its radius: of overlapping discs the nearest point is seen,
 /// for slopes up to 45 degrees.
 constexpr float bulge = 1;
-/// Samples from a hole to where the surface around it is looked up; the farther ones only between discs so wide that
-/// this share of their radius reaches there.
+/// Samples from a hole to where the surface around it is looked up: holes are of the size of the discs.
 constexpr int hole_reaches[] = {2, 4, 8};
+/// The farther samples are looked up only between discs so wide that this share of their radius reaches there.
 constexpr float hole_share = 1.5F;
 /// How many of eight directions must meet that surface; at a silhouette at most five do.
 constexpr int hole_neighbors = 7;

@@ -27,11 +27,13 @@ constexpr int blend_steps = 3;
 constexpr float blend_width = 0.5F;
 /// Samples belong to one surface if their depths differ by less, in radii of the disc.
 constexpr float same_surface = 4;
-/// Light on a surface that is seen at a right angle to it, and on one seen along it.
+/// Light on a surface that is seen at a right angle to it: colours are never lighter than those of the map.
 constexpr float full_light = 1;
+/// Light on a surface that is seen along it: dark sides keep their colour.
 constexpr float least_light = 0.42F;
-/// How strongly depth shades: where there are normals, and where depth alone tells the shape.
+/// How strongly depth shades where there are normals: edges stand out, surfaces stay as they are.
 constexpr float weak_edges = 18;
+/// How strongly depth shades where it alone tells the shape.
 constexpr float strong_edges = 60;
 /// Samples to those whose depth is compared: edges are a pixel and a half wide.
 constexpr int edge_reach = 3;

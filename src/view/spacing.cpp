@@ -19,9 +19,9 @@ constexpr std::ptrdiff_t window = 14;
 constexpr int neighbor = 8;
 /// The radius of a disc in that distance. Less leaves holes where points are random.
 constexpr float disc_share = 0.85F;
-/// No disc is larger than this share of the scene's half size, nor this many times the median, so that outliers stay
-/// small.
+/// No disc is larger than this share of the scene's half size, whatever its neighbours.
 constexpr float most_of_scene = 0.12F;
+/// No disc is larger than this many times the median: scanners sample unevenly, and outliers stay small.
 constexpr float most_of_others = 4;
 /// The radius of points without enough neighbours, in the scene's half size.
 constexpr float lone_radius = 0.025F;

@@ -22,8 +22,9 @@ constexpr int least_side = 8;
 constexpr int least_samples = 100;
 /// The median error of a camera is at most this, in pixels, as that of the depth images of PCL is.
 constexpr double usual_error = 0.5;
-/// The error, in pixels, that a share of `most_share` of the samples keeps: lenses and rounding cause no more.
+/// The error, in pixels, that most samples keep: lenses and rounding cause no more.
 constexpr double most_error = 2;
+/// The share of the samples that keep `most_error`, and that lie in front of the camera.
 constexpr double most_share = 0.95;
 
 Buffer<Sighting> takeSightings(const Points& points, int width, int height, const Eigen::Vector3d& origin) {
