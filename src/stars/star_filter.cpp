@@ -17,7 +17,7 @@ namespace {
 /// P sees further than the other corners if its fit radius exceeds theirs by this factor. Less takes triangles from
 /// steps of density (1.5: 1.24 times the error of the core, 3: 1.18), more leaves bridges from the last ring of a scan.
 constexpr double further = 2.75;
-/// A triangle whose projected circumradius exceeds so many fit radii of its point is none of a surface. Not varied
+/// A triangle whose projected circumradius exceeds so many fit radii of its point is dropped. Not varied
 /// since the first design.
 constexpr double far_larger = 3;
 /// A triangle of one star alone is dropped if its circumradius exceeds twice the smallest fit radius, here squared. Not
