@@ -35,8 +35,8 @@ constexpr double crease_share = 0.5;
 /// A closed component whose normals point outwards by less than this part of its extent encloses no volume but
 /// rounding, and its mean normal decides.
 constexpr double flat_share = 1e-6;
-/// The same for an open sheet, whose mean normal is at least `most_mean` long: airborne scans have up to 0.024 of
-/// either sign, one view of a rabbit 0.1.
+/// An open sheet, whose mean normal is at least `most_mean` long, is flat if its normals point outwards by less than
+/// this part of its extent: airborne scans have up to 0.024 of either sign, one view of a rabbit 0.1.
 constexpr double flat_share_of_open = 0.05;
 /// A part with fewer points than this share of the largest part of its component lies within a joint.
 constexpr double small_part = 0.05;

@@ -49,16 +49,17 @@ constexpr double most_misfit = 0.2;
 /// Of a row of five pixels around a step the other changes differ by at most this part of the step; at a crease by
 /// more.
 constexpr double alike = 0.3;
-/// Depths are rounded to steps only if the other changes of a row differ by less than this part of its step: rays 0.01
-/// radian apart make 0.019.
+/// Only rounding lies between steps where the other changes of a row of five pixels differ by at most this part of its
+/// step: rays 0.01 radian apart make 0.019.
 constexpr double same = 0.02;
-/// Share of the rows with a step that must be of that kind; slats of a centimetre, seen with noise of 0.2 mm, have
-/// 0.15.
+/// Depths count as rounded to steps if at least this share of the rows with a step keeps `same`; slats of a centimetre,
+/// seen with noise of 0.2 mm, have 0.15.
 constexpr double least_same = 0.7;
-/// Share of all rows of five that must have a step: coarse walls and floors have 0.05 to 0.06, real images 0.002 to
-/// 0.006.
+/// Depths count as rounded to steps if this share of all rows of five pixels has a step: coarse walls and floors have
+/// 0.05 to 0.06, real images 0.002 to 0.006.
 constexpr double least_steps = 0.01;
-/// The middle half of the steps may differ by this part of their median; those of coarse depths differ by 0.08.
+/// Steps are of one size if their middle half differs by at most this part of their median; those of coarse depths
+/// differ by 0.08.
 constexpr double most_spread = 0.25;
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();

@@ -21,7 +21,7 @@ constexpr std::size_t usual_degree = 7;
 constexpr int first_rings = 2;
 /// A window with fewer points than this, half of 5 x 5, is widened.
 constexpr int enough = 12;
-/// Rings of such a window at most: 2,401 pixels hold `enough` points down to one in 200.
+/// Rings of the widest window: 2,401 pixels hold `enough` points where one in 200 is there.
 constexpr int most_rings = 24;
 /// Rings up to which the window of a star grows in an exact image where a circle asks for it. Around moved points this
 /// would take up to 80 % longer.

@@ -22,12 +22,12 @@ constexpr double most_misfit = 3;
 /// The most variance that residuals of a quadratic over 7 x 7 or 5 x 5 such values may have. With 16 a room in steps
 /// has 3.2 instead of 2.6 % of its area off, with 4 a ball in steps has normals off by 0.56 instead of 0.34 degrees.
 constexpr double most_misfit_apart = 8;
-/// The same for planes over a part of a window, which bend with nothing. With 8 points of a ball are off by 0.24
-/// instead of 0.21 mm, with 2 a room has 9 instead of 4 % too much area.
+/// The most variance that residuals of a plane over a part of a window of such values may have. With 8 points of a ball
+/// are off by 0.24 instead of 0.21 mm, with 2 a room has 9 instead of 4 % too much area.
 constexpr double most_misfit_of_planes = 4;
 /// The part of the variance of the values that a fit to 7 x 7 of them is taken to leave; a quadratic leaves 0.1.
 constexpr double further_share = 1.0 / 8;
-/// The same for a fit to 5 x 5 values, of which a quadratic leaves 0.15.
+/// The part of the variance of the values that a fit to 5 x 5 of them is taken to leave; a quadratic leaves 0.15.
 constexpr double further_share_nearer = 1.0 / 4;
 /// Pixels that a plane over a part of 7 x 7 needs, its own included: two fifths.
 constexpr int least_of_wide = 20;

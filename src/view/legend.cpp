@@ -24,7 +24,7 @@ constexpr int least_height = 160;
 constexpr std::size_t most_swatches = 20;
 /// The width of the legend, in sizes of its letters: the bar and numbers of seven characters.
 constexpr double legend_width = 9;
-/// The width of its bar and the height of its lines, in sizes of its letters.
+/// The width of the legend's bar and the height of its lines, in sizes of its letters.
 constexpr double bar_width = 1.3;
 constexpr double line_height = 1.4;
 /// Texts that are too long have letters that are smaller by this factor at most.
