@@ -7,8 +7,8 @@
 
 namespace tufted {
 
-/// Masses below this part of their component's mean count as that much where they are divided by: zero areas would bend
-/// nothing.
+/// Where something is divided by a mass, masses below this part of the mean of their component count as that much,
+/// since a zero area would bend nothing.
 constexpr double least_mass_of_bending = 1e-9;
 
 /// The mean mass of each component.

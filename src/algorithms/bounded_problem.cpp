@@ -11,18 +11,20 @@ namespace tufted {
 namespace {
 
 constexpr const char* function_name = "boundedBiharmonicWeights";  // which is the only caller
-/// By how much bending may pull a weight away from its bound, in weights: some thousand times the rounding. It is far
-/// less than `allowed`, as a weight alone can hardly move between its neighbours.
+/// A weight leaves its bound if bending pulls it off by more than this, in weights. Rounding leaves about 1e-15; it is
+/// far less than `allowed`, as a weight alone can hardly move between its neighbours.
 constexpr double allowed_pull = 1e-12;
 /// After so many exchanges of all points of the wrong kind that do not make them fewer, single ones are exchanged,
 /// which ends in any case.
 constexpr int patience = 10;
 
-/// The interior point method guesses the bounds: it ends after so many systems, or where the mean product of slack and
-/// multiplier is that small, of the mean diagonal.
+/// The interior point method ends after so many systems. It needs 14 to 41.
 constexpr int most_guesses = 60;
+/// The interior point method ends where the mean product of slack and multiplier is this part of the mean diagonal: at
+/// 16,000 points multipliers are as small as 1e-7, and 1e-12 took 163 points for free that were not.
 constexpr double guessed = 1e-22;
-/// The part of the way to the nearest bound that one of its steps takes at most.
+/// The part of the way to the nearest bound that a step of the interior point method takes at most; the value of
+/// Mehrotra.
 constexpr double safe_step = 0.995;
 
 }  // namespace
@@ -134,7 +136,7 @@ void BoundedProblem::solveFree(const std::vector<State>& state, const Progress& 
   const auto is_free = [&](Eigen::Index i) { return state[static_cast<std::size_t>(i)] == State::free; };
   if (std::none_of(state.begin(), state.end(), [](State s) { return s == State::free; })) return;
   const LinearSystem system = factor(state, {}, progress);
-  // What is missing is solved for twice, so that only its rounding is left.
+  // One solve, and a second one for what the first left over, so that only its rounding is left.
   constexpr int solves = 2;
   for (int k = 0; k < solves; ++k) {
     const VectorXd pulled = pull(u);

@@ -13,7 +13,7 @@ namespace tufted {
 /// The least bending of one function within [0, 1].
 class BoundedProblem {
  public:
-  /// By how much a solution may leave its bounds.
+  /// A free weight that leaves [0, 1] by more than this is put on the bound; by less, it stays free.
   static constexpr double allowed = 1e-9;
 
   /// The Laplacian, its components and the options are borrowed.

@@ -11,10 +11,10 @@
 namespace tufted {
 namespace {
 
-/// What lies between two charts, as a part of the side of a square of the area of all.
+/// The gap between two charts, as a part of the side of a square that has the area of all charts.
 constexpr double gap_share = 0.02;
-/// The least height of a triangle in the extent of the surface or the map: what single precision, which points.ply has,
-/// can tell, and what eigenvectors are accurate to.
+/// A triangle lower than this part of the extent of the map counts as collapsed, unless it is as low on the
+/// surface: single precision, which points.ply has, and eigenvectors are no more accurate.
 constexpr double least_height = 1e-7;
 
 double cross(const Eigen::RowVector2d& a, const Eigen::RowVector2d& b) {

@@ -9,9 +9,9 @@
 
 namespace tufted {
 
-/// The least slack of a triangle, in its longest side: thinner ones get longer sides, so that they have angles.
+/// Triangles with less slack than this part of their longest side get longer sides, so that they have angles.
 constexpr double least_slack = 1e-8;
-/// The shortest longest side of a triangle, in that of the chart.
+/// The longest side of a triangle is at least this part of the longest side of the chart.
 constexpr double shortest_side = 1e-12;
 
 /// The binary exponent of the longest side of some triangles.

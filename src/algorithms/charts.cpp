@@ -12,7 +12,8 @@ namespace {
 
 using Corners = std::array<int, 3>;
 
-constexpr int open_side = -1, crowded_side = -2;  ///< in place of a mate: one triangle, more than two
+/// Marks in place of a mate: the side has one triangle, or more than two.
+constexpr int open_side = -1, crowded_side = -2;
 
 /// The sides of triangles: side s of triangle t is 3 t + s, from corner s to the next.
 class Sides {

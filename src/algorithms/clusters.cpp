@@ -3,6 +3,7 @@
 namespace tufted {
 namespace {
 
+/// Iterations of k-means at most; it usually ends after ten.
 constexpr int most_iterations = 100;
 
 /// The first centres.

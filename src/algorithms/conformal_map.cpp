@@ -25,21 +25,24 @@ using Eigen::VectorXcd;
 /// L_C is singular, so B times this times the number of points over that of the rim is added. It must stay above what a
 /// factor rounds by, and far below the second eigenvalue, which is about the squared length of an edge.
 constexpr double least_shift = 1e-13;
-/// The factor by which the shift grows if the matrix is not positive definite, and how often it does.
+/// While the matrix is not positive definite, the shift grows by this factor.
 constexpr double shift_growth = 100;
+/// How often the shift grows at most.
 constexpr int most_shifts = 4;
-/// How many eigenvectors are sought together, of which the first one is taken.
+/// Eigenvectors that are iterated together. Only the first is taken; nearly equal eigenvalues beside it do not slow it
+/// down then.
 constexpr int block_columns = 6;
 /// How far (L_C + shift B)^-1 B may turn the eigenvector away from its complex multiples, which are similar maps. The
 /// rounding of the factor leaves about 1e-15 over the gap to the next eigenvalue.
 constexpr double most_residual = 1e-7;
-/// Thin triangles have large weights, whose rounding leaves more. Where iterations no longer help, this is accepted and
-/// reported: a ten-thousandth of the map's size.
+/// Where iterations no longer help, a residual up to this part of the size of the map is accepted and reported: thin
+/// triangles have large weights, whose rounding leaves more than `most_residual`.
 constexpr double most_rounding = 1e-4;
-/// After so many iterations that do not halve the least residual, iterations no longer help.
+/// Iterations no longer help if so many of them have not halved the least residual.
 constexpr int most_idle = 20;
+/// Iterations for the eigenvector at most.
 constexpr int most_iterations = 500;
-/// The least length that belongs to a point of the rim, in the mean one.
+/// The length of the rim that belongs to one of its points is at least this part of the mean.
 constexpr double least_rim_mass = 1e-3;
 
 /// The matrix of twice the conformal energy, 2n x 2n; rows 2i and 2i + 1 are u and v of point i.

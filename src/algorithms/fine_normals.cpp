@@ -12,12 +12,20 @@
 namespace tufted {
 namespace {
 
-constexpr std::size_t few = 10;          // points of a plane, the one in the middle among them
-constexpr int terms = 6;                 // of a quadratic in two variables
-constexpr std::size_t least_points = 9;  // of a quadratic, three more than terms
-constexpr double singular = 1e-9;        // of the largest pivot, and of a variance: points on a conic, on a line
-constexpr double least_agreement = 0.5;  // cosine to the normal before: a plane across it is one of noise
-constexpr double tie = 1e-9;             // of a squared distance
+/// Points of a plane, its own among them. Of 10, 16, 30 and 48 the best on 14 clean shapes, and the second best in
+/// noise that was moved out.
+constexpr std::size_t few = 10;
+constexpr int terms = 6;  // of a quadratic in two variables
+/// Points that a quadratic needs: three more than terms, or no variance is left to judge it by.
+constexpr std::size_t least_points = 9;
+/// Pivots below this part of the largest one, and variances likewise, are 0: points on a conic or a line have no fit
+/// and keep the plane of 30 points.
+constexpr double singular = 1e-9;
+/// Least cosine to the normal of 30 points. A plane that disagrees more follows noise: on a cube with 1 % noise one
+/// normal in 800 would point inwards.
+constexpr double least_agreement = 0.5;
+/// Squared distances that differ by less than this part count as equal, so that a lattice has one answer in any order.
+constexpr double tie = 1e-9;
 
 /// A surface through some points.
 struct Fit {

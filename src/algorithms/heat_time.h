@@ -12,6 +12,8 @@ namespace tufted {
 /// @throws InvalidInput where heat would go less than a hundredth of these, or where rounding decides: next to the heat
 /// of such a time the areas of points are lost
 inline void checkHeatTime(const std::string& function, double time_step) {
+  // Bounds of the time, in squared distances of neighbours. Below, heat would go a hundredth of the way to the next
+  // point and be rounding there; above, masses are lost beside t L.
   constexpr double shortest = 1e-4, longest = 1e12;
   if (!(time_step > 0 && std::isfinite(time_step)))
     throw InvalidInput(function + ": time_step = " + numberText(time_step) + ", must be finite and above 0");

@@ -19,12 +19,12 @@ constexpr double valid_by_factor = 1e-285, valid_by_iteration = 1e-9;
 /// Heat is right above this many times the greatest heat of the window's last layer. Beyond that layer it is taken for
 /// 0; the error is the square of their ratio.
 constexpr double above_outer = 1e6;
-/// The next round starts at this many times the least heat that is right, so that faces across the front are all right.
+/// The next round starts at this many times the least heat that is right, so that faces across the front are right at
+/// all corners.
 constexpr double front_above_valid = 1e4;
-/// Where short edges leave a window so narrow that its front would lie above this, it is widened.
+/// A window whose front would lie above this part of its greatest heat is widened: short edges have made it too narrow.
 constexpr double highest_front = 1e-3;
-/// The logarithm of heat over that at the front is at most this: points that heat has passed long ago are so hot that
-/// exp would overflow.
+/// The logarithm of heat over that at the front is at most this: exp overflows above 709.
 constexpr double hottest = 600;
 constexpr double nothing = -std::numeric_limits<double>::infinity();
 
@@ -76,6 +76,7 @@ void HeatWindows::scalePassed(const Eigen::VectorXd& factors) {
 
 /// Finds the points ahead by breadth-first search from those that heat flows into.
 void HeatWindows::findWindow() {
+  // Marks a vertex that was visited.
   constexpr int seen = -2;
   window_.clear();
   for (const int i : problem_.components.points) {

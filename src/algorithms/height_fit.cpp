@@ -13,10 +13,10 @@ namespace {
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-/// A pivot below this part of the largest means that a combination of the columns vanishes on all samples.
+/// A pivot below this part of the largest is 0: points on a line or a conic do not determine the quadric.
 constexpr double least_pivot = 1e-9;
 
-/// Some samples at once.
+/// Samples that are added at once, in packets of the processor.
 constexpr int lanes = 4;
 using Lanes = Eigen::Array<double, lanes, 1>;
 

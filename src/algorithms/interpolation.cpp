@@ -24,8 +24,8 @@
 namespace tufted {
 namespace {
 
-/// Parts of the values' range that the last correction may be, for harmonic() and biharmonic(). Bending squares the
-/// condition of the system.
+/// The last correction of harmonic() is at most the first of these parts of the pins' range, that of biharmonic(),
+/// whose system squares the condition, at most the second.
 constexpr double promised = 1e-12, promised_of_bending = 1e-3;
 
 Eigen::MatrixXd finish(const Laplacian& laplacian, Eigen::MatrixXd u, const Stopwatch& watch, SolveReport made,

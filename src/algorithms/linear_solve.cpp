@@ -14,13 +14,15 @@
 namespace tufted {
 namespace {
 
-/// Number of right sides that are solved together, for any number of threads. Each takes as long as among 16, and half
-/// as long as alone.
+/// Right sides that are solved together, for any number of threads: each takes half the time of one alone, and as long
+/// as among 16.
 constexpr Eigen::Index columns_per_block = 8;
 
 /// The most corrections of a solution; rarely more than three are needed.
 constexpr int most_corrections = 10;
-constexpr double negligible = 1e-15;  // of the largest value
+/// A correction below this part of the largest value changes nothing any more.
+constexpr double negligible = 1e-15;
+/// The part of the largest value that rounding alone leaves.
 constexpr double last_digits = 1e-15;
 
 }  // namespace

@@ -24,9 +24,10 @@ constexpr const char* constructor = "LogMapSolver";
 constexpr const char* query_name = "LogMapSolver::query";
 
 /// Directions that lead away from the source start in a ring between these distances from it, in mean distances of
-/// neighbours, with weights that fall to 0 at both of them. Nearer points take their angle from the tangent plane.
+/// neighbours: nearer points are few, and wider rings reach over features.
 constexpr double ring_begin = 2, ring_end = 8;
-/// The least area of a point of the ring, in mean squared distances.
+/// A point of the ring counts with at least this area, in mean squared distances, so that a ring of points without
+/// areas still has directions.
 constexpr double least_area = 1e-3;
 
 /// The weight of a point at this distance from the source.

@@ -12,6 +12,7 @@
 namespace tufted {
 namespace {
 
+/// Cuts of each face at most: three would take 64 times the memory of none.
 constexpr int most_splits = 2;
 /// Points of a surface that is cut twice unless the caller says otherwise: its triangles are coarse, and a query takes
 /// some 30 ms.

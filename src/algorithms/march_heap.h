@@ -61,6 +61,7 @@ class MarchHeap {
   }
 
  private:
+  /// The mark of an entry that is not in the heap, and the children of an entry: four make it half as deep as two.
   static constexpr int absent = -1, children = 4;
 
   void put(const Entry& entry, int place) {

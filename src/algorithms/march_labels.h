@@ -124,12 +124,13 @@ class LabelsOfSeveralSources {
     bool is_frozen = false, goes_on = true;
   };
 
-  /// Sources farther than the nearest one by this many times the longest edge there do not go on. What is left out
-  /// changes distances by a part that falls to a fifteenth with each edge; see docs/algorithm.md.
+  /// A source does not go on from where it is farther than the nearest source by more than this many of the longest
+  /// edges there. Each edge more makes the error a fifteenth.
   static constexpr double reach = 4;
-  /// Nor those that are farther than so many others, as where sources lie side by side.
+  /// A source does not go on either from where so many others are nearer. On grids, squares and tori 2 of 213,600
+  /// distances differ from the least of single marches, by up to 3e-6, with 3, and none by 1e-9 with 5.
   static constexpr int most_nearer = 5;
-  /// Labels of a source that one comes to after another lie side by side, or most would not be in the cache.
+  /// Labels of a source that lie side by side in memory, or most would not be in the cache.
   static constexpr int block = 8;
 
   /// The least distance among the frozen labels of a vertex, infinite if it has none.

@@ -17,7 +17,7 @@
 namespace tufted {
 namespace {
 
-/// A source lies on a side of a face if it is no farther from it than this part of the longest one.
+/// A source nearer to a side than this part of the longest one lies on it, and starts in all faces that meet there.
 constexpr double on_side = 1e-9;
 
 using Plane = std::array<Eigen::Vector2d, 3>;

@@ -14,7 +14,7 @@
 namespace tufted {
 namespace {
 
-/// The part of the sum of a row's terms, of size 1, that a solution may leave over.
+/// The residual of a solution may be this part of the sum of a row's terms.
 constexpr double most_left_over = 1e-10;
 /// How often the solution is corrected.
 constexpr int corrections = 2;

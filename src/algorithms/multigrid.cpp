@@ -15,13 +15,21 @@
 namespace tufted {
 namespace {
 
+/// A level of at most this many rows is the last one, and is factorised.
 constexpr int coarsest_size = 500;
+/// Levels at most, which ends the coarsening whatever the matrix is.
 constexpr int most_levels = 25;
-/// Neighbours are strong if their weight exceeds this part of the mean of the two diagonals; halved per level.
+/// Neighbours are strong if their weight exceeds this part of the geometric mean of the two diagonals; it is halved per
+/// level (Vanek et al.).
 constexpr double strong = 0.08;
-constexpr double least_lumped = 0.1;                // of a diagonal that weak neighbours were added to
-constexpr double least_shrinking = 0.9;             // of the rows, which the next level must have fewer than
-constexpr int largest_direct = 20 * coarsest_size;  // rows of the last level that is factorised
+/// A diagonal to which weak neighbours were added must keep this part of itself, or the row keeps its own: it might
+/// turn negative.
+constexpr double least_lumped = 0.1;
+/// A level with more than this part of the rows of the one before does not pay, and coarsening ends.
+constexpr double least_shrinking = 0.9;
+/// A last level of at most this many rows is factorised, a larger one is smoothed.
+constexpr int largest_direct = 20 * coarsest_size;
+/// Marks a row without strong neighbours.
 constexpr int alone = -1;
 
 /// The matrix without weak off-diagonals, which are added to the diagonal: constants keep their image.
@@ -48,6 +56,7 @@ SparseMatrix filtered(const SparseMatrix& A, double threshold) {
 /// A number for every row, equal within a group of strong neighbours; `alone` where a row has none.
 std::vector<int> aggregate(const SparseMatrix& A, int& count) {
   const int n = static_cast<int>(A.cols());
+  // Marks a row that is in no group yet.
   constexpr int open = -2;
   std::vector<int> group(n, open);
   const auto forNeighbors = [&](int j, const auto& visit) {

@@ -9,7 +9,7 @@
 namespace tufted {
 namespace {
 
-/// Weights up to this share of the smaller diagonal are lost in the rounding of rows.
+/// Weights below this part of the smaller diagonal are lost in the rounding of rows, and join nothing.
 constexpr double least_share = 1e-14;
 
 struct Link {

@@ -53,7 +53,7 @@ std::optional<WeakJoint> weakestJoint(const SparseMatrix& L);
 /// @param lower triangle over `points`
 std::optional<WeakJoint> weakestJoint(const LongMatrix& lower, const std::vector<int>& points);
 
-/// Above this a residual |b - A x| / |b| calls for an explanation.
+/// If the residual |b - A x| / |b| is above this, the report names the two parts that a weak joint separates.
 constexpr double large_residual = 1e-8;
 
 }  // namespace tufted

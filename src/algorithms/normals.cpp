@@ -26,21 +26,25 @@ namespace {
 
 constexpr const char* function_name = "orientedFrames";
 
-/// Planes that meet at less than 45 degrees are one smooth surface, whose normals agree.
+/// Planes that meet at less than 45 degrees belong to one smooth surface: their normals agree as they are, and noise in
+/// the positions cannot turn them.
 constexpr double smooth_cosine = 0.7;
-/// What an edge across a crease counts for, beside one between two points of a smooth surface.
+/// The weight of an edge across a crease, beside 1 for one on a smooth surface: it says less. From 0.25 to 0.8 the same
+/// signs result at all but 0.7 % of the points.
 constexpr double crease_share = 0.5;
-/// A closed component whose normals point out by less than this part of its extent encloses no volume.
+/// A closed component whose normals point outwards by less than this part of its extent encloses no volume but
+/// rounding, and its mean normal decides.
 constexpr double flat_share = 1e-6;
-/// An open sheet that bulges by less than this part of its extent is flat: terrain has at most 0.024, one view of a
-/// body 0.1.
+/// An open sheet, whose mean normal is at least `most_mean` long, is flat if its normals point outwards by less than
+/// this part of its extent: airborne scans have up to 0.024 of either sign, one view of a rabbit 0.1.
 constexpr double flat_share_of_open = 0.05;
-/// Parts of fewer points, by those of the largest of their component, lie within a joint.
+/// A part with fewer points than this share of the largest part of its component lies within a joint.
 constexpr double small_part = 0.05;
-/// Rings of neighbours around normals that disagree, within which bodies that touch are joined.
+/// Rings of neighbours around normals that disagree within which bodies that touch are joined. With 3 half of the
+/// touching spheres stay joined, with 7 the holes are too large.
 constexpr int joint_rings = 5;
-/// A part of a component is a body of its own if its normals point inwards by more than this part of its extent, and
-/// their mean is no longer than this: over a closed surface it is 0.
+/// The normals of a part are turned if they point inwards by more than `body_share` of its extent (a sphere has 0.5)
+/// and their mean is shorter than `most_mean`: a closed surface without joints has 0, half a sphere 0.5.
 constexpr double body_share = 0.1, most_mean = 0.3;
 
 /// Two neighbours.
@@ -85,6 +89,7 @@ class Contraction {
   }
 
   void run(const Workers& workers) {
+    // Pairs of sets between two calls of `progress`.
     constexpr std::size_t between_reports = 65536;
     for (std::size_t count = 0; !queue_.empty(); ++count) {
       if (count % between_reports == 0)

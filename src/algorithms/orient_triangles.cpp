@@ -12,7 +12,8 @@ namespace {
 
 using Corners = std::array<int, 3>;
 
-/// Below this part of its size a component encloses no volume, and its mean normal decides.
+/// A component that encloses less volume than this, for its size, encloses none but rounding, and its mean normal
+/// decides.
 constexpr double flat_share = 1e-6;
 
 /// A side of a triangle, by its ends.

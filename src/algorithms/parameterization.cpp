@@ -25,7 +25,8 @@ namespace tufted {
 namespace {
 
 constexpr const char* function_name = "parameterize";
-/// Charts of whose area more than this collapses are not laid out. Less are needles, and ends of thin spikes.
+/// A chart of whose area a conformal map collapses more than this, as it does of long tubes, is not laid out. Needles
+/// and the ends of thin spikes are less.
 constexpr double most_collapsed = 1e-3;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 

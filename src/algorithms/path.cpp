@@ -24,8 +24,8 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr const char* constructor = "PathSolver";
 constexpr const char* query_name = "PathSolver::path";
-/// A way around a point must be shorter by this part, which is above what lengths round by: or a path would be led to
-/// and fro between two that are equally long.
+/// A way around a point is taken only if it is shorter by this part, which is above rounding: otherwise a path may go
+/// to and fro between two ways for ever.
 constexpr double least_gain = 1e-13;
 /// Shortenings between two calls of `progress`.
 constexpr int between_reports = 64;

@@ -19,7 +19,8 @@ namespace {
 /// A vertex lies on a line if it is no farther from it than this part of the longer side: but for rounding, and, where
 /// the triangle is not found so, but for what mollification has moved it by.
 constexpr std::array<double, 3> on_line = {1e-9, 1e-6, 1e-3};
-/// Nothing fits a triangle better than to this part of the longer side, and no other place is looked for.
+/// A triangle of the cover that fits to within this part of the longer side is the one, and no other place is looked
+/// for.
 constexpr double exact_fit = 1e-9;
 
 void checkGlue(const std::string& function, const IntrinsicTriangulation& cover) {

@@ -25,9 +25,11 @@ namespace tufted {
 namespace {
 
 constexpr const char* function = "pointsWithin";
-/// Faces that flips have moved, or that a point outside has found, may lie beyond the radius by this many spacings.
+/// Faces are gathered up to this many longest edges of the source beyond the radius, as flips move them by one or two.
+/// What is missing is noticed; with 6 a query takes 1.5 times as long.
 constexpr double margin_in_spacings = 3;
-/// The areas around a point, by the faces that were found and by those of the whole cover, agree within this part.
+/// The areas around a point by the faces that were found and by the whole cover agree if they differ by less than this
+/// part: sums run in another order.
 constexpr double same_area = 1e-9;
 
 int checkedSource(const Laplacian& laplacian, int source) {

@@ -14,7 +14,8 @@ using Eigen::MatrixXd;
 
 /// Eigenvalues up to this many times the smallest one are refined by the inverse, which is exact to about 1e-12 there.
 constexpr double range_of_inverse = 1e4;
-constexpr double equal_values = 1e-6;  // parts of an eigenvalue, between it and the next
+/// Eigenvalues that differ by less than this part of themselves are equal and stay together.
+constexpr double equal_values = 1e-6;
 
 /// How many pairs the inverse refines. Equal eigenvalues stay together.
 Index countLow(const VectorXd& values) {

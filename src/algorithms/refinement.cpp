@@ -13,7 +13,8 @@ namespace {
 
 /// The most solves for what is missing; rarely more than two are needed until that is negligible.
 constexpr int most_corrections = 6;
-constexpr double negligible = 1e-15;  // of the values' range
+/// A correction below this part of the range of the values changes nothing any more.
+constexpr double negligible = 1e-15;
 
 Eigen::RowVectorXd norms(const Eigen::MatrixXd& values) {
   Eigen::RowVectorXd result(values.cols());

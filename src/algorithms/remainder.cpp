@@ -14,9 +14,9 @@ using Eigen::MatrixXd;
 /// Values of x below these, relative to the largest in their column and absolute, are so near to underflow that they
 /// have lost digits.
 constexpr double least_part = 1e-290, least_value = 1e-300;
-/// Relaxation takes at most `most_sweeps` sweeps, and gives up if it would take `many_rows` rows and more than a tenth
-/// of all.
+/// Sweeps of relaxation at most; after that a correction by the factor is cheaper.
 constexpr int most_sweeps = 30;
+/// Relaxation gives up if more rows than this, and more than a tenth of all, would need it: the factor is asked again.
 constexpr std::size_t many_rows = 100;
 
 using Column = Eigen::Ref<const VectorXd>;

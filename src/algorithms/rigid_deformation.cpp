@@ -13,13 +13,14 @@
 namespace tufted {
 namespace {
 
-/// A step is taken if the energy falls by this part of what the force promises; otherwise it is halved, so often at
-/// most.
+/// A step is taken if the energy falls by this part of what the force promises (the usual value, Nocedal and Wright).
 constexpr double least_descent = 1e-4;
+/// A step is halved so often at most: a direction that needs a step below 1/4096 leads nowhere.
 constexpr int most_halvings = 12;
-/// The energy may rise by this part of itself, or it could not be told whether the last steps descend.
+/// The energy may rise by this part of itself, some roundings of the sum, or it could not be told whether the last
+/// steps descend.
 constexpr double rounding = 1e-14;
-/// Edges of no length leave a turn free. This part of the mean resistance holds it.
+/// This part of the mean resistance holds the turn of a point whose edges have no length, and changes no other.
 constexpr double least_resistance = 1e-6;
 
 /// Second derivatives of the energy by the turns, with the places held. A turn about an axis across an edge of length l

@@ -21,6 +21,7 @@ namespace tufted {
 namespace {
 
 constexpr const char* function_name = "segments";
+/// Segments where the caller asks for no number, if there are as many points.
 constexpr int usual_count = 8;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 

@@ -23,7 +23,7 @@ constexpr const char* constructor = "SignedDistanceSolver";
 constexpr const char* query_name = "SignedDistanceSolver::query";
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// The part of the memory for factors that those of the heat get; the other one is that of L.
+/// The part of the memory for factors that the two of the heat get, for scalars and vectors; that of L gets the rest.
 constexpr double heat_share = 0.75;
 
 std::size_t shareOf(std::size_t bytes, double share) {

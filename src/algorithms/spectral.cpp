@@ -31,6 +31,7 @@ Index firstPositive(const Spectrum& spectrum, const char* function) {
 
 /// Weighted sums of phi_i(x)^2, one column of weights per result.
 MatrixXd sumSquares(const Eigen::Ref<const MatrixXd>& vectors, const MatrixXd& weights) {
+  // Rows of tall matrices that stay in cache.
   constexpr Index rows_per_block = 1024;
   MatrixXd result(vectors.rows(), weights.cols());
   for (Index begin = 0; begin < vectors.rows(); begin += rows_per_block) {
@@ -60,6 +61,7 @@ VectorXd logarithmic(double low, double high, int count) {
 VectorXd heatTimes(const Spectrum& spectrum, int count) {
   if (count < 1) throw InvalidInput("heatTimes: count = " + std::to_string(count) + ", must be at least 1");
   const Index first = firstPositive(spectrum, "heatTimes");
+  // Times of heat kernel signatures end where the last wave has fallen by 1e-4.
   constexpr double decay = 4 * std::numbers::ln10;
   return logarithmic(decay / spectrum.values[spectrum.values.size() - 1], decay / spectrum.values[first], count);
 }

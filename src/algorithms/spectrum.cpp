@@ -33,9 +33,10 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// Up to so many points dense matrices are always used. Measured on tori of 100 to 2,000 points, they are faster from a
-/// share of wanted pairs of 0.15 at 200 points, 0.25 at 500 and 0.35 at 2,000; always at 100.
+/// Up to so many points dense matrices are always used: at 100 points they are faster for any number of pairs.
 constexpr Index small_space = 150;
+/// Above this share of wanted pairs dense matrices are used too. On tori they are faster from 0.15 at 200 points, 0.25
+/// at 500 and 0.35 at 2,000.
 constexpr double large_share = 0.3;
 
 void checkLaplacian(const std::string& function, const Laplacian& laplacian) {

@@ -10,7 +10,8 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double at_target = 1e-9;  // of the length
+/// A piece ends at a vertex if it misses it by less than this part of its length.
+constexpr double at_target = 1e-9;
 
 /// A side that the way leaves a face through, in the plane.
 struct Exit {

@@ -22,9 +22,10 @@ namespace tufted {
 namespace {
 
 constexpr const char* function_name = "surfaceTriangles";
-/// Faces of the cover, front and back, of a triangle that two corners have.
+/// Faces of the cover that a triangle of at least two stars has, front and back of each.
 constexpr int least_faces = 4;
-/// Triangles at a point that are no candidates and close holes, at most.
+/// Triangles at a point that close holes at most; they are in no star, so room is kept for them. More holes at one
+/// point stay open.
 constexpr int most_closing = 4;
 /// Triangles between two calls of `progress`.
 constexpr std::int64_t between_reports = 65536;

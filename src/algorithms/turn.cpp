@@ -15,9 +15,11 @@
 namespace tufted {
 namespace {
 
-/// Angles that miss half a circle by less are straight.
+/// Angles that miss half a circle by less than this, in radians, are straight.
 constexpr double straight = 1e-9;
-constexpr int most_faces_by_doors = 8;  // of a piece
+/// Faces that are looked at per triangle of a piece that is laid through others; two at an edge are usual, three next
+/// to flips.
+constexpr int most_faces_by_doors = 8;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// An edge at a point. One that leads back to it is there twice, by its ends.

@@ -18,10 +18,11 @@ namespace {
 
 /// A mass that is less than this part of its row of L is lost when the two are added.
 constexpr double least_mass = 1e-13;
-/// The part of the largest heat down to which it is used: of a factor, whose solutions are accurate relative to their
-/// own size; and of conjugate gradients, which are accurate relative to the largest.
+/// Heat is used down to this part of the largest: by a factor, right relative to itself, half the range of a double, as
+/// squares are taken; by conjugate gradients, whose tolerance is relative to the largest, six digits above it.
 constexpr double front_of_factor = 1e-150, front_of_iterations = 1e-6;
-/// The tolerance of conjugate gradients for heat, which is used far below its largest value.
+/// The tolerance of conjugate gradients for heat: near the best that they reach, as heat is used far below its largest
+/// value.
 constexpr double heat_tolerance = 1e-12;
 /// The part of the memory that the factor for scalars may take; that for vectors has four times the entries.
 constexpr double scalar_share = 0.2;

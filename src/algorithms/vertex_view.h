@@ -15,7 +15,7 @@ namespace tufted {
 /// A triangle as seen from the corner that is nearest to a point inside it.
 struct Wedge {
   /// Corners that are seen from another are those of the triangle if they lie where its lengths put them, up to this
-  /// part of the longer side. Mollification moves them by far less.
+  /// part of the longer side; the best of several is taken. Mollification moves them by far less.
   static constexpr double same_triangle = 1e-2;
 
   int corner;                    ///< the one it is seen from

@@ -11,9 +11,9 @@ namespace tufted {
 
 /// How many points or faces a thread takes at a time, by how much it does for each: enough to outweigh taking them, few
 /// enough that there are blocks for many threads.
-constexpr std::int64_t costly_block = 256;  ///< where each may take a tenth of a millisecond
-constexpr std::int64_t star_block = 1024;   ///< points whose lists of neighbours stay in the second-level cache
-constexpr std::int64_t usual_block = 4096;
+constexpr std::int64_t costly_block = 256;      ///< where each may take a tenth of a millisecond
+constexpr std::int64_t star_block = 1024;       ///< points whose lists of neighbours stay in the second-level cache
+constexpr std::int64_t usual_block = 4096;      ///< enough work for a thread, and enough blocks for many
 constexpr std::int64_t cheap_block = 8192;      ///< where each takes little work
 constexpr std::int64_t cheapest_block = 16384;  ///< where each takes a few operations
 

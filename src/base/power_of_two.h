@@ -26,6 +26,7 @@ class PowerOfTwo {
 
 /// The largest power of two that is not above |x|, but at least 2^-1022, so that its inverse is a double too.
 inline double magnitudeOf(double x) {
+  // The exponent of a double.
   constexpr std::uint64_t exponent_bits = 0x7FF0000000000000;
   const auto power = std::bit_cast<double>(std::bit_cast<std::uint64_t>(x) & exponent_bits);
   return power > 0 ? power : 0x1p-1022;

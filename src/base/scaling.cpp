@@ -11,11 +11,17 @@
 namespace tufted {
 namespace {
 
-constexpr double farthest_spreads = 1e70;   // in median spreads; squares and fourth powers of it still fit a double
-constexpr double largest_distance = 1e152;  // in the caller's unit; an area still fits a double
+/// Points farther than this, in median spreads, count as not finite: squares and fourth powers of scaled coordinates
+/// must fit a double.
+constexpr double farthest_spreads = 1e70;
+/// Largest distance in the caller's unit: an area, its square, must fit a double.
+constexpr double largest_distance = 1e152;
 
-constexpr std::int64_t samples = 2048;  // values, near whose median that of all lies
-constexpr std::ptrdiff_t beside = 100;  // of the sorted samples: four deviations of their median's place
+/// Values near whose median that of all lies; one pass then leaves a tenth of all values to choose from.
+constexpr std::int64_t samples = 2048;
+/// Sorted samples on either side of their median, four standard deviations of its place; if the median of all is not
+/// between them, all values are looked at.
+constexpr std::ptrdiff_t beside = 100;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 

@@ -11,7 +11,7 @@ namespace tufted {
 /// @param scratch overwritten where there are more than 32 values
 template <class T, class Less>
 void stableSort(T* first, T* last, Buffer<T>& scratch, const Less& less) {
-  constexpr std::ptrdiff_t run = 32;  // by insertion
+  constexpr std::ptrdiff_t run = 32;  // numbers that are sorted by insertion
   const std::ptrdiff_t size = last - first;
   for (std::ptrdiff_t begin = 0; begin < size; begin += run) {
     T* const start = first + begin;

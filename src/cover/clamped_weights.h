@@ -6,7 +6,8 @@
 
 namespace tufted {
 
-/// Negative weights up to this share of the larger diagonal are rounding.
+/// Negative weights up to this share of the larger diagonal are rounding; an edge that is Delaunay within `flip_below`
+/// cannot have more.
 constexpr double weight_rounding = 1e-9;
 
 /// Counts the negative weights that are left out of L.

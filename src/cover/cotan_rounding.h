@@ -5,8 +5,8 @@
 
 namespace tufted {
 
-/// Share of the smaller cotangent by which the sum of two at an edge may miss 0. The weight is then within 5e-10 of a
-/// diagonal, half of what counts as rounding there.
+/// The sum of two cotangents may miss 0 by this share of the smaller one. The weight is then within 5e-10 of a
+/// diagonal, half of `weight_rounding`; of 300 meshes of needles no edge flips there and back for ever.
 constexpr double cotan_tolerance = 5e-10;
 
 /// Whether the sum of two cotangents is further below 0 than `tolerance` and rounding, which grows with them.

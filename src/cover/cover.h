@@ -15,6 +15,7 @@
 
 namespace tufted {
 
+/// Stands for the mate of a side that is not glued yet.
 constexpr int unglued = -1;
 /// Sides have int numbers: 6 per triangle under the cover.
 constexpr std::int64_t most_triangles = INT32_MAX / 6;

@@ -16,7 +16,9 @@
 
 namespace tufted {
 
-constexpr double flip_below = -1e-10;  // on cot + cot; ties of cocircular quadrilaterals stay
+/// An edge is flipped if cot + cot is below this: four points on a circle stay as they are, and rounding of well-shaped
+/// faces is far smaller.
+constexpr double flip_below = -1e-10;
 
 /// Equation 2, but for rounding, which could flip an edge there and back for ever. An edge with both sides in one
 /// triangle is Delaunay: its two opposite angles sum to less than pi. So is one without an obtuse angle, which takes no
@@ -51,6 +53,7 @@ auto flippedLength(const Triangulation& t, int side, int mate) {
 /// rounding that in the last bit changes its cotangent by about epsilon cot^3. The shorter the edge, the more Delaunay.
 template <class Real>
 Real delaunayLength(Real length, const std::array<Real, 4>& outer) {
+  // A flipped edge is shortened by at most so many last bits, 2^-42 of its length.
   constexpr int most_ulps = 1024;
   const auto isFine = [&outer](Real l) {
     return !(cotanNumerator(l, outer[0], outer[1]) < 0 || cotanNumerator(l, outer[2], outer[3]) < 0) ||
@@ -152,8 +155,8 @@ class RangeFlipper {
   }
 
  private:
-  // In exact arithmetic flips end. Rounding might make some go in circles, which this ends: a place is flipped at most
-  // once in a round, and 300 times in all on the longest fans that were tried.
+  // In exact arithmetic flips end; this ends what rounding might make go in circles. A place is flipped at most once
+  // in a round, and 300 times in all on the longest fans that were tried.
   static constexpr int most_rounds = 1 << 16;
   static constexpr std::int64_t report_every = 1 << 16;  // flips
 
@@ -197,6 +200,7 @@ class RangeFlipper {
 ///   flipped(int side, int mate)             hears of each flip
 template <class Cover>
 FlipCounts flipEdges(Cover& cover, const Workers& workers) {
+  // Blocks of one round are joined by so many for the next.
   constexpr std::int64_t growth = 8;
   Buffer<std::array<Buffer<int>, 2>> queues(workers.count());
   Buffer<Buffer<int>> left;

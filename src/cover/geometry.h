@@ -74,6 +74,7 @@ struct UnitFace {
   double area() const { return triangleArea(length[0], length[1], length[2]); }
   /// Whether a length lies so near the smallest double that it has fewer digits than others: below 2^-970, 1e-292.
   bool isCoarse() const {
+    // Lengths below 1e-292 have lost digits, and validate() does not judge their faces.
     constexpr double smallest = 0x1p-970;
     return std::any_of(length.begin(), length.end(), [this](double l) { return l > 0 && l * unit < smallest; });
   }

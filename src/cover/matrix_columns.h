@@ -121,7 +121,8 @@ class MatrixColumns {
   }
 
  private:
-  static constexpr int ahead = 16;  // columns
+  /// Columns that are fetched before their turn (matrices of a million points: 0.5 to 0.4 s).
+  static constexpr int ahead = 16;
 
   /// What is found in one block of vertices.
   struct Block {

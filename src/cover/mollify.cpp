@@ -10,7 +10,9 @@
 namespace tufted {
 namespace {
 
-constexpr double enough_slack = 2 * flat_slack;  // so that rounding cannot make a face flat again
+/// A flat face gets this slack, in its longest side: twice that of a flat one, so that rounding cannot make it flat
+/// again.
+constexpr double enough_slack = 2 * flat_slack;
 
 }  // namespace
 

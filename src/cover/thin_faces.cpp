@@ -14,11 +14,14 @@
 namespace tufted {
 namespace {
 
-/// A face with less slack than this, in its longest side, is thin: rounding of lengths in double is 1e-8 of its area.
+/// A face with less slack than this part of its longest side is thin, and is flipped in long double; with more,
+/// rounding of lengths in double is at most 1e-8 of the area.
 constexpr double thin_slack = 0x1p-26;
-/// The length of an edge between vertices that coincide while thin faces are flipped, in the longest side.
+/// The length of an edge between vertices that coincide while thin faces are flipped, in the longest side: without
+/// weight in an area, and far above rounding in long double.
 constexpr double short_enough = 0x1p-40;
-/// The slack, in the longest side, of which rounding may be all: positions on a line are that in doubles only.
+/// The slack, in the longest side, of which rounding may be all: corners on a line are on it in doubles only, so such a
+/// face is made exactly flat.
 constexpr long double straight_slack = 32 * std::numeric_limits<long double>::epsilon();
 
 /// A cover with lengths in long double, whose faces and glue are those of another.

@@ -10,8 +10,12 @@
 namespace tufted {
 namespace {
 
-constexpr std::uint64_t few = 32;  // points by centres of the first look
-constexpr std::size_t behind = 2;  // nearest points that a centre comes before
+/// One point in so many is a centre of the first look, which takes 0.55 us per point of an exact sphere, a fifth of a
+/// clean build.
+constexpr std::uint64_t few = 32;
+/// A centre comes before so many of its nearest points. With 1, 2, 3 and 4 real shapes with noise of 0.3 spacings keep
+/// 0.157, 0.159, 0.161 and 0.164 of it.
+constexpr std::size_t behind = 2;
 
 /// A number that depends on the place of p alone, and not on its scale by powers of two.
 std::uint64_t hashOf(const PointsView& points, int p) {

@@ -18,7 +18,8 @@ namespace tufted {
 template <class Visit>
 void forEachListed(const PointsView& points, const NeighborSearch& search, std::span<const int> ranks, int k,
                    const Visit& visit) {
-  constexpr std::size_t together = 32;  // points whose neighbours stay in cache
+  // Points that are searched for at once: their neighbours stay in cache.
+  constexpr std::size_t together = 32;
   BatchScratch scratch;
   Buffer<Neighbor> found;
   const auto row = static_cast<std::size_t>(std::min(k, static_cast<int>(points.rows()) - 1));

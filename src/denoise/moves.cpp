@@ -14,11 +14,15 @@ namespace {
 /// An outlier lies so many sigmas and spacings off the surface of its neighbours. Of normal noise one point in a
 /// million is that many sigmas off; nearer ones than a spacing do little harm.
 constexpr double outlier_sigmas = 5, outlier_spacings = 1;
-constexpr double reach_squared = 1.2;  // of points that a fit has a say on, by the square of its radius
-constexpr double most_excess = 2;      // see excessOf(): with so much a fit counts less by e
-/// Noise draws fits towards the centre of curvature: by 2 times its variance times the mean curvature, that is, by this
-/// times the sum of second-order coefficients, as eigenvalues of real shapes say; spheres alone ask for less.
+/// A fit moves points up to this many squared radii from its centre, so that fits of the faces reach a crease. With
+/// 0.75, 0.9, 1.1 and 1.4 real shapes keep 0.158, 0.157, 0.156 and 0.156 of noise of 0.3 spacings.
+constexpr double reach_squared = 1.2;
+/// The weight of a fit falls by e for so much excess, see excessOf(). With 1, 1.5 and 3 the results are the same.
+constexpr double most_excess = 2;
+/// Noise draws fits inwards by about this times its variance times the mean curvature, and points are put back by it.
+/// With 1 eigenvalues of real shapes are off by 3.5e-2, with 2 by 3.3e-2; those of a sphere by 1.9e-3 and 2.6e-3.
 constexpr double taken_back = 2;
+/// If the weights of all surfaces sum to less than this, it is rounding, and the point stays.
 constexpr double least_weight = 1e-12;
 
 /// Moves points onto the mean of the surfaces of fits around them.

@@ -10,25 +10,44 @@
 namespace tufted {
 namespace {
 
-constexpr double least_noise = 0.01;  // of the spacing: less does nothing to a Laplacian
-constexpr int least_fits = 9;         // of a pool
-constexpr double thick = 0.15;        // smallest by middle variance: three sigmas of noise
-constexpr int widest = sizes - 2;     // of the sizes whose errors are compared with the next
-constexpr double thinner = 0.8;       // by four times as many: 1/4 where noise makes it thick, 1 where shape does
-/// Errors grow by less than this from one size of fits to the next where there is hardly anything but noise; by less
-/// than the second where they are `rough` spacings, which no triangulation could tell from noise; not at all where they
-/// are `too_rough` times as large: trees and bushes look like noise as well, but never quite.
+/// Noise below this part of the spacing does nothing to L, and the points stay.
+constexpr double least_noise = 0.01;
+/// If fewer fits of a pool are valid, their mean error is unknown.
+constexpr int least_fits = 9;
+/// Where the smallest variance of a window exceeds this part of the middle one, it is narrower than three sigmas of
+/// noise, and its plane is not reliable.
+constexpr double thick = 0.15;
+/// The last of the sizes whose errors are compared with those of the next.
+constexpr int widest = sizes - 2;
+/// A thick window holds noise if one with four times as many points has less than this of its thickness: 1/4 where
+/// noise makes it thick, 1 where shape does. With 0.55 noise of 1.4 spacings on a sphere is missed.
+constexpr double thinner = 0.8;
+/// Errors are noise if they grow by less than `white_growth` from one size of fits to the next (detail: 2.6 and more),
+/// by less than `rough_growth` where they are `rough` spacings, not at all at `too_rough` times that, as in trees.
 constexpr double white_growth = 1.3, rough_growth = 2.3, rough = 0.4, too_rough = 2;
-constexpr double least_even = 0.25;  // of squared errors, the median by the mean: .45 of white noise, less at creases
-constexpr double detail_growth = 3;  // of errors where there is no noise
-constexpr double least_noisy = 0.2;  // of the errors, the part that is noise
-constexpr double share = 0.4;        // of the points around, that have white errors where there is noise
-/// Bounds of the share of neighbours within half the distance: 1/2 along a curve, 1/4 on a surface, 1/8 in a volume.
+/// The median of the squared errors is at least this part of their mean where there is noise: white noise has 0.45, a
+/// pool beside a crease less. Below 0.2 points of an exact cube move.
+constexpr double least_even = 0.25;
+/// Factor by which errors grow where there is no noise, about.
+constexpr double detail_growth = 3;
+/// Noise is at least this part of the errors. With 0.5 the results are the same.
+constexpr double least_noisy = 0.2;
+/// There is noise at a centre if this share of its pool has white errors. From 0.3 to 0.5 the results are the same.
+constexpr double share = 0.4;
+/// Of the neighbours, the share within half the distance is 1/2 along a curve, 1/4 on a surface, 1/8 in a volume: more
+/// than the first is a curve, less than the second a volume. With 0.155 points beside the faces of volumes moved.
 constexpr double curve_share = 0.41, volume_share = 0.185;
+/// In a volume the smallest variance also exceeds this part of the middle one. With 0.45 thin parts of noisy shapes
+/// were taken for volumes.
 constexpr double volume_thickness = 0.5;
-constexpr double none_share = 0.2;   // of the points around, that see no surface where there is none
-constexpr double white_error = 1.3;  // of errors by the variance of the noise, what chance makes of white noise
-constexpr double by_chance = 1;      // standard deviations of the residuals' variance: more shows a crease
+/// If more than this share of the pool sees no surface, there is none. With 0.25 two of 1,000 points in a cube move.
+constexpr double none_share = 0.2;
+/// Errors above this many times the variance of the noise are bias; chance makes as much of white noise. With 1.2 and
+/// 1.5 the results are the same.
+constexpr double white_error = 1.3;
+/// Residuals that exceed the noise by more than so many standard deviations show a crease, and a smaller fit is taken.
+/// With 2 a cube with 1 % noise has errors of 1.4e-2 instead of 1.2e-2.
+constexpr double by_chance = 1;
 constexpr double unknown = std::numeric_limits<double>::infinity();
 
 /// By how much the surface over a point changes from the next smaller size.

@@ -9,9 +9,12 @@
 namespace tufted {
 namespace {
 
+/// Coefficients of a quadratic in two variables.
 constexpr int coefficients = 6;
+/// Points that a fit needs: three more than coefficients, or no residual is left to judge it by.
 constexpr int least_points = 9;
-constexpr double smallest_pivot = 1e-9;  // of the largest
+/// A pivot below this part of the largest is rounding: points on a conic determine no quadratic.
+constexpr double smallest_pivot = 1e-9;
 
 /// Writes the sums into one lane of the systems.
 void put(const HeightMoments& moments, int lane, HeightSystems& systems) {

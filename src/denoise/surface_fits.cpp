@@ -16,11 +16,14 @@
 namespace tufted {
 namespace {
 
-/// A fit with more leverage passes through its point and says nothing about it. Inside a surface the leverage of the
-/// smallest fit is about .3.
+/// A fit with more leverage than this passes through its point and says nothing about it. Inside a surface a fit to 16
+/// points has 0.3.
 constexpr double most_leverage = 0.9;
-constexpr double gap = 0.35;  // of the radius, between heights of one sheet
-constexpr int measured = 64;  // neighbours that tell the spacing, and a curve or volume from a surface
+/// Heights farther apart than this part of the radius belong to two sheets. With 0.25 and 0.5 the results are the same.
+constexpr double gap = 0.35;
+/// Neighbours that give the spacing and tell a curve or a volume from a surface. Of 128 some belong to other strands of
+/// a knot.
+constexpr int measured = 64;
 
 /// Makes fits around one point after the other; memory of one worker.
 class SurfaceFitter {

@@ -53,6 +53,7 @@ struct LocalSurface {
 
 /// Surfaces around the centres.
 struct SurfaceFits {
+  /// Centres in a pool, which is about 100 points; their mean error is uncertain by a quarter.
   static constexpr int most_pooled = 32;
 
   Centers centers;

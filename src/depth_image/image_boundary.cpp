@@ -8,8 +8,10 @@
 namespace tufted {
 namespace {
 
-constexpr double farthest = 2;  // times the longest edge, in pixels
-constexpr int least_reach = 3;  // pixels
+/// Pixels farther than this many times the longest edge, in pixels, do not bound a gap, as in stars/boundary.cpp.
+constexpr double farthest = 2;
+constexpr int least_reach = 3;  // pixels that are looked through at least, as a window reaches
+/// Pixels that are looked through at most, as the largest star of an exact image reaches.
 constexpr int most_reach = 12;
 
 /// Looks through the gaps between a point's triangles.

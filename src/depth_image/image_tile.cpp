@@ -10,7 +10,9 @@
 namespace tufted {
 namespace {
 
-constexpr double steepest_slope = 0.25;  // of the inverse range with a row or column; more is no surface
+/// A change of the inverse depth by more than this part of it per pixel is no surface; a road seen at 1.7 degrees by
+/// rings 0.4 degrees apart has it.
+constexpr double steepest_slope = 0.25;
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 /// How a step is reached: whether by a step down or by its inverse, and over which pixels one ring further in.

@@ -18,8 +18,10 @@ void transposeBits(std::array<std::uint64_t, 64>& words);
 /// A part of a depth image, and which pixels around each of its own are of one surface with it.
 class ImageTile {
  public:
-  static constexpr int halo = WindowPixels::reach;            ///< pixels around that windows of the part reach
-  static constexpr int rows = 32, columns = 56;               ///< whole packets, and with the halo the bits of a word
+  static constexpr int halo = WindowPixels::reach;  ///< pixels around that windows of the part reach
+  /// A tile stays in the second-level cache; its columns are seven packets and, with what windows reach, the bits of a
+  /// word.
+  static constexpr int rows = 32, columns = 56;
   static constexpr int steps_down = WindowPixels::count / 2;  ///< to a later pixel of the image; the others are inverse
 
   /// Takes a part of the image with all steps between its pixels.

@@ -14,11 +14,19 @@
 namespace tufted {
 namespace {
 
-constexpr std::int64_t most_pixels = 1 << 24;  // of an image that holds few points
+/// An image may have so many pixels however few points it holds.
+constexpr std::int64_t most_pixels = 1 << 24;
+/// A larger one must hold a point in so many pixels, so that rows and columns that are no image are refused before
+/// memory is taken.
 constexpr std::int64_t pixels_per_point = 64;
-constexpr std::int64_t axis_samples = 2000;  // rays that the axis is found by
-constexpr double most_aside = 0.05;          // of the points may lie elsewhere than in front of the camera
-constexpr double least_depth = 0.2;          // of the range: no pinhole camera sees farther aside than 78 degrees
+/// Rays, which have no noise, that the axis of the camera is found by.
+constexpr std::int64_t axis_samples = 2000;
+/// If more than this share of the points lies elsewhere than in front of the camera, there is none; as many may be off
+/// its rays.
+constexpr double most_aside = 0.05;
+/// Depth over range that a ray has at least, 78 degrees aside: beyond, the depths of all points would be nearly the
+/// same.
+constexpr double least_depth = 0.2;
 
 /// The rows or the columns of an image that hold points, numbered without the empty ones.
 class Lines {

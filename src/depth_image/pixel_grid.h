@@ -19,6 +19,7 @@ namespace tufted {
 /// which every fourth row and column was kept is as good as a whole one. A margin goes around: without points, but to
 /// the left and right of an image that goes round it repeats what lies beyond the seam.
 struct PixelGrid {
+  /// Pixels without points around the image, so that no window leaves it.
   static constexpr int margin = 3;
 
   int rows = 0, columns = 0;                   ///< with margins

@@ -10,17 +10,31 @@
 namespace tufted {
 namespace {
 
-constexpr double harmless = 1e-4;   // of the squared spacing; a hundredth of it does not matter for L
-constexpr double rounding = 1e-10;  // of an inverse depth; less is no noise, as from a sensor that is far away
-constexpr double most_misfit = 3;   // variance of residuals, in variances of the noise
+/// Noise whose variance is below this part of the squared spacing does nothing to L, and is left.
+constexpr double harmless = 1e-4;
+/// Noise below this part of the inverse depth is rounding, as from a sensor far away, and is left.
+constexpr double rounding = 1e-10;
+/// A fit whose residuals have more than this many variances of the noise is not taken. With 1.5 an office has 67
+/// instead of 68 % of its triangles from all three corners: neighbouring pixels of real cameras have the same noise.
+constexpr double most_misfit = 3;
 // Values that were smoothed before have bounds of their own, in the variance that their noise is expected to leave.
-constexpr double most_misfit_apart = 8;           // of a quadratic over 7 x 7 or 5 x 5 values
-constexpr double most_misfit_of_planes = 4;       // of planes over a part of either
-constexpr double further_share = 1.0 / 8;         // of the variance that a fit to values apart leaves
-constexpr double further_share_nearer = 1.0 / 4;  // over 5 x 5
-constexpr int least_of_wide = 20;                 // pixels of a plane over 7 x 7, that of p included
-constexpr int least_of_narrow = 12;               // over 5 x 5
-// A surface at an edge is steep by both: change per pixel, in variances of the noise, and in squares of the spacing.
+
+/// The most variance that residuals of a quadratic over 7 x 7 or 5 x 5 such values may have. With 16 a room in steps
+/// has 3.2 instead of 2.6 % of its area off, with 4 a ball in steps has normals off by 0.56 instead of 0.34 degrees.
+constexpr double most_misfit_apart = 8;
+/// The most variance that residuals of a plane over a part of a window of such values may have. With 8 points of a ball
+/// are off by 0.24 instead of 0.21 mm, with 2 a room has 9 instead of 4 % too much area.
+constexpr double most_misfit_of_planes = 4;
+/// The part of the variance of the values that a fit to 7 x 7 of them is taken to leave; a quadratic leaves 0.1.
+constexpr double further_share = 1.0 / 8;
+/// The part of the variance of the values that a fit to 5 x 5 of them is taken to leave; a quadratic leaves 0.15.
+constexpr double further_share_nearer = 1.0 / 4;
+/// Pixels that a plane over a part of 7 x 7 needs, its own included: two fifths.
+constexpr int least_of_wide = 20;
+/// Pixels that a plane over a part of 5 x 5 needs: half.
+constexpr int least_of_narrow = 12;
+// A plane at an edge is too steep if its squared change per pixel exceeds `steep_by_noise` variances of the noise,
+// twice what noise makes, and `steep_by_spacing` squared spacings, which is 63 degrees.
 constexpr double steep_by_noise = 2, steep_by_spacing = 4;
 
 /// Variance of the value in the middle, by that of each pixel.

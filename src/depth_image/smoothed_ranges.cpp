@@ -15,18 +15,35 @@
 namespace tufted {
 namespace {
 
-constexpr std::array<int, 4> strides = {3, SmoothedRanges::widest_stride, 5, 2};  // pixels apart, pass by pass
-constexpr double harmless = 0.0004;       // of the squared spacing: a fiftieth of it in noise
-constexpr std::int64_t samples = 500;     // packets of pixels, to see what noise smoothed values have
-constexpr double quiet = 0.25;            // of the windows have nothing but noise
-constexpr double usual = 0.75;            // of the windows are of one surface
-constexpr double most_to_usual = 2;       // times the variance that noise leaves, in these
-constexpr double left_at_first = 1;       // of the variance of the noise, at most, once it was smoothed
-constexpr double least_of_white = 0.012;  // of that variance, by fits to neighbouring pixels that were smoothed: less
-                                          // is left of the steps of a coarse depth
+/// Pixels between the values of a fit, pass by pass: 19 and 55 pixels wide, as a wall 8 m away has noise of 12
+/// spacings, then 31 and 13. With 3, 9, 4 an office has 79.9 instead of 82.1 % of triangles from all corners.
+constexpr std::array<int, 4> strides = {3, SmoothedRanges::widest_stride, 5, 2};
+/// Values stay if their variance is below this part of the squared spacing, noise of 1/50 of it. With 1/20 normals are
+/// off by 0.17 instead of 0.07 degrees, with 1/100 a wall behind a ball by 0.64 instead of 0.53 mm.
+constexpr double harmless = 0.0004;
+/// Packets of eight pixels that tell what noise smoothed values have; 2,000 tell the same.
+constexpr std::int64_t samples = 500;
+/// The quantile of what fits leave over that is noise alone, as half of the windows may hold a crease.
+constexpr double quiet = 0.25;
+/// The quantile that holds the steps of a coarse depth, which most windows of a terrace have not. Without it a room in
+/// steps of 1/8 has 23 instead of 2 % too much area.
+constexpr double usual = 0.75;
+/// The most that quantile `usual` may exceed `quiet` by, as a factor, where there is noise alone: white noise has 1.5,
+/// real cameras 2 to 3. With 3 a room in steps has 1.7 instead of 0.8 % too much area.
+constexpr double most_to_usual = 2;
+/// The first pass expects at most this part of the variance of the noise, and none expects more than the one before.
+constexpr double left_at_first = 1;
+/// White noise leaves at least this part of its variance in the quiet windows after one smoothing (0.016 to 0.018), the
+/// steps of a coarse depth on a ball leave less (0.008).
+constexpr double least_of_white = 0.012;
 // White noise is known and not estimated: half of what fits leave of it bounds shapes more closely.
-constexpr double left_of_white = 0.03;  // of its variance, once it was smoothed
-constexpr double share_of_white = 0.4;  // of the variance of smoothed values
+
+/// Part of the variance of the noise that a pass expects fits to leave at most, half of what the first leaves: with
+/// more, rims are cut off.
+constexpr double left_of_white = 0.03;
+/// Part of the variance of the smoothed value that it expects, half of the 0.8 that each pass leaves. With 0.8 a room
+/// has 35 instead of 22 edges across jumps, with 0.3 it has 4.5 instead of 3.7 % of its area off.
+constexpr double share_of_white = 0.4;
 
 /// Calls work(row, worker) for all rows, those of the border too.
 template <class Work>

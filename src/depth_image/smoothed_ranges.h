@@ -16,10 +16,13 @@ namespace tufted {
 /// Inverse depths without noise, pixel by pixel; see PixelGrid::depthOf(). A border goes around the image, as wide as
 /// any window reaches.
 struct SmoothedRanges {
-  static constexpr int widest_stride = 9;  ///< pixels between the values of a window
+  /// Pixels between the values of the widest window, that of the second pass.
+  static constexpr int widest_stride = 9;
   static constexpr int border = WindowPixels::reach * widest_stride;
-  static constexpr double steepest = 4;   ///< pixels along the line of sight for one across
-  static constexpr double tolerance = 2;  ///< standard deviations of noise between two smoothed values
+  /// Pixels along the sight for one across, 76 degrees; steeper surfaces are not smoothed again.
+  static constexpr double steepest = 4;
+  /// Values of one surface differ by at most so many standard deviations of the noise and a slope.
+  static constexpr double tolerance = 2;
 
   int rows = 0, columns = 0;          ///< of the grid
   bool goes_round = false;            ///< as the grid

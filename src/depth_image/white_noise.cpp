@@ -12,13 +12,16 @@
 namespace tufted {
 namespace {
 
+/// Pixels, of which a quarter or more is looked at: the share of pairs is then off by 0.006.
 constexpr std::int64_t samples = 32000;
 /// Only this share of the pixels is looked at, where fits left the least variance. Where shape left more, neighbours
-/// lie on one side of the surface.
+/// lie on one side of the surface: of a relief of squares 20 pixels wide and 4 sigma high all pixels have 0.54.
 constexpr double quiet = 0.25;
-constexpr double alike = 1 + 1e-9;  // variances that differ by rounding
-/// Noise is white if this share of neighbours lies on one side of the surface. It has .47 about a quadratic over 7 x 7
-/// pixels and .5 about the surface itself.
+/// Variances that differ by less than this factor are equal: most fits leave no more than the noise, and are taken for
+/// that.
+constexpr double alike = 1 + 1e-9;
+/// Noise is white if a share of neighbours between these lies on one side of the surface: white noise has 0.46 to 0.50,
+/// real cameras have 0.62 to 0.73, coarse depths 0.74 and more, waves of 10 and 12 pixels 0.61 and 0.57.
 constexpr double least_on_one_side = 0.45, most_on_one_side = 0.56;
 
 /// The side of the surface on which a pixel lies: 1 behind it, -1 in front of it, 0 where nothing was smoothed.

@@ -20,8 +20,8 @@ struct PixelStep {
 /// The pixels of a window around a pixel, itself left out, from the nearest in the image to the farthest: rings of 8,
 /// 16 and 24. A set of them is a word in which bit i stands for step i.
 struct WindowPixels {
-  static constexpr int reach = 3;   ///< rings
-  static constexpr int count = 48;  ///< pixels
+  static constexpr int reach = 3;   ///< rings: the pixels of 7 x 7 are fewer than the bits of a word
+  static constexpr int count = 48;  ///< pixels of 7 x 7 without the one in the middle
 
   static constexpr int side() { return 2 * reach + 1; }
 

@@ -14,7 +14,8 @@
 namespace tufted {
 namespace {
 
-constexpr std::size_t spare = 8;  // room for stars without a number, one for so many with
+/// Room for stars that are added without being known beforehand: one for so many that are known.
+constexpr std::size_t spare = 8;
 
 /// Calls visit(i, a, b, lengths of the sides p a, a b, b p) for each triangle (p, a, b), with the link entry of a.
 template <class Visit>

@@ -10,7 +10,8 @@
 namespace tufted {
 namespace {
 
-constexpr double sure_squared_sine = 1e-4;  // of an angle whose cotangent by vectors is right to 1e-11
+/// The cotangent of an angle with a larger squared sine is right to 1e-11 by vectors; others are computed from lengths.
+constexpr double sure_squared_sine = 1e-4;
 
 class SeedFinder {
  public:

@@ -15,6 +15,7 @@ class Hash {
   std::uint64_t value() const { return state_; }
 
  private:
+  /// The prime of FNV-1a with 64 bits.
   static constexpr std::uint64_t prime = 0x100000001b3;
   std::uint64_t state_ = 0xcbf29ce484222325;
 };

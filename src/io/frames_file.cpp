@@ -11,6 +11,7 @@
 namespace tufted::io {
 namespace {
 
+/// Frames that are read must be orthonormal to this; copies in float32 are.
 constexpr double tolerance = 1e-6;
 
 bool isOrthonormal(const Eigen::RowVector3d& x, const Eigen::RowVector3d& normal) {

@@ -14,11 +14,11 @@
 namespace tufted::io {
 namespace {
 
-constexpr std::size_t smallest_header = 227;  // LAS 1.0 to 1.2
-constexpr std::size_t header_of_1_3 = 235;
-constexpr std::size_t header_of_1_4 = 375;
-constexpr std::size_t record_header = 54;      // of a variable length record
-constexpr std::size_t extra_descriptor = 192;  // of one extra value
+constexpr std::size_t smallest_header = 227;   // bytes, LAS 1.0 to 1.2
+constexpr std::size_t header_of_1_3 = 235;     // bytes, LAS 1.3
+constexpr std::size_t header_of_1_4 = 375;     // bytes, LAS 1.4
+constexpr std::size_t record_header = 54;      // bytes of a variable length record
+constexpr std::size_t extra_descriptor = 192;  // bytes that describe one extra value
 
 /// The name of an extra value as one printable word, which is what headers of PLY and PCD can hold.
 std::string fieldName(std::string_view text, std::size_t number) {

@@ -57,6 +57,7 @@ const std::map<std::string, FieldType, std::less<>> types = {
 }  // namespace
 
 std::string npyHeader(std::string_view descr, const std::vector<std::int64_t>& shape) {
+  // Bytes that the format aligns the data to.
   constexpr std::size_t alignment = 64;
   constexpr std::size_t before = 10;  // magic, version and length of the dictionary
   std::string lengths;

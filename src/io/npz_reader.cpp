@@ -10,8 +10,10 @@
 namespace tufted::io {
 namespace {
 
+/// Numbers that are inflated at once.
 constexpr std::int64_t piece_numbers = 8192;
-constexpr std::size_t most_header_bytes = 1 << 16;  // numpy writes one or two hundred
+/// Bytes of the header of an array; numpy writes one or two hundred.
+constexpr std::size_t most_header_bytes = 1 << 16;
 
 int integerOf(double number, double least, double most, std::int64_t place, const std::filesystem::path& shown) {
   if (!(number >= least && number <= most) || number != std::floor(number))
@@ -97,6 +99,7 @@ std::vector<double> NpzReader::numbers(const std::string& name, std::int64_t cou
 }
 
 std::string NpzReader::text(const std::string& name) const {
+  // Bytes of a word in an archive.
   constexpr std::uint64_t most = 64;
   NpzArray array = open(name);
   if (array.value_bytes_ > most) refuse(path_, "the array " + quote(name) + " is no word");

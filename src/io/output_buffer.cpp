@@ -6,7 +6,9 @@
 namespace tufted::io {
 namespace {
 
+/// Bytes that are written at once.
 constexpr std::size_t capacity = 1 << 20;
+/// Characters of a number in 17 digits, with room to spare.
 constexpr std::size_t longest_number = 32;
 
 }  // namespace

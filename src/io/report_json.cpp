@@ -11,6 +11,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// Spaces per level.
 constexpr int indent = 2;
 
 Json reportObject(const Report& report) {

@@ -14,9 +14,11 @@
 namespace tufted::io {
 namespace {
 
-constexpr std::size_t header_bytes = 84;    // 80 of any text, then the number of triangles
-constexpr std::size_t facet_bytes = 50;     // the normal, three corners, two bytes of attributes
-constexpr std::size_t most_of_name = 1024;  // bytes at the start of a file that tell text from numbers
+constexpr std::size_t header_bytes = 84;  // 80 of any text, then the number of triangles
+constexpr std::size_t facet_bytes = 50;   // the normal, three corners, two bytes of attributes
+/// Bytes at the start of a file that tell text from numbers: those of a binary STL have a zero among its first two
+/// triangles.
+constexpr std::size_t most_of_name = 1024;
 
 /// The corners of all triangles, three by three.
 class Soup {

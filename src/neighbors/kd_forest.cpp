@@ -12,8 +12,10 @@ namespace {
 
 using Index = flann::KDTreeSingleIndex<flann::L2_Simple<double>>;
 
-constexpr int least_points = 8192;  // of a tree, where there are several
-constexpr int leaf_size = 16;       // points
+/// Points of a tree where there are several: searching more trees costs more than building them saves.
+constexpr int least_points = 8192;
+/// Points in a leaf.
+constexpr int leaf_size = 16;
 const flann::SearchParams all_checks{flann::FLANN_CHECKS_UNLIMITED};
 
 }  // namespace

@@ -12,9 +12,11 @@
 namespace tufted {
 namespace {
 
+/// Bits of a code per axis: three axes fill 63.
 constexpr int axis_bits = 21;
 constexpr double axis_cells = 1 << axis_bits;
-constexpr double cells = 1 << 16;  // per median spread; so 2^21 cells reach over 32 spreads
+/// Cells per median spread: the grid reaches over 32 spreads, and what lies outside goes to its border.
+constexpr double cells = 1 << 16;
 
 /// Spreads the low 21 bits of v to every third bit.
 std::uint64_t spreadBits(std::uint64_t v) {
@@ -40,11 +42,13 @@ struct Key {
   int index;
 };
 
+/// Bits of a digit of the radix sort: four passes, whose counters fit the first-level cache.
 constexpr int digit_bits = 11;
 constexpr std::size_t buckets = std::size_t{1} << digit_bits;
-/// Where the code is counted from. Few points are told apart by lower bits alone, fewer than passes over all are worth.
+/// The lowest bit that is sorted by. Lower ones tell few points apart, fewer than two more passes over all points are
+/// worth.
 constexpr int lowest_bit = 22;
-constexpr std::int64_t least_part = 1 << 16;  // keys
+constexpr std::int64_t least_part = 1 << 16;  // keys that a thread sorts at least
 
 /// Sorts by the code from lowest_bit on, those where it is the same as they come, digit by digit from the last.
 void sortByHighBits(RawBuffer<Key>& keys, const Workers& workers) {

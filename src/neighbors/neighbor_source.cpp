@@ -49,9 +49,10 @@ void takeNeighborhoods(const Neighborhoods& lists, const RankedCloud& cloud, con
 /// points of a sample must find the nearest point of their ring and of those beside it, or one at most twice as far,
 /// unless it lies beyond the ball that is searched. Rounded azimuths do, as long as few points share one.
 bool azimuthsFit(const RankedScan& scan, const RankedCloud& cloud, const RingSearch& search, int k) {
-  constexpr int samples = 128;  // points, of which all others of three rings are looked at
-  constexpr std::size_t most_at_once =
-      16;  // points of a ring at one azimuth, in the mean: so many on each side are tried
+  // Points by which azimuths are tested; for each all others of three rings are looked at.
+  constexpr int samples = 128;
+  // Points of a ring at one azimuth at most, in the mean: the search of a ring takes so many on each side.
+  constexpr std::size_t most_at_once = 16;
   // By ring; rings without points are left out.
   std::map<int, Buffer<int>> rings;
   for (int p = 0; p < cloud.size(); ++p)

@@ -11,7 +11,9 @@
 namespace tufted {
 namespace {
 
-constexpr int most_inserted = 64;  // neighbours that are kept in order while they are found; more are sorted at last
+/// Up to so many neighbours are kept in order as they are found, more are sorted at last: keeping 512 in order took a
+/// third of the time of denoise() on a noisy cube.
+constexpr int most_inserted = 64;
 
 /// The k smallest candidates by (distance, index), without the query point itself.
 ///

@@ -18,7 +18,9 @@ namespace {
 using Eigen::Index;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
-constexpr double shift = 1e-12;  // of each diagonal; see the header
+/// Part of each diagonal that is added: it makes a semidefinite matrix definite in doubles, and hides no failure that
+/// matters.
+constexpr double shift = 1e-12;
 
 bool isActive(const Laplacian& laplacian, Index i) {
   return laplacian.status[i] == PointStatus::active;

@@ -17,7 +17,9 @@
 namespace tufted {
 namespace {
 
+/// Neighbours of a cloud that DiffusionNet takes as well; fewer err more in noise, more err more on curved surfaces.
 constexpr int cloud_neighbors = 30;
+/// Neighbours that may be asked for; with more one point would take as long as a small cloud.
 constexpr int most_neighbors = 10'000;
 
 void checkArguments(const Laplacian& laplacian, const PointsRef& points, const Frames& frames,

@@ -13,6 +13,7 @@ using LongMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, std::int64_t>;
 
 /// Numbers some of the points in the caller's order.
 struct Selection {
+  /// Marks an entry that has no number.
   static constexpr std::int64_t left_out = -1;
   std::vector<std::int64_t> number;  ///< N; `left_out` for all others
   std::vector<int> point;            ///< index of the point, by number

@@ -10,14 +10,15 @@
 namespace tufted {
 namespace {
 
-/// A neighbourhood has two spreads in its plane; the smaller counts as 0 below this part of the larger.
+/// A spread below this part of the larger one in the tangent plane is 0, and there is no slope across.
 constexpr double flat = 1e-10;
-/// If the smaller spread is below this part of the larger, more neighbours are taken, as these hardly determine the
-/// slope across.
+/// If the smaller spread is below this part of the larger, more neighbours are taken: at the corner of a square L joins
+/// one point only, and a scan line says nothing of the slope across.
 constexpr double narrow = 1e-4;
-/// How often a narrow neighbourhood is doubled; one of the neighbours in L gets a ring more each time.
+/// How often a narrow neighbourhood is doubled, so that it reaches the next scan line; one of the neighbours in L gets
+/// a ring more each time.
 constexpr int most_doublings = 3;
-/// Points of the rings that the nearest are chosen of, by their number.
+/// The nearest are chosen among this many times their number: rings are not circles.
 constexpr double gathered = 2.5;
 
 /// The sum of outer products, of one column after the other: Eigen's product adds up in an order that depends on where

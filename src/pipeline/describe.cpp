@@ -19,7 +19,9 @@
 namespace tufted {
 namespace {
 
-constexpr double outlier_ratio = 5;  // on random points of a surface the nearest is that far once in 3e7
+/// A point counts as far off in `tufted info` if its nearest is so many times as far as usual; on a random surface by
+/// chance once in 3e7.
+constexpr double outlier_ratio = 5;
 
 /// The k nearest of every point, and what is seen on the way.
 struct NeighborGraph {

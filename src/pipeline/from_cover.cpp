@@ -18,8 +18,11 @@
 namespace tufted {
 namespace {
 
-constexpr double all_edges = 1e-5;  // mean edge lengths, added to all where flips do not end otherwise
-constexpr int most_rounds = 8;      // of lengthening and flips; one is usual where any is needed
+/// Mean edge lengths that are added to all edges where flips do not end otherwise: only random coordinates of all
+/// magnitudes needed it.
+constexpr double all_edges = 1e-5;
+/// Rounds of lengthening and flips; one is usual where any is needed.
+constexpr int most_rounds = 8;
 
 /// The sum of value(f) for f in [0, size), with the same bits for any number of threads.
 template <class Value>

@@ -10,8 +10,11 @@
 namespace tufted {
 namespace {
 
-constexpr double many_thick = 0.25;  // of the active points; of real scans at most .13, of cables 9 spacings around .5
-constexpr double much_area = 1e-3;   // of the area of the triangles; with more results differ in a plot
+/// If more than this share of the active points has a thick neighbourhood, a warning says so: 27 real clouds have at
+/// most 0.19, cables 9 spacings around 0.56.
+constexpr double many_thick = 0.25;
+/// If lengths have added more than this share of the area, a warning says so; less is not seen in a plot.
+constexpr double much_area = 1e-3;
 
 std::string percent(double share) {
   char text[32];

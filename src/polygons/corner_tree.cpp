@@ -10,6 +10,7 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+/// Corners in a leaf.
 constexpr int leaf_size = 16;
 constexpr std::uint64_t none = std::numeric_limits<std::uint64_t>::max();
 
@@ -38,7 +39,9 @@ double distance(const Vector2d& point, const Capsule& capsule) {
 PlanarTriangle::PlanarTriangle(const Vector2d& a, const Vector2d& b, const Vector2d& c, double area,
                                double squared_edges)
     : corner_{a, b, c} {
+  // Rounding of the orientation of three corners.
   constexpr double rounding = 32 * std::numeric_limits<double>::epsilon();
+  // Smaller products may have underflowed.
   constexpr double least = 1e-280;
   const bool has_box = area > rounding * squared_edges && squared_edges > least;
   const double margin = has_box ? rounding * squared_edges / area * std::sqrt(squared_edges) : infinity;
@@ -66,6 +69,7 @@ bool PlanarTriangle::holdsNoneOf(const Vector2d& low, const Vector2d& high) cons
 }
 
 bool PlanarTriangle::holdsNoneOf(const Capsule& capsule) const {
+  // Rounding of the distance to a box.
   constexpr double rounding = 32 * std::numeric_limits<double>::epsilon();
   if (low_.x() == -infinity) return false;
   for (int i = 0; i < 3; ++i) {

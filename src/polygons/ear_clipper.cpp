@@ -9,11 +9,13 @@ namespace {
 using Eigen::Vector2d;
 
 // Keys of corners that have no quality; all qualities are above -3/2.
-constexpr double not_a_number = -2;
-constexpr double clipped = -3;
+constexpr double not_a_number = -2;  // of a corner that waits for others
+constexpr double clipped = -3;       // of a corner that is gone
 
-// From how many corners on, and up to which quality, a corner is straight.
+// In polygons of so many corners nearly straight corners count as straight: comparing each with all others on its line
+// would take the square of their number.
 constexpr std::size_t many_corners = 1000;
+/// The quality up to which a corner of such a polygon is straight: rounding of coordinates.
 constexpr double straight = 0x1p-40;
 
 double squaredEdges(const Vector2d& a, const Vector2d& b, const Vector2d& c) {

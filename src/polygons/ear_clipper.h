@@ -38,6 +38,7 @@ class EarClipper {
     int first_waiting = none;      ///< first corner that waits for this one
     int last = none, next = none;  ///< neighbours in the list that this corner is in
   };
+  /// Marks: no corner, not looked at yet, and looked at with nothing found.
   static constexpr int none = -1, unknown = -1, nothing = -2;
 
   int bestEar();

@@ -32,6 +32,7 @@ Eigen::Index checkedTriangles(const Points& points, const Polygons& polygons) {
 }  // namespace
 
 Triangles triangulate(const Points& points, const Polygons& polygons, const Progress& progress) {
+  // Faces from one report of progress to the next.
   constexpr Eigen::Index report_every = 4096;
   const Workers workers(1, progress);
   Triangles triangles(checkedTriangles(points, polygons), 3);

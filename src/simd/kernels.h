@@ -81,6 +81,7 @@ struct SmallestAxes {
 
 /// Neighbours in the tangent plane of a point, which lies at the origin; anything behind them.
 struct PlanarOffsets {
+  /// Neighbours that are projected at once; those of a grown neighbourhood come in parts.
   static constexpr int most = 64;
   int count = 0;
   alignas(64) double u[most], v[most];
@@ -94,6 +95,7 @@ enum class StarKind { closed, tied, gaping, unknown };
 /// numbers of all that may be in the link, first the corners of a hull counterclockwise, then others in ascending
 /// order.
 struct InvertedStar {
+  /// Vertices of a hull; larger ones go the careful way.
   static constexpr int most = 24;
   int size = 0;
   int link[most];
@@ -145,6 +147,7 @@ constexpr int pixels_of_window = 48;
 struct PixelPoints {
   const double *x, *y, *z, *range;
 };
+/// Pixels of a row whose set is a word.
 constexpr int pixels_in_word = 64;
 
 /// Steps from a pixel to others of the image.

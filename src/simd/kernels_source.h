@@ -140,6 +140,7 @@ void sumHeights(const Offsets& offsets, const double* axes, HeightSums& total) {
 /// Solves by the decomposition L D L^T of the lower triangle.
 void solveHeights(const HeightSystems& systems, HeightSolutions& solutions) {
   enum { u, v, uu, uv, vv, uuu, uuv, uvv, vvv, uuuu, uuuv, uuvv, uvvv, vvvv, h, hu, hv, huu, huv, hvv };
+  // Unknowns of the systems that are solved side by side.
   constexpr int size = 6;
   constexpr int lower[size][size] = {
       {},  // the count
@@ -185,7 +186,11 @@ void solveHeights(const HeightSystems& systems, HeightSolutions& solutions) {
   store(largest, solutions.most_pivot);
 }
 
-constexpr double least_gap = 1e-3;  // between the two smallest eigenvalues over the largest, for the closed form
+/// If the two smallest eigenvalues differ by more than this part of the largest, the closed form is as exact as the
+/// iteration of Eigen.
+constexpr double least_gap = 1e-3;
+/// Steps of Newton's method. It converges quadratically, and slowly only towards the double roots that Eigen solves
+/// for.
 constexpr int most_steps = 8;
 
 /// The smallest eigenvalue by Newton's method on the characteristic polynomial, which from 0 rises to its first root,

@@ -14,6 +14,7 @@
 namespace tufted {
 namespace {
 
+/// Doubles and floats in an AVX-512 register.
 constexpr int packet_size = 8, float_packet_size = 16;
 
 }  // namespace

@@ -7,9 +7,10 @@ namespace {
 
 // Vectors that are wider than registers are left to the compiler, which takes them apart badly.
 #ifdef __AVX2__
+/// Doubles in an AVX2 register.
 constexpr int part_size = 4;
 #else
-constexpr int part_size = 2;  // what every processor has
+constexpr int part_size = 2;  // doubles in an SSE register, which every processor has
 #endif
 constexpr int parts = packet_size / part_size;
 using Part = double __attribute__((vector_size(part_size * sizeof(double))));

@@ -7,8 +7,11 @@
 namespace tufted {
 namespace {
 
-constexpr double least_sine = 1e-6;    // between how positions change with rows and with columns
-constexpr double next_ring = 3.0 / 2;  // times the distance of ring 2; as in isCertain() of image_stars.cpp
+/// Sine between the changes of positions with rows and with columns below which a plane is none.
+constexpr double least_sine = 1e-6;
+/// Pixels of ring 3 are this many times as far as those of ring 2, as in isCertain() of image_stars.cpp.
+constexpr double next_ring = 3.0 / 2;
+/// Pixels that are diagonally beside one.
 constexpr int corners = pixels_beside / 2;
 
 struct VectorPart {

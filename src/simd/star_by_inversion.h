@@ -7,12 +7,16 @@ namespace tufted {
 namespace {
 
 constexpr int most_given = PlanarOffsets::most;
+/// Candidates that are wrapped first, two packets (all 30 at once cost 1.3 instead of 0.9 us per point), rounds of
+/// adding what lies outside of the hull before the careful way takes over, and the mark for no number.
 constexpr int near_part = 16, most_rounds = 4, missing = -1;
-/// The sine of the angle between circles from which on they differ: far wider than the tie band of sideOfCircle().
+/// The sine of the angle between circles from which on they differ: a hundred times the tie band of sideOfCircle().
 constexpr double distinct = 1e-7;
+/// A point counts as inside of an edge if it lies this far from it: a hundred times `distinct`, which also holds for
+/// the edge that is left when tied vertices go.
 constexpr double inside = 1e-5;
-/// Up to here there is a tie however many add up. Between this and `distinct` the order in which vertices are looked at
-/// may decide.
+/// Up to here, a hundredth of the tie band, there is a tie however many add up. Between this and `distinct` the order
+/// in which vertices are looked at may decide.
 constexpr double surely_tied = 1e-11;
 constexpr double rounding = 1e-14;                          // of coordinates and products of them, a dozen roundings
 constexpr double least_square = 1e-60, most_square = 1e60;  // of distances, which keeps all products in range

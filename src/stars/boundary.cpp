@@ -13,10 +13,12 @@
 namespace tufted {
 namespace {
 
-constexpr int search_factor = 8;    // times k: what is looked through for points beyond a gap
+/// Times k, as far as neighbourhoods grow: what is looked through for points beyond a gap.
+constexpr int search_factor = 8;
 constexpr double off_plane = 0.25;  // of the fit radius, as between the heights of two sheets
-constexpr double farthest = 2;      // times the longest edge
-constexpr double infinity = 1e70;   // median spreads; squares of what lies farther away may overflow
+constexpr double farthest = 2;      // times the longest edge; what lies farther does not bound this gap
+/// Median spreads; a viewpoint farther away is taken to be there, as its square must fit a double.
+constexpr double infinity = 1e70;
 
 enum class View { along_normal, from_viewpoint };
 

@@ -12,9 +12,12 @@
 namespace tufted {
 namespace {
 
-constexpr std::size_t near_part = 12;   // most stars are settled by so many nearest candidates
-constexpr double key_rounding = 1e-14;  // of pseudo-angles, which rounding moves by a few 1e-16
-constexpr double reach_slack = 1.001;   // times the square of the widest circle's diameter; covers the tie band
+/// Most stars are settled by so many nearest candidates; the others are asked only within the widest circle.
+constexpr std::size_t near_part = 12;
+/// Pseudo-angles that differ by less, which rounding moves by a few 1e-16, are compared exactly.
+constexpr double key_rounding = 1e-14;
+/// Times the squared diameter of the widest circle: covers the tie band.
+constexpr double reach_slack = 1.001;
 
 double squaredNorm(const PlanarPoint& q) {
   return q.u * q.u + q.v * q.v;

@@ -16,12 +16,15 @@ namespace {
 
 // Bounds of the difference of two sums of opposite angles. Both sums are compared as pseudo-angles, which for sums near
 // two right angles, as those of cells of grids are, differ by as much as the sums do in rad.
-/// Sums that differ by less than this count as equal.
+
+/// Sums of opposite angles that differ by less than this count as equal, as on a circle; exact rectangles differ by
+/// rounding, 1e-15.
 constexpr double tie = 1e-9;
-/// Sums of cells of grids differ by less than this. Where they differ by more, as among random samples of a surface as
-/// curved as they are far apart, the diagonal says something about the surface, and each star keeps what it has.
+/// Where sums differ by more each star keeps its diagonal, which tells something of a surface that the points barely
+/// resolve. Cells of grids differ by less than 0.003; with 0.03 real shapes have 1.03 times the error.
 constexpr double most_difference = 0.01;
-constexpr int least_degree = 3;  // of a closed star
+/// Neighbours that a closed star keeps; two triangles back to back are no surface.
+constexpr int least_degree = 3;
 
 /// What the star of one corner of a quadrilateral has between the two corners beside it.
 struct Corner {

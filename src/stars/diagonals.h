@@ -16,7 +16,7 @@ namespace tufted {
 /// four triangles then have two votes each, and the union counts 4/3 of its area. Where the surface is a saddle, none
 /// of them may, and the union counts 2/3. Of quadrilaterals whose stars disagree the diagonal stays whose opposite
 /// corners have the smaller sum of angles in space; of equal ones that which the first of the four points ends, by x,
-/// then y, then z. Where the sums differ by more than .01 rad, which cells of grids do not, each star keeps what it
+/// then y, then z. Where the sums differ by more than 0.01 rad, which cells of grids do not, each star keeps what it
 /// has. No star changes at a triangle that belongs to two such quadrilaterals, and a closed star keeps three
 /// neighbours. All is decided by the stars as they are given, so the result depends on neither order nor threads.
 ///

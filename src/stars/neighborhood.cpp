@@ -11,11 +11,15 @@
 namespace tufted {
 namespace {
 
-constexpr int most_growth = 8;       // a neighbourhood grows to at most 8 k
-constexpr double more_likely = 1.2;  // times the square that holds more neighbours where they are spread evenly
-constexpr double crowd = 0.4;        // of the neighbours within half the radius; on an even surface it is a quarter
-constexpr int least_neighbors = 3;   // for a plane and a star
+/// A neighbourhood grows to at most so many times k: rings at anisotropy 80 need that.
+constexpr int most_growth = 8;
+/// Times the square that holds twice as many neighbours where they are spread evenly.
+constexpr double more_likely = 1.2;
+/// More than this share of the neighbours within half the radius is uneven; an even surface has a quarter.
+constexpr double crowd = 0.4;
+constexpr int least_neighbors = 3;  // for a plane and a star
 
+/// Planes per point: of the nearest few, and of all.
 constexpr std::size_t nested_sets = few_neighbors.size() + 1;
 
 /// The numbers of neighbours that planes are fitted to: the first few, if there are so many, then all.

@@ -14,7 +14,8 @@
 
 namespace tufted {
 
-/// Between two sheets the plane of all neighbours stands across them; that of the nearest few does not.
+/// Between two sheets the plane of all neighbours stands across them; that of the nearest few mostly does not. Not
+/// varied since the first design.
 constexpr std::array<int, 2> few_neighbors = {8, 13};
 
 /// The neighbours of one point and the plane through them.
@@ -53,6 +54,7 @@ class NeighborhoodFinder {
   /// Begins with neighbours that were found elsewhere, ascending.
   void start(std::span<const Neighbor> neighbors, Neighborhood& neighborhood) const;
 
+  /// Planes that are fitted together, two packets.
   static constexpr int most_planes = 16;
   /// Fits planes to at most most_planes neighbourhoods, and to the first few of each where sheets are split.
   /// @param offsets of the neighbours of each; there may be more

@@ -9,7 +9,9 @@
 namespace tufted {
 namespace {
 
-constexpr double steep = 0.5;  // sine of the angle between a tangent plane and the way to a point
+/// Sine of the angle between a tangent plane and the way to a point above which the point hovers; a curved surface
+/// stays below within its neighbourhood.
+constexpr double steep = 0.5;
 
 /// Whether p lies beyond the neighbours that q looked at.
 bool isUnseen(const StarSupport& support, const PointsView& points, int p, int q) {

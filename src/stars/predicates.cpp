@@ -9,12 +9,20 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-constexpr double tie_angle = 1e-9;  // rad
+/// Four points whose angles miss pi by less, in rad, are on one circle: wide enough for lattices of rounded
+/// coordinates, and so narrow that random points hardly ever are.
+constexpr double tie_angle = 1e-9;
+/// Four points flatter than this are nearly collinear: there is no choice of two diagonals, and the exact predicate
+/// decides.
 constexpr double flat_sine = 1e-6;
-constexpr double determinant_rounding = 4e-16;  // of both products: three roundings of at most half an ulp each
-constexpr double least_bound = 1e-290;          // below, products may have underflowed
-constexpr double least_exact = 1e-270;          // above, the rounding of a product is exact by fused multiply-add
-constexpr double least_sides = 1e-280, most_sides = 1e280;  // products of squared sides in range
+/// The rounding of a determinant over its two products: three roundings of at most half an ulp each.
+constexpr double determinant_rounding = 4e-16;
+/// Products below this may have underflowed.
+constexpr double least_bound = 1e-290;
+/// The rounding of a product above this is exact by fused multiply-add.
+constexpr double least_exact = 1e-270;
+/// Products of squared sides between these have all their digits and do not overflow.
+constexpr double least_sides = 1e-280, most_sides = 1e280;
 
 Kernel::Point_2 toCgal(const PlanarPoint& p) {
   return {p.u, p.v};

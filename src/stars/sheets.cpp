@@ -9,14 +9,24 @@
 namespace tufted {
 namespace {
 
-constexpr std::array<double, few_neighbors.size()> flatter = {0.1, 0.5};  // than all, planes of few
-constexpr double plane_of_few = 0.05;                                     // of the second variance
+/// The plane of the nearest few, 8 or 13, is taken if its flatness is below this part of that of all.
+constexpr std::array<double, few_neighbors.size()> flatter = {0.1, 0.5};
+/// The smallest variance of such a plane is below this part of the second. Not varied since the first design.
+constexpr double plane_of_few = 0.05;
+/// Cuts along the plane of what is left, at most. Not varied since the first design.
 constexpr int most_splits = 3;
-constexpr int least_sheet = 3, least_plane = 9;      // points, p included
-constexpr double flat_sheet = 0.1, flat_few = 0.05;  // of the second variance; found by many, by two neighbours
-constexpr double far_flatter = 0.25;                 // than before
-constexpr int most_corners = 4;                      // of the triangles at p whose planes a sheet is sought along
-constexpr double least_sine = 0.3;                   // of their angles at p
+/// Points, p included: with up to `least_sheet` p is isolated, and `least_plane` make a plane believable, as many as a
+/// quadratic fit needs.
+constexpr int least_sheet = 3, least_plane = 9;
+/// What is left is a plane if its smallest variance is below this part of the second, or below `flat_few` if the plane
+/// was found from two neighbours alone.
+constexpr double flat_sheet = 0.1, flat_few = 0.05;
+/// A plane that is left is flatter than before by this factor; a cut that helps less has cut a curved surface.
+constexpr double far_flatter = 0.25;
+/// Nearest neighbours whose pairs give planes with p to cut along: six planes, one packet.
+constexpr int most_corners = 4;
+/// Two neighbours whose angle at p has a smaller sine are nearly in line with p and give no plane.
+constexpr double least_sine = 0.3;
 
 double flatness(const PrincipalAxes& axes) {
   return axes.variance[1] > 0 ? axes.variance[0] / axes.variance[1] : 0;

@@ -11,7 +11,8 @@ namespace tufted {
 
 struct Neighborhood;
 
-/// Between the heights of two sheets, as part of the fit radius.
+/// Heights farther apart than this part of the fit radius belong to two sheets: sheets at 4 spacings are told apart,
+/// and a surface curved within its neighbourhood is not cut.
 constexpr double sheet_gap = 0.25;
 
 /// Some of the neighbours of a point, reached from it along planes.
@@ -29,6 +30,7 @@ struct SheetScratch {
   Buffer<double> heights;
   HeightRange range;             ///< of the heights that are reached from p
   Buffer<double> heights_along;  ///< see Kernels::connectedHeightsAlong
+  /// Pairs of four neighbours.
   static constexpr int most_tried = 6;
   std::array<TriedSheet, most_tried> tried;
 };

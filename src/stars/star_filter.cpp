@@ -14,11 +14,18 @@
 namespace tufted {
 namespace {
 
-/// Less takes triangles from steps of density, more leaves bridges from the last ring of a scan.
+/// P sees further than the other corners if its fit radius exceeds theirs by this factor. Less takes triangles from
+/// steps of density (1.5: 1.24 times the error of the core, 3: 1.18), more leaves bridges from the last ring of a scan.
 constexpr double further = 2.75;
-constexpr double far_larger = 3;        // than its own neighbourhood, is no triangle of a surface
-constexpr double doubtful_squared = 4;  // of two radii of the smallest neighbourhood, for triangles of one star alone
-constexpr double bridge = 4;            // radii of the smallest neighbourhood, for Filter::radius
+/// A triangle whose projected circumradius exceeds so many fit radii of its point is dropped. Not varied
+/// since the first design.
+constexpr double far_larger = 3;
+/// A triangle of one star alone is dropped if its circumradius exceeds twice the smallest fit radius, here squared. Not
+/// varied since the first design.
+constexpr double doubtful_squared = 4;
+/// With Filter::radius a triangle is dropped as a bridge if its circumradius exceeds so many smallest fit radii; clean,
+/// nonuniform and scan-line clouds lose nothing.
+constexpr double bridge = 4;
 
 /// Whether the star of `a` contains the triangle (a, b, c), either way round.
 bool contains(const Stars& stars, int a, int b, int c) {

@@ -7,7 +7,8 @@
 namespace tufted {
 namespace {
 
-constexpr double opposite = 1e-3;  // length of the sum of two unit vectors that are next to opposite
+/// If the sum of two unit vectors is shorter, they are opposite, and a gap between them has no middle.
+constexpr double opposite = 1e-3;
 
 }  // namespace
 

@@ -9,10 +9,11 @@ namespace tufted::view {
 
 namespace {
 
-/// Cells in the height of the picture.
+/// Arrows in the height of the picture; more run into each other.
 constexpr int cells = 34;
-/// The length of an arrow of the greatest length of the legend, in cells, and the least that is drawn.
+/// The length of an arrow of the greatest length of the legend, in cells: it does not reach the next cell.
 constexpr double longest = 0.95;
+/// Shorter arrows, in cells, have no direction to the eye and are not drawn.
 constexpr double shortest = 0.12;
 
 /// The nearest seen point to the middle of a cell; -1: none.

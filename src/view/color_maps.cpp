@@ -9,6 +9,7 @@ namespace tufted {
 
 namespace {
 
+/// Colours of a map: more cannot be told apart in 8 bits.
 constexpr int table_size = 256;
 
 // Control points as 0xRRGGBB, evenly spaced. Between them colours are interpolated in Oklab.

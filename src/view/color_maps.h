@@ -26,7 +26,8 @@ struct ColorMap {
   std::vector<Rgb> colors;
 };
 
-/// The colour of values that are not finite, of negative labels and of points without a value.
+/// The colour of values that are not finite, of negative labels and of points without a value: grey, darker than the
+/// middle of diverging maps.
 constexpr Rgb no_value_color = {150, 150, 150};
 
 /// All maps, in the order of colorMapNames().

@@ -16,17 +16,20 @@ namespace tufted::view {
 
 namespace {
 
-/// Smaller pictures have no room for words.
+/// Pixels below which a picture has no room for words.
 constexpr int least_width = 240;
+/// Pixels below which a picture has no room for words.
 constexpr int least_height = 160;
+/// Labels that are named: the map has no more colours.
 constexpr std::size_t most_swatches = 20;
-/// The legend's width and parts in the size of its letters.
+/// The width of the legend, in sizes of its letters: the bar and numbers of seven characters.
 constexpr double legend_width = 9;
+/// The width of the legend's bar and the height of its lines, in sizes of its letters.
 constexpr double bar_width = 1.3;
 constexpr double line_height = 1.4;
 /// Texts that are too long have letters that are smaller by this factor at most.
 constexpr double smallest_letters = 0.7;
-/// The share of the width that such a text takes, as sizes of letters are rounded.
+/// The share of the width that such a text takes: sizes of letters are rounded to a 64th of a pixel.
 constexpr double fitted_share = 0.99;
 
 /// Labels that occur, ascending; one more than are shown if there are more.

@@ -24,8 +24,9 @@ using view::LabelColumn;
 using view::LevelColumn;
 using view::PageBlocks;
 
-/// Steps of the radii of discs to a factor of two, and the one of the lower quartile.
+/// Sizes of discs to a factor of two: 19 % apart, which takes nearly half a byte per point.
 constexpr double radius_steps = 4;
+/// The byte of the size of the lower quartile: the middle, so that discs may be smaller or larger.
 constexpr std::uint8_t radius_middle = 128;
 /// Pages are as large as their window; the direction of the eye does not depend on it.
 constexpr view::Viewport some_viewport = {.left = 0, .right = 800, .top = 0, .bottom = 600};

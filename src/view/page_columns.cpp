@@ -9,9 +9,11 @@ namespace {
 
 /// The greatest level.
 constexpr double top_level = no_level - 1;
-/// Values farther than this beyond the outer percentiles, in distances of these, are stored whole.
+/// Values farther beyond the outer percentiles than this many of their distances are stored whole, as their levels
+/// would take the digits of the others. All of an evenly or normally spread column lie within.
 constexpr double level_reach = 6;
-/// One of this many values lies below the lower percentile, and one above the upper.
+/// One of this many values lies below the lower percentile, and one above the upper, so that few outliers do not move
+/// them.
 constexpr std::size_t percentile_share = 100;
 
 /// The 1st and the 99th percentile. Changes the order of the values, of which there is at least one.
@@ -76,6 +78,7 @@ LabelColumn labelsOf(const Eigen::Ref<const Eigen::VectorXd>& values) {
 }
 
 void octahedralBytes(const Eigen::Vector3d& direction, std::uint8_t bytes[2]) {
+  // Steps of a byte to either side of 0: a normal is off by less than a degree, which light does not show.
   constexpr double steps = 127;
   bytes[0] = bytes[1] = 0;
   const double largest = direction.cwiseAbs().maxCoeff();  // taken out first, as a sum may overflow

@@ -14,13 +14,19 @@ namespace {
 using Eigen::Vector2d;
 using Eigen::Vector3d;
 
-/// Widths of the line, of its rim and of dashes, the length of these and the circles of the ends, in letter sizes.
+/// The width of the line, in letter sizes: five pixels of 900, wider than an isoline.
 constexpr double line_width = 0.24;
+/// The width of the line with its rim, in letter sizes: two pixels more on each side.
 constexpr double rim_width = 0.46;
+/// The width of dashes, in letter sizes: thinner than the line, as it lies farther away.
 constexpr double dash_width = 0.14;
+/// The length of dashes and of the gaps between them, in letter sizes: three widths.
 constexpr double dash_length = 0.45;
+/// The circles of the ends, in letter sizes: three times as wide as the line.
 constexpr double end_width = 0.75;
+/// The circles of the ends with their rims, in letter sizes.
 constexpr double end_rim_width = 1;
+/// The hole of a ring: half of the circle.
 constexpr double ring_hole = 0.35;
 /// A path so far behind a triangle, in its longest side, still lies on it: paths run straight between edges of the
 /// cover, and these need not be the mesh's.

@@ -6,8 +6,9 @@
 
 namespace tufted::view {
 
-/// Red, which few colour maps have, with a white rim: seen on light and on dark colours.
+/// Red, which the sequential maps do not have in this strength.
 constexpr Rgb path_color = {214, 30, 40};
+/// White around the red, which tells it from reds and from dark colours.
 constexpr Rgb path_rim_color = {255, 255, 255};
 
 /// Draws the path of a scene, dashed where the surface hides it; the beginning is a ring, the end a full circle.

@@ -17,7 +17,9 @@ namespace tufted {
 
 namespace {
 
+/// Pixels of a picture at least, each way.
 constexpr int least_size = 16;
+/// Pixels of a picture at most, each way: the samples of the largest take 7 GB.
 constexpr int most_size = 8192;
 
 void checkSize(const char* name, int size) {

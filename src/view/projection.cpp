@@ -21,13 +21,15 @@ using Eigen::Vector3d;
 constexpr double fill = 0.93;
 /// Points that a camera is chosen by, at most.
 constexpr int most_samples = 100000;
-/// Half the angle of view upwards, in radians: that of a photograph of 50 mm or so.
+/// Half the angle of view upwards, in radians: that of a photograph of 50 mm or so, without distortion at the edges.
 constexpr double half_angle = 0.31;
 /// How much farther than the 1st and 99th percentile the scene reaches, in their distance; farther points are few.
 constexpr double reach = 0.25;
-/// The share of the least variance in the middle one below which a scene is flat, such as a terrain.
+/// The share of the least variance in the middle one below which a scene is flat, such as a terrain or a room seen from
+/// one side.
 constexpr double flatness = 0.12;
-/// The share of the middle variance in the greatest one below which a scene is a line, which no view along it shows.
+/// The share of the middle variance in the greatest one below which a scene is a line, thinner than a hundredth of its
+/// length, which no view along it shows.
 constexpr double slenderness = 1e-4;
 
 struct Box {

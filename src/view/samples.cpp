@@ -16,22 +16,25 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
+/// Points per task.
 constexpr std::int64_t block_size = 4096;
-/// No disc is larger than this share of the picture's height, halved.
+/// No disc is larger than this share of the picture's height, halved: points next to the eye do not hide all.
 constexpr float most_of_picture = 0.1F;
-/// Discs reach over this many samples at least, so that none falls between samples.
+/// Discs reach over this many samples at least, so that none falls between samples: half the diagonal of one is 0.71.
 constexpr float least_radius = 0.75F;
-/// How steeply discs are tilted at most, as the cosine between normal and view.
+/// How steeply discs are tilted at most, as the cosine between normal and view: seen along their plane they would
+/// vanish.
 constexpr float least_cosine = 0.25F;
-/// Near its middle a disc stands forward, by this share of its radius: where discs overlap the nearest point is seen.
+/// Near its middle a disc stands forward, by this share of its radius: of overlapping discs the nearest point is seen,
+/// for slopes up to 45 degrees.
 constexpr float bulge = 1;
-/// Samples from a hole to where the surface around it is looked up; the farther ones only between discs so wide that
-/// this share of their radius reaches there.
+/// Samples from a hole to where the surface around it is looked up: holes are of the size of the discs.
 constexpr int hole_reaches[] = {2, 4, 8};
+/// The farther samples are looked up only between discs so wide that this share of their radius reaches there.
 constexpr float hole_share = 1.5F;
-/// How many of eight directions must meet that surface.
+/// How many of eight directions must meet that surface; at a silhouette at most five do.
 constexpr int hole_neighbors = 7;
-/// How far behind a disc something is seen through a hole, in its radii.
+/// How far behind a disc something is seen through a hole, in its radii: steep surfaces have no holes then.
 constexpr float hole_depth = 4;
 
 void put(Sample& target, float depth, std::uint32_t number) {

@@ -13,6 +13,7 @@ namespace tufted::view {
 /// What is seen at each sample of the screen, in one number: above the depth, below who is there. The least one is the
 /// nearest, whoever drew first, so the order of drawing and the number of threads do not matter.
 using Sample = std::uint64_t;
+/// The greatest number: anything is nearer.
 constexpr Sample nothing = ~Sample(0);
 
 inline float depthOf(Sample sample) {

@@ -16,22 +16,26 @@ using Eigen::Vector3d;
 using Eigen::Vector3f;
 using Values = std::array<float, 2>;
 
+/// Rows per task.
 constexpr std::int64_t rows_per_block = 16;
-/// Discs that are larger, in samples, have their values blended with those of their neighbours.
+/// Discs that are larger, in samples, have their values blended with those of their neighbours; smaller ones differ by
+/// less than a colour.
 constexpr float blended_radius = 1.5F;
-/// Steps on each side at which neighbouring discs are looked up, within a radius.
+/// Steps on each side at which neighbouring discs are looked up within a radius: 49 samples on a disc.
 constexpr int blend_steps = 3;
-/// The width of the bell by which their values count, in radii.
+/// The width of the bell by which their values count, in radii: isolines run smoothly, and values stay where they are.
 constexpr float blend_width = 0.5F;
 /// Samples belong to one surface if their depths differ by less, in radii of the disc.
 constexpr float same_surface = 4;
-/// Light on a surface that is seen at a right angle to it, and on one seen along it.
+/// Light on a surface that is seen at a right angle to it: colours are never lighter than those of the map.
 constexpr float full_light = 1;
+/// Light on a surface that is seen along it: dark sides keep their colour.
 constexpr float least_light = 0.42F;
-/// How strongly depth shades: where there are normals, and where depth alone tells the shape.
+/// How strongly depth shades where there are normals: edges stand out, surfaces stay as they are.
 constexpr float weak_edges = 18;
+/// How strongly depth shades where it alone tells the shape.
 constexpr float strong_edges = 60;
-/// Samples to those whose depth is compared.
+/// Samples to those whose depth is compared: edges are a pixel and a half wide.
 constexpr int edge_reach = 3;
 /// The share of its colour that a surface keeps under an isoline.
 constexpr float line_share = 0.35F;

@@ -11,7 +11,7 @@ namespace tufted::view {
 namespace {
 
 /// Values within this many distances of the quartiles beyond them are no outliers (Tukey 1977, "Exploratory Data
-/// Analysis": the outer fences).
+/// Analysis": the outer fences). All of even and of normal values keep their colours.
 constexpr double fence = 3;
 
 ValueRange fitted(FieldKind kind, double low, double high) {

@@ -13,14 +13,15 @@ namespace tufted::view {
 
 namespace {
 
-/// How many points before and after in the order along a curve are looked at.
+/// How many points before and after in the order along a curve are looked at; more take time and find few nearer ones.
 constexpr std::ptrdiff_t window = 14;
 /// The distance to this neighbour, counted from 1, is taken for the spacing: on a square grid that of the diagonal.
 constexpr int neighbor = 8;
 /// The radius of a disc in that distance. Less leaves holes where points are random.
 constexpr float disc_share = 0.85F;
-/// No disc is larger than this share of the scene's half size, nor this many times the median.
+/// No disc is larger than this share of the scene's half size, whatever its neighbours.
 constexpr float most_of_scene = 0.12F;
+/// No disc is larger than this many times the median: scanners sample unevenly, and outliers stay small.
 constexpr float most_of_others = 4;
 /// The radius of points without enough neighbours, in the scene's half size.
 constexpr float lone_radius = 0.025F;

@@ -16,6 +16,7 @@ namespace {
 
 /// The characters of a text of UTF-8.
 std::u32string charactersOf(const std::string& text) {
+  // What stands for bytes that are no UTF-8, by Unicode.
   constexpr char32_t unknown = 0xfffd;
   std::u32string characters;
   for (std::size_t i = 0; i < text.size();) {

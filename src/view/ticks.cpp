@@ -8,12 +8,14 @@ namespace tufted::view {
 
 namespace {
 
+/// Marks of a legend, about.
 constexpr int most_steps = 6;
-/// Between fewer powers of ten there are marks at two and five times these.
+/// Between fewer powers of ten there are marks at two and five times these, seven or eight at most.
 constexpr double most_powers = 2.5;
-/// A scale that is shorter, by the greatest number on it, begins at a round number near its low end.
+/// A scale that is shorter, by the greatest number on it, has marks that count from a round number near its low end:
+/// all would begin with the same five digits.
 constexpr double short_scale = 1e-4;
-/// A scale that is shorter shows the last digits of doubles.
+/// A scale that is shorter shows the last digits of doubles, and has one mark.
 constexpr double shortest_scale = 1e-13;
 
 /// A number with `digits` after the point and a true minus sign.

@@ -14,11 +14,17 @@
 namespace tufted {
 namespace {
 
+/// Pixels that a camera is fitted to.
 constexpr std::int64_t samples = 2000;
+/// Rows and columns of an image at least.
 constexpr int least_side = 8;
+/// Pixels that the 8 unknowns of a camera need.
 constexpr int least_samples = 100;
-constexpr double usual_error = 0.5;  // pixels, of half the samples
-constexpr double most_error = 2;     // of 95 % of them
+/// The median error of a camera is at most this, in pixels, as that of the depth images of PCL is.
+constexpr double usual_error = 0.5;
+/// The error, in pixels, that most samples keep: lenses and rounding cause no more.
+constexpr double most_error = 2;
+/// The share of the samples that keep `most_error`, and that lie in front of the camera.
 constexpr double most_share = 0.95;
 
 Buffer<Sighting> takeSightings(const Points& points, int width, int height, const Eigen::Vector3d& origin) {

@@ -10,11 +10,17 @@
 namespace tufted {
 namespace {
 
-constexpr int first_stride = 16;  // of the search for the nearest point of a ring, which noise must not stop
-constexpr int dense_steps = 16;   // beyond so many points from it a ring is looked at ever more sparsely
-constexpr int most_rings = 2;     // on each side; those beyond have no part in a star
-constexpr double neighbors_per_spacing = 15;  // in a ball of one spacing; half as many as ask for that
-constexpr int most_misses = 2;  // points of a ring, one after the other, that are too far: the surface has ended
+/// First step of the search for the nearest point of a ring, so long that noise of single points does not stop it.
+constexpr int first_stride = 16;
+/// So many points of a ring on either side are all taken; of those beyond ever fewer, as they are for the plane and not
+/// for the star.
+constexpr int dense_steps = 16;
+/// Rings that are searched on each side; those beyond have no part in a star.
+constexpr int most_rings = 2;
+/// Points in a ball of one spacing, half the default k: with k = 30 the ball has 1.4 spacings.
+constexpr double neighbors_per_spacing = 15;
+/// A ring ends after so many points one after the other that are too far: the surface has ended.
+constexpr int most_misses = 2;
 
 /// The radius that is searched: as far as a star reaches where points are nowhere denser than across the rings, 1.4
 /// spacings for 30 neighbours. What lies beyond, above all on a sparse ring, is on the other side of a crease or jump

@@ -13,10 +13,14 @@
 namespace tufted {
 namespace {
 
-constexpr double least_contrast = 4;  // of the gaps between rings to those within
+/// Rings are found by their elevations if the gaps between rings are so many times those within.
+constexpr double least_contrast = 4;
+/// With fewer groups of elevations it is no scanner.
 constexpr int least_rings = 4;
-constexpr std::size_t least_per_ring = 16;  // points, in the mean; a few gaps of a random cloud are tiny by chance
-constexpr double rounding = 1e-9;           // rad; gaps below are rounding
+/// Points of a ring in the mean: of a random cloud a few gaps are tiny by chance, and nearly each point would be a
+/// ring; real rings have hundreds.
+constexpr std::size_t least_per_ring = 16;
+constexpr double rounding = 1e-9;  // gaps below this, in rad, are rounding of coordinates
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 void checkOrigin(const char* function, const Eigen::Vector3d& origin) {
