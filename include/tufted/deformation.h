@@ -80,9 +80,9 @@ class DeformationSolver {
   /// @return as deform(), whose errors it throws
   Points deform(const PointsRef& targets, DeformationReport* report = nullptr, const Progress& progress = {}) const;
 
-  /// What is moved from may be assigned to or destroyed, and nothing else.
+  /// A moved-from solver may only be destroyed or assigned to.
   DeformationSolver(DeformationSolver&&) noexcept;
-  /// What is moved from may be assigned to or destroyed, and nothing else.
+  /// A moved-from solver may only be destroyed or assigned to.
   DeformationSolver& operator=(DeformationSolver&&) noexcept;
   ~DeformationSolver();
 

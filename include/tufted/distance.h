@@ -177,9 +177,9 @@ class DistanceSolver {
   /// `method` names both ways.
   const SolverReport& report() const;
 
-  /// What is moved from may be assigned to or destroyed, and nothing else.
+  /// A moved-from solver may only be destroyed or assigned to.
   DistanceSolver(DistanceSolver&&) noexcept;
-  /// What is moved from may be assigned to or destroyed, and nothing else.
+  /// A moved-from solver may only be destroyed or assigned to.
   DistanceSolver& operator=(DistanceSolver&&) noexcept;
   ~DistanceSolver();
 

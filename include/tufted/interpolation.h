@@ -102,9 +102,9 @@ class InterpolationSolver {
   /// What the constructor did.
   const SolverReport& report() const;
 
-  /// What is moved from may be assigned to or destroyed, and nothing else.
+  /// A moved-from solver may only be destroyed or assigned to.
   InterpolationSolver(InterpolationSolver&&) noexcept;
-  /// What is moved from may be assigned to or destroyed, and nothing else.
+  /// A moved-from solver may only be destroyed or assigned to.
   InterpolationSolver& operator=(InterpolationSolver&&) noexcept;
   ~InterpolationSolver();
 
@@ -141,9 +141,9 @@ class PoissonSolver {
   /// What the constructor did.
   const SolverReport& report() const;
 
-  /// What is moved from may be assigned to or destroyed, and nothing else.
+  /// A moved-from solver may only be destroyed or assigned to.
   PoissonSolver(PoissonSolver&&) noexcept;
-  /// What is moved from may be assigned to or destroyed, and nothing else.
+  /// A moved-from solver may only be destroyed or assigned to.
   PoissonSolver& operator=(PoissonSolver&&) noexcept;
   ~PoissonSolver();
 

@@ -42,9 +42,9 @@ class PathSolver {
   /// @throws Cancelled when `progress` returns false
   SurfacePath path(int from, int to, const Progress& progress = {}) const;
 
-  /// What is moved from may be assigned to or destroyed, and nothing else.
+  /// A moved-from solver may only be destroyed or assigned to.
   PathSolver(PathSolver&&) noexcept;
-  /// What is moved from may be assigned to or destroyed, and nothing else.
+  /// A moved-from solver may only be destroyed or assigned to.
   PathSolver& operator=(PathSolver&&) noexcept;
   ~PathSolver();
 

@@ -55,9 +55,9 @@ class SignedDistanceSolver {
   /// What the constructor did, all systems together.
   const SolverReport& report() const;
 
-  /// What is moved from may be assigned to or destroyed, and nothing else.
+  /// A moved-from solver may only be destroyed or assigned to.
   SignedDistanceSolver(SignedDistanceSolver&&) noexcept;
-  /// What is moved from may be assigned to or destroyed, and nothing else.
+  /// A moved-from solver may only be destroyed or assigned to.
   SignedDistanceSolver& operator=(SignedDistanceSolver&&) noexcept;
   ~SignedDistanceSolver();
 

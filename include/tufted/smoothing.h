@@ -90,9 +90,9 @@ class SmoothingSolver {
   /// What the constructor did; without a method if no point moves or time_step is 0, as nothing is factorised then.
   const SolverReport& report() const;
 
-  /// What is moved from may be assigned to or destroyed, and nothing else.
+  /// A moved-from solver may only be destroyed or assigned to.
   SmoothingSolver(SmoothingSolver&&) noexcept;
-  /// What is moved from may be assigned to or destroyed, and nothing else.
+  /// A moved-from solver may only be destroyed or assigned to.
   SmoothingSolver& operator=(SmoothingSolver&&) noexcept;
   ~SmoothingSolver();
 

@@ -105,9 +105,9 @@ class Solver {
   /// What making the solver did.
   const SolverReport& report() const;
 
-  /// What is moved from may be assigned to or destroyed, and nothing else.
+  /// A moved-from solver may only be destroyed or assigned to.
   Solver(Solver&&) noexcept;
-  /// What is moved from may be assigned to or destroyed, and nothing else.
+  /// A moved-from solver may only be destroyed or assigned to.
   Solver& operator=(Solver&&) noexcept;
   ~Solver();
 

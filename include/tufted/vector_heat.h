@@ -58,9 +58,9 @@ class ExtensionSolver {
   /// What the constructor did.
   const SolverReport& report() const;
 
-  /// What is moved from may be assigned to or destroyed, and nothing else.
+  /// A moved-from solver may only be destroyed or assigned to.
   ExtensionSolver(ExtensionSolver&&) noexcept;
-  /// What is moved from may be assigned to or destroyed, and nothing else.
+  /// A moved-from solver may only be destroyed or assigned to.
   ExtensionSolver& operator=(ExtensionSolver&&) noexcept;
   ~ExtensionSolver();
 
@@ -101,9 +101,9 @@ class TransportSolver {
   /// What the constructor did, all systems together.
   const SolverReport& report() const;
 
-  /// What is moved from may be assigned to or destroyed, and nothing else.
+  /// A moved-from solver may only be destroyed or assigned to.
   TransportSolver(TransportSolver&&) noexcept;
-  /// What is moved from may be assigned to or destroyed, and nothing else.
+  /// A moved-from solver may only be destroyed or assigned to.
   TransportSolver& operator=(TransportSolver&&) noexcept;
   ~TransportSolver();
 
@@ -149,9 +149,9 @@ class LogMapSolver {
   /// What the constructor did, all systems together.
   const SolverReport& report() const;
 
-  /// What is moved from may be assigned to or destroyed, and nothing else.
+  /// A moved-from solver may only be destroyed or assigned to.
   LogMapSolver(LogMapSolver&&) noexcept;
-  /// What is moved from may be assigned to or destroyed, and nothing else.
+  /// A moved-from solver may only be destroyed or assigned to.
   LogMapSolver& operator=(LogMapSolver&&) noexcept;
   ~LogMapSolver();
 
