@@ -37,7 +37,7 @@ constexpr int previousSide(int side) {
 
 /// Violations found by `validate`, each a number of sides or faces. All are zero for the cover of a `Laplacian`.
 struct CoverCheck {
-  std::int64_t not_closed = 0;         ///< sides whose mate is out of range; all sides if arrays have the wrong size
+  std::int64_t not_closed = 0;           ///< sides whose mate is out of range; all sides if arrays have the wrong size
   std::int64_t not_edge_manifold = 0;    ///< sides whose mate is glued to another side, or that are glued to themselves
   std::int64_t not_oriented = 0;         ///< sides whose mate does not run the other way between the same vertices
   std::int64_t unequal_lengths = 0;      ///< sides whose mate has another length
