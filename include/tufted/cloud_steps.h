@@ -13,14 +13,14 @@ enum class Growth {
 /// When a star is computed again from more neighbours.
 enum class StarSearch {
   once,      ///< once, from twice as many, if it is closed but a circumcircle leaves the ball that was searched
-  thorough,  ///< until all circumcircles of a closed star lie in the ball that was searched, with up to twice as many
-             ///< neighbours; and an open star up to two times, in case it closes
+  thorough,  ///< until all circumcircles of a closed star lie in the ball that was searched, from up to twice as many;
+             ///< an open star up to two times, in case it closes
 };
 
 /// Which triangles of the stars are dropped, by their circumradius compared with the neighbourhoods of their corners.
 enum class Filter {
   radius,  ///< slivers along a rim and bridges to outliers
-  votes,   ///< triangles far larger than their neighbourhood; smaller ones only if no other corner's star has them
+  votes,   ///< triangles far larger than their neighbourhood, and large ones that no other corner's star has
 };
 
 /// Which area is the mass of a point in M.

@@ -18,9 +18,8 @@ std::vector<int> componentLabels(const Laplacian& laplacian);
 /// @return one size per component, in the order of the labels
 std::vector<std::int64_t> componentSizes(const std::vector<int>& labels);
 
-/// Restricts a Laplacian to some of its components. All other points become isolated: their rows, masses and boundary
-/// are cleared. The components kept stay in order. Of the cover, those connected parts are kept that contain a point of
-/// the components.
+/// Restricts a Laplacian to some of its components, which stay in order. Points of other components become isolated:
+/// their rows, masses and boundary are cleared. Of the cover, connected parts with a point of the components are kept.
 /// @param components labels of componentLabels(), in any order; repeated ones count once
 /// @return a Laplacian of the same N points
 /// @throws InvalidInput for arrays of the wrong size or a label that no component has

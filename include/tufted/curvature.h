@@ -52,7 +52,7 @@ struct Curvatures {
 /// confidence intervals; Goldenshluger and Nemirovski 1997). Where residuals are rounding only, the first window is
 /// used. Heights are quadratic in coordinates whose length is the distance in space, so that a sphere is fitted exactly
 /// by a window of any width. Curvatures are those of the fitted surface.
-/// @param laplacian with positions, and with frames, as a cloud's; their signs are the sign of the mean curvature, see
+/// @param laplacian with positions, and with frames, as a cloud's, whose normals give curvatures their sign; see
 /// orientedFrames()
 /// @throws InvalidInput for arrays of the wrong size, a Laplacian without positions or frames, active points whose
 /// positions or frames are not finite, or options out of range

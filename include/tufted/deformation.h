@@ -19,9 +19,9 @@ enum class DeformationMethod : std::uint8_t {
 /// Options of deform().
 struct DeformationOptions {
   DeformationMethod method = DeformationMethod::as_rigid_as_possible;  ///< how the rest of the surface follows
-  /// For as_rigid_as_possible, in [0, 1e6]: weight of the differences between rotations of neighbours, times the area
-  /// of the component. The surface bends like a plate whose thickness is proportional to its square root. With 0 it
-  /// does not resist bending (Sorkine and Alexa 2007), and how it bends depends on the triangles.
+  /// For as_rigid_as_possible, in [0, 1e6]: cost of different rotations of neighbours, as a share of the area of the
+  /// component. The surface bends like a plate whose thickness is proportional to its square root. With 0 it does not
+  /// resist bending (Sorkine and Alexa 2007), and how it bends depends on the triangles.
   double smoothness = 1e-3;
   /// For as_rigid_as_possible, > 0: iterations stop when no point moves by more than this part of the longest way of a
   /// handle. A rotation counts as the way of a point at the distance of the surface's extent from the axis.

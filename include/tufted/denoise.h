@@ -61,11 +61,11 @@ struct DenoisedPoints {
 /// the same surface. So with `structure` the ranges of pixels are smoothed, as in a build: the result is
 /// Laplacian::positions of pointCloudLaplacian() bit for bit.
 ///
-/// Points of exact data, outliers, points on curves and in volumes, and noise that cannot be told from the shape of the
-/// surface stay exactly where they are. Decisions are local: away from the cut, points of a crop move as in the whole
-/// cloud. A permuted cloud (with its structure) gives the permuted result; a translated or rotated one the translated
-/// or rotated result, up to rounding (of a translation, to floats). The result has the same bits for any number of
-/// threads.
+/// Points of exact data, outliers, points on curves and in volumes, and noise that is indistinguishable from the shape
+/// of the surface stay exactly where they are. Decisions are local: away from the cut, points of a crop move as in the
+/// whole cloud. A permuted cloud (with its structure) gives the permuted result; a translated or rotated one the
+/// translated or rotated result, up to rounding (of a translation, to floats). The result has the same bits for any
+/// number of threads.
 /// @param points N x 3; points that are not finite stay as they are
 /// @throws InvalidInput for a negative number of threads, 2^31 points or more, or a structure that has rings, another
 /// size than the points, an origin that is not finite, columns that are not whole numbers, or more pixels than

@@ -16,9 +16,9 @@ struct GradientOptions {
   /// in L, ring by ring, and all as far as the last of them. 0: all neighbours in L. Empty: 30 for clouds, to average
   /// out noise, and 0 for meshes, whose edges were chosen.
   std::optional<int> neighbors = std::nullopt;
-  /// >= 0, length^2, added to both variances of the neighbours in a fit, which then passes through the value at the
-  /// point, as in DiffusionNet, with 1e-5. It shortens gradients, more so where neighbourhoods are small in the unit of
-  /// length. 0: off.
+  /// >= 0, length^2, added to both eigenvalues of the sum of d d^T over the offsets d of the neighbours in a fit, which
+  /// then passes through the value at the point, as in DiffusionNet, with 1e-5. It shortens gradients, more so where
+  /// neighbourhoods are small in the unit of length. 0: off.
   double regularization = 0;
   int threads = 0;         ///< at most this many threads; 0: one per processor
   Progress progress = {};  ///< called while fits are made

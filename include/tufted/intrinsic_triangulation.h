@@ -14,8 +14,8 @@ namespace tufted {
 /// itself and an edge may join a vertex to itself.
 ///
 /// Side `s` of face `f` has the number 3 f + s and runs from corner `s` to corner `(s + 1) % 3`. `glue` maps a side to
-/// the one side it is glued to, its mate, which runs the other way. Before flips, face 2 t is the front and face 2 t +
-/// 1 the back of triangle t, with the corners (i, j, k) and (i, k, j).
+/// the one side it is glued to, its mate, which runs the other way. Before flips, faces 2 t and 2 t + 1 are the front
+/// and the back of triangle t, with the corners (i, j, k) and (i, k, j).
 struct IntrinsicTriangulation {
   int vertices = 0;                       ///< number of vertices; corners lie in [0, vertices)
   std::vector<std::array<int, 3>> faces;  ///< F x 3 corners

@@ -73,8 +73,8 @@ class CoverSource {
 /// Each face of the cover counts 1/2, as the cover has a front and a back; on clouds 1/6, as three stars find each
 /// triangle.
 struct Laplacian {
-  /// Whether L is that of a cloud or of a mesh. The builds set it, and readLaplacian() from the file; who assembles a
-  /// Laplacian by hand must set it for a cloud. Frames do not decide: a mesh may have some, and a cloud none.
+  /// Whether L is that of a cloud or of a mesh. The builds set it, and readLaplacian() from the file; for a cloud's
+  /// Laplacian assembled by hand it must be set. Frames do not decide: a mesh may have some, and a cloud none.
   Kind kind = Kind::mesh;
   SparseMatrix L;                   ///< N x N, column-major, compressed, rows ascending; no unit (lengths cancel)
   VectorXd M;                       ///< N areas in length^2, see Mass; their sum approximates the surface area
@@ -99,8 +99,8 @@ struct Laplacian {
   Report report;  ///< counts and timings of the build, for people: no algorithm reads it
 
   /// The tufted cover after flips to intrinsic Delaunay; its vertices are the caller's points. On clouds the first call
-  /// builds it, which takes up to half the time that the build of L and M took, and as long for five million points.
-  /// May be called from several threads at once.
+  /// builds it, in at most half the time of the build of L and M (as long for five million points). Any number of
+  /// threads may call.
   /// @throws InvalidInput if there is none, as after `keep_cover = false`
   const IntrinsicTriangulation& cover() const;
   /// Whether cover() can return a cover.
@@ -121,8 +121,7 @@ Laplacian pointCloudLaplacian(const PointsRef& points, const CloudOptions& optio
 
 /// Builds the Laplacian of a triangle mesh of any connectivity (Sharp and Crane 2020, Algorithm 3).
 /// @param points V x 3, in any unit of length; coincident vertices stay separate unless MeshOptions::weld joins them
-/// @param triangles F x 3 indices into `points`; triangles with a repeated or a non-finite vertex are dropped and
-/// counted
+/// @param triangles F x 3 indices into `points`; those with a repeated or non-finite vertex are dropped and counted
 /// @return L and M of V points, positions and report, without frames; see meshFrames()
 /// @throws InvalidInput for indices or options out of range, more than 357 million triangles or 2^31 entries of L
 /// @throws Cancelled when `options.progress` returns false

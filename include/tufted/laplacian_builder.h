@@ -12,11 +12,11 @@ namespace tufted {
 /// at a time, and must not be called from within `Progress`.
 ///
 /// On one thread, a frame like the one before takes no memory from the heap, except in libraries: FLANN takes some for
-/// its trees and searches, CGAL for numbers that a double cannot tell apart and for Delaunay::cgal. With several
-/// threads a frame may take a little, for the parallel sort, and because the memory that a thread needs varies from run
-/// to run. A frame with another number of points takes new arrays for results with one value per point, and a larger
-/// one what it needs in addition. Between frames the builder holds the result, with the capacity of the largest one so
-/// far, and scratch memory of at most twice what the last frame used.
+/// its trees and searches, CGAL for exact numbers and for Delaunay::cgal. With several threads a frame may take a
+/// little, for the parallel sort, and because the memory that a thread needs varies from run to run. A frame with
+/// another number of points takes new arrays for results with one value per point, and a larger one what it needs in
+/// addition. Between frames the builder holds the result, with the capacity of the largest one so far, and scratch
+/// memory of at most twice what the last frame used.
 class LaplacianBuilder {
  public:
   LaplacianBuilder();

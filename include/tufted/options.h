@@ -68,9 +68,8 @@ struct CloudOptions {
   const Neighborhoods* neighborhoods = nullptr;  ///< N x k indices, used as they are and never grown; borrowed
   const ScanStructure* structure = nullptr;      ///< pixels of a depth image or rings of a scanner, used instead of a
                                                  ///< search tree; borrowed
-  /// Position of the sensor, in the unit of the points. Normals face it. With it, Boundary::jump is told from
-  /// Boundary::rim however far apart the surfaces lie along the line of sight. Null: the origin of `structure`, if
-  /// given. Borrowed.
+  /// Position of the sensor, in the unit of the points. Normals face it, and it distinguishes Boundary::jump from rim
+  /// however far apart the surfaces lie along the line of sight. Null: the origin of `structure`, if given. Borrowed.
   const Eigen::Vector3d* viewpoint = nullptr;
   Progress progress = {};  ///< called during the build
 };

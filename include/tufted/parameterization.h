@@ -67,11 +67,11 @@ struct ParameterizationReport {
 /// least conformal energy E among those with one size of the rim: the complex eigenvector z of L_C z = lambda B z with
 /// the least eigenvalue other than that of constants. L_C = L_D - A, where L_D gives the Dirichlet energy and A the
 /// area in the plane, both of the same oriented triangles, so E = z* L_C z / 2 >= 0 (Sharp and Crane 2020, Figure 20).
-/// B holds at each point of the rim half the length of its two edges. A chart may have any number of rims. It has the
-/// area of its triangles; charts lie beside each other, the first at the origin, longer sides along u.
+/// B holds at each point of the rim half the length of its two edges. A chart may have any number of rims. Its area is
+/// that of its triangles; charts lie beside each other, the first at the origin, longer sides along u.
 ///
 /// Harmonic: a single chart that is a disk. Its one simple rim is pinned, and each other point is a mean of its
-/// neighbours; with the weights of L also points of L's component on no triangle.
+/// neighbours; with the weights of L this includes points of L's component that are on no triangle.
 ///
 /// Triangles of a cloud are cut apart where orientations disagree, as a few wrong ones may on scans; a mesh with one
 /// side is refused. Triangles are oriented like most of those given; reversing all of them mirrors the result.

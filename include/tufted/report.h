@@ -70,7 +70,6 @@ struct Report {
   std::int64_t flips = 0;             ///< intrinsic edge flips
   std::int64_t flip_failures = 0;     ///< edges that were not Delaunay when flipping gave up; 0 unless something is
                                       ///< wrong
-                                      ///< wrong
 
   // Operator
   double area = 0;                   ///< sum of M, length^2

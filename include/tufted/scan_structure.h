@@ -9,8 +9,8 @@
 namespace tufted {
 
 /// The order in which a scanner took the points of a cloud: in rows of an image or rings of a spinning scanner, each
-/// point at a place along its row. Consecutive rows were taken side by side. Make one with imageStructure(),
-/// ringStructure() or findRings().
+/// point at a place along its row. Consecutive rows were taken side by side. See imageStructure(), ringStructure() and
+/// findRings().
 ///
 /// With rings, neighbours are found without a tree, however far apart the rings are; azimuths must be those of the
 /// points. In a depth image the pixels around a point are its neighbours, CloudOptions::neighbors has no effect, and
