@@ -1,53 +1,54 @@
 #pragma once
 
-// The single steps that a Preset chooses between. Most users set none of them: cloudOptions(preset) does.
+// The steps of a cloud's build that a Preset chooses. Most users call cloudOptions(preset) instead of setting them.
 namespace tufted {
 
 /// When the k nearest neighbours of a point are doubled, up to 8 k, before a plane is fitted to them.
 enum class Growth {
   line,    ///< when they lie on one line, as on one ring of a scanner
-  uneven,  ///< when they lie on one line or 40 % of them within half the radius: rings close to lines, density steps
+  uneven,  ///< when they lie on one line, or more than 40 % of them within half the radius, as where rings look like
+           ///< lines or density changes abruptly
 };
 
-/// When a star is wrapped again from twice as many neighbours.
+/// When a star is computed again from more neighbours.
 enum class StarSearch {
-  once,      ///< once, when it is closed but a circumcircle leaves the ball that was searched
-  thorough,  ///< again and again, up to twice the neighbourhood, when a closed star's circumcircle leaves the ball that
-             ///< was searched; and up to two times when the star is open
+  once,      ///< once, from twice as many, if it is closed but a circumcircle leaves the ball that was searched
+  thorough,  ///< until all circumcircles of a closed star lie in the ball that was searched, from up to twice as many;
+             ///< an open star up to two times, in case it closes
 };
 
-/// Which triangles of the stars are dropped.
+/// Which triangles of the stars are dropped, by their circumradius compared with the neighbourhoods of their corners.
 enum class Filter {
-  radius,  ///< by their circumradius: slivers along a rim, bridges to outliers
-  votes,   ///< by circumradius, more strictly where no other corner's star has the triangle
+  radius,  ///< slivers along a rim and bridges to outliers
+  votes,   ///< triangles far larger than their neighbourhood, and large ones that no other corner's star has
 };
 
-/// What M holds.
+/// Which area is the mass of a point in M.
 enum class Mass {
-  cover,  ///< a third of the area of each face of the cover around the point
-  /// The same, but where the surface ends at a point the mixed area (Meyer et al. 2003) in the point's own star: there
-  /// neighbours' stars lack triangles, and the areas of the cover are too small.
+  cover,  ///< the areas of the faces of the cover around the point, a third each, with the scale of L
+  /// Where the surface ends at a point, the mixed area (Meyer et al. 2003) in the point's own star, otherwise as
+  /// `cover`. Where the surface ends the stars of neighbours lack triangles, so areas of the cover are too small.
   star,
 };
 
-/// What is done about clouds that are not exact samples of one surface. The defaults are those of Preset::scan. With
-/// the caller's neighborhoods nothing is grown, split, moved or searched again and outliers stay. On rings outliers
-/// stay, no sheets are split, no points moved, only lines are grown, and open stars are not searched again. In a depth
-/// image nothing is grown, split or searched, whatever these say, and neither among rings that lie close together: see
-/// ScanStructure.
+/// Steps for clouds that are not exact samples of one surface. The defaults are those of Preset::scan. Some have no
+/// effect on some input: with the caller's neighborhoods nothing is grown, split, moved or searched again, and outliers
+/// stay. On the rings of a scanner outliers stay, sheets are not split, points not moved, only lines grow, and open
+/// stars are not searched again. In a depth image, and with rings that lie close together (see ScanStructure),
+/// `growth`, `split_sheets`, `star_search` and `isolate_outliers` have no effect.
 struct CloudSteps {
   Growth growth = Growth::line;  ///< when neighbourhoods grow
-  bool split_sheets = true;  ///< neighbours beyond a gap along the normal belong to another surface and are left out
-  StarSearch star_search = StarSearch::thorough;  ///< when stars are wrapped again
-  bool isolate_outliers = true;   ///< points that hover over a surface that does not reach to them lose their stars
+  bool split_sheets = true;      ///< whether neighbours beyond a gap along the normal, on other sheets, are left out
+  StarSearch star_search = StarSearch::thorough;  ///< when a star is computed again from more neighbours
+  bool isolate_outliers = true;  ///< whether points that hover over a surface which does not reach them lose their star
   Filter filter = Filter::votes;  ///< which triangles are dropped
-  /// Where the stars of a quadrilateral of points disagree about its diagonal, as on grids that lie on curved surfaces,
-  /// they all take the one that is Delaunay in space.
+  /// Whether the four stars of a quadrilateral that disagree about its diagonal, as on grids on curved surfaces, all
+  /// take the diagonal that is Delaunay in space.
   bool settle_diagonals = true;
-  /// Where there is noise, points are moved onto the surface first, as by denoise(), and everything is built from
-  /// there. In a depth image they are moved along their rays, and stars are those of the points as they were.
+  /// Whether noisy points are first moved onto the surface, as by denoise(), and everything is built from there. In a
+  /// depth image points move along their rays, and stars are those of the points as given.
   bool denoise = true;
-  Mass mass = Mass::star;  ///< what M holds
+  Mass mass = Mass::star;  ///< which area is the mass of a point
 };
 
 }  // namespace tufted

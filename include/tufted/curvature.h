@@ -8,55 +8,58 @@
 
 namespace tufted {
 
-/// How curvature is found.
+/// How curvature is computed.
 enum class CurvatureMethod {
-  fit,        ///< of a surface fitted over the tangent plane to as many rings of neighbours as the noise asks for
-  laplacian,  ///< mean curvature alone, from L x = 2 H n M; does not converge at single points of a random cloud: it
-              ///< stays 7 to 10 % of the greatest curvature off on a torus and on half a cylinder, however many points
-              ///< there are
+  fit,        ///< from a quadratic fitted over the tangent plane to as many rings of neighbours as the noise requires
+  laplacian,  ///< mean curvature only, from L x = 2 H n M; does not converge at single points of a random cloud: on a
+              ///< torus and half a cylinder its error stays at 7 to 10 % of the greatest curvature however large N is
 };
 
 /// Options of curvatures().
 struct CurvatureOptions {
-  CurvatureMethod method = CurvatureMethod::fit;  ///< how curvature is found
-  int threads = 0;                                ///< at most this many; 0: one per processor
+  CurvatureMethod method = CurvatureMethod::fit;  ///< how curvature is computed
+  int threads = 0;                                ///< at most this many threads; 0: one per processor
   Progress progress = {};                         ///< called with the fraction of the points that are begun
 };
 
-/// What curvatures() did.
+/// Counts and timing of a call of curvatures().
 struct CurvatureReport {
-  /// Active points whose neighbours lie on a line or a conic, so that no quadric is determined; all of theirs is 0.
+  /// Active points whose neighbours lie on a line or a conic, so that no quadratic is determined; all their values are
+  /// 0.
   std::int64_t undetermined = 0;
   double mean_rings = 0;  ///< rings of neighbours in the fits, on average over the active points
   double seconds = 0;     ///< wall-clock
 };
 
-/// Curvature of the surface at each point; 0 at points that are not active, coincident ones as their representative.
-/// A curvature is positive where the surface bends away from the normal, as a sphere does with outward normals.
+/// Curvature of the surface at each point; 0 at points that are not active, and coincident points have that of their
+/// representative. A curvature is positive where the surface bends away from the normal, as on a sphere with outward
+/// normals.
 struct Curvatures {
-  VectorXd mean;      ///< N; H = (k1 + k2) / 2, 1 / length
-  VectorXd gaussian;  ///< N; K = k1 k2, 1 / length^2; size 0 with CurvatureMethod::laplacian
+  VectorXd mean;      ///< N; mean curvature H = (k1 + k2) / 2, 1 / length
+  VectorXd gaussian;  ///< N; Gaussian curvature K = k1 k2, 1 / length^2; size 0 with CurvatureMethod::laplacian
   Eigen::MatrixX2d
       principal;           ///< N x 2; principal curvatures k1 >= k2, 1 / length; 0 rows with CurvatureMethod::laplacian
   Points first;            ///< N x 3; unit direction of k1, of any sign; 0 x 3 with CurvatureMethod::laplacian
-  Points second;           ///< N x 3; that of k2, perpendicular to the first; 0 x 3 with CurvatureMethod::laplacian
-  CurvatureReport report;  ///< what happened
+  Points second;           ///< N x 3; unit direction of k2, perpendicular to `first`; 0 x 3 if that is
+  CurvatureReport report;  ///< counts and timing
 };
 
-/// Curvature from Laplacian::positions and the neighbours in L, so that nothing of another sheet is taken.
+/// Computes curvatures from Laplacian::positions and the neighbours in L, so that points of other sheets are not used.
 ///
-/// At each point heights over its tangent plane are fitted with weights that fall with the distance, first to two rings
-/// of neighbours (four where there is noise), then to more, as long as what they say lies within the errors of what
-/// fewer rings have said: wide enough for the noise, narrow enough for the surface (intersection of confidence
-/// intervals; Goldenshluger and Nemirovski 1997). Where fits leave over rounding alone, the first window is taken.
-/// Heights are quadratic in coordinates as long as the distance in space, so that a sphere is fitted exactly by a
-/// window of any width. Curvatures are those of the fitted surface.
-/// @param laplacian with positions, and frames, as that of a cloud has; orientedFrames() makes the signs consistent
-/// @throws InvalidInput for arrays of the wrong size, a Laplacian without positions or frames, positions or frames of
-/// active points that are not finite, or options out of range
+/// At each point heights over its tangent plane are fitted with weights that fall with distance, first to two rings of
+/// neighbours (four where there is noise), then to more and more, as long as the result stays within the confidence
+/// intervals of all smaller windows: wide enough for the noise, narrow enough for the surface (intersection of
+/// confidence intervals; Goldenshluger and Nemirovski 1997). Where residuals are rounding only, the first window is
+/// used. Heights are quadratic in coordinates whose length is the distance in space, so that a sphere is fitted exactly
+/// by a window of any width. Curvatures are those of the fitted surface.
+/// @param laplacian with positions, and with frames, as a cloud's, whose normals give curvatures their sign; see
+/// orientedFrames()
+/// @throws InvalidInput for arrays of the wrong size, a Laplacian without positions or frames, active points whose
+/// positions or frames are not finite, or options out of range
 /// @throws Cancelled when `options.progress` returns false
 Curvatures curvatures(const Laplacian& laplacian, const CurvatureOptions& options = {});
-/// Curvature with the caller's frames, otherwise as above: for meshes those of meshFrames().
+/// Computes curvatures with the caller's frames, for meshes those of meshFrames(); otherwise as without.
+/// @param frames N x 3 each, orthonormal at active points
 Curvatures curvatures(const Laplacian& laplacian, const Frames& frames, const CurvatureOptions& options = {});
 
 }  // namespace tufted

@@ -10,7 +10,8 @@ struct InvalidInput : std::invalid_argument {
   using std::invalid_argument::invalid_argument;
 };
 
-/// A matrix that could not be factorised, though nothing is wrong with the arguments by themselves.
+/// A system that could not be solved although the arguments are valid: not positive definite, no convergence, overflow,
+/// or too little memory. The message says what to change.
 struct SolverFailure : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
@@ -25,7 +26,7 @@ struct IoError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// A file that may be good, but its content does not fit into the memory.
+/// A file that may be valid but whose content does not fit into memory.
 struct FileTooLarge : IoError {
   using IoError::IoError;
 };

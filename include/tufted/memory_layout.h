@@ -2,11 +2,10 @@
 
 #include <Eigen/Core>
 
-// How Eigen allocates depends on the compiler's flags: with -mavx2 or -march=native on both sides of a call its
-// matrices lie at multiples of 32 or 64 bytes, without at multiples of 16, and under the address sanitizer they are
-// freed in another way. A program whose files and whose tufted differ in that would crash. So that it fails to link
-// instead, every file that includes a header with functions asks for the symbol of its own flags, and the library has
-// only one.
+// How Eigen allocates depends on compiler flags: with -mavx2 or -march=native its matrices lie at multiples of 32 or 64
+// bytes, otherwise of 16, and under the address sanitizer they are freed in another way. A program compiled with other
+// flags than the library would crash. To make it fail at link time instead, every file that includes a header with
+// functions refers to a symbol named after its own flags, and the library defines one such symbol only.
 #if EIGEN_DEFAULT_ALIGN_BYTES > 32
 #define TUFTED_MEMORY_LAYOUT \
   tufted_is_not_built_with_the_mavx512f_or_march_native_of_this_file__give_both_the_same_CMAKE_CXX_FLAGS

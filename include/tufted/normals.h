@@ -10,53 +10,56 @@ namespace tufted {
 
 /// Options of orientedFrames().
 struct OrientationOptions {
-  /// Normals face this position, in the points' unit, each by itself. Null: normals agree with their neighbours'.
-  /// Borrowed.
+  /// A position that every normal shall face, in the unit of the points. Null: normals agree with their neighbours' and
+  /// face outwards. Borrowed.
   const Eigen::Vector3d* viewpoint = nullptr;
-  /// Which way the mean normal of an open component points, which has no outside: upwards, for an airborne scan. Null:
-  /// as orientedFrames() says. Not used with a viewpoint. Borrowed.
+  /// Direction that the mean normal of an open component shall have, since such a component has no outside; for an
+  /// airborne scan upwards. Null: as orientedFrames() says. Not used with a viewpoint. Borrowed.
   const Eigen::Vector3d* up = nullptr;
   Progress progress = {};  ///< called with the fraction of the points that are joined
 };
 
-/// What orientedFrames() did.
+/// Counts and timing of a call of orientedFrames().
 struct OrientationReport {
-  std::int64_t components = 0;  ///< connected components, each oriented by itself; 0 towards a viewpoint
-  /// Components that are open sheets: the mean of their normals is longer than 0.3, and over a closed surface it is 0.
-  /// They have no outside, so that their sign is a convention; 0 towards a viewpoint.
+  std::int64_t components = 0;  ///< connected components, each oriented separately; 0 with a viewpoint
+  /// Components that are open sheets: their mean normal is longer than 0.3, while that of a closed surface is 0. They
+  /// have no outside, so their sign is a convention; 0 with a viewpoint.
   std::int64_t open = 0;
-  std::int64_t turned = 0;  ///< active points whose normal had the other sign
-  /// Neighbours whose normals disagree in the end: 0 where the surface has two sides; edges across which a Moebius
-  /// strip, or noise, turned the sign. 0 towards a viewpoint.
+  std::int64_t turned = 0;  ///< active points whose normal changed its sign
+  /// Pairs of neighbours whose normals disagree in the end: 0 on a surface with two sides; on a Moebius strip, or where
+  /// noise turned a sign, the edges across which the sign changes. 0 with a viewpoint.
   std::int64_t disagreeing_edges = 0;
   double seconds = 0;  ///< wall-clock
 };
 
-/// Frames whose normals have one sign on each component. Neighbours in L speak for having one sign, or for not having
-/// it, by the cosine between their normals (as in Hoppe, DeRose, Duchamp, McDonald, Stuetzle: "Surface reconstruction
-/// from unorganized points", 1992, Section 3.3); across creases one of them is first reflected in the plane between the
-/// two points (Koenig, Gumhold: "Consistent propagation of normal orientations in point clouds", 2009). Sets of points
-/// are joined, the surest pair first, by the sum of what all edges between them say (greedy additive edge contraction;
-/// Keuper et al.: "Efficient decomposition of image and mesh graphs by lifted multicuts", 2015), so that single edges
-/// that are wrong, of which a spanning tree would take some, do not matter. Each component then faces outwards: the
-/// volume that its points and normals enclose is positive. Where it encloses none, as a plane does, the largest
-/// coordinate of its mean normal is positive. An open sheet has no outside: it faces to where it bulges, or as a plane
-/// where it hardly does, which `up` or a viewpoint may overrule. Bodies of some thousands of points that touch are one
-/// component, but face outwards one by one, as far as neighbours that disagree show where they touch. Where the
-/// triangles of a mesh agree (meshFrames() says Orientation::given) they say what is one side, and only whole
-/// components turn.
+/// Turns the normals of a Laplacian's frames so that they have one sign on each component.
 ///
-/// Normals of a cloud that came without any are then fitted anew: by a quadratic through two rings of neighbours in L,
-/// or by a plane through the ten nearest of these points, whichever leaves less variance. Tangents turn with their
-/// normals: where a normal only changes its sign, cross(normal, tangent) stays. Coincident points have the frame of
-/// their representative; other points that are not active keep theirs.
-/// @param laplacian with positions; with frames, as that of a cloud has
-/// @throws InvalidInput for arrays of the wrong size, a Laplacian without positions or frames, positions or frames of
-/// active points that are not finite, a viewpoint that is not, or an `up` that is not or is 0
+/// Two neighbours in L vote for equal or for opposite signs with the cosine between their normals (as in Hoppe, DeRose,
+/// Duchamp, McDonald, Stuetzle: "Surface reconstruction from unorganized points", 1992, Section 3.3). Across a crease
+/// one normal is first reflected in the plane midway between the two points (Koenig, Gumhold: "Consistent propagation
+/// of normal orientations in point clouds", 2009). Sets of points are merged, the most certain pair of sets first, by
+/// the sum of the votes of all edges between them (greedy additive edge contraction; Keuper et al.: "Efficient
+/// decomposition of image and mesh graphs by lifted multicuts", 2015). So single wrong edges, which a spanning tree
+/// might use, do not matter.
+///
+/// Each component then faces outwards: the volume enclosed by its points and normals is positive. If it encloses none,
+/// as a plane, the largest coordinate of its mean normal is positive. An open sheet faces the way it bulges or, if it
+/// hardly does, as a plane, unless `up` or a viewpoint decides. Bodies of some thousands of points that touch are one
+/// component but face outwards separately, if neighbours that disagree show where they touch. If the triangles of a
+/// mesh are oriented consistently (Orientation::given of meshFrames()), only whole components are turned.
+///
+/// Normals of a cloud that were not given by the caller are then fitted anew, by a quadratic through two rings of
+/// neighbours in L or by a plane through the ten nearest of these points, whichever leaves less variance. Tangents turn
+/// with their normals: where a normal only changes its sign, cross(normal, tangent) stays. Coincident points have the
+/// frame of their representative; other points that are not active keep theirs.
+/// @param laplacian with positions, and with frames, as a cloud's
+/// @return frames of N points, with Orientation::viewpoint or Orientation::consistent
+/// @throws InvalidInput for arrays of the wrong size, a Laplacian without positions or frames, active points whose
+/// positions or frames are not finite, a viewpoint that is not finite, or an `up` that is 0 or not finite
 /// @throws Cancelled when `options.progress` returns false
 Frames orientedFrames(const Laplacian& laplacian, const OrientationOptions& options = {},
                       OrientationReport* report = nullptr);
-/// Orients the caller's frames, otherwise as above: for meshes those of meshFrames().
+/// Turns the normals of the caller's frames, for meshes those of meshFrames(); otherwise as without.
 Frames orientedFrames(const Laplacian& laplacian, const Frames& frames, const OrientationOptions& options = {},
                       OrientationReport* report = nullptr);
 

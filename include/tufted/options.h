@@ -10,22 +10,22 @@
 
 namespace tufted {
 
-/// Called from the calling thread with a stage's name and the fraction of it that is begun, in [0, 1]. A stage may come
-/// several times in a row, each time from 0; its names are for people and finer than those of Report::stages.
-/// Returns false to stop the build, which then throws `Cancelled`.
+/// Progress callback, called from the calling thread with the name of a stage and the fraction of it that is begun, in
+/// [0, 1]. A stage may come several times in a row, each time from 0. Stage names are for people and finer than those
+/// in Report::stages. The callback returns false to stop the call, which then throws `Cancelled`.
 using Progress = std::function<bool(std::string_view stage, double fraction)>;
 
-/// Which edges of the union of stars count as one before Algorithm 1 (Sharp and Crane 2020) glues around them.
+/// Which edges of the union of stars become one before Algorithm 1 of Sharp and Crane (2020) glues around them.
 enum class Gluing {
-  star,         ///< the two faces of p's star at a spoke meet each other only; link edges are shared between stars
-  vertex_pair,  ///< all copies of an edge meet, as in the paper (5 % off on spectra at any N)
+  star,         ///< the two faces of p's star at a spoke are glued to each other only; link edges are shared by stars
+  vertex_pair,  ///< all copies of an edge become one, as in the paper; eigenvalues stay 5 % off however large N is
 };
 
 /// Circular order of the faces around an edge (Sharp and Crane 2020, Section 5.4).
 enum class FaceOrder {
-  angle,   ///< dihedral angle
+  angle,   ///< ascending dihedral angle
   area,    ///< ascending area
-  random,  ///< shuffled by `seed`
+  random,  ///< shuffled with `seed`
 };
 
 /// How the Delaunay stars are found. Both ways give the same triangles.
@@ -34,57 +34,59 @@ enum class Delaunay {
   cgal,  ///< CGAL::Delaunay_triangulation_2 (GPL; needs TUFTED_WITH_GPL)
 };
 
-/// Kinds of clouds, see cloudSteps().
+/// Kinds of clouds, each with its own CloudSteps.
 enum class Preset {
-  clean,  ///< exact samples: the paper's steps and no others, the fastest
-  scan,   ///< the default; depth images, laser scans, photogrammetry: noise, jumps, outliers, near sheets, rims; on
-          ///< clean clouds as good as `clean`
-  lidar,  ///< scans of a spinning scanner, whose rings `scan` would take for sheets
+  clean,  ///< exact samples of a surface: the steps of the paper only; the fastest
+  scan,  ///< depth images, laser scans, photogrammetry, with noise, jumps, outliers, near sheets and rims; the default,
+         ///< as accurate as `clean` on exact samples
+  lidar,  ///< scans of a spinning scanner, whose rings `scan` would mistake for sheets
 };
 
-/// The steps for a kind of cloud, to change single ones of (see cloud_steps.h).
+/// The steps for a kind of cloud, of which a caller may change single ones.
 CloudSteps cloudSteps(Preset preset);
 
-/// What stands for the intrinsic mollification of Sharp and Crane (2020, Section 4.5), 0 to 1: no edge is shorter than
-/// this times the longest side of the smaller of its two triangles, and triangles that flips leave flat but for
-/// rounding get a height of about 1e-7 of their longest side. Only edges that need it are lengthened, see
-/// Report::area_added. 0 lengthens nothing: what is flat contributes nothing, and rounding may break the guarantees.
+/// Default of `mollify`, which takes the place of the intrinsic mollification of Sharp and Crane (2020, Section 4.5).
+/// Range [0, 1]: no edge is shorter than this times the longest side of the smaller of its two triangles, and triangles
+/// that flips leave flat up to rounding get a height of about 1e-7 of their longest side. Only edges that need it are
+/// lengthened, see Report::area_added. With 0 none are: flat triangles then contribute nothing, and rounding may break
+/// the guarantees of L.
 constexpr double default_mollify = 1e-6;
 
 /// Options of pointCloudLaplacian().
 struct CloudOptions {
-  int neighbors = 30;                  ///< k >= 3, far fewer than N; larger than N - 1 is clamped and reported
-  CloudSteps steps = {};               ///< most users set none of these and take cloudOptions(preset)
-  Gluing gluing = Gluing::star;        ///< which edges of the stars count as one
-  FaceOrder order = FaceOrder::angle;  ///< of the faces around an edge
+  int neighbors = 30;                  ///< k >= 3, far fewer than N; more than N - 1 is clamped and reported
+  CloudSteps steps = {};               ///< for expert use; cloudOptions(preset) sets them for a kind of cloud
+  Gluing gluing = Gluing::star;        ///< which edges of the stars become one
+  FaceOrder order = FaceOrder::angle;  ///< circular order of the faces around an edge
   std::uint64_t seed = 0;              ///< for FaceOrder::random
   Delaunay delaunay = Delaunay::star;  ///< how the stars are found
-  /// 0 to 1, see default_mollify.
+  /// Least edge length relative to the longest side of a triangle, in [0, 1], see default_mollify.
   double mollify = default_mollify;
-  int threads = 0;         ///< at most this many; 0: one per processor
+  int threads = 0;         ///< at most this many threads; 0: one per processor
   bool keep_cover = true;  ///< false frees what the cover is built from (about 100 bytes per point, up to 700 on noise)
-  const Points* normals = nullptr;               ///< N x 3, any length, instead of the PCA's; keep their sign; borrowed
-  const Neighborhoods* neighborhoods = nullptr;  ///< N x k indices used as they are, never grown; borrowed
-  const ScanStructure* structure = nullptr;  ///< a depth image or the rings of a scanner, instead of a tree; borrowed
-  /// Where the sensor stood, in the points' unit; normals face it, and it distinguishes Boundary::jump from rim however
-  /// far the surfaces lie apart along the line of sight. Null: the origin of `structure`, if there is one. Borrowed.
+  const Points* normals = nullptr;  ///< N x 3, any length: used with their sign instead of those of the PCA; borrowed
+  const Neighborhoods* neighborhoods = nullptr;  ///< N x k indices, used as they are and never grown; borrowed
+  const ScanStructure* structure = nullptr;      ///< pixels of a depth image or rings of a scanner, used instead of a
+                                                 ///< search tree; borrowed
+  /// Position of the sensor, in the unit of the points. Normals face it, and it distinguishes Boundary::jump from rim
+  /// however far apart the surfaces lie along the line of sight. Null: the origin of `structure`, if given. Borrowed.
   const Eigen::Vector3d* viewpoint = nullptr;
   Progress progress = {};  ///< called during the build
 };
 
-/// CloudOptions with the steps for a kind of cloud and defaults otherwise.
+/// CloudOptions with the steps for a kind of cloud and defaults for everything else.
 CloudOptions cloudOptions(Preset preset);
 
 /// Options of meshLaplacian().
 struct MeshOptions {
-  FaceOrder order = FaceOrder::angle;  ///< of the faces around an edge
+  FaceOrder order = FaceOrder::angle;  ///< circular order of the faces around an edge
   std::uint64_t seed = 0;              ///< for FaceOrder::random
-  /// 0 to 1, see default_mollify.
+  /// Least edge length relative to the longest side of a triangle, in [0, 1], see default_mollify.
   double mollify = default_mollify;
-  int threads = 0;         ///< at most this many; 0: one per processor
+  int threads = 0;         ///< at most this many threads; 0: one per processor
   bool keep_cover = true;  ///< false frees the cover (96 bytes per triangle)
-  /// Whether vertices of equal position are joined. All keep their index: the later ones become
-  /// PointStatus::coincident, and the first of each position stands for them.
+  /// Whether vertices of equal position are joined. All keep their index: the first of each position represents the
+  /// others, which become PointStatus::coincident.
   bool weld = false;
   Progress progress = {};  ///< called during the build
 };

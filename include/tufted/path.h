@@ -8,43 +8,43 @@
 
 namespace tufted {
 
-/// A path over the surface.
+/// A path on the surface.
 struct SurfacePath {
-  /// K x 3, in the points' unit: both ends, and where the path crosses an edge or passes a point. Positions are those
-  /// that lengths are measured between, Laplacian::positions, linear along edges. Where edges were flipped their middle
-  /// lies off the surface a little, and so do these.
+  /// K x 3, in the points' unit: both ends, and the places where the path crosses an edge or passes a point,
+  /// interpolated linearly along edges between Laplacian::positions. The middle of a flipped edge lies off the surface
+  /// a little, and so do places on it.
   Points points;
-  double length = 0;    ///< along the surface, in the points' unit
+  double length = 0;    ///< length along the surface, in the points' unit
   int shortenings = 0;  ///< how often the path was led around the other side of a point
 };
 
-/// Shortest paths over the distinct faces of the tufted cover, prepared once and asked often. Queries may run side by
-/// side.
+/// Shortest paths on the distinct faces of the tufted cover. Prepared once, queried often; queries may run in parallel.
 ///
-/// A path follows edges down the distance from its start (see DistanceSolver). Then it is straightened: the triangles
-/// that it runs through are unfolded into a plane, where the shortest way through them is found (Lee, Preparata 1984),
-/// and where that turns at a point with less than half a circle on the other side, it is led around that side (Xin,
+/// A first path runs from the end down the distance to the start (see DistanceSolver). Then it is straightened: the
+/// triangles that it crosses are unfolded into a plane, where the shortest way through them is found (Lee, Preparata
+/// 1984); where that turns at a point with an angle below pi on the other side, the path is led around that side (Xin,
 /// Wang: "Efficiently determining a locally exact shortest path on polyhedral surfaces", 2007). In the end it is
-/// straight everywhere but at points with at least half a circle on each side, so that no path near it is shorter. That
-/// is done from both ends, and the shorter path is taken. Any number of triangles may meet at an edge.
+/// straight except at points with at least pi on each side, so no path near it is shorter. This is done from both ends,
+/// and the shorter path is returned. Any number of triangles may meet at an edge.
 class PathSolver {
  public:
-  /// Prepares the faces of a Laplacian's cover.
-  /// @param laplacian must have its cover and positions; not needed after construction
-  /// @param threads at most so many; 0: as many as the machine has
-  /// @throws InvalidInput for arrays of the wrong size, or where there is no cover or are no positions
+  /// Prepares the faces of the cover.
+  /// @param laplacian with its cover and positions; not needed after construction
+  /// @param threads at most this many threads; 0: one per processor
+  /// @throws InvalidInput for arrays of the wrong size, or a Laplacian without cover or positions
   /// @throws Cancelled when `progress` returns false
   explicit PathSolver(const Laplacian& laplacian, int threads = 0, const Progress& progress = {});
 
-  /// The path between two points of the cloud or vertices of the mesh. One point of length 0 if they are the same, or
-  /// coincide.
+  /// Computes the path between two points of the cloud or vertices of the mesh; a single point and length 0 if they are
+  /// the same or coincide.
+  /// @param from,to indices of active points, or of points that coincide with one
   /// @throws InvalidInput for an index out of range, or where no path leads
   /// @throws Cancelled when `progress` returns false
   SurfacePath path(int from, int to, const Progress& progress = {}) const;
 
-  /// What is moved from may be assigned to or destroyed, and nothing else.
+  /// A moved-from solver may only be destroyed or assigned to.
   PathSolver(PathSolver&&) noexcept;
-  /// What is moved from may be assigned to or destroyed, and nothing else.
+  /// A moved-from solver may only be destroyed or assigned to.
   PathSolver& operator=(PathSolver&&) noexcept;
   ~PathSolver();
 

@@ -11,17 +11,17 @@ namespace tufted {
 /// Cost of one stage of a build.
 struct StageCost {
   std::string name;       ///< "neighbors", "stars", ...
-  double seconds = 0;     ///< wall-clock; stages that share a parallel loop split its time by their CPU shares
-  std::size_t bytes = 0;  ///< memory held by what the stage leaves behind
+  double seconds = 0;     ///< wall-clock; stages that share a parallel loop divide its time by their CPU shares
+  std::size_t bytes = 0;  ///< memory of what the stage leaves behind
 };
 
-/// What happened in a build. Odd data is never printed and never throws: it is counted here.
+/// Counts, areas and timings of a build. Odd data is never printed and never throws: it is counted here.
 struct Report {
   // Input
   std::int64_t points = 0;      ///< rows of the caller's array
   std::int64_t active = 0;      ///< points with a positive diagonal
-  std::int64_t not_finite = 0;  ///< NaN, infinite, or beyond 1e70 median spreads or 1e152
-  std::int64_t coincident = 0;  ///< merged with an earlier equal point (clouds, and meshes with MeshOptions::weld)
+  std::int64_t not_finite = 0;  ///< points of PointStatus::not_finite
+  std::int64_t coincident = 0;  ///< points merged with an earlier equal one (clouds, and meshes with MeshOptions::weld)
   std::int64_t isolated = 0;    ///< points without a triangle
 
   std::int64_t rim_points = 0;   ///< active points of Boundary::rim
@@ -29,28 +29,28 @@ struct Report {
   std::int64_t lost_points = 0;  ///< active points of Boundary::lost
 
   // Clouds
-  int neighbors = 0;  ///< k in use, after clamping to N - 1; with the caller's lists, the longest; of a depth image 48
-  bool neighbors_clamped = false;        ///< the caller's k exceeded N - 1
-  std::int64_t rejected_normals = 0;     ///< caller's normals that are zero or not finite, replaced by PCA
+  int neighbors = 0;  ///< k in use: clamped to N - 1; the longest of the caller's lists; at most 48 in a depth image
+  bool neighbors_clamped = false;        ///< whether the k asked for exceeded N - 1
+  std::int64_t rejected_normals = 0;     ///< caller's normals that are zero or not finite, replaced by those of the PCA
   std::int64_t rejected_neighbors = 0;   ///< caller's neighbours that are repeated, unusable or the point itself
-  double pixel_fill = 0;                 ///< of the depth image that the structure is of, see pixelFill(); 0 without
+  double pixel_fill = 0;                 ///< pixelFill() of the depth image; 0 without one
   std::int64_t unplaced = 0;             ///< usable points that have no place in the structure of the scan
   std::int64_t cut_neighbors = 0;        ///< neighbours in the scan left out because the surface jumps in between
-  std::int64_t grown_neighborhoods = 0;  ///< k doubled because the neighbours say too little, see Growth
-  std::int64_t split_neighborhoods = 0;  ///< neighbours of another sheet left out
-  std::int64_t isolated_by_sheets = 0;   ///< points without a star: nearly all neighbours belong to other sheets
-  std::int64_t thick_neighborhoods = 0;  ///< thicker than half their width: thin things within, volumes, strong noise
-  std::int64_t outliers = 0;             ///< points without a star: they hover over a surface, see CloudSteps
+  std::int64_t grown_neighborhoods = 0;  ///< neighbourhoods that grew, see Growth; of a depth image windows widened
+  std::int64_t split_neighborhoods = 0;  ///< neighbourhoods from which neighbours on other sheets were left out
+  std::int64_t isolated_by_sheets = 0;   ///< points without a star because nearly all neighbours lie on other sheets
+  std::int64_t thick_neighborhoods = 0;  ///< neighbourhoods whose smallest variance is above half of the middle one:
+                                         ///< thin bodies, volumes, strong noise
+  std::int64_t outliers = 0;             ///< points without a star, see CloudSteps::isolate_outliers
   std::int64_t denoised = 0;             ///< points moved onto the surface, see CloudSteps::denoise
-  /// The noise around each point that CloudSteps::denoise moved, or the smoothing of a depth image, is a standard
-  /// deviation along the normal, or the ray: this is the median over these points, in the caller's unit; 0 without any.
+  /// Median of Laplacian::noise over the points that were moved, in the caller's unit; 0 if none was.
   double noise = 0;
-  std::int64_t grown_stars = 0;            ///< times k was doubled because a closed star was not certified
-  std::int64_t closed_stars = 0;           ///< open stars that closed with two or four times the neighbours
-  std::int64_t open_stars = 0;             ///< points whose Voronoi cell is not compact
-  std::int64_t dropped_triangles = 0;      ///< star triangles removed: filtered, with outliers, too flat, across jumps
-  std::int64_t settled_diagonals = 0;      ///< quadrilaterals whose stars were made to agree, see CloudSteps
-  std::array<std::int64_t, 3> votes = {};  ///< distinct triangles found by 1, 2, 3 of their corners
+  std::int64_t grown_stars = 0;        ///< closed stars computed again because a circumcircle left the searched ball
+  std::int64_t closed_stars = 0;       ///< open stars that closed with two or four times the neighbours
+  std::int64_t open_stars = 0;         ///< points whose star is open
+  std::int64_t dropped_triangles = 0;  ///< star triangles removed: filtered, of outliers, too flat, across jumps
+  std::int64_t settled_diagonals = 0;  ///< quadrilaterals whose stars were made to agree, see CloudSteps
+  std::array<std::int64_t, 3> votes = {};  ///< distinct triangles that the stars of 1, 2 and 3 of their corners have
 
   // Meshes
   std::int64_t repeated_vertex_triangles = 0;  ///< dropped: a vertex occurs twice
@@ -59,36 +59,37 @@ struct Report {
   std::int64_t nonmanifold_edges = 0;          ///< edges of more than two triangles
 
   // Cover
-  std::int64_t triangles = 0;    ///< triangles under the cover, all copies counted; the cover has twice as many
-  double mean_edge = 0;          ///< mean length over the triangles' sides, before any is lengthened
-  double mean_squared_edge = 0;  ///< mean squared length over the triangles' sides, the unit of smoothing's time step
-  std::int64_t lengthened_edges = 0;  ///< edges of the cover that were lengthened, see MeshOptions::mollify
-  double area_added = 0;              ///< `cover_area` less the area of the triangles by their corners, in length^2: by
-                                      ///< lengthened edges, and by rounding where triangles are thin; 0 unless flat
-                                      ///< triangles or a mesh lead over the whole cover
-  std::int64_t degenerate_faces = 0;  ///< cover faces of no area in spite of that; they contribute nothing
+  std::int64_t triangles = 0;    ///< triangles under the cover, copies included; the cover has twice as many faces
+  double mean_edge = 0;          ///< mean length of the triangles' sides before mollification, in the caller's unit
+  double mean_squared_edge = 0;  ///< mean squared length of the triangles' sides before mollification
+  std::int64_t lengthened_edges = 0;  ///< edges of the cover that mollification lengthened, see default_mollify
+  double area_added = 0;              ///< `cover_area` less the area of the triangles between the points, in length^2:
+                                      ///< from lengthened edges, and from rounding in thin triangles; 0 on clouds
+                                      ///< without flat triangles
+  std::int64_t degenerate_faces = 0;  ///< cover faces without area even so; they contribute nothing
   std::int64_t flips = 0;             ///< intrinsic edge flips
-  std::int64_t flip_failures = 0;     ///< edges that were not Delaunay when flips were given up; 0 unless something is
+  std::int64_t flip_failures = 0;     ///< edges that were not Delaunay when flipping gave up; 0 unless something is
                                       ///< wrong
 
   // Operator
-  double area = 0;                   ///< sum of M
-  double cover_area = 0;             ///< sum of the cover's areas; equal to `area` with Mass::cover
+  double area = 0;                   ///< sum of M, length^2
+  double cover_area = 0;             ///< sum of Laplacian::cover_areas; equal to `area` with Mass::cover
   std::int64_t star_masses = 0;      ///< points whose mass is an area of their own star, see Mass::star; 0 on meshes
   std::int64_t nonzeros = 0;         ///< stored entries of L
-  std::int64_t components = 0;       ///< connected components among active points
+  std::int64_t components = 0;       ///< connected components of the active points
   std::int64_t clamped_weights = 0;  ///< negative weights set to 0, within 1e-9 of the larger diagonal
   std::int64_t clamped_large =
-      0;  ///< larger negative weights set to 0, a failure of the flips; 0 unless something is wrong
+      0;  ///< negative weights beyond that set to 0, a failure of the flips; 0 unless something is wrong
   double largest_clamped = 0;  ///< largest clamped |weight| over the larger diagonal of its row and column
 
-  int threads = 1;                ///< that the build had
+  int threads = 1;                ///< threads that the build used
   std::vector<StageCost> stages;  ///< in the order of the build
 };
 
-/// Calls visit(name, member) for each member of a Report but `stages`: numbers, a bool, and the array `votes`. The one
-/// list of them, by which reports are written, read and shown.
-/// @param report a Report, or a constant one
+/// Calls visit(name, member) for each member of a Report except `stages`: numbers, a bool, and the array `votes`.
+/// Reports are written, read and shown by this one list.
+/// @param report a Report or a const Report
+/// @param visit callable with (const char*, member&)
 template <class AnyReport, class Visit>
 void visitNumbers(AnyReport& report, const Visit& visit) {
   visit("points", report.points);
@@ -142,7 +143,8 @@ void visitNumbers(AnyReport& report, const Visit& visit) {
   visit("threads", report.threads);
 }
 
-/// What a user must know of a build, one sentence each; empty if all is well. The command, Python and PCL say it.
+/// Warnings that a user should see after a build, one sentence each; empty if all is well. The command prints them, and
+/// so do Python and PCL.
 std::vector<std::string> warnings(const Report& report);
 
 }  // namespace tufted

@@ -8,45 +8,51 @@
 
 namespace tufted {
 
-/// How a scanner took the points of a cloud: in rows, each point at a place along its row. Rows are those of an image
-/// or the rings of a spinning scanner; consecutive rows were taken side by side. With the rings of a scanner neighbours
-/// are found without a tree, however far apart the rings are. In a depth image the pixels around each point take the
-/// place of its neighbours, CloudOptions::neighbors counts for nothing, and noise is told along the line of sight. The
-/// part of an image that holds points must have at most 2^24 pixels or 64 per entry; where several points share a pixel
-/// all but one have no place. Rings are such an image, too, where they lie close together, as those of scanners with 64
-/// of them: in the median at most 0.75 degrees and 4.5 steps of the azimuth apart, in even steps with few gaps. See
-/// imageStructure(), ringStructure() and findRings().
+/// The order in which a scanner took the points of a cloud: in rows of an image or rings of a spinning scanner, each
+/// point at a place along its row. Consecutive rows were taken side by side. See imageStructure(), ringStructure() and
+/// findRings().
+///
+/// With rings, neighbours are found without a tree, however far apart the rings are; azimuths must be those of the
+/// points. In a depth image the pixels around a point are its neighbours, CloudOptions::neighbors has no effect, and
+/// noise is measured along the line of sight. The rectangle of pixels that holds points may have at most 2^24 pixels or
+/// 64 per entry. Of several points in a pixel one has a place. Rings that lie close together, as those of scanners with
+/// 64 of them, are treated as a depth image: in the median at most 0.75 degrees and 4.5 azimuth steps apart, in even
+/// steps with few gaps.
 struct ScanStructure {
   std::vector<int> row;          ///< N; row of the image or number of the ring; negative: the point has no place
   std::vector<double> position;  ///< N; column of the image, or azimuth in radians; not finite: the point has no place
-  bool has_rings = false;        ///< rows are rings, closed around 2 pi; otherwise positions are whole columns >= 0
-  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< position of the sensor, in the points' unit
+  bool has_rings = false;        ///< true: rows are rings, closed around 2 pi; false: positions are whole columns >= 0
+  Eigen::Vector3d origin = Eigen::Vector3d::Zero();  ///< position of the sensor, in the unit of the points
 };
 
-/// The pixels of an organized cloud, row-major as in PCL.
-/// @param width,height columns and rows, at least 0 each; the cloud has width x height points
+/// The structure of an organized cloud, whose points are stored row by row as in PCL.
+/// @param width,height columns and rows, >= 0; the cloud has width x height points
+/// @param origin position of the sensor, in the unit of the points
 /// @throws InvalidInput for negative sizes or more than 2^31 - 1 pixels
 ScanStructure imageStructure(int width, int height, const Eigen::Vector3d& origin = Eigen::Vector3d::Zero());
 
-/// Whether the points of an organized cloud are where a pinhole camera at `origin` saw them, pixel by pixel, however it
-/// was turned: for imageStructure(). Clouds that were moved without `origin`, or are no depth image, are not.
-/// @param points width x height rows, row-major; those that are not finite are skipped
-/// @returns false as well where fewer than 100 points are finite, or rows and columns are fewer than 8
+/// Whether an organized cloud is a depth image, for which imageStructure() is meant: every point lies where a pinhole
+/// camera at `origin`, turned in any way, saw its pixel. A cloud that was moved without `origin` is not.
+/// @param points width x height rows, row by row; points that are not finite are skipped
+/// @param origin position of the sensor, in the unit of the points
+/// @return also false for fewer than 100 finite points, fewer than 8 rows or columns, or a pixelFill() below
+/// least_pixel_fill
 bool isDepthImage(const Points& points, int width, int height, const Eigen::Vector3d& origin = Eigen::Vector3d::Zero());
 
-/// The rings of a spinning scanner, as its driver numbered them.
+/// The structure of a spinning scanner's cloud whose ring numbers are known.
 /// @param points N x 3; azimuths are their directions around the z axis through `origin`
-/// @param ring N; in the order of elevation (up or down), negative where unknown
+/// @param ring N ring numbers in the order of elevation (up or down); negative where unknown
+/// @param origin position of the sensor, in the unit of the points
 /// @throws InvalidInput for arrays of different sizes or an origin that is not finite
 ScanStructure ringStructure(const Points& points, std::vector<int> ring,
                             const Eigen::Vector3d& origin = Eigen::Vector3d::Zero());
 
-/// Finds the rings of a spinning scanner without ring numbers: they are the clusters of the points' elevations seen
-/// from the origin. Points that are not finite, or at the origin, have no place.
-/// @param points N x 3, in the scanner's frame: it turns around the z axis through `origin`
-/// @throws InvalidInput for an origin that is not finite, and where the elevations do not cluster: there are fewer than
-/// 4 rings, or fewer than 16 points per ring in the mean, or a ring is wider than the narrowest gap between two, or
-/// within a ring there is a gap of more than a quarter of that between two
+/// Finds the rings of a spinning scanner without ring numbers, as clusters of the elevations of points seen from the
+/// origin. Points that are not finite, or at the origin, have no place.
+/// @param points N x 3, in the frame of the scanner, which turns around the z axis through `origin`
+/// @throws InvalidInput for an origin that is not finite, or elevations that do not cluster: fewer than 4 rings, fewer
+/// than 16 points per ring on average, a ring wider than the narrowest gap between two, or a gap within a ring of more
+/// than a quarter of that
 ScanStructure findRings(const Points& points, const Eigen::Vector3d& origin = Eigen::Vector3d::Zero());
 
 }  // namespace tufted

@@ -1,6 +1,6 @@
 #pragma once
 
-// Everything in the core library. Files and the PCL filters have headers of their own (tufted/io, tufted/pcl).
+// All headers of the core library. Files, views and the PCL classes have their own: tufted/io, tufted/view, tufted/pcl.
 #include "tufted/check.h"
 #include "tufted/components.h"
 #include "tufted/curvature.h"

@@ -12,55 +12,57 @@ namespace tufted {
 
 /// Options of the solvers of the vector heat method.
 struct VectorHeatOptions {
-  /// Time step t > 0, in the mean squared distance of neighbours in L on each component, between Laplacian::positions.
-  /// Smaller ones depend more on single points, larger ones mix what comes from several sources, or around both sides
-  /// of an obstacle.
+  /// Time step t, in units of the mean squared distance of neighbours in L on each component, in [1e-4, 1e12]. Smaller
+  /// ones depend more on single points; larger ones mix what comes from several sources, or around both sides of an
+  /// obstacle.
   double time_step = 4;
   /// How systems are solved. `memory_limit` bounds all factors that a solver holds together.
   SolverOptions solver = {};
 };
 
-/// What a query did.
+/// Work, accuracy and time of a query.
 struct VectorHeatReport {
-  int rounds = 0;             ///< rounds of heat, each of which starts where the last one became too small
+  int rounds = 0;             ///< rounds of heat, each starting where the last one became too small
   int iterations = 0;         ///< most conjugate gradient iterations of any solve; 0 with Cholesky
   double residual = 0;        ///< greatest residual of any solve, see SolveReport
   double backward_error = 0;  ///< greatest backward error of any solve, see SolveReport
   double seconds = 0;         ///< wall-clock
 };
 
-/// Values of some points carried to all, nearly those of the nearest source (Sharp, Soliman, Crane: "The vector heat
-/// method", 2019, Section 4): u / phi, where (M + t L) u = sum of the values at the sources, and (M + t L) phi = sum of
-/// ones there. Factored once, queried often; queries may run side by side.
+/// Extends values from some points to all points, nearly those of the nearest source (Sharp, Soliman, Crane: "The
+/// vector heat method", 2019, Section 4): u / phi, where (M + t L) u is the sum of the values at the sources, and (M +
+/// t L) phi that of ones there. Factored once, queried often; queries may run in parallel.
 class ExtensionSolver {
  public:
   /// @param laplacian with positions; not needed after construction
-  /// @throws InvalidInput for options out of range, arrays of the wrong size, or a Laplacian without positions
+  /// @throws InvalidInput for options out of range, arrays of the wrong size, a Laplacian without positions, or active
+  /// points whose positions are not finite
   /// @throws SolverFailure when the matrix cannot be factorised
   /// @throws Cancelled when `options.solver.progress` returns false
   explicit ExtensionSolver(const Laplacian& laplacian, const VectorHeatOptions& options = {});
 
-  /// Every value lies within the range of the sources' values on its component, but for rounding; at a source it is its
-  /// own mixed with those of sources a few spacings away. Several values at one place count as their mean.
-  /// @param sources S indices of points; those that are not active are ignored
+  /// Extends values. Each result lies within the range of the sources' values on its component, up to rounding. At a
+  /// source it is a mixture of its own value and those of sources a few spacings away. Several values at one place
+  /// count as their mean.
+  /// @param sources S indices of points; isolated and non-finite ones are ignored
   /// @param values S x c, finite
-  /// @return N x c; NaN where no path leads, at isolated points and at those that are not finite; a coincident point
-  /// has its representative's values
+  /// @return N x c; NaN where no path leads and at isolated and non-finite points; coincident points as their
+  /// representative
   /// @throws InvalidInput for no source, an index out of range, arrays of different sizes, values that are not finite,
   /// or no source on any component
-  /// @throws SolverFailure as Solver::solve
+  /// @throws SolverFailure for the same reasons as Solver::solve()
   /// @throws Cancelled when `progress` returns false
   Eigen::MatrixXd query(const std::vector<int>& sources, const Eigen::MatrixXd& values,
                         VectorHeatReport* report = nullptr, const Progress& progress = {}) const;
 
-  /// The time step t in use, in the points' unit squared, on the component that has the most points.
+  /// The time step t, in the points' unit squared, of the component with the most points.
   double timeStep() const;
-  /// What the constructor did.
+  /// How the constructor factored its system.
   const SolverReport& report() const;
 
-  /// What is moved from may be assigned to or destroyed, and nothing else.
+  /// A moved-from solver may only be destroyed or assigned to.
   ExtensionSolver(ExtensionSolver&&) noexcept;
-  /// What is moved from may be assigned to or destroyed, and nothing else.
+  /// A moved-from solver may only be destroyed or assigned to.
   ExtensionSolver& operator=(ExtensionSolver&&) noexcept;
   ~ExtensionSolver();
 
@@ -69,41 +71,42 @@ class ExtensionSolver {
   std::unique_ptr<const State> state_;
 };
 
-/// Tangent vectors of some points carried to all, parallel along the shortest paths (Sharp, Soliman, Crane 2019,
-/// Algorithm 1). Directions are those of Y, (M + t L') Y = sum of the vectors at the sources, where L' is L with the
-/// smallest rotation between the tangent planes of two neighbours in place of each off-diagonal 1; lengths are extended
-/// as ExtensionSolver does. Where two normals point to different sides, one counts with the other sign, so signs of
-/// normals do not matter. Factored once, queried often; queries may run side by side.
+/// Transports tangent vectors from some points to all points, parallel along the shortest paths (Sharp, Soliman, Crane
+/// 2019, Algorithm 1). Directions are those of Y, where (M + t L') Y is the sum of the vectors at the sources and L' is
+/// L with its off-diagonals multiplied by the smallest rotations between the tangent planes of neighbours. Lengths are
+/// extended as by ExtensionSolver. Where the normals of two neighbours point to different sides, one is negated first,
+/// so signs of normals do not matter. Factored once, queried often; queries may run in parallel.
 class TransportSolver {
  public:
-  /// @param laplacian with positions and frames, as that of a cloud has; not needed after construction
+  /// @param laplacian with positions and frames, as a cloud's; not needed after construction
   /// @throws InvalidInput for options out of range, arrays of the wrong size, a Laplacian without positions or frames,
-  /// or those of active points that are not finite
+  /// or active points whose positions or frames are not finite
   /// @throws SolverFailure when a matrix cannot be factorised
   /// @throws Cancelled when `options.solver.progress` returns false
   explicit TransportSolver(const Laplacian& laplacian, const VectorHeatOptions& options = {});
-  /// As above in the caller's frames: for meshes those of meshFrames().
+  /// The same with the caller's frames, for meshes those of meshFrames().
   TransportSolver(const Laplacian& laplacian, const Frames& frames, const VectorHeatOptions& options = {});
 
-  /// @param sources S indices of points; those that are not active are ignored
+  /// Transports vectors.
+  /// @param sources S indices of points; isolated and non-finite ones are ignored
   /// @param vectors S x 3, finite, projected into the tangent planes of their points; those at one place are averaged
-  /// @return N x 3 tangent vectors; 0 where no path leads, at isolated points and at those that are not finite; a
-  /// coincident point has its representative's
+  /// @return N x 3 tangent vectors; 0 where no path leads and at isolated and non-finite points; coincident points as
+  /// their representative
   /// @throws InvalidInput for no source, an index out of range, arrays of different sizes, vectors that are not finite
-  /// or stand on their tangent plane, or no source on any component
-  /// @throws SolverFailure as Solver::solve
+  /// or perpendicular to their tangent plane, or no source on any component
+  /// @throws SolverFailure for the same reasons as Solver::solve()
   /// @throws Cancelled when `progress` returns false
   Points query(const std::vector<int>& sources, const Points& vectors, VectorHeatReport* report = nullptr,
                const Progress& progress = {}) const;
 
-  /// The time step t in use, in the points' unit squared, on the component that has the most points.
+  /// The time step t, in the points' unit squared, of the component with the most points.
   double timeStep() const;
-  /// What the constructor did, all systems together.
+  /// How the constructor factored its systems, summed over them.
   const SolverReport& report() const;
 
-  /// What is moved from may be assigned to or destroyed, and nothing else.
+  /// A moved-from solver may only be destroyed or assigned to.
   TransportSolver(TransportSolver&&) noexcept;
-  /// What is moved from may be assigned to or destroyed, and nothing else.
+  /// A moved-from solver may only be destroyed or assigned to.
   TransportSolver& operator=(TransportSolver&&) noexcept;
   ~TransportSolver();
 
@@ -115,43 +118,43 @@ class TransportSolver {
 /// Polar coordinates around a point, as LogMapSolver finds them.
 struct LogMap {
   Eigen::MatrixX2d coordinates;  ///< N x 2; distance times (cos, sin) of the angle, in the points' unit
-  Eigen::RowVector3d first;      ///< unit; the direction of the first coordinate at the source
-  Eigen::RowVector3d second;     ///< unit; the direction of the second, cross(normal of the source, first)
-  VectorHeatReport report;       ///< what happened
+  Eigen::RowVector3d first;      ///< unit vector; the direction of the first coordinate at the source
+  Eigen::RowVector3d second;     ///< unit vector; the direction of the second, cross(normal of the source, first)
+  VectorHeatReport report;       ///< work, accuracy and time
 };
 
-/// The logarithmic map: for each point, in which direction and how far from the source its shortest path goes (Sharp,
-/// Soliman, Crane 2019, Section 8.2). The distance is that of DistanceSolver; the angle is the one between two
-/// transported fields, the axes at the source and the directions that lead away from it. The latter start in a ring
-/// some spacings around the source, where they are those in the tangent plane: at its next neighbours they would
-/// depend on where these happen to lie. Factored once, queried often; queries may run side by side.
+/// The logarithmic map: for each point, the direction at the source and the length of the shortest path to it (Sharp,
+/// Soliman, Crane 2019, Section 8.2). The distance is that of DistanceSolver. The angle is that between two transported
+/// fields: the axes at the source, and the directions away from it. The latter start in a ring some spacings around the
+/// source, where they are measured in its tangent plane: at its next neighbours they would depend on where these happen
+/// to lie. Factored once, queried often; queries may run in parallel.
 class LogMapSolver {
  public:
-  /// @param laplacian with its cover, positions and frames, as that of a cloud has; not needed after construction
-  /// @throws as TransportSolver, and InvalidInput where there is no cover
+  /// @param laplacian with its cover, positions and frames, as a cloud's; not needed after construction
+  /// @throws InvalidInput, SolverFailure and Cancelled as TransportSolver(), and InvalidInput if there is no cover
   explicit LogMapSolver(const Laplacian& laplacian, const VectorHeatOptions& options = {});
-  /// As above in the caller's frames: for meshes those of meshFrames().
+  /// The same with the caller's frames, for meshes those of meshFrames().
   LogMapSolver(const Laplacian& laplacian, const Frames& frames, const VectorHeatOptions& options = {});
 
-  /// Coordinates are 0 at the source and NaN where no path leads, at isolated points and at those that are not finite;
-  /// a coincident point has its representative's. Next to the cut locus, where several shortest paths meet, angles are
-  /// mixed.
+  /// Computes the coordinates of all points: 0 at the source; NaN where no path leads and at isolated and non-finite
+  /// points; coincident points as their representative. Next to the cut locus, where several shortest paths meet,
+  /// angles are mixed.
   /// @param source index of an active point
   /// @param axis direction of the first coordinate, projected into the tangent plane of the source; 0: the frame's
   /// tangent
   /// @throws InvalidInput for an index out of range, a source that is not active, or an axis that is not finite or
-  /// stands on the tangent plane
-  /// @throws SolverFailure as Solver::solve
+  /// perpendicular to the tangent plane
+  /// @throws SolverFailure for the same reasons as Solver::solve()
   /// @throws Cancelled when `progress` returns false
   LogMap query(int source, const Eigen::RowVector3d& axis = Eigen::RowVector3d::Zero(),
                const Progress& progress = {}) const;
 
-  /// What the constructor did, all systems together.
+  /// How the constructor factored its systems, summed over them.
   const SolverReport& report() const;
 
-  /// What is moved from may be assigned to or destroyed, and nothing else.
+  /// A moved-from solver may only be destroyed or assigned to.
   LogMapSolver(LogMapSolver&&) noexcept;
-  /// What is moved from may be assigned to or destroyed, and nothing else.
+  /// A moved-from solver may only be destroyed or assigned to.
   LogMapSolver& operator=(LogMapSolver&&) noexcept;
   ~LogMapSolver();
 

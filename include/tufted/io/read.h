@@ -17,81 +17,81 @@ namespace tufted {
 /// Number type of a field, as PCD and PLY name them (64-bit integers: PCD only).
 enum class FieldType : std::uint8_t { int8, uint8, int16, uint16, int32, uint32, int64, uint64, float32, float64 };
 
-/// A further value per point that the file carries (colour, intensity, label, ...), kept as it was stored.
+/// A further value per point of the file (colour, intensity, label, ...), kept as it was stored.
 struct Field {
-  std::string name;                     ///< as in the file, but see fieldKey()
-  FieldType type = FieldType::float32;  ///< of one value
+  std::string name;                     ///< as in the file, or as fieldKey() makes it
+  FieldType type = FieldType::float32;  ///< type of one value
   int count = 1;                        ///< values per point
-  std::vector<std::byte> bytes;         ///< N * count values, native byte order
+  std::vector<std::byte> bytes;         ///< N * count values, point by point, native byte order
 };
 
-/// Value i of the N * count values of a field. 64-bit integers beyond 2^53 are rounded.
+/// Value i of the N * count values of a field, 0 <= i. 64-bit integers beyond 2^53 are rounded.
 double valueOf(const Field& field, std::size_t i);
 
-/// What a field is called here, whatever program wrote the file: `x` for "X", "Points_m_XYZ:0" and Easting, `nx` for
-/// normal_x, `red` for R and diffuse_red, `gps_time` for GpsTime. Other names are lower case and one word, without
-/// quotes. Readers name the fields so that they know; what else a file names keeps its capitals.
+/// The name by which the library knows a field, whatever program wrote the file: `x` for "X", "Points_m_XYZ:0" and
+/// Easting, `nx` for normal_x, `red` for R and diffuse_red, `gps_time` for GpsTime. Other names become one word in
+/// lower case without quotes. Readers give such names to the fields they know; all others keep their capitals.
 std::string fieldKey(std::string_view name);
 
-/// Which of `names` somebody means by `name`: the same, or else the first that differs in capitals alone, or else of
-/// the same fieldKey(); -1 for none.
+/// Finds a name among `names`: the equal one, or else the first that differs only in capitals, or else the first with
+/// the same fieldKey().
+/// @return index in `names`; -1: none
 std::ptrdiff_t findField(const std::vector<std::string>& names, const std::string& name);
 
-/// What a file holds: a cloud, or a mesh.
+/// The content of a file: a cloud, or a mesh.
 struct Geometry {
   std::string format;         ///< format of the file, for people: "PCD, binary", "LAS 1.4, point format 6"
-  Points points;              ///< N x 3, in the file's unit, float and double without loss
-  Points normals;             ///< N x 3 where the file has them, else 0 x 3
+  Points points;              ///< N x 3, in the file's unit; floats and doubles are read without loss
+  Points normals;             ///< N x 3 if the file has them, else 0 x 3
   std::vector<Field> fields;  ///< everything else per point, in the file's order
   int width = 0;              ///< columns of an organized cloud; N otherwise
   int height = 1;             ///< rows of an organized cloud; 1 otherwise
   /// Pose of the sensor as PCD states it: translation x y z, then the quaternion w x y z, of any length but 0. All
   /// seven numbers are finite: readers refuse other files, writers other poses.
   std::array<double, 7> viewpoint = {0, 0, 0, 1, 0, 0, 0};
-  bool is_mesh = false;              ///< false: a cloud
+  bool is_mesh = false;              ///< whether the file has faces that were read
   Triangles triangles;               ///< F x 3; polygons are triangulated, in order
   std::int64_t polygons = 0;         ///< faces of more than three corners that were triangulated
-  std::int64_t merged_vertices = 0;  ///< corners of an STL that became one vertex with an equal earlier one
-  std::int64_t unread_bytes = 0;     ///< behind the last record that the file counts; they are passed over
-  std::vector<std::string> notes;    ///< what was passed over or changed: a line each, beginning with the path
+  std::int64_t merged_vertices = 0;  ///< corners of an STL that were merged with an earlier equal one
+  std::int64_t unread_bytes = 0;     ///< bytes behind the last record that the file announces; they are skipped
+  std::vector<std::string> notes;    ///< what was skipped or changed: a line each, beginning with the path
 };
 
 /// Whether to read a file as a cloud or as a mesh.
 enum class ReadAs {
-  automatic,  ///< a mesh where the file has faces, else a cloud: an OBJ or OFF without faces too
+  automatic,  ///< a mesh if the file has faces, otherwise a cloud, for OBJ and OFF too
   cloud,      ///< points only; faces are ignored
   mesh,       ///< a file without faces is an error
 };
 
-/// The formats that are read. Text of numbers in columns, whatever its name, is `xyz`.
+/// The formats that can be read. Text with numbers in columns, whatever its name, is `xyz`.
 enum class FileFormat { automatic, pcd, ply, xyz, las, obj, off, stl, npy, vtk };
 
-/// Reads clouds (PCD, PLY, XYZ, LAS, OFF and OBJ without faces, NPY of N x 3 numbers or more, or with names) and meshes
-/// (PLY, OBJ, OFF, STL, VTK's legacy polygonal data).
+/// Reads a cloud (PCD, PLY, XYZ, LAS, OFF and OBJ without faces, NPY of N x 3 numbers or more, or with names) or a mesh
+/// (PLY, OBJ, OFF, STL, VTK's legacy polygonal data) from a file.
 ///
-/// Bytes behind the last record that a file counts are passed over and noted; a file that counts no record must have
-/// none. The counts that a file announces are compared with its size before memory is taken for them. Reading takes
-/// less than 128 bytes for each byte of the file and twice what is returned.
-/// @param format `automatic` goes by the extension, and where that is unknown by the content.
+/// Bytes behind the last record that a file announces are skipped and noted; a file that announces no records must have
+/// none. Announced counts are compared with the size of the file before memory is taken for them. Reading takes less
+/// than 128 bytes of memory for each byte of the file and twice the result.
+/// @param format `automatic` decides by the extension, and if that is unknown by the content
 /// @param progress called while polygons of many corners are triangulated
-/// @throws FileTooLarge when the memory does not suffice
-/// @throws IoError naming the path, and the line or byte where known
+/// @throws FileTooLarge when memory does not suffice
+/// @throws IoError naming the path, and the line or byte where known; also for ReadAs::mesh without faces
 /// @throws Cancelled when `progress` returns false
 Geometry read(const std::filesystem::path& path, ReadAs as = ReadAs::automatic,
               FileFormat format = FileFormat::automatic, const Progress& progress = {});
 
-/// Reads a stream to its end, such as std::cin.
-/// @param name stands for the path in errors
-/// @param format `automatic` goes by the content.
+/// Reads a stream, such as std::cin, to its end; otherwise as from a file.
+/// @param name used as the path: in errors, and its extension for `automatic`
 Geometry read(std::istream& stream, const std::string& name, ReadAs as = ReadAs::automatic,
               FileFormat format = FileFormat::automatic, const Progress& progress = {});
 
-/// Reads a file that is in memory already.
-/// @param name stands for the path; its extension counts as that of a path does.
+/// Reads the bytes of a file; otherwise as from a file.
+/// @param name used as the path: in errors, and its extension for `automatic`
 Geometry parse(std::string_view bytes, const std::filesystem::path& name, ReadAs as = ReadAs::automatic,
                FileFormat format = FileFormat::automatic, const Progress& progress = {});
 
-/// Whether `read` knows this type of file. Looks at the extension alone.
+/// Whether read() knows the extension of a path. The file is not opened.
 bool isReadable(const std::filesystem::path& path);
 
 }  // namespace tufted

@@ -7,11 +7,13 @@
 
 namespace tufted {
 
-/// The rings of a spinning scanner's file: by its field `ring`, or else by the elevations seen from its viewpoint,
-/// which must show rings; and by its field `azimuth` in radians, degrees or hundredths of degrees (the first whose
-/// turn, 6.28, 360 or 36000, holds all values), or else by the directions seen from there.
+/// Finds the rings of a spinning scanner in a file's points. Ring numbers are those of the field `ring`, otherwise
+/// clusters of the elevations seen from the file's viewpoint (findRings()). Azimuths are those of the field `azimuth`,
+/// in radians, degrees or hundredths of degrees, the first whose full turn (6.28, 360 or 36000) covers all values;
+/// otherwise the directions seen from there.
 /// @param name of the file, for messages
-/// @throws IoError where neither field nor elevations show rings, or azimuths are of an unknown unit
+/// @return one entry per point, with the position of the sensor
+/// @throws IoError if there is no field `ring` and elevations show no rings, or if azimuths have none of these units
 ScanStructure ringsOf(const Geometry& geometry, const std::string& name);
 
 }  // namespace tufted

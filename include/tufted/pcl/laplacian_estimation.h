@@ -9,33 +9,34 @@
 
 namespace tufted {
 
-/// Computes L, M and what is known about each point, for a PCL cloud.
+/// Computes the Laplacian of a PCL cloud.
 ///
-/// They are built from the points that setIndices names, and from them alone: row r of the result belongs to
-/// (*indices)[r]. Without indices row r is point r. Points that are NaN, whatever is_dense says, keep a row of zeros. A
-/// caller's mistake is reported on PCL's console and leaves an empty result. The viewpoint, which distinguishes jumps
-/// from rims in Laplacian::boundary, is the sensor's origin of an organized cloud unless setOptions names another.
+/// It is built only from the points that setIndices names: row r of the result belongs to (*indices)[r]. Without
+/// indices row r is point r. NaN points, whatever is_dense says, keep an empty row. A caller's mistake is reported on
+/// PCL's console and leaves an empty result. The viewpoint, which distinguishes jumps from rims in Laplacian::boundary,
+/// is the sensor's origin of an organized cloud unless setOptions() gives another one.
 ///
 /// Instantiated for PCL_XYZ_POINT_TYPES; for other types include impl/laplacian_estimation.hpp.
 template <typename PointT>
 class LaplacianEstimation : public pcl::PCLBase<PointT>, public LaplacianSettings<PointT> {
  public:
-  /// As PCL has it.
+  /// Shared pointer, as PCL's classes have it.
   using Ptr = pcl::shared_ptr<LaplacianEstimation<PointT>>;
-  /// As PCL has it.
+  /// Shared pointer to const, as PCL's classes have it.
   using ConstPtr = pcl::shared_ptr<const LaplacianEstimation<PointT>>;
 
-  /// Builds the Laplacian of the input cloud; `result` is overwritten, with 0 rows if that failed.
+  /// Builds the Laplacian of the input cloud.
+  /// @param[out] result overwritten, with 0 rows after an error, which is reported on PCL's console
   void compute(Laplacian& result);
 
-  /// All options of the core, k and threads included. What they borrow (normals, neighborhoods, structure: one row per
-  /// index) must live until compute() is done; a search method or an organized search wins over neighborhoods and
-  /// structure.
+  /// Sets all options of the core, k and threads included. What they borrow (normals, neighborhoods, structure, with
+  /// one row per index) must live until compute() returns. A search method or an organized search replaces
+  /// neighborhoods and structure.
   void setOptions(const CloudOptions& options) { options_ = options; }
   /// See setOptions().
   const CloudOptions& getOptions() const { return options_; }
 
-  /// "LaplacianEstimation".
+  /// The name of the class, "LaplacianEstimation".
   const std::string& getClassName() const { return class_name_; }
 
  protected:

@@ -6,14 +6,14 @@
 
 namespace tufted {
 
-/// How the classes for users of PCL build the Laplacian of their input.
+/// Settings that the PCL classes have in common: how they build the Laplacian of their input.
 template <typename PointT>
 class LaplacianSettings {
  public:
-  /// Null, or a search of PCL.
+  /// A search method of PCL, or null.
   using SearchPtr = typename pcl::search::Search<PointT>::Ptr;
 
-  /// Neighbours per point, at least 3; 30 unless set.
+  /// Neighbours per point, at least 3; 30 by default.
   void setKSearch(int k) { options_.neighbors = k; }
   /// See setKSearch().
   int getKSearch() const { return options_.neighbors; }
@@ -23,15 +23,15 @@ class LaplacianSettings {
   /// See setNumberOfThreads().
   unsigned int getNumberOfThreads() const { return static_cast<unsigned int>(options_.threads); }
 
-  /// The search that finds the neighbours; null (default): the core, which also looks further if k are too few. It is
-  /// given the cloud and the indices of its finite points.
+  /// The search that finds k neighbours; null (default): the library's own, which also takes more neighbours where k
+  /// are too few. Its input is set to the cloud and the indices of its finite points.
   void setSearchMethod(const SearchPtr& search) { search_ = search; }
   /// See setSearchMethod().
   SearchPtr getSearchMethod() const { return search_; }
 
-  /// Whether an organized input is a depth image seen from its sensor_origin_, whose pixels then take the place of k
-  /// neighbours; false unless set. To be set for depth cameras: noise is told along the line of sight, and no tree is
-  /// built. A search method wins over it.
+  /// Whether an organized input is a depth image seen from its sensor_origin_; false by default. Its pixels then
+  /// replace k neighbours, no tree is built, and noise is measured along the line of sight. Recommended for depth
+  /// cameras. Ignored with a search method.
   void setOrganizedSearch(bool organized) { organized_ = organized; }
   /// See setOrganizedSearch().
   bool getOrganizedSearch() const { return organized_; }
@@ -40,7 +40,7 @@ class LaplacianSettings {
   LaplacianSettings() = default;
   ~LaplacianSettings() = default;
 
-  CloudOptions options_;    ///< of the core, k and threads included
+  CloudOptions options_;    ///< options of the core, k and threads included
   SearchPtr search_;        ///< see setSearchMethod()
   bool organized_ = false;  ///< see setOrganizedSearch()
 };

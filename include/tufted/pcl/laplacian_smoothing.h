@@ -12,9 +12,9 @@ namespace tufted {
 
 /// Smooths the positions of a cloud by implicit steps (M + t L) x' = M x; see tufted::smooth.
 ///
-/// The operator is built from all finite points of the input. With setIndices only the points named move; all others,
-/// with every copy of them, stay in place. Every other field, the order, width and height, header and sensor pose are
-/// copied; NaN points stay NaN in place, and is_dense says whether there are any. Nothing is removed, so
+/// The Laplacian is built from all finite points of the input. With setIndices only the points named move; all others,
+/// and every copy of them, stay in place. All other fields, the order, width and height, header and sensor pose are
+/// copied. NaN points stay NaN in place, and is_dense says whether there are any. Nothing is removed, so
 /// getRemovedIndices is always empty. The output may be the input. A caller's mistake is reported on PCL's console and
 /// leaves an empty output.
 ///
@@ -22,11 +22,11 @@ namespace tufted {
 template <typename PointT>
 class LaplacianSmoothing : public pcl::Filter<PointT>, public LaplacianSettings<PointT> {
  public:
-  /// As PCL has it.
+  /// Shared pointer, as PCL's classes have it.
   using Ptr = pcl::shared_ptr<LaplacianSmoothing<PointT>>;
-  /// As PCL has it.
+  /// Shared pointer to const, as PCL's classes have it.
   using ConstPtr = pcl::shared_ptr<const LaplacianSmoothing<PointT>>;
-  /// As PCL has it.
+  /// Type of input and output.
   using PointCloud = typename pcl::Filter<PointT>::PointCloud;
 
   LaplacianSmoothing() {
@@ -34,17 +34,17 @@ class LaplacianSmoothing : public pcl::Filter<PointT>, public LaplacianSettings<
     options_.keep_cover = false;
   }
 
-  /// Time step t >= 0 in units of the mean squared edge length, 1 unless set; see SmoothingOptions::time_step.
+  /// Time step t in [0, 1e10], in units of the mean squared edge length, 1 by default; see SmoothingOptions::time_step.
   void setTimeStep(double time_step) { time_step_ = time_step; }
   /// See setTimeStep().
   double getTimeStep() const { return time_step_; }
 
-  /// Number of steps, at least 1, all with the Laplacian of the input; 1 unless set.
+  /// Number of steps, at least 1, all with the Laplacian of the input; 1 by default.
   void setIterations(int iterations) { iterations_ = iterations; }
   /// See setIterations().
   int getIterations() const { return iterations_; }
 
-  /// What happened in the last filter(): odd points, edge lengths, costs.
+  /// Report of the build in the last filter(): odd points, edge lengths, costs.
   const Report& getReport() const { return report_; }
 
   using pcl::Filter<PointT>::getClassName;

@@ -8,8 +8,8 @@ namespace tufted {
 
 /// Moves the points of a noisy cloud onto the surface, without a radius to choose; see tufted::denoise.
 ///
-/// The surface is found from all finite points of the input. With setIndices only the points named move. Every other
-/// field, normals too, the order, width and height, header and sensor pose are copied; NaN points stay NaN in place,
+/// The surface is found from all finite points of the input. With setIndices only the points named move. All other
+/// fields, normals too, the order, width and height, header and sensor pose are copied. NaN points stay NaN in place,
 /// and is_dense says whether there are any. Nothing is removed, so getRemovedIndices is always empty. The output may be
 /// the input. A caller's mistake is reported on PCL's console and leaves an empty output.
 ///
@@ -17,11 +17,11 @@ namespace tufted {
 template <typename PointT>
 class SurfaceDenoising : public pcl::Filter<PointT> {
  public:
-  /// As PCL has it.
+  /// Shared pointer, as PCL's classes have it.
   using Ptr = pcl::shared_ptr<SurfaceDenoising<PointT>>;
-  /// As PCL has it.
+  /// Shared pointer to const, as PCL's classes have it.
   using ConstPtr = pcl::shared_ptr<const SurfaceDenoising<PointT>>;
-  /// As PCL has it.
+  /// Type of input and output.
   using PointCloud = typename pcl::Filter<PointT>::PointCloud;
 
   SurfaceDenoising() { this->filter_name_ = "SurfaceDenoising"; }
@@ -32,12 +32,12 @@ class SurfaceDenoising : public pcl::Filter<PointT> {
   unsigned int getNumberOfThreads() const { return static_cast<unsigned int>(threads_); }
 
   /// Whether an organized input is a depth image seen from its sensor_origin_, whose points move along their rays;
-  /// false unless set. To be set for depth cameras, as in LaplacianEstimation.
+  /// false by default. Recommended for depth cameras.
   void setOrganizedSearch(bool organized) { organized_ = organized; }
   /// See setOrganizedSearch().
   bool getOrganizedSearch() const { return organized_; }
 
-  /// What happened in the last filter(): points moved, outliers, the noise in the cloud's unit.
+  /// Report of the last filter(): points moved, outliers, the noise in the cloud's unit.
   const DenoiseReport& getReport() const { return report_; }
 
   using pcl::Filter<PointT>::getClassName;

@@ -9,9 +9,10 @@
 
 namespace tufted {
 
-/// The colours that drawPicture() gives the points, without light: red, green and blue of each.
-/// @param options field, column, color_map and range count
-/// @throws InvalidInput as drawPicture()
+/// Computes the colours that drawPicture() gives the points, before shading.
+/// @param options only field, column, color_map and range are used
+/// @return N x (red, green, blue)
+/// @throws InvalidInput for the same reasons as drawPicture()
 std::vector<std::array<std::uint8_t, 3>> pointColors(const Scene& scene, const PictureOptions& options = {});
 
 }  // namespace tufted

@@ -11,11 +11,12 @@
 #include "tufted/errors.h"
 #include "tufted/laplacian.h"
 
-/// Conversions between PCL's types and the core's, which the PCL classes have in common.
+/// Conversions between the types of PCL and of the core, for all PCL classes.
 namespace tufted::detail {
 
-/// Checks that indices name points of the cloud.
-/// @throws InvalidInput for an index that names no point of the cloud
+/// Checks that indices lie in the cloud.
+/// @param name of the caller, for the message
+/// @throws InvalidInput for an index out of range
 template <typename PointT>
 void checkIndices(const char* name, const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices) {
   for (const pcl::index_t i : indices) {
@@ -26,7 +27,7 @@ void checkIndices(const char* name, const pcl::PointCloud<PointT>& cloud, const 
   }
 }
 
-/// Points in double, before anything is computed; row r is point indices[r].
+/// Converts the points that `indices` name to double, before anything is computed; row r is point indices[r].
 template <typename PointT>
 Points toPoints(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices) {
   Points points(static_cast<Eigen::Index>(indices.size()), 3);
@@ -37,8 +38,9 @@ Points toPoints(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indice
   return points;
 }
 
-/// The k points nearest to each of `points`, without itself, as row numbers of `points`; fewer are padded with -1.
-/// The search gets the finite points, each once.
+/// Finds the k points nearest to each of `points`, itself excluded, with a search of PCL.
+/// @param search gets the finite points as input, each once
+/// @return row numbers of `points`; missing ones are -1
 template <typename PointT>
 Neighborhoods nearestNeighbors(pcl::search::Search<PointT>& search,
                                const typename pcl::PointCloud<PointT>::ConstPtr& cloud, const pcl::Indices& indices,
@@ -69,7 +71,7 @@ Neighborhoods nearestNeighbors(pcl::search::Search<PointT>& search,
   return neighborhoods;
 }
 
-/// The pixels of the points that `indices` name in an organized cloud, with its sensor's origin.
+/// The structure of the points that `indices` name in an organized cloud, with the origin of its sensor.
 /// @throws InvalidInput for a cloud that is not organized
 template <typename PointT>
 ScanStructure pixelsOf(const pcl::PointCloud<PointT>& cloud, const pcl::Indices& indices) {
@@ -87,10 +89,9 @@ ScanStructure pixelsOf(const pcl::PointCloud<PointT>& cloud, const pcl::Indices&
   return structure;
 }
 
-/// The Laplacian of the points that `indices` name.
-/// Errors are those of pointCloudLaplacian.
+/// Builds the Laplacian of the points that `indices` name. Errors are those of pointCloudLaplacian().
 /// @param search finds the neighbours; null: the core does
-/// @param organized whether the core does so by the pixels of the cloud
+/// @param organized whether the pixels of the cloud replace a search
 template <typename PointT>
 Laplacian cloudLaplacian(const typename pcl::PointCloud<PointT>::ConstPtr& cloud, const pcl::Indices& indices,
                          const Points& points, const typename pcl::search::Search<PointT>::Ptr& search, bool organized,
@@ -109,7 +110,7 @@ Laplacian cloudLaplacian(const typename pcl::PointCloud<PointT>::ConstPtr& cloud
   return pointCloudLaplacian(points, options);
 }
 
-/// Says what a user must know of a build on PCL's console.
+/// Prints the warnings of a build or of denoise() on PCL's console.
 /// @param report of a build or of denoise()
 template <class AnyReport>
 void sayWarnings(const std::string& class_name, const AnyReport& report) {
