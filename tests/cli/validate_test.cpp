@@ -212,17 +212,16 @@ TEST_F(Validate, AFileThatTakesTooLongFails) {
   EXPECT_TRUE(contains(result.out, "large.xyz: took longer than --time 0.05\n")) << result.out;
 }
 
-TEST_F(Validate, ALimitOfMemoryHoldsForEachFile) {
+TEST_F(Validate, AFileThatNeedsTooMuchMemoryFailsAndTheOthersDoNot) {
 #ifdef TUFTED_SANITIZED
   GTEST_SKIP() << "the shadow memory of a sanitizer counts too";
 #endif
   const std::string large = writeLarge(), good = writeTetrahedron();
-  const Result result =
-      runProgram({"sh", "-c", R"(ulimit -d 30000; exec "$0" validate --json "$@")", tuftedCommand(), large, good});
+  const Result result = runTufted({"validate", "--json", large, good, "--memory", "30"});
   EXPECT_EQ(result.code, 1);
   const json files = json::parse(result.out)["files"];
   EXPECT_EQ(files[0]["result"], "FAILED");
-  EXPECT_TRUE(contains(files[0]["reasons"][0], "memory")) << files[0];
+  EXPECT_TRUE(contains(files[0]["reasons"][0], "memory (--memory 30)")) << files[0];
   EXPECT_EQ(files[1]["result"], "OK") << files[1];
 }
 
@@ -295,6 +294,7 @@ TEST_F(Validate, MistakesOnTheCommandLineAreOneLineAndTwo) {
                                                           {""},
                                                           {file, "--jobs", "0"},
                                                           {file, "--time", "-1"},
+                                                          {file, "--memory", "0"},
                                                           {file, "--as", "surface"},
                                                           {"--operator", ""},
                                                           {"--operator", dir_.path(), "--as", "mesh"}};

@@ -9,9 +9,11 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -44,8 +46,7 @@ constexpr const char* footer =
   tufted validate scans --json
 
 Takes files, and folders with all that is below them and has a known extension; links to folders are followed.
-Each file has a process of its own, so that none can stop the run; a shell's `ulimit -d KB` limits the memory of each.
-Prints a line per file, in the order given:
+Each file has a process of its own, so that none can stop the run. Prints a line per file, in the order given:
 
   result   OK, EMPTY (nothing broke, but no point is active: L and M are zero), REFUSED (the reader gives its reason;
            also a folder that cannot be listed) or FAILED (what broke, or how the process ended)
@@ -77,8 +78,9 @@ struct Settings {
   std::vector<std::filesystem::path> paths, operators;
   tufted::ReadAs as = tufted::ReadAs::automatic;
   int jobs = std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-  double seconds = 600;  ///< limit per file, 0 for none
-  bool is_one = false;   ///< judge the only file in this process
+  double seconds = 600;       ///< limit per file, 0 for none
+  std::optional<int> memory;  ///< limit per file in MB
+  bool is_one = false;        ///< judge the only file in this process
   Console console;
 };
 
@@ -87,6 +89,7 @@ std::vector<std::string> wordsForOne(const std::filesystem::path& path, bool is_
   const double seconds = settings.seconds > 0 ? std::max(1e-6, settings.seconds) : 0;  // to_string has six digits
   std::vector<std::string> words = {
       "validate", "--one", "--jobs", std::to_string(settings.jobs), "--time", std::to_string(seconds)};
+  if (settings.memory) words.insert(words.end(), {"--memory", std::to_string(*settings.memory)});
   for (const auto& [word, as] : kinds)
     if (as == settings.as) words.insert(words.end(), {"--as", word});
   if (is_operator) words.emplace_back("--operator");
@@ -95,10 +98,10 @@ std::vector<std::string> wordsForOne(const std::filesystem::path& path, bool is_
 }
 
 /// How a process ended that gave no result.
-std::string describeEnd(int status, const std::string& text, double limit) {
+std::string describeEnd(int status, const std::string& text, const Settings& settings) {
   std::ostringstream reason;
   if (WIFSIGNALED(status) && WTERMSIG(status) == SIGALRM) {
-    reason << "took longer than --time " << limit;
+    reason << "took longer than --time " << settings.seconds;
   } else if (WIFSIGNALED(status)) {
     const int signal = WTERMSIG(status);
     reason << "its process was ended by signal " << signal << " (" << strsignal(signal) << ")";
@@ -106,18 +109,20 @@ std::string describeEnd(int status, const std::string& text, double limit) {
   } else {
     reason << "its process ended with code " << WEXITSTATUS(status) << " and no result";
   }
+  if (settings.memory) reason << " under --memory " << *settings.memory;
   if (!text.empty()) reason << ": " << text.substr(text.size() - std::min(text.size(), most_text));
   return reason.str();
 }
 
 /// What is known about a file whose process has ended.
-Json describeFile(const std::string& file, int status, double seconds, const std::string& text, double limit) {
+Json describeFile(const std::string& file, int status, double seconds, const std::string& text,
+                  const Settings& settings) {
   Json row = {{"file", file}, {"result", "FAILED"}, {"reasons", Json::array()}, {"seconds", seconds}};
   const Json found = Json::parse(text, nullptr, false);
   if (found.is_object() && WIFEXITED(status) && WEXITSTATUS(status) == exit_done)
     row.update(found);
   else
-    row["reasons"].push_back(describeEnd(status, text, limit));
+    row["reasons"].push_back(describeEnd(status, text, settings));
   return row;
 }
 
@@ -201,7 +206,7 @@ int runValidate(Settings settings) {
     files.push_back({folder});
   }
   settings.jobs = std::min<int>(settings.jobs, static_cast<int>(files.size()));
-  // Where `ulimit -d` is low, OpenBLAS's threads look for room for ever, and the process cannot end.
+  // Under a limit of memory OpenBLAS's threads look for room for ever, and the process cannot end.
   setenv("OPENBLAS_NUM_THREADS", "1", 1);
 
   Results results(files.size(), settings.console);
@@ -217,7 +222,7 @@ int runValidate(Settings settings) {
   }
   const auto ended = [&](std::size_t process, int status, double seconds, const std::string& text) {
     const std::size_t i = numbers[process];
-    results.add(i, describeFile(files[i].path.string(), status, seconds, text, settings.seconds));
+    results.add(i, describeFile(files[i].path.string(), status, seconds, text, settings));
   };
   runChildren(words, static_cast<std::size_t>(settings.jobs), ended, [&] { results.showProgress(); });
   results.sumUp(std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
@@ -231,8 +236,10 @@ int runOne(const Settings& settings) {
   return judge({.path = is_operator ? settings.operators.front() : settings.paths.front(),
                 .is_operator = is_operator,
                 .as = settings.as,
-                .threads = std::max(1, processors / settings.jobs),
-                .seconds = settings.seconds});
+                // Every further thread would allocate a stack, and so make a limit of memory depend on the machine.
+                .threads = settings.memory ? 1 : std::max(1, processors / settings.jobs),
+                .seconds = settings.seconds,
+                .memory = settings.memory});
 }
 
 }  // namespace
@@ -261,6 +268,9 @@ void addValidate(CLI::App& app, Run& run) {
   addNumber(command, "--jobs", settings->jobs, 1, 1024, "At most this many files at once (processors)")->type_name("N");
   addNumber(command, "--time", settings->seconds, 0.0, most_seconds, "Limit per file in seconds, 0 for none (600)")
       ->type_name("S");
+  addNumber(command, "--memory", settings->memory, 1, std::numeric_limits<int>::max(),
+            "Limit per file in MB: what one thread allocates for it (none)")
+      ->type_name("MB");
   addChoice(command, "--as", settings->as, kinds, "Take files that may be either as one of them")->needs(paths);
   command.add_flag("--one", settings->is_one)->group("");  // not in the help
   addConsole(command, settings->console);

@@ -1,6 +1,7 @@
 #include "one_file.h"
 
 #include <sys/prctl.h>
+#include <sys/resource.h>
 #include <sys/time.h>
 
 #include <chrono>
@@ -31,6 +32,17 @@ void limitTime(double seconds) {
   const auto whole = static_cast<time_t>(seconds);
   const itimerval timer = {{0, 0}, {whole, static_cast<suseconds_t>(1e6 * (seconds - static_cast<double>(whole)))}};
   setitimer(ITIMER_REAL, &timer, nullptr);
+}
+
+void limitMemory(int megabytes) {
+#ifdef __SANITIZE_ADDRESS__
+  throw tufted::InvalidInput("--memory: " + std::to_string(megabytes) + ", has no meaning under the address sanitizer");
+#else
+  // What the process allocates, and not its address space, which starts with that of the libraries.
+  const rlim_t bytes = static_cast<rlim_t>(megabytes) << 20;
+  const rlimit limit = {bytes, bytes};
+  setrlimit(RLIMIT_DATA, &limit);
+#endif
 }
 
 Json figuresOf(const tufted::LaplacianCheck& check, const tufted::Report& report) {
@@ -108,6 +120,7 @@ int judge(const OneFile& file) {
   prctl(PR_SET_PDEATHSIG, SIGKILL);  // however the command ends that started this process
   releaseInterrupt();
   limitTime(file.seconds);
+  if (file.memory) limitMemory(*file.memory);
   Json row;
   std::string stage = "read";
   const auto end = [&row, &file](const char* result, std::string reason) {
@@ -116,14 +129,15 @@ int judge(const OneFile& file) {
     row["result"] = result;
     row["reasons"] = {std::move(reason)};
   };
+  const std::string limit = file.memory ? " (--memory " + std::to_string(*file.memory) + ")" : "";
   try {
     judgeInto(file, row, stage);
   } catch (const tufted::FileTooLarge& error) {
-    end("FAILED", error.what());
+    end("FAILED", error.what() + limit);
   } catch (const tufted::IoError& error) {
     end("REFUSED", error.what());
   } catch (const std::bad_alloc&) {
-    end("FAILED", "out of memory in the stage " + stage);
+    end("FAILED", "out of memory" + limit + " in the stage " + stage);
   } catch (const std::exception& error) {
     end("FAILED", error.what());
   }

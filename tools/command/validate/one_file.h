@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "tufted/io/read.h"
 
@@ -10,7 +11,8 @@ struct OneFile {
   bool is_operator = false;  ///< a folder
   tufted::ReadAs as = tufted::ReadAs::automatic;
   int threads = 1;
-  double seconds = 0;  ///< this process ends after so many by SIGALRM; 0: no limit
+  double seconds = 0;         ///< this process ends after so many by SIGALRM; 0: no limit
+  std::optional<int> memory;  ///< limit in MB of what this process allocates
 };
 
 /// Reads, builds, checks, and prints what it found as a line of JSON. For a process that does nothing else.
