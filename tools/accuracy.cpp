@@ -24,7 +24,7 @@ double spectrumError(const tufted::SparseMatrix& L, const tufted::VectorXd& M) {
 
 double gluingError(const tufted::Points& points, tufted::Gluing gluing) {
   const tufted::Laplacian laplacian = tufted::pointCloudLaplacian(
-      points, {.steps = tufted::cloudSteps(tufted::Preset::clean), .gluing = gluing, .keep_cover = false});
+      points, {.steps = tufted::cloudSteps(tufted::Preset::clean), .keep_cover = false, .paper = {.gluing = gluing}});
   return spectrumError(laplacian.L, laplacian.M);
 }
 

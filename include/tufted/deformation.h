@@ -72,14 +72,14 @@ Points deform(const Laplacian& laplacian, const std::vector<int>& handles, const
 /// results have the same bits as those of deform().
 class DeformationSolver {
  public:
-  /// @param laplacian with its positions; shared, because every query reads it; it must not change
+  /// @param laplacian with its positions; not needed after construction
   /// @param handles P indices
-  /// @throws InvalidInput, SolverFailure and Cancelled as deform(), and InvalidInput for a null pointer
-  explicit DeformationSolver(std::shared_ptr<const Laplacian> laplacian, std::vector<int> handles,
+  /// @throws InvalidInput, SolverFailure and Cancelled as deform()
+  explicit DeformationSolver(const Laplacian& laplacian, std::vector<int> handles,
                              const DeformationOptions& options = {});
 
   /// Moves the handles to `targets`, P x 3 in the caller's unit; result and errors are those of deform().
-  Points deform(const PointsRef& targets, DeformationReport* report = nullptr, const Progress& progress = {}) const;
+  Points query(const PointsRef& targets, DeformationReport* report = nullptr, const Progress& progress = {}) const;
 
   /// A moved-from solver may only be destroyed or assigned to.
   DeformationSolver(DeformationSolver&&) noexcept;

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "tufted/memory_layout.h"
+#include "tufted/detail/memory_layout.h"
 #include "tufted/types.h"
 
 namespace tufted {

@@ -80,27 +80,27 @@ Eigen::MatrixXd poisson(const Laplacian& laplacian, const Eigen::MatrixXd& f, co
 /// queries may run in parallel. The results have the same bits as those functions'.
 class InterpolationSolver {
  public:
-  /// @param laplacian shared, because every query reads it; it must not change
+  /// @param laplacian not needed after construction
   /// @param points P indices, see Pins, in the order in which queries give values
-  /// @throws InvalidInput for a null pointer, an index out of range, no point on any component, options out of range or
+  /// @throws InvalidInput for an index out of range, no point on any component, options out of range or
   ///         arrays of the wrong size
   /// @throws SolverFailure when the system cannot be factorised
   /// @throws Cancelled when `options.progress` returns false
-  explicit InterpolationSolver(std::shared_ptr<const Laplacian> laplacian, std::vector<int> points,
+  explicit InterpolationSolver(const Laplacian& laplacian, std::vector<int> points,
                                Interpolation kind = Interpolation::harmonic, const SolverOptions& options = {});
 
   /// Computes the harmonic or biharmonic function with these values at the pins, for each of the c columns.
   /// @param values P x c, finite
   /// @return N x c; results and errors are those of harmonic() or biharmonic()
-  Eigen::MatrixXd interpolate(const Eigen::MatrixXd& values, SolveReport* report = nullptr,
-                              const Progress& progress = {}) const;
+  Eigen::MatrixXd query(const Eigen::MatrixXd& values, SolveReport* report = nullptr,
+                        const Progress& progress = {}) const;
   /// Solves L u = M f at all points that are not pinned, with these values at the pins. With Interpolation::biharmonic
   /// it computes the function whose Laplacian M^-1 L u is nearest to f in the norm of M: L M^-1 L u = L f there.
   /// @param f N x c, finite at active points
   /// @param values P x c, finite
   /// @return N x c; results and errors are those of poisson() with pins
-  Eigen::MatrixXd poisson(const Eigen::MatrixXd& f, const Eigen::MatrixXd& values, SolveReport* report = nullptr,
-                          const Progress& progress = {}) const;
+  Eigen::MatrixXd queryPoisson(const Eigen::MatrixXd& f, const Eigen::MatrixXd& values, SolveReport* report = nullptr,
+                               const Progress& progress = {}) const;
 
   /// How the constructor factored its system.
   const SolverReport& report() const;
@@ -131,17 +131,17 @@ Eigen::MatrixXd greensFunction(const Laplacian& laplacian, const std::vector<int
 /// have the same bits as those functions'.
 class PoissonSolver {
  public:
-  /// @param laplacian shared, because every query reads its masses; it must not change
-  /// @throws InvalidInput for a null pointer, options out of range or arrays of the wrong size
+  /// @param laplacian not needed after construction
+  /// @throws InvalidInput for options out of range or arrays of the wrong size
   /// @throws SolverFailure when L cannot be factorised
   /// @throws Cancelled when `options.progress` returns false
-  explicit PoissonSolver(std::shared_ptr<const Laplacian> laplacian, const SolverOptions& options = {});
+  explicit PoissonSolver(const Laplacian& laplacian, const SolverOptions& options = {});
 
   /// Solves L u = M f for one or several f; results and errors are those of poisson().
-  Eigen::MatrixXd poisson(const Eigen::MatrixXd& f, SolveReport* report = nullptr, const Progress& progress = {}) const;
+  Eigen::MatrixXd query(const Eigen::MatrixXd& f, SolveReport* report = nullptr, const Progress& progress = {}) const;
   /// Computes a Green's function for each point; results and errors are those of greensFunction().
-  Eigen::MatrixXd green(const std::vector<int>& points, SolveReport* report = nullptr,
-                        const Progress& progress = {}) const;
+  Eigen::MatrixXd queryGreen(const std::vector<int>& points, SolveReport* report = nullptr,
+                             const Progress& progress = {}) const;
 
   /// How the constructor factored its system.
   const SolverReport& report() const;

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "tufted/memory_layout.h"
+#include "tufted/detail/memory_layout.h"
 #include "tufted/types.h"
 
 namespace tufted {

@@ -35,34 +35,7 @@ struct ComponentEdges {
   double mean_square = 0;  ///< mean squared length; the unit of SmoothingOptions::time_step
 };
 
-/// A closed ball.
-struct Ball {
-  Eigen::Vector3d center;  ///< in the caller's unit
-  double radius;           ///< in the caller's unit, >= 0
-};
-
-/// Builds a cover on demand.
-class CoverSource {
- public:
-  virtual ~CoverSource() = default;
-  /// The tufted cover, built by the first call. May be called from several threads at once.
-  virtual const IntrinsicTriangulation& cover() const = 0;
-  /// Mixed areas of points in their own stars: N values in length^2, positive only where the surface ends. There
-  /// Mass::star uses them as masses. Size 0 with Mass::cover. Computed anew by each call, with as many threads as the
-  /// build had.
-  virtual VectorXd starAreas() const { return {}; }
-  /// Appends the faces in the stars of all points that lie in some balls, without building the cover. To get every face
-  /// of a region, make the balls a little larger than it. A face of several stars is appended several times.
-  /// @param balls around positions as in Laplacian::positions, in the caller's unit
-  /// @param[in,out] faces gets the three corners of each face, as indices of the caller's points
-  /// @param[in,out] length gets three lengths per face, each from a corner to the next one, in the caller's unit
-  /// @return false if this source cannot do it; then nothing was appended
-  virtual bool appendFacesNear(const std::vector<Ball>& balls, std::vector<std::array<int, 3>>& faces,
-                               std::vector<double>& length) const {
-    (void)balls, (void)faces, (void)length;
-    return false;
-  }
-};
+class CoverSource;
 
 /// The Laplacian of a point cloud or a mesh, with what is known about each point.
 ///
@@ -104,10 +77,11 @@ struct Laplacian {
   /// @throws InvalidInput if there is none, as after `keep_cover = false`
   const IntrinsicTriangulation& cover() const;
   /// Whether cover() can return a cover.
-  bool hasCover() const { return stored_cover != nullptr || cover_source != nullptr; }
+  bool hasCover() const { return cover_source != nullptr; }
+  /// Makes cover() return this one, for Laplacians assembled by hand.
+  void setCover(IntrinsicTriangulation cover);
 
-  std::shared_ptr<const IntrinsicTriangulation> stored_cover;  ///< the cover, if it is stored; use cover()
-  std::shared_ptr<const CoverSource> cover_source;             ///< builds the cover on demand; use cover()
+  std::shared_ptr<const CoverSource> cover_source;  ///< what cover() returns or builds; null: there is none
 };
 
 /// Builds the Laplacian of a point cloud (Sharp and Crane 2020, Section 5.7).

@@ -1,10 +1,10 @@
 #pragma once
 
-#include <cstdint>
 #include <functional>
 #include <string_view>
 
 #include "tufted/cloud_steps.h"
+#include "tufted/paper_options.h"
 #include "tufted/scan_structure.h"
 #include "tufted/types.h"
 
@@ -14,25 +14,6 @@ namespace tufted {
 /// [0, 1]. A stage may come several times in a row, each time from 0. Stage names are for people and finer than those
 /// in Report::stages. The callback returns false to stop the call, which then throws `Cancelled`.
 using Progress = std::function<bool(std::string_view stage, double fraction)>;
-
-/// Which edges of the union of stars become one before Algorithm 1 of Sharp and Crane (2020) glues around them.
-enum class Gluing {
-  star,         ///< the two faces of p's star at a spoke are glued to each other only; link edges are shared by stars
-  vertex_pair,  ///< all copies of an edge become one, as in the paper; eigenvalues stay 5 % off however large N is
-};
-
-/// Circular order of the faces around an edge (Sharp and Crane 2020, Section 5.4).
-enum class FaceOrder {
-  angle,   ///< ascending dihedral angle
-  area,    ///< ascending area
-  random,  ///< shuffled with `seed`
-};
-
-/// How the Delaunay stars are found. Both ways give the same triangles.
-enum class Delaunay {
-  star,  ///< angular sort and in-circle test around each point
-  cgal,  ///< CGAL::Delaunay_triangulation_2 (GPL; needs TUFTED_WITH_GPL)
-};
 
 /// Kinds of clouds, each with its own CloudSteps.
 enum class Preset {
@@ -54,12 +35,8 @@ constexpr double default_mollify = 1e-6;
 
 /// Options of pointCloudLaplacian().
 struct CloudOptions {
-  int neighbors = 30;                  ///< k >= 3, far fewer than N; more than N - 1 is clamped and reported
-  CloudSteps steps = {};               ///< for expert use; cloudOptions(preset) sets them for a kind of cloud
-  Gluing gluing = Gluing::star;        ///< which edges of the stars become one
-  FaceOrder order = FaceOrder::angle;  ///< circular order of the faces around an edge
-  std::uint64_t seed = 0;              ///< for FaceOrder::random
-  Delaunay delaunay = Delaunay::star;  ///< how the stars are found
+  int neighbors = 30;     ///< k >= 3, far fewer than N; more than N - 1 is clamped and reported
+  CloudSteps steps = {};  ///< for expert use; cloudOptions(preset) sets them for a kind of cloud
   /// Least edge length relative to the longest side of a triangle, in [0, 1], see default_mollify.
   double mollify = default_mollify;
   int threads = 0;         ///< at most this many threads; 0: one per processor
@@ -71,7 +48,8 @@ struct CloudOptions {
   /// Position of the sensor, in the unit of the points. Normals face it, and it distinguishes Boundary::jump from rim
   /// however far apart the surfaces lie along the line of sight. Null: the origin of `structure`, if given. Borrowed.
   const Eigen::Vector3d* viewpoint = nullptr;
-  Progress progress = {};  ///< called during the build
+  Progress progress = {};   ///< called during the build
+  PaperOptions paper = {};  ///< for comparison with the paper
 };
 
 /// CloudOptions with the steps for a kind of cloud and defaults for everything else.
@@ -79,8 +57,6 @@ CloudOptions cloudOptions(Preset preset);
 
 /// Options of meshLaplacian().
 struct MeshOptions {
-  FaceOrder order = FaceOrder::angle;  ///< circular order of the faces around an edge
-  std::uint64_t seed = 0;              ///< for FaceOrder::random
   /// Least edge length relative to the longest side of a triangle, in [0, 1], see default_mollify.
   double mollify = default_mollify;
   int threads = 0;         ///< at most this many threads; 0: one per processor
@@ -88,7 +64,8 @@ struct MeshOptions {
   /// Whether vertices of equal position are joined. All keep their index: the first of each position represents the
   /// others, which become PointStatus::coincident.
   bool weld = false;
-  Progress progress = {};  ///< called during the build
+  Progress progress = {};   ///< called during the build
+  PaperOptions paper = {};  ///< for comparison with the paper
 };
 
 }  // namespace tufted

@@ -18,6 +18,12 @@ struct SurfacePath {
   int shortenings = 0;  ///< how often the path was led around the other side of a point
 };
 
+/// Options of PathSolver.
+struct PathOptions {
+  int threads = 0;         ///< at most this many threads; 0: one per processor
+  Progress progress = {};  ///< called while the faces are prepared
+};
+
 /// Shortest paths on the distinct faces of the tufted cover. Prepared once, queried often; queries may run in parallel.
 ///
 /// A first path runs from the end down the distance to the start (see DistanceSolver). Then it is straightened: the
@@ -30,17 +36,16 @@ class PathSolver {
  public:
   /// Prepares the faces of the cover.
   /// @param laplacian with its cover and positions; not needed after construction
-  /// @param threads at most this many threads; 0: one per processor
   /// @throws InvalidInput for arrays of the wrong size, or a Laplacian without cover or positions
-  /// @throws Cancelled when `progress` returns false
-  explicit PathSolver(const Laplacian& laplacian, int threads = 0, const Progress& progress = {});
+  /// @throws Cancelled when `options.progress` returns false
+  explicit PathSolver(const Laplacian& laplacian, const PathOptions& options = {});
 
   /// Computes the path between two points of the cloud or vertices of the mesh; a single point and length 0 if they are
   /// the same or coincide.
   /// @param from,to indices of active points, or of points that coincide with one
   /// @throws InvalidInput for an index out of range, or where no path leads
   /// @throws Cancelled when `progress` returns false
-  SurfacePath path(int from, int to, const Progress& progress = {}) const;
+  SurfacePath query(int from, int to, const Progress& progress = {}) const;
 
   /// A moved-from solver may only be destroyed or assigned to.
   PathSolver(PathSolver&&) noexcept;

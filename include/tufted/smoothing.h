@@ -37,8 +37,7 @@ struct SmoothingOptions {
   /// each component is scaled about its centre of mass (Desbrun et al. 1999). On a cloud they may have holes of at most
   /// 5 % of the area. Not with `fixed`. Borrowed.
   const Triangles* volume_of = nullptr;
-  int threads = 0;         ///< at most this many threads; 0: one per processor
-  Progress progress = {};  ///< called while it smooths
+  SolverOptions solver = {};  ///< how the matrix is factorised (implicit), threads and progress
 };
 
 /// Smooths positions: by implicit steps of the heat equation, (M + t L) x' = M x for each coordinate, whose matrix is
@@ -55,7 +54,7 @@ struct SmoothingOptions {
 /// Laplacian without `component_edges` (implicit), both `volume_of` and `fixed`, or components of `volume_of` that are
 /// not closed and oriented or enclose no volume
 /// @throws SolverFailure when the matrix is not positive definite
-/// @throws Cancelled when `options.progress` returns false
+/// @throws Cancelled when `options.solver.progress` returns false
 Points smooth(const Laplacian& laplacian, const PointsRef& points, const SmoothingOptions& options = {});
 
 /// Smooths any functions on the points, as smooth() but without `volume_of`; errors are those of smooth().
@@ -69,20 +68,18 @@ Eigen::MatrixXd smoothValues(const Laplacian& laplacian, const Eigen::MatrixXd& 
 /// the same bits as those of smooth().
 class SmoothingSolver {
  public:
-  /// @param laplacian shared, because every call reads it; it must not change
-  /// @param time_step see SmoothingOptions
-  /// @param fixed see SmoothingOptions; not needed after construction
-  /// @throws InvalidInput for a null pointer, values out of range, arrays of the wrong size, or a Laplacian without
-  /// `component_edges`
+  /// @param laplacian not needed after construction
+  /// @param options `time_step`, `fixed`, which is not needed after construction, and `solver`
+  /// @throws InvalidInput for SmoothingMethod::taubin, `volume_of`, values out of range, arrays of the wrong size, or a
+  /// Laplacian without `component_edges`
   /// @throws SolverFailure when the matrix is not positive definite
-  /// @throws Cancelled when `options.progress` returns false
-  explicit SmoothingSolver(std::shared_ptr<const Laplacian> laplacian, double time_step = 1,
-                           const std::vector<std::uint8_t>* fixed = nullptr, const SolverOptions& options = {});
+  /// @throws Cancelled when `options.solver.progress` returns false
+  explicit SmoothingSolver(const Laplacian& laplacian, const SmoothingOptions& options = {});
 
   /// Smooths positions; result and errors are those of smooth().
   /// @param points N x 3, finite at active points
   /// @param iterations number of steps, >= 1
-  Points smooth(const PointsRef& points, int iterations = 1, const Progress& progress = {}) const;
+  Points query(const PointsRef& points, int iterations = 1, const Progress& progress = {}) const;
 
   /// How the constructor factored its system; `method` is empty if no point moves or time_step is 0.
   const SolverReport& report() const;

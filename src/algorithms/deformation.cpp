@@ -9,6 +9,7 @@
 
 #include "algorithms/bending.h"
 #include "algorithms/coincident.h"
+#include "algorithms/kept_laplacian.h"
 #include "algorithms/local_rotations.h"
 #include "algorithms/pinned_system.h"
 #include "algorithms/rigid_deformation.h"
@@ -53,30 +54,31 @@ void checkTargets(const std::vector<int>& handles, const PointsRef& targets) {
 }  // namespace
 
 struct DeformationSolver::State {
-  std::shared_ptr<const Laplacian> laplacian;
+  Laplacian laplacian;
   std::vector<int> handles;
   DeformationOptions options;
+  Points positions;
   ShapeFrame frame;
   Eigen::MatrixXd x;  ///< N x 3, in the frame
   std::optional<RigidDeformation> rigid;
   std::optional<InterpolationSolver> linear;
   PinnedPoints pinned;
 
-  State(const std::string& function, std::shared_ptr<const Laplacian> given, std::vector<int> points,
-        const DeformationOptions& chosen)
-      : laplacian(std::move(given)),
+  State(const std::string& function, const Laplacian& given, std::vector<int> points, const DeformationOptions& chosen)
+      : laplacian(keptLaplacian(given)),
         handles(std::move(points)),
         options(chosen),
-        frame(function, *laplacian),
-        x(frame.toFrame(laplacian->positions)),
-        pinned(pinnedPoints(function, *laplacian, handles, "handles")) {
+        positions(given.positions),
+        frame(function, given),
+        x(frame.toFrame(given.positions)),
+        pinned(pinnedPoints(function, laplacian, handles, "handles")) {
     checkOptions(function, options);
     if (options.method == DeformationMethod::as_rigid_as_possible) {
-      const VectorXd areas = pinned.components.sums(laplacian->M);
+      const VectorXd areas = pinned.components.sums(laplacian.M);
       VectorXd smoothing = VectorXd::Zero(x.rows());
       for (const int i : pinned.components.points)
         smoothing[i] = options.smoothness * frame.areaToFrame(areas[pinned.components.of[i]]);
-      rigid.emplace(function, *laplacian, pinned, x, std::move(smoothing), options.solver);
+      rigid.emplace(function, laplacian, pinned, x, std::move(smoothing), options.solver);
     } else {
       linear.emplace(laplacian, handles, Interpolation::biharmonic, options.solver);
     }
@@ -87,7 +89,7 @@ struct DeformationSolver::State {
     double differences = 0, lengths = 0;
     for (const int i : pinned.components.points) {
       if (pinned.free[i] == 0 && pinned.pinned[i] == 0) continue;
-      for (SparseMatrix::InnerIterator entry(laplacian->L, i); entry; ++entry) {
+      for (SparseMatrix::InnerIterator entry(laplacian.L, i); entry; ++entry) {
         const auto j = entry.row();
         if (j == i) continue;
         const Eigen::Vector3d edge = (x.row(i) - x.row(j)).transpose(),
@@ -118,21 +120,21 @@ struct DeformationSolver::State {
         if (pinned.free[i] != 0 || pinned.pinned[i] != 0)
           pose.places.row(i) =
               is_difference ? Eigen::RowVector3d(x.row(i) + found.row(i)) : Eigen::RowVector3d(found.row(i));
-      pose.rotations = localRotations(laplacian->L, x, pose.places, workers);
+      pose.rotations = localRotations(laplacian.L, x, pose.places, workers);
     };
     const Eigen::MatrixXd from = x(handles, Eigen::all);
-    take(linear->interpolate(targets - from, nullptr, progress), true);
+    take(linear->query(targets - from, nullptr, progress), true);
     const std::vector<int>& points = pinned.components.points;
-    const VectorXd means = meanMasses(*laplacian, pinned.components);
+    const VectorXd means = meanMasses(laplacian, pinned.components);
     Eigen::MatrixXd turned = Eigen::MatrixXd::Zero(x.rows(), 3);
     for (const int i : points) {
       Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-      for (SparseMatrix::InnerIterator entry(laplacian->L, i); entry; ++entry)
+      for (SparseMatrix::InnerIterator entry(laplacian.L, i); entry; ++entry)
         if (entry.row() != i) sum += entry.value() * (x.row(entry.row()) - x.row(i)).transpose();
-      const double mass = std::max(laplacian->M[i], least_mass_of_bending * means[pinned.components.of[i]]);
+      const double mass = std::max(laplacian.M[i], least_mass_of_bending * means[pinned.components.of[i]]);
       if (mass > 0) turned.row(i) = (pose.rotations[i] * sum / mass).transpose();
     }
-    take(linear->poisson(turned, targets, nullptr, progress), false);
+    take(linear->queryPoisson(turned, targets, nullptr, progress), false);
     made.iterations = 2;
   }
 
@@ -141,7 +143,7 @@ struct DeformationSolver::State {
     checkTargets(handles, targets);
     DeformationReport made;
     const Eigen::MatrixXd in_frame = frame.toFrame(targets);
-    const PinnedValues given = pinnedValues(*laplacian, pinned, handles, in_frame);
+    const PinnedValues given = pinnedValues(laplacian, pinned, handles, in_frame);
     double longest_way = 0;
     for (const int i : pinned.components.points) {
       made.moved += pinned.free[i];
@@ -164,13 +166,13 @@ struct DeformationSolver::State {
         deformLinearly(in_frame, progress, pose, made);
       made.stretch = stretchOf(pose);
     }
-    Eigen::MatrixXd result = laplacian->positions;
+    Eigen::MatrixXd result = positions;
     for (Eigen::Index i = 0; longest_way > 0 && i < result.rows(); ++i)
       if (pinned.free[i] != 0) result.row(i) = frame.toCaller(Eigen::RowVector3d(pose.places.row(i)));
-    const PinnedValues exact = pinnedValues(*laplacian, pinned, handles, targets);
+    const PinnedValues exact = pinnedValues(laplacian, pinned, handles, targets);
     for (const int i : pinned.components.points)
       if (pinned.pinned[i] != 0) result.row(i) = exact.values.row(i);
-    copyToCoincident(*laplacian, result);
+    copyToCoincident(laplacian, result);
     made.seconds = watch.seconds();
     if (report != nullptr) *report = made;
     return result;
@@ -181,20 +183,18 @@ Points deform(const Laplacian& laplacian, const std::vector<int>& handles, const
               const DeformationOptions& options, DeformationReport* report) {
   const Stopwatch watch;
   checkTargets(handles, targets);
-  // Borrowed for this call.
-  const DeformationSolver solver({std::shared_ptr<const void>(), &laplacian}, handles, options);
-  Points result = solver.deform(targets, report, options.solver.progress);
+  const DeformationSolver solver(laplacian, handles, options);
+  Points result = solver.query(targets, report, options.solver.progress);
   if (report != nullptr) report->seconds = watch.seconds();
   return result;
 }
 
-DeformationSolver::DeformationSolver(std::shared_ptr<const Laplacian> laplacian, std::vector<int> handles,
+DeformationSolver::DeformationSolver(const Laplacian& laplacian, std::vector<int> handles,
                                      const DeformationOptions& options) {
-  if (laplacian == nullptr) throw InvalidInput("DeformationSolver: laplacian is null, must not be");
-  state_ = std::make_unique<const State>(function_name, std::move(laplacian), std::move(handles), options);
+  state_ = std::make_unique<const State>(function_name, laplacian, std::move(handles), options);
 }
 
-Points DeformationSolver::deform(const PointsRef& targets, DeformationReport* report, const Progress& progress) const {
+Points DeformationSolver::query(const PointsRef& targets, DeformationReport* report, const Progress& progress) const {
   return state_->deform(targets, report, progress);
 }
 

@@ -14,6 +14,7 @@
 #include "algorithms/heat_time.h"
 #include "algorithms/marching_distance.h"
 #include "algorithms/place_in_cover.h"
+#include "base/cover_source.h"
 #include "base/number_text.h"
 #include "base/stage_clock.h"
 #include "operators/check_cover.h"
@@ -101,9 +102,7 @@ DistanceSolver::DistanceSolver(const Laplacian& laplacian, const DistanceOptions
   state->components = findComponents(laplacian);
   state->representative = laplacian.representative;
   state->status = laplacian.status;
-  state->cover = laplacian.stored_cover
-                     ? laplacian.stored_cover
-                     : std::shared_ptr<const IntrinsicTriangulation>(laplacian.cover_source, &laplacian.cover());
+  state->cover = {laplacian.cover_source, &laplacian.cover()};
   state->maximum = options.maximum;
   if (options.method == DistanceMethod::marching)
     state->report = state->marching.emplace(laplacian, split, options).report();

@@ -12,6 +12,7 @@
 #include "algorithms/bending.h"
 #include "algorithms/coincident.h"
 #include "algorithms/connected.h"
+#include "algorithms/kept_laplacian.h"
 #include "algorithms/linear_system.h"
 #include "algorithms/nearly_disconnected.h"
 #include "algorithms/pinned_solver.h"
@@ -249,22 +250,21 @@ Eigen::MatrixXd greensFunction(const Laplacian& laplacian, const std::vector<int
 }
 
 struct InterpolationSolver::State {
-  std::shared_ptr<const Laplacian> laplacian;
+  Laplacian laplacian;
   Interpolator interpolator;
 };
 
-InterpolationSolver::InterpolationSolver(std::shared_ptr<const Laplacian> laplacian, std::vector<int> points,
-                                         Interpolation kind, const SolverOptions& options) {
+InterpolationSolver::InterpolationSolver(const Laplacian& laplacian, std::vector<int> points, Interpolation kind,
+                                         const SolverOptions& options) {
   constexpr const char* function = "InterpolationSolver";
-  if (laplacian == nullptr) throw InvalidInput(std::string(function) + ": laplacian is null, must not be");
-  Interpolator interpolator(function, *laplacian, std::move(points), kind, options);
-  state_ = std::make_unique<const State>(State{std::move(laplacian), std::move(interpolator)});
+  Interpolator interpolator(function, laplacian, std::move(points), kind, options);
+  state_ = std::make_unique<const State>(State{keptLaplacian(laplacian), std::move(interpolator)});
 }
 
-Eigen::MatrixXd InterpolationSolver::interpolate(const Eigen::MatrixXd& values, SolveReport* report,
-                                                 const Progress& progress) const {
+Eigen::MatrixXd InterpolationSolver::query(const Eigen::MatrixXd& values, SolveReport* report,
+                                           const Progress& progress) const {
   const Stopwatch watch;
-  const Laplacian& laplacian = *state_->laplacian;
+  const Laplacian& laplacian = state_->laplacian;
   const Interpolator& interpolator = state_->interpolator;
   const std::string function = interpolator.kind() == Interpolation::harmonic ? "harmonic" : "biharmonic";
   checkPinnedValues(function, interpolator.points(), values);
@@ -272,10 +272,10 @@ Eigen::MatrixXd InterpolationSolver::interpolate(const Eigen::MatrixXd& values, 
   return interpolator.solve(function, laplacian, values, b, watch, 0, progress, report);
 }
 
-Eigen::MatrixXd InterpolationSolver::poisson(const Eigen::MatrixXd& f, const Eigen::MatrixXd& values,
-                                             SolveReport* report, const Progress& progress) const {
+Eigen::MatrixXd InterpolationSolver::queryPoisson(const Eigen::MatrixXd& f, const Eigen::MatrixXd& values,
+                                                  SolveReport* report, const Progress& progress) const {
   const Stopwatch watch;
-  const Laplacian& laplacian = *state_->laplacian;
+  const Laplacian& laplacian = state_->laplacian;
   const Interpolator& interpolator = state_->interpolator;
   checkRight("poisson", laplacian, f);
   checkPinnedValues("poisson", interpolator.points(), values);
@@ -293,29 +293,28 @@ InterpolationSolver& InterpolationSolver::operator=(InterpolationSolver&&) noexc
 InterpolationSolver::~InterpolationSolver() = default;
 
 struct PoissonSolver::State {
-  std::shared_ptr<const Laplacian> laplacian;
+  Laplacian laplacian;
   LinearSystem system;
 };
 
-PoissonSolver::PoissonSolver(std::shared_ptr<const Laplacian> laplacian, const SolverOptions& options) {
+PoissonSolver::PoissonSolver(const Laplacian& laplacian, const SolverOptions& options) {
   constexpr const char* function = "PoissonSolver";
-  if (laplacian == nullptr) throw InvalidInput(std::string(function) + ": laplacian is null, must not be");
-  checkSizes(function, *laplacian);
-  LinearSystem system = systemOf(function, *laplacian, options);
-  state_ = std::make_unique<const State>(State{std::move(laplacian), std::move(system)});
+  checkSizes(function, laplacian);
+  LinearSystem system = systemOf(function, laplacian, options);
+  state_ = std::make_unique<const State>(State{keptLaplacian(laplacian), std::move(system)});
 }
 
-Eigen::MatrixXd PoissonSolver::poisson(const Eigen::MatrixXd& f, SolveReport* report, const Progress& progress) const {
+Eigen::MatrixXd PoissonSolver::query(const Eigen::MatrixXd& f, SolveReport* report, const Progress& progress) const {
   const Stopwatch watch;
-  const Laplacian& laplacian = *state_->laplacian;
+  const Laplacian& laplacian = state_->laplacian;
   checkRight("poisson", laplacian, f);
   return solveBalanced("poisson", laplacian, state_->system, weighted(laplacian, f), watch, progress, report);
 }
 
-Eigen::MatrixXd PoissonSolver::green(const std::vector<int>& points, SolveReport* report,
-                                     const Progress& progress) const {
+Eigen::MatrixXd PoissonSolver::queryGreen(const std::vector<int>& points, SolveReport* report,
+                                          const Progress& progress) const {
   const Stopwatch watch;
-  const Laplacian& laplacian = *state_->laplacian;
+  const Laplacian& laplacian = state_->laplacian;
   const Eigen::MatrixXd b = unitSources("greensFunction", laplacian, points);
   return solveBalanced("greensFunction", laplacian, state_->system, b, watch, progress, report);
 }

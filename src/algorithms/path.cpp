@@ -23,7 +23,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr const char* constructor = "PathSolver";
-constexpr const char* query_name = "PathSolver::path";
+constexpr const char* query_name = "PathSolver::query";
 /// A way around a point is taken only if it is shorter by this part, which is above rounding: otherwise a path may go
 /// to and fro between two ways for ever.
 constexpr double least_gain = 1e-13;
@@ -74,20 +74,20 @@ PathSolver::PathSolver(PathSolver&&) noexcept = default;
 PathSolver& PathSolver::operator=(PathSolver&&) noexcept = default;
 PathSolver::~PathSolver() = default;
 
-PathSolver::PathSolver(const Laplacian& laplacian, int threads, const Progress& progress) {
+PathSolver::PathSolver(const Laplacian& laplacian, const PathOptions& options) {
   checkSizes(constructor, laplacian);
   checkCover(constructor, laplacian);
   const auto n = std::ssize(laplacian.status);
   if (laplacian.positions.rows() != n)
     throw InvalidInput(std::string(constructor) + ": positions has " + std::to_string(laplacian.positions.rows()) +
                        " rows, must have " + std::to_string(n));
-  const Workers workers(threads, progress);
+  const Workers workers(options.threads, options.progress);
   auto state = std::make_unique<State>();
   state->faces = marchFaces(laplacian.cover(), 0, workers);
   setLoopEnds(laplacian.cover(), state->faces);
   state->positions = laplacian.positions;
   state->representative = laplacian.representative;
-  state->threads = threads;
+  state->threads = options.threads;
   state_ = std::move(state);
 }
 
@@ -142,7 +142,7 @@ SurfacePath PathSolver::State::straightened(int from, const std::vector<Strip>& 
   return result;
 }
 
-SurfacePath PathSolver::path(int from, int to, const Progress& progress) const {
+SurfacePath PathSolver::query(int from, int to, const Progress& progress) const {
   const State& state = *state_;
   from = state.checked("from", from);
   to = state.checked("to", to);

@@ -11,6 +11,7 @@
 #include "algorithms/connected.h"
 #include "algorithms/march.h"
 #include "algorithms/march_faces.h"
+#include "base/cover_source.h"
 #include "base/number_text.h"
 #include "cover/face_scale.h"
 #include "cover/geometry.h"
@@ -84,7 +85,7 @@ double spacingAt(const Laplacian& laplacian, int point) {
 
 /// Faces from the stars of points in balls. Not sure to be all that are needed, see isComplete().
 bool facesFromStars(const Laplacian& laplacian, const std::vector<int>& sources, double radius, Faces& faces) {
-  if (laplacian.stored_cover || !laplacian.cover_source || laplacian.cover_areas.size() == 0) return false;
+  if (!laplacian.hasCover() || laplacian.cover_areas.size() == 0) return false;
   std::vector<Ball> balls;
   balls.reserve(sources.size());
   for (const int source : sources)

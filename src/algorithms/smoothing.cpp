@@ -9,6 +9,7 @@
 
 #include "algorithms/coincident.h"
 #include "algorithms/enclosed_volume.h"
+#include "algorithms/kept_laplacian.h"
 #include "algorithms/linear_system.h"
 #include "base/number_text.h"
 #include "base/parallel.h"
@@ -118,25 +119,25 @@ struct Step {
   SolverReport report;
 
   /// @param function to be named in errors
-  Step(const std::string& function, const Laplacian& laplacian, double time_step,
-       const std::vector<std::uint8_t>* fixed, const SolverOptions& options) {
+  Step(const std::string& function, const Laplacian& laplacian, const SmoothingOptions& options) {
+    const double time_step = options.time_step;
     checkSizes(function, laplacian);
-    checkFixed(function, laplacian, fixed);
+    checkFixed(function, laplacian, options.fixed);
     if (!(time_step >= 0 && std::isfinite(time_step))) {
       throw InvalidInput(function + ": time_step = " + numberText(time_step) + ", must be finite and at least 0");
     }
     if (time_step > longest_step)
       throw InvalidInput(function + ": time_step = " + numberText(time_step) + ", must be at most " +
                          numberText(longest_step));
-    checkThreads(function, options.threads);
-    is_free = freePoints(laplacian, fixed);
+    checkThreads(function, options.solver.threads);
+    is_free = freePoints(laplacian, options.fixed);
     if (time_step == 0 || std::find(is_free.begin(), is_free.end(), true) == is_free.end()) return;
     const SystemNames names = {.function = function,
                                .matrix = "M + t L",
                                .if_slow = "take a smaller time_step",
                                .if_large = "take fewer points"};
     system.emplace(
-        LinearSystem::positiveDefinite(names, systemMatrix(function, laplacian, is_free, time_step), options));
+        LinearSystem::positiveDefinite(names, systemMatrix(function, laplacian, is_free, time_step), options.solver));
     report = system->report();
   }
 
@@ -194,8 +195,8 @@ Eigen::MatrixXd smoothByTaubin(const std::string& function, const Laplacian& lap
   if (!((1 - 2 * lambda) * (1 - 2 * mu) >= -1))
     throw InvalidInput(function + ": lambda = " + numberText(lambda) + " and mu = " + numberText(mu) +
                        ", must have (1 - 2 lambda) (1 - 2 mu) >= -1, or short waves grow");
-  checkThreads(function, options.threads);
-  const Workers workers(options.threads, options.progress);
+  checkThreads(function, options.solver.threads);
+  const Workers workers(options.solver.threads, options.solver.progress);
   const std::vector<bool> is_free = freePoints(laplacian, options.fixed);
   Eigen::MatrixXd x = points;
   for (int step = 0; step < options.iterations; ++step) {
@@ -213,9 +214,8 @@ Eigen::MatrixXd smoothed(const std::string& function, const Laplacian& laplacian
   checkValues(function, laplacian, what, values, options.iterations);
   checkFixed(function, laplacian, options.fixed);
   if (options.method == SmoothingMethod::taubin) return smoothByTaubin(function, laplacian, values, options);
-  const Step step(function, laplacian, options.time_step, options.fixed,
-                  {.threads = options.threads, .progress = options.progress});
-  return step.smooth(function, laplacian, values, options.iterations, options.progress);
+  const Step step(function, laplacian, options);
+  return step.smooth(function, laplacian, values, options.iterations, options.solver.progress);
 }
 
 }  // namespace
@@ -246,22 +246,23 @@ Eigen::MatrixXd smoothValues(const Laplacian& laplacian, const Eigen::MatrixXd& 
 }
 
 struct SmoothingSolver::State {
-  std::shared_ptr<const Laplacian> laplacian;
+  Laplacian laplacian;
   Step step;
 };
 
-SmoothingSolver::SmoothingSolver(std::shared_ptr<const Laplacian> laplacian, double time_step,
-                                 const std::vector<std::uint8_t>* fixed, const SolverOptions& options) {
-  constexpr const char* function = "SmoothingSolver";
-  if (laplacian == nullptr) throw InvalidInput(std::string(function) + ": laplacian is null, must not be");
-  Step step(function, *laplacian, time_step, fixed, options);
-  state_ = std::make_unique<const State>(State{std::move(laplacian), std::move(step)});
+SmoothingSolver::SmoothingSolver(const Laplacian& laplacian, const SmoothingOptions& options) {
+  const std::string function = "SmoothingSolver";
+  if (options.method != SmoothingMethod::implicit)
+    throw InvalidInput(function + ": method = taubin, must be implicit: there is nothing to factorise");
+  if (options.volume_of != nullptr) throw InvalidInput(function + ": volume_of is given, must not be");
+  Step step(function, laplacian, options);
+  state_ = std::make_unique<const State>(State{keptLaplacian(laplacian), std::move(step)});
 }
 
-Points SmoothingSolver::smooth(const PointsRef& points, int iterations, const Progress& progress) const {
+Points SmoothingSolver::query(const PointsRef& points, int iterations, const Progress& progress) const {
   const Eigen::MatrixXd values = points;
-  checkValues(smooth_name, *state_->laplacian, "points", values, iterations);
-  return state_->step.smooth(smooth_name, *state_->laplacian, values, iterations, progress);
+  checkValues(smooth_name, state_->laplacian, "points", values, iterations);
+  return state_->step.smooth(smooth_name, state_->laplacian, values, iterations, progress);
 }
 
 const SolverReport& SmoothingSolver::report() const {

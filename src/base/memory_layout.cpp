@@ -1,3 +1,3 @@
-#include "tufted/memory_layout.h"
+#include "tufted/detail/memory_layout.h"
 
 const char TUFTED_MEMORY_LAYOUT = 0;

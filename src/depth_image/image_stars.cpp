@@ -46,8 +46,8 @@ class ImageStarBuilder {
   ImageStarBuilder(const DepthImage& image, const PointBuffer& normals, const CloudOptions& options, BuiltStars& built)
       : image_(image),
         normals_(normals),
-        wrapping_(options.delaunay),
-        by_packets_(normals.rows() == 0 && options.delaunay == Delaunay::star),
+        wrapping_(options.paper.delaunay),
+        by_packets_(normals.rows() == 0 && options.paper.delaunay == Delaunay::star),
         is_exact_(image.windows.moved == 0),
         is_stretched_(image.grid.goes_round && is_exact_),
         rings_of_whole_(image.grid.goes_round && !is_exact_ ? WindowPixels::reach : first_rings),

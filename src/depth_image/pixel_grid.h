@@ -70,7 +70,7 @@ struct PixelGrid {
 /// at the sides
 PixelGrid pixelGrid(const RankedScan& scan, int around = 0);
 
-/// Of the pixels near points, the share that hold points; see tufted/pixel_fill.h.
+/// Of the pixels near points, the share that hold points; see tufted/scan_structure.h.
 double pixelFill(const PixelGrid& grid);
 
 /// How far samples of so many pixels, row by row, are apart, so that they lie in all columns.

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "base/buffer.h"
+#include "base/cover_source.h"
 #include "base/parallel.h"
 #include "cover/cover.h"
 #include "cover/edge_lengths.h"

@@ -133,9 +133,7 @@ Laplacian readUncheckedLaplacian(const std::filesystem::path& dir, bool with_cov
   if (folder.has(io::positions_name)) laplacian.positions = io::readPositions(folder.pathOf(io::positions_name), n);
   if (folder.has(noise_name)) laplacian.noise = readNoise(folder.pathOf(noise_name), n);
   laplacian.L = matrix.read();
-  if (takes_cover)
-    laplacian.stored_cover =
-        std::make_shared<const IntrinsicTriangulation>(io::readCover(folder.pathOf("cover.npz"), static_cast<int>(n)));
+  if (takes_cover) laplacian.setCover(io::readCover(folder.pathOf("cover.npz"), static_cast<int>(n)));
   const Json written = json.value("write_options", Json::object());
   if (written.is_object() && written.value("sign", Json()) == "igl") laplacian.L = -laplacian.L;
   if (written.is_object() && written.value("dummy", Json()) == true) removeDummies(laplacian);

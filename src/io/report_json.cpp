@@ -62,16 +62,16 @@ Json denoiseObject(const DenoiseReport& report) {
 /// What clouds and meshes have in common.
 template <class Options>
 Json commonOptions(const Options& options) {
-  return {{"order", name(options.order)},
-          {"seed", options.seed},
+  return {{"order", name(options.paper.order)},
+          {"seed", options.paper.seed},
           {"mollify", options.mollify},
           {"threads", options.threads}};
 }
 
 Json optionsObject(const CloudOptions& options) {
   Json json = {{"neighbors", options.neighbors},
-               {"gluing", name(options.gluing)},
-               {"delaunay", name(options.delaunay)},
+               {"gluing", name(options.paper.gluing)},
+               {"delaunay", name(options.paper.delaunay)},
                {"growth", options.steps.growth == Growth::line ? "line" : "uneven"},
                {"split_sheets", options.steps.split_sheets},
                {"isolate_outliers", options.steps.isolate_outliers},

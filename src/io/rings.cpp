@@ -1,5 +1,3 @@
-#include "tufted/io/rings.h"
-
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
@@ -8,6 +6,7 @@
 #include <vector>
 
 #include "tufted/errors.h"
+#include "tufted/io/read.h"
 
 namespace tufted {
 namespace {

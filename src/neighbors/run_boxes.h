@@ -4,10 +4,11 @@
 #include <algorithm>
 #include <vector>
 
+#include "base/ball.h"
 #include "base/buffer.h"
 #include "base/parallel.h"
 #include "base/point_buffer.h"
-#include "tufted/laplacian.h"
+#include "tufted/types.h"
 
 namespace tufted {
 

@@ -1,5 +1,6 @@
 #include <string>
 
+#include "base/cover_source.h"
 #include "tufted/check.h"
 #include "tufted/errors.h"
 
@@ -23,7 +24,8 @@ void checkSizes(const std::string& function, const Laplacian& laplacian) {
   expect("rows of frames.tangents =", laplacian.frames.tangents.rows(), true);
   expect("rows of positions =", laplacian.positions.rows(), true);
   expect("size of noise =", laplacian.noise.size(), true);
-  if (laplacian.stored_cover) expect("vertices of the cover =", laplacian.stored_cover->vertices, false);
+  if (const auto* stored = laplacian.hasCover() ? laplacian.cover_source->stored() : nullptr; stored != nullptr)
+    expect("vertices of the cover =", stored->vertices, false);
   const auto& representative = laplacian.representative;
   for (Eigen::Index i = 0; i < n; ++i) {
     const int found = representative[i];

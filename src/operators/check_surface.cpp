@@ -7,6 +7,7 @@
 #include <limits>
 #include <tuple>
 
+#include "base/cover_source.h"
 #include "cover/clamped_weights.h"
 #include "cover/face_scale.h"
 #include "cover/geometry.h"

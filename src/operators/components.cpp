@@ -160,11 +160,10 @@ Laplacian restrictedTo(const Laplacian& laplacian, const std::vector<int>& compo
   workers.report(stage, 0);
   recount(result);
   result.report.components = kept;
-  result.cover_source.reset();
   if (laplacian.hasCover()) {
-    auto cover = std::make_shared<IntrinsicTriangulation>(restrictedCover(laplacian.cover(), stays, workers));
-    result.report.triangles = cover->size() / 2;
-    result.stored_cover = std::move(cover);
+    IntrinsicTriangulation cover = restrictedCover(laplacian.cover(), stays, workers);
+    result.report.triangles = cover.size() / 2;
+    result.setCover(std::move(cover));
   }
   return result;
 }

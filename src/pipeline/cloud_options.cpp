@@ -31,7 +31,7 @@ void checkCloudOptions(const char* function, const PointsRef& points, const Clou
   }
   if (options.neighborhoods != nullptr) checkRows("neighborhoods", options.neighborhoods->rows());
 #ifndef TUFTED_WITH_GPL
-  if (options.delaunay == Delaunay::cgal) {
+  if (options.paper.delaunay == Delaunay::cgal) {
     throw InvalidInput(name() + ": delaunay = cgal, must be star: this library was built without TUFTED_WITH_GPL");
   }
 #endif

@@ -57,44 +57,44 @@ Buffer<SideSums> sidesOfTriangles(const IntrinsicTriangulation& cover, const Wor
 
 }  // namespace
 
-void finishFromCover(std::shared_ptr<IntrinsicTriangulation> cover, const CoverVertices& vertices, double delta,
-                     bool keep_cover, const Workers& workers, StageClock& clock, Laplacian& result) {
+void finishFromCover(IntrinsicTriangulation cover, const CoverVertices& vertices, double delta, bool keep_cover,
+                     const Workers& workers, StageClock& clock, Laplacian& result) {
   const double scale = faceScale(result.kind);
-  BuildFigures figures{.mean = measureLengths(*cover, vertices.points, workers)};
-  const Buffer<SideSums> sides = sidesOfTriangles(*cover, workers);
-  figures.triangles = cover->size() / 2;
+  BuildFigures figures{.mean = measureLengths(cover, vertices.points, workers)};
+  const Buffer<SideSums> sides = sidesOfTriangles(cover, workers);
+  figures.triangles = cover.size() / 2;
   const EdgeLengths lengths{vertices.points};
-  const double area = trianglesArea(*cover, lengths, workers);
+  const double area = trianglesArea(cover, lengths, workers);
   clock.finish("lengths", 0);
 
   // Most flat faces of a thin mesh are flipped away; only what is flat after that is lengthened, and flipped again.
-  figures.flips = flipThinFaces(*cover, lengths, delta, figures.lengthened_edges, workers);
+  figures.flips = flipThinFaces(cover, lengths, delta, figures.lengthened_edges, workers);
   for (int round = 0; round < most_rounds; ++round) {
     const std::int64_t lengthened =
-        delta > 0 ? lengthenShortEdges(*cover, delta, workers) + lengthenAtFlatFaces(*cover, workers) : 0;
+        delta > 0 ? lengthenShortEdges(cover, delta, workers) + lengthenAtFlatFaces(cover, workers) : 0;
     if (round > 0 && lengthened == 0) break;
     figures.lengthened_edges += lengthened;
-    const FlipCounts counts = flipToDelaunay(*cover, workers);
+    const FlipCounts counts = flipToDelaunay(cover, workers);
     figures.flips = {figures.flips.flips + counts.flips, counts.failures};
   }
   // Lengths that rounding cannot tell apart may keep flips going in circles. The paper's one length for all edges ends
   // that, at the cost of area, which is warned of.
   if (delta > 0 && figures.flips.failures > 0) {
-    for (double& length : cover->length) length += all_edges * figures.mean.length;
-    figures.lengthened_edges = std::ssize(cover->length) / 2;
-    const FlipCounts counts = flipToDelaunay(*cover, workers);
+    for (double& length : cover.length) length += all_edges * figures.mean.length;
+    figures.lengthened_edges = std::ssize(cover.length) / 2;
+    const FlipCounts counts = flipToDelaunay(cover, workers);
     figures.flips = {figures.flips.flips + counts.flips, counts.failures};
   }
-  figures.area_added = scale * (sumOfBlocks(cover->size(), workers, [&](int f) { return faceArea(*cover, f); }) - area);
+  figures.area_added = scale * (sumOfBlocks(cover.size(), workers, [&](int f) { return faceArea(cover, f); }) - area);
   clock.finish("flips", 0);
 
   const int size = static_cast<int>(result.status.size());
-  assembleLaplacian(*cover, vertices.input_index, size, scale, workers, result);
+  assembleLaplacian(cover, vertices.input_index, size, scale, workers, result);
   if (result.report.components > 1) {
     // Flips have moved the triangles, but each within its component. A corner may be on none.
     const auto componentOf = [&](int t) {
       int component = -1;
-      for (const int corner : cover->faces[2 * t])
+      for (const int corner : cover.faces[2 * t])
         component = std::max(component, result.component[vertices.input_index[corner]]);
       return component;
     };
@@ -103,8 +103,8 @@ void finishFromCover(std::shared_ptr<IntrinsicTriangulation> cover, const CoverV
   }
   finishResult(figures, vertices.exponent, result);
   if (keep_cover) {
-    toInput(*cover, vertices.input_index, size, vertices.exponent);
-    result.stored_cover = std::move(cover);
+    toInput(cover, vertices.input_index, size, vertices.exponent);
+    result.setCover(std::move(cover));
   }
   clock.finish("matrices", bytesOfMatrices(result));
 }

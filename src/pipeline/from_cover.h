@@ -22,7 +22,7 @@ struct CoverVertices {
 /// M.
 /// @param delta of Section 4.5, in mean edge lengths
 /// @param keep_cover whether the result keeps the cover, in the caller's numbering and unit
-void finishFromCover(std::shared_ptr<IntrinsicTriangulation> cover, const CoverVertices& vertices, double delta,
-                     bool keep_cover, const Workers& workers, StageClock& clock, Laplacian& result);
+void finishFromCover(IntrinsicTriangulation cover, const CoverVertices& vertices, double delta, bool keep_cover,
+                     const Workers& workers, StageClock& clock, Laplacian& result);
 
 }  // namespace tufted

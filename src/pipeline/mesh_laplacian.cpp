@@ -86,16 +86,17 @@ void buildMeshLaplacian(const PointsRef& points, const TrianglesRef& triangles, 
   const Buffer<int> usable = usableTriangles(triangles, result.status, result.representative, report);
   clock.finish("scale", static_cast<std::size_t>(n) * 3 * sizeof(double) + bytesOf(usable));
 
-  std::shared_ptr<IntrinsicTriangulation> cover = takeCover(result);
-  resizeCover(*cover, n, static_cast<std::int64_t>(usable.size()));
+  IntrinsicTriangulation cover = takeCover(result);
+  resizeCover(cover, n, static_cast<std::int64_t>(usable.size()));
   for (std::size_t t = 0; t < usable.size(); ++t) {
     const auto corner = [&](int k) { return result.representative[triangles(usable[t], k)]; };
-    addTriangle(*cover, static_cast<int>(t), corner(0), corner(1), corner(2));
+    addTriangle(cover, static_cast<int>(t), corner(0), corner(1), corner(2));
   }
-  const EdgeCounts edges = glueEdges(*cover, scaled, {options.order, options.seed}, workers, &result.boundary);
+  const EdgeCounts edges =
+      glueEdges(cover, scaled, {options.paper.order, options.paper.seed}, workers, &result.boundary);
   report.boundary_edges = edges.boundary;
   report.nonmanifold_edges = edges.nonmanifold;
-  clock.finish("cover", bytesOfCover(*cover));
+  clock.finish("cover", bytesOfCover(cover));
 
   Buffer<int> input_index(n);
   std::iota(input_index.begin(), input_index.end(), 0);

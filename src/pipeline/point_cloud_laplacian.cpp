@@ -38,11 +38,11 @@ constexpr std::int64_t most_entries = most_triangles - most_triangles / 64;
 void finishFromWholeCover(SurfaceStars built, const RankedCloud& cloud, const CloudOptions& options,
                           const Workers& workers, StageClock& clock, Laplacian& result) {
   release(built.support.radius);
-  std::shared_ptr<IntrinsicTriangulation> cover = takeCover(result);
-  addStars(built.stars, options.gluing, *cover, workers);
+  IntrinsicTriangulation cover = takeCover(result);
+  addStars(built.stars, options.paper.gluing, cover, workers);
   built = {};
-  glueEdges(*cover, cloud.points, {options.order, options.seed}, workers);
-  clock.finish("cover", bytesOfCover(*cover));
+  glueEdges(cover, cloud.points, {options.paper.order, options.paper.seed}, workers);
+  clock.finish("cover", bytesOfCover(cover));
   finishFromCover(std::move(cover), {cloud.points, cloud.input_index, cloud.exponent}, options.mollify,
                   options.keep_cover, workers, clock, result);
 }
@@ -99,8 +99,9 @@ void buildCloudLaplacian(const PointsRef& points, const CloudOptions& options, C
     own = ownAreas(built.stars, cloud.points, workers);
   }
   clock.finish("mass", bytesOf(own));
-  if (options.gluing == Gluing::star && options.order == FaceOrder::angle && build == CloudBuild::automatic) {
-    result.stored_cover.reset();
+  if (options.paper.gluing == Gluing::star && options.paper.order == FaceOrder::angle &&
+      build == CloudBuild::automatic) {
+    result.cover_source.reset();
     // Flat triangles and flips without an end are so rare that starting anew costs less than what it would take to keep
     // the stars.
     if (!finishFromStars(std::move(built), std::move(cloud), options, workers, clock, result))

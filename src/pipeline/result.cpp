@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/cover_source.h"
 #include "base/number_text.h"
 #include "base/power_of_two.h"
 #include "tufted/errors.h"
@@ -30,7 +31,7 @@ void checkBuild(const char* function, double mollify, int threads) {
 
 void restart(Laplacian& result, Kind kind, std::int64_t points, const Workers& workers) {
   result.kind = kind;
-  result.cover_source.reset();
+  if (result.hasCover() && result.cover_source->stored() == nullptr) result.cover_source.reset();
   result.component.clear();
   std::vector<StageCost> stages = std::move(result.report.stages);
   stages.clear();
@@ -40,11 +41,12 @@ void restart(Laplacian& result, Kind kind, std::int64_t points, const Workers& w
   result.report.threads = workers.count();
 }
 
-std::shared_ptr<IntrinsicTriangulation> takeCover(Laplacian& result) {
-  const auto stored = std::exchange(result.stored_cover, nullptr);
-  if (stored.use_count() != 1) return std::make_shared<IntrinsicTriangulation>();
-  std::atomic_thread_fence(std::memory_order_acquire);  // after all that the last other owner did with it
-  return std::const_pointer_cast<IntrinsicTriangulation>(stored);
+IntrinsicTriangulation takeCover(Laplacian& result) {
+  const auto source = std::const_pointer_cast<CoverSource>(std::exchange(result.cover_source, nullptr));
+  const auto stored = std::dynamic_pointer_cast<StoredCover>(source);
+  if (stored == nullptr || source.use_count() != 2) return {};  // the two here are ours
+  std::atomic_thread_fence(std::memory_order_acquire);          // after all that the last other owner did with it
+  return std::move(stored->triangulation);
 }
 
 void finishResult(const BuildFigures& figures, int exponent, Laplacian& result) {
@@ -95,9 +97,12 @@ std::size_t bytesOfMatrices(const Laplacian& result) {
 }
 
 const IntrinsicTriangulation& Laplacian::cover() const {
-  if (stored_cover) return *stored_cover;
   if (cover_source) return cover_source->cover();
   throw InvalidInput("Laplacian::cover: keep_cover = false, must be true to ask for the cover");
+}
+
+void Laplacian::setCover(IntrinsicTriangulation cover) {
+  cover_source = std::make_shared<const StoredCover>(std::move(cover));
 }
 
 }  // namespace tufted

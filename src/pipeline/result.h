@@ -15,11 +15,11 @@ namespace tufted {
 /// @throws InvalidInput in the name of `function` unless mollify lies in [0, 1] and threads is at least 0
 void checkBuild(const char* function, double mollify, int threads);
 
-/// Empties the result of an earlier build, but for the memory of its arrays.
+/// Empties the result of an earlier build, but for the memory of its arrays and of a stored cover.
 void restart(Laplacian& result, Kind kind, std::int64_t points, const Workers& workers);
 
 /// The cover of an earlier build, if nobody else has it, for the sake of its memory; otherwise a new one.
-std::shared_ptr<IntrinsicTriangulation> takeCover(Laplacian& result);
+IntrinsicTriangulation takeCover(Laplacian& result);
 
 /// What a build knows beside L and M, in units of the points that it worked on.
 struct BuildFigures {

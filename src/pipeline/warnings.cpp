@@ -4,8 +4,8 @@
 #include <vector>
 
 #include "tufted/denoise.h"
-#include "tufted/pixel_fill.h"
 #include "tufted/report.h"
+#include "tufted/scan_structure.h"
 
 namespace tufted {
 namespace {

@@ -17,7 +17,7 @@ FaceOrder orderOf(const char* argument, const py::dict& given) {
 /// What clouds and meshes have in common.
 template <class Options>
 void takeCommon(const py::dict& given, Options& options) {
-  options.seed = given["seed"].cast<std::uint64_t>();
+  options.paper.seed = given["seed"].cast<std::uint64_t>();
   options.mollify = given["mollify"].cast<double>();
   options.threads = given["threads"].cast<int>();
 }
@@ -30,10 +30,10 @@ CloudOptions cloudOptionsOf(const py::dict& given) {
       cloudOptions(chosen<Preset>("PointCloud: preset", name("preset"),
                                   {{"clean", Preset::clean}, {"scan", Preset::scan}, {"lidar", Preset::lidar}}));
   options.neighbors = given["neighbors"].cast<int>();
-  options.gluing = chosen<Gluing>("PointCloud: gluing", name("gluing"),
-                                  {{"star", Gluing::star}, {"vertex-pair", Gluing::vertex_pair}});
-  options.order = orderOf("PointCloud: order", given);
-  options.delaunay =
+  options.paper.gluing = chosen<Gluing>("PointCloud: gluing", name("gluing"),
+                                        {{"star", Gluing::star}, {"vertex-pair", Gluing::vertex_pair}});
+  options.paper.order = orderOf("PointCloud: order", given);
+  options.paper.delaunay =
       chosen<Delaunay>("PointCloud: delaunay", name("delaunay"), {{"star", Delaunay::star}, {"cgal", Delaunay::cgal}});
   takeCommon(given, options);
   return options;
@@ -41,7 +41,7 @@ CloudOptions cloudOptionsOf(const py::dict& given) {
 
 MeshOptions meshOptionsOf(const py::dict& given) {
   MeshOptions options;
-  options.order = orderOf("Mesh: order", given);
+  options.paper.order = orderOf("Mesh: order", given);
   takeCommon(given, options);
   options.weld = given["weld"].cast<bool>();
   return options;

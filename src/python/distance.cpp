@@ -69,13 +69,14 @@ py::tuple within(const Laplacian& laplacian, const Integers& sources, double rad
 }
 
 PathSolver pathSolverOf(const Laplacian& laplacian, const Solving& solving, const py::object& progress) {
-  return run(progress,
-             [&](const Progress& called) { return PathSolver(laplacian, solving.options(called).threads, called); });
+  return run(progress, [&](const Progress& called) {
+    return PathSolver(laplacian, {solving.options(called).threads, called});
+  });
 }
 
 /// The points of a path, K x 3, and its length.
 py::tuple pathBetween(const PathSolver& solver, int from, int to, const py::object& progress) {
-  SurfacePath path = run(progress, [&](const Progress& called) { return solver.path(from, to, called); });
+  SurfacePath path = run(progress, [&](const Progress& called) { return solver.query(from, to, called); });
   return py::make_tuple(std::move(path.points), path.length);
 }
 

@@ -28,7 +28,7 @@ constexpr std::array functions = {
     Name{"DistanceSolver", "distance"},
     Name{"SurfacePoint::inFace", "distance"},
     Name{"pointsWithin", "points_within"},
-    Name{"PathSolver::path", "path"},
+    Name{"PathSolver::query", "path"},
     Name{"PathSolver", "path"},
     Name{"ExtensionSolver::query", "extend"},
     Name{"ExtensionSolver", "extend"},

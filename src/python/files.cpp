@@ -14,7 +14,6 @@
 #include "python/running.h"
 #include "tufted/io/read.h"
 #include "tufted/io/results.h"
-#include "tufted/io/rings.h"
 #include "tufted/io/write.h"
 
 namespace py = pybind11;

@@ -15,7 +15,7 @@ namespace py = pybind11;
 namespace tufted::python {
 namespace {
 
-InterpolationSolver interpolationSolver(const Shared& laplacian, const Integers& points, const std::string& kind,
+InterpolationSolver interpolationSolver(const Laplacian& laplacian, const Integers& points, const std::string& kind,
                                         const Solving& solving, const py::object& progress) {
   const auto chosen_kind = chosen<Interpolation>(
       "harmonic: kind", kind, {{"harmonic", Interpolation::harmonic}, {"biharmonic", Interpolation::biharmonic}});
@@ -38,23 +38,23 @@ void addInterpolation(py::module_& module) {
       .def(py::init(&interpolationSolver))
       .def("interpolate",
            [](const InterpolationSolver& solver, const Eigen::MatrixXd& values, const py::object& progress) {
-             return run(progress, [&](const Progress& called) { return solver.interpolate(values, nullptr, called); });
+             return run(progress, [&](const Progress& called) { return solver.query(values, nullptr, called); });
            })
       .def("poisson", [](const InterpolationSolver& solver, const Eigen::MatrixXd& f, const Eigen::MatrixXd& values,
                          const py::object& progress) {
-        return run(progress, [&](const Progress& called) { return solver.poisson(f, values, nullptr, called); });
+        return run(progress, [&](const Progress& called) { return solver.queryPoisson(f, values, nullptr, called); });
       });
   py::class_<PoissonSolver>(module, "PoissonSolver")
-      .def(py::init([](const Shared& laplacian, const Solving& solving, const py::object& progress) {
+      .def(py::init([](const Laplacian& laplacian, const Solving& solving, const py::object& progress) {
         return run(progress, [&](const Progress& called) { return PoissonSolver(laplacian, solving.options(called)); });
       }))
       .def("poisson",
            [](const PoissonSolver& solver, const Eigen::MatrixXd& f, const py::object& progress) {
-             return run(progress, [&](const Progress& called) { return solver.poisson(f, nullptr, called); });
+             return run(progress, [&](const Progress& called) { return solver.query(f, nullptr, called); });
            })
       .def("green", [](const PoissonSolver& solver, const Integers& points, const py::object& progress) {
         const std::vector<int> indices = indicesOf(points);
-        return run(progress, [&](const Progress& called) { return solver.green(indices, nullptr, called); });
+        return run(progress, [&](const Progress& called) { return solver.queryGreen(indices, nullptr, called); });
       });
 }
 

@@ -25,11 +25,12 @@ std::optional<std::vector<std::uint8_t>> marksOf(const std::optional<Marks>& mar
   return std::vector<std::uint8_t>(marks->data(), marks->data() + marks->size());
 }
 
-SmoothingSolver smoothingSolver(const Shared& laplacian, double time_step, const std::optional<Marks>& fixed,
+SmoothingSolver smoothingSolver(const Laplacian& laplacian, double time_step, const std::optional<Marks>& fixed,
                                 const Solving& solving, const py::object& progress) {
   const auto stays = marksOf(fixed);
   return run(progress, [&](const Progress& called) {
-    return SmoothingSolver(laplacian, time_step, stays ? &*stays : nullptr, solving.options(called));
+    return SmoothingSolver(
+        laplacian, {.time_step = time_step, .fixed = stays ? &*stays : nullptr, .solver = solving.options(called)});
   });
 }
 
@@ -49,7 +50,7 @@ struct Smoothing {
     options.lambda = lambda;
     options.mu = mu;
     options.iterations = iterations;
-    options.threads = threads;
+    options.solver.threads = threads;
     if (faces) volume_of = trianglesOf(*faces);
   }
 
@@ -57,7 +58,7 @@ struct Smoothing {
     SmoothingOptions all = options;
     all.fixed = fixed ? &*fixed : nullptr;
     all.volume_of = volume_of ? &*volume_of : nullptr;
-    all.progress = progress;
+    all.solver.progress = progress;
     return all;
   }
 };
@@ -122,7 +123,7 @@ py::tuple minimal(const Laplacian& laplacian, const Integers& faces, const Integ
   return py::make_tuple(std::move(found), report.area, report.converged);
 }
 
-DeformationSolver deformationSolver(const Shared& laplacian, const Integers& handles, const std::string& method,
+DeformationSolver deformationSolver(const Laplacian& laplacian, const Integers& handles, const std::string& method,
                                     double smoothness, double tolerance, int max_iterations, const Solving& solving,
                                     const py::object& progress) {
   DeformationOptions options = {.method = chosen<DeformationMethod>("deform: method", method,
@@ -151,14 +152,14 @@ void addMoving(py::module_& module) {
       .def("smooth",
            [](const SmoothingSolver& solver, const Doubles& points, int iterations, const py::object& progress) {
              const auto view = pointsOf(points);
-             return run(progress, [&](const Progress& called) { return solver.smooth(view, iterations, called); });
+             return run(progress, [&](const Progress& called) { return solver.query(view, iterations, called); });
            });
   py::class_<DeformationSolver>(module, "DeformationSolver")
       .def(py::init(&deformationSolver))
       .def("deform", [](const DeformationSolver& solver, const Doubles& targets, const py::object& progress) {
         const auto view = pointsOf(targets);
         DeformationReport report;
-        Points moved = run(progress, [&](const Progress& called) { return solver.deform(view, &report, called); });
+        Points moved = run(progress, [&](const Progress& called) { return solver.query(view, &report, called); });
         return py::make_tuple(std::move(moved), report.stretch, report.converged);
       });
 }

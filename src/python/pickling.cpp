@@ -47,17 +47,16 @@ py::object coverOf(const Laplacian& laplacian) {
   return py::make_tuple(cover.vertices, owned(std::move(corners)), owned(cover.glue), owned(cover.length));
 }
 
-std::shared_ptr<const IntrinsicTriangulation> coverFrom(const py::handle& object) {
-  if (object.is_none()) return nullptr;
+IntrinsicTriangulation coverFrom(const py::handle& object) {
   const auto parts = object.cast<py::tuple>();
-  auto cover = std::make_shared<IntrinsicTriangulation>();
-  cover->vertices = parts[0].cast<int>();
+  IntrinsicTriangulation cover;
+  cover.vertices = parts[0].cast<int>();
   const auto corners = vectorOf<int>(parts[1]);
-  cover->faces.resize(corners.size() / 3);
-  for (std::size_t f = 0; f < cover->faces.size(); ++f)
-    cover->faces[f] = {corners[3 * f], corners[3 * f + 1], corners[3 * f + 2]};
-  cover->glue = vectorOf<int>(parts[2]);
-  cover->length = vectorOf<double>(parts[3]);
+  cover.faces.resize(corners.size() / 3);
+  for (std::size_t f = 0; f < cover.faces.size(); ++f)
+    cover.faces[f] = {corners[3 * f], corners[3 * f + 1], corners[3 * f + 2]};
+  cover.glue = vectorOf<int>(parts[2]);
+  cover.length = vectorOf<double>(parts[3]);
   return cover;
 }
 
@@ -133,7 +132,7 @@ Shared fromState(const py::dict& state) {
     laplacian->component_edges.push_back(
         {parts[0].cast<std::int64_t>(), parts[1].cast<double>(), parts[2].cast<double>()});
   }
-  laplacian->stored_cover = coverFrom(state["cover"]);
+  if (!state["cover"].is_none()) laplacian->setCover(coverFrom(state["cover"]));
   laplacian->report = reportFrom(state["report"]);
   checkSizes("pickle", *laplacian);
   return laplacian;

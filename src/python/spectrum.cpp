@@ -8,7 +8,7 @@
 #include "python/module.h"
 #include "python/running.h"
 #include "tufted/interpolation.h"
-#include "tufted/spectral.h"
+#include "tufted/signatures.h"
 
 namespace py = pybind11;
 

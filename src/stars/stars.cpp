@@ -49,7 +49,7 @@ class StarBuilder {
         source_(source),
         options_(options),
         finder_(cloud.points, source, options),
-        wrapping_(options.delaunay),
+        wrapping_(options.paper.delaunay),
         stars_(built.stars),
         support_(built.support) {}
 

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "tufted/view/color_map.h"
+#include "tufted/view/scene.h"
 
 namespace tufted {
 

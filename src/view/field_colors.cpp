@@ -6,7 +6,7 @@
 #include <string>
 
 #include "tufted/errors.h"
-#include "tufted/view/colors.h"
+#include "tufted/view/picture.h"
 #include "view/shown_values.h"
 #include "view/ticks.h"
 

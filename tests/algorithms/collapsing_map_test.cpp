@@ -6,6 +6,7 @@
 #include <string>
 
 #include "shapes/shapes.h"
+#include "support/joined_meshes.h"
 #include "support/maps.h"
 #include "support/refusal.h"
 #include "tufted/errors.h"
@@ -78,21 +79,15 @@ TEST(Parameterize, RefusesTubesThatAreTooLong) {
 }
 
 TEST(Parameterize, LeavesOutPartsThatCollapse) {
-  shapes::Mesh mesh = shapes::gridSquare(100);  // larger than the tube
-  const shapes::Mesh pole = tube(200, 52, false);
-  const auto points = static_cast<int>(mesh.points.rows()), triangles = static_cast<int>(mesh.triangles.rows());
-  mesh.points.conservativeResize(points + pole.points.rows(), 3);
-  mesh.points.bottomRows(pole.points.rows()) = pole.points.rowwise() + Eigen::RowVector3d(9, 0, 0);
-  mesh.triangles.conservativeResize(triangles + pole.triangles.rows(), 3);
-  mesh.triangles.bottomRows(pole.triangles.rows()) = pole.triangles.array() + points;
+  const shapes::Mesh square = shapes::gridSquare(100), pole = tube(200, 52, false);  // the square is larger
   ParameterizationReport report;
-  const MatrixX2d uv = mapMesh(mesh, {}, &report);
+  const MatrixX2d uv = mapMesh(support::joined(square, pole, {9, 0, 0}), {}, &report);
   EXPECT_EQ(report.charts, 1);
   EXPECT_EQ(report.rims, 1);
   EXPECT_EQ(report.collapsed_charts, 1);
   EXPECT_EQ(report.not_mapped, pole.points.rows());
-  EXPECT_EQ(report.triangles, triangles);
-  EXPECT_TRUE(uv.topRows(points).allFinite());
+  EXPECT_EQ(report.triangles, square.triangles.rows());
+  EXPECT_TRUE(uv.topRows(square.points.rows()).allFinite());
   EXPECT_TRUE(uv.bottomRows(pole.points.rows()).array().isNaN().all());
 }
 

@@ -75,7 +75,7 @@ TEST(Distance, FramesSayNothingOfItsScale) {
 
   const Points points = shapes::sphere(2000).points;
   for (const Gluing gluing : {Gluing::star, Gluing::vertex_pair}) {
-    Laplacian cloud = pointCloudLaplacian(points, {.gluing = gluing});
+    Laplacian cloud = pointCloudLaplacian(points, {.paper = {.gluing = gluing}});
     const VectorXd on_cloud = DistanceSolver(cloud, {.method = DistanceMethod::heat}).query({0});
     cloud.frames = {};
     EXPECT_TRUE(support::sameBits(DistanceSolver(cloud, {.method = DistanceMethod::heat}).query({0}), on_cloud));

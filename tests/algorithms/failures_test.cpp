@@ -63,7 +63,7 @@ TEST(EveryFunction, RefusesALaplacianWhoseMembersDoNotFit) {
        [](Laplacian& torn) { torn.representative[5] = 4, torn.representative[4] = 3; }},
       {"vertices of the cover = 4", [](Laplacian& torn) {
          const shapes::Mesh other = shapes::tetrahedron();
-         torn.stored_cover = meshLaplacian(other.points, other.triangles).stored_cover;
+         torn.cover_source = meshLaplacian(other.points, other.triangles).cover_source;
        }}};
   for (const Caller& caller : callers(points)) {
     const std::string& function = caller.function;
@@ -82,12 +82,12 @@ TEST(DistanceSolver, RefusesACoverOfOtherPoints) {
   Laplacian laplacian = meshLaplacian(mesh.points, mesh.triangles);
   IntrinsicTriangulation cover = laplacian.cover();
   cover.faces[3][1] = 25;
-  laplacian.stored_cover = std::make_shared<IntrinsicTriangulation>(cover);
+  laplacian.setCover(cover);
   EXPECT_EQ(support::refusal([&] { DistanceSolver solver(laplacian); }),
             "DistanceSolver: cover has the corner 25, must lie in [0, 25)");
   cover = meshLaplacian(mesh.points, mesh.triangles).cover();
   cover.length.pop_back();
-  laplacian.stored_cover = std::make_shared<IntrinsicTriangulation>(cover);
+  laplacian.setCover(cover);
   EXPECT_EQ(support::refusal([&] { DistanceSolver solver(laplacian); }).find("DistanceSolver: cover has"), 0);
 }
 

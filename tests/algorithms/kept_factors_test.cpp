@@ -80,13 +80,13 @@ TEST_P(EachKind, HasTheBitsOfTheFreeFunctionAndFactorsOnce) {
   for (const Shared& laplacian : {torus(), oddCloud()}) {
     const std::vector<int> points = {3, 700, 2000, 5, 5, 41};
     Stages made, queried, free;
-    const InterpolationSolver solver(laplacian, points, GetParam().kind, {.progress = made.progress()});
+    const InterpolationSolver solver(*laplacian, points, GetParam().kind, {.progress = made.progress()});
     EXPECT_TRUE(made.haveFactors());
     EXPECT_GT(solver.report().nonzeros, 0);
     for (int which = 0; which < 3; ++which) {
       const MatrixXd values = valuesOf(6, which, 1 + which);
       SolveReport report, expected;
-      const MatrixXd u = solver.interpolate(values, &report, queried.progress());
+      const MatrixXd u = solver.query(values, &report, queried.progress());
       EXPECT_TRUE(sameBits(u, GetParam().free(*laplacian, {points, values}, {.progress = free.progress()}, &expected)));
       EXPECT_EQ(report.method, expected.method);
       EXPECT_EQ(report.residual, expected.residual);
@@ -99,12 +99,12 @@ TEST_P(EachKind, HasTheBitsOfTheFreeFunctionAndFactorsOnce) {
 }
 
 TEST_P(EachKind, IsQueriedByThreadsSideBySide) {
-  const InterpolationSolver solver(torus(1000), {3, 700, 41}, GetParam().kind);
+  const InterpolationSolver solver(*torus(1000), {3, 700, 41}, GetParam().kind);
   std::vector<MatrixXd> expected, found(4);
-  for (int which = 0; which < 4; ++which) expected.push_back(solver.interpolate(valuesOf(3, which)));
+  for (int which = 0; which < 4; ++which) expected.push_back(solver.query(valuesOf(3, which)));
   std::vector<std::thread> threads;
   for (int which = 0; which < 4; ++which)
-    threads.emplace_back([&, which] { found[which] = solver.interpolate(valuesOf(3, which)); });
+    threads.emplace_back([&, which] { found[which] = solver.query(valuesOf(3, which)); });
   for (std::thread& thread : threads) thread.join();
   for (int which = 0; which < 4; ++which) EXPECT_TRUE(sameBits(found[which], expected[which])) << which;
 }
@@ -112,9 +112,8 @@ TEST_P(EachKind, IsQueriedByThreadsSideBySide) {
 TEST_P(EachKind, NamesWhatACallerGotWrong) {
   const Shared laplacian = oddCloud();
   const auto made = [&](const Shared& of, std::vector<int> points) {
-    return refusal([&] { InterpolationSolver(of, std::move(points), GetParam().kind); });
+    return refusal([&] { InterpolationSolver(*of, std::move(points), GetParam().kind); });
   };
-  EXPECT_EQ(made(nullptr, {0}), "InterpolationSolver: laplacian is null, must not be");
   EXPECT_EQ(made(laplacian, {2004}), "InterpolationSolver: pins.points has 2004, must lie in [0, 2004)");
   EXPECT_EQ(made(laplacian, {-1}), "InterpolationSolver: pins.points has -1, must lie in [0, 2004)");
   const std::string nowhere =
@@ -123,44 +122,45 @@ TEST_P(EachKind, NamesWhatACallerGotWrong) {
   EXPECT_EQ(made(laplacian, {2002, 2003}), nowhere + ": point 2002 is not finite");
   EXPECT_EQ(made(laplacian, {2003}), nowhere + ": point 2003 is isolated");
   const std::string name = GetParam().kind == Interpolation::harmonic ? "harmonic" : "biharmonic";
-  const InterpolationSolver solver(laplacian, {1, 2}, GetParam().kind);
-  const auto asked = [&](const MatrixXd& values) { return refusal([&] { solver.interpolate(values); }); };
+  const InterpolationSolver solver(*laplacian, {1, 2}, GetParam().kind);
+  const auto asked = [&](const MatrixXd& values) { return refusal([&] { solver.query(values); }); };
   EXPECT_EQ(asked(MatrixXd::Ones(1, 1)), name + ": pins.values has 1 rows, must have 2, one per point pinned");
   EXPECT_EQ(asked(MatrixXd(2, 0)), name + ": pins.values has no column, must have at least one");
   EXPECT_EQ(asked(MatrixXd::Constant(2, 1, NAN)), name + ": pins.values of point 1 are not finite, must be");
   if (GetParam().kind == Interpolation::harmonic) {
     Laplacian negative = *laplacian;
     negative.L *= -1;
-    EXPECT_THROW(InterpolationSolver(std::make_shared<const Laplacian>(negative), {0, 1}), SolverFailure);
+    EXPECT_THROW(InterpolationSolver(negative, {0, 1}), SolverFailure);
   } else {
-    EXPECT_THROW(InterpolationSolver(laplacian, {0, 1}, Interpolation::biharmonic, {.memory_limit = 1}), SolverFailure);
+    EXPECT_THROW(InterpolationSolver(*laplacian, {0, 1}, Interpolation::biharmonic, {.memory_limit = 1}),
+                 SolverFailure);
   }
-  EXPECT_THROW(solver.interpolate(MatrixXd::Constant(2, 1, 1.7e308)), SolverFailure);
+  EXPECT_THROW(solver.query(MatrixXd::Constant(2, 1, 1.7e308)), SolverFailure);
 }
 
 TEST_P(EachKind, CancelsWhileItIsMadeAndWhileItIsAsked) {
   const Shared laplacian = torus(1000);
   const Progress stop = [](std::string_view, double) { return false; };
-  EXPECT_THROW(InterpolationSolver(laplacian, {0, 9}, GetParam().kind, {.progress = stop}), Cancelled);
-  const InterpolationSolver solver(laplacian, {0, 9}, GetParam().kind);
-  EXPECT_THROW(solver.interpolate(valuesOf(2, 0), nullptr, stop), Cancelled);
-  EXPECT_TRUE(solver.interpolate(valuesOf(2, 0)).allFinite());
+  EXPECT_THROW(InterpolationSolver(*laplacian, {0, 9}, GetParam().kind, {.progress = stop}), Cancelled);
+  const InterpolationSolver solver(*laplacian, {0, 9}, GetParam().kind);
+  EXPECT_THROW(solver.query(valuesOf(2, 0), nullptr, stop), Cancelled);
+  EXPECT_TRUE(solver.query(valuesOf(2, 0)).allFinite());
 }
 
 TEST(InterpolationSolver, SolvesPoissonWithPinsAsTheFreeFunctionDoes) {
   const Shared laplacian = oddCloud();
   const std::vector<int> points = {3, 700, 2000, 1500};
-  const InterpolationSolver solver(laplacian, points);
+  const InterpolationSolver solver(*laplacian, points);
   Stages queried;
   for (int which = 0; which < 2; ++which) {
     const MatrixXd f = valuesOf(2004, which + 7), values = valuesOf(4, which);
-    EXPECT_TRUE(
-        sameBits(solver.poisson(f, values, nullptr, queried.progress()), poisson(*laplacian, f, {points, values})));
+    EXPECT_TRUE(sameBits(solver.queryPoisson(f, values, nullptr, queried.progress()),
+                         poisson(*laplacian, f, {points, values})));
   }
   EXPECT_FALSE(queried.haveFactors());
-  EXPECT_EQ(refusal([&] { solver.poisson(valuesOf(9, 0), valuesOf(4, 0)); }),
+  EXPECT_EQ(refusal([&] { solver.queryPoisson(valuesOf(9, 0), valuesOf(4, 0)); }),
             "poisson: f has 9 rows, must have 2004, one per point of the Laplacian");
-  EXPECT_EQ(refusal([&] { solver.poisson(valuesOf(2004, 0, 1), valuesOf(4, 0)); }),
+  EXPECT_EQ(refusal([&] { solver.queryPoisson(valuesOf(2004, 0, 1), valuesOf(4, 0)); }),
             "poisson: f has 1 columns, must have 2, as pins.values");
 }
 
@@ -169,8 +169,8 @@ TEST(InterpolationSolver, ByBendingFindsTheFunctionOfALaplacian) {
   const Shared laplacian = torus();
   const std::vector<int> points = {0, 70, 200};
   const MatrixXd u = laplacian->positions, f = laplacian->M.cwiseInverse().asDiagonal() * (laplacian->L * u);
-  const InterpolationSolver bending(laplacian, points, Interpolation::biharmonic);
-  EXPECT_LE((bending.poisson(f, u(points, Eigen::all)) - u).cwiseAbs().maxCoeff(), 1e-7);
+  const InterpolationSolver bending(*laplacian, points, Interpolation::biharmonic);
+  EXPECT_LE((bending.queryPoisson(f, u(points, Eigen::all)) - u).cwiseAbs().maxCoeff(), 1e-7);
 }
 
 TEST(InterpolationSolver, ByMultigridAndOverWeakJointsIsTheSame) {
@@ -179,28 +179,28 @@ TEST(InterpolationSolver, ByMultigridAndOverWeakJointsIsTheSame) {
   for (const SolverMethod method : {SolverMethod::cholesky, SolverMethod::multigrid}) {
     for (const Shared& laplacian : {joined, torus()}) {
       const std::vector<int> points = {0, 70};
-      const InterpolationSolver solver(laplacian, points, Interpolation::harmonic, {.method = method});
+      const InterpolationSolver solver(*laplacian, points, Interpolation::harmonic, {.method = method});
       EXPECT_EQ(solver.report().iterative, method == SolverMethod::multigrid);
       for (int which = 0; which < 2; ++which) {
         const MatrixXd values = valuesOf(2, which);
-        EXPECT_TRUE(sameBits(solver.interpolate(values), harmonic(*laplacian, {points, values}, {.method = method})));
+        EXPECT_TRUE(sameBits(solver.query(values), harmonic(*laplacian, {points, values}, {.method = method})));
       }
     }
   }
-  EXPECT_THROW(InterpolationSolver(torus(), {0, 9}, Interpolation::biharmonic, {.method = SolverMethod::multigrid}),
+  EXPECT_THROW(InterpolationSolver(*torus(), {0, 9}, Interpolation::biharmonic, {.method = SolverMethod::multigrid}),
                SolverFailure);
 }
 
 TEST(PoissonSolver, HasTheBitsOfTheFreeFunctionsAndFactorsOnce) {
   for (const Shared& laplacian : {torus(), oddCloud()}) {
     Stages made, queried;
-    const PoissonSolver solver(laplacian, {.progress = made.progress()});
+    const PoissonSolver solver(*laplacian, {.progress = made.progress()});
     EXPECT_TRUE(made.haveFactors());
     for (int which = 0; which < 2; ++which) {
       const MatrixXd f = valuesOf(std::ssize(laplacian->status), which);
-      EXPECT_TRUE(sameBits(solver.poisson(f, nullptr, queried.progress()), poisson(*laplacian, f)));
+      EXPECT_TRUE(sameBits(solver.query(f, nullptr, queried.progress()), poisson(*laplacian, f)));
       const std::vector<int> points = {5, 17 + which};
-      EXPECT_TRUE(sameBits(solver.green(points, nullptr, queried.progress()), greensFunction(*laplacian, points)));
+      EXPECT_TRUE(sameBits(solver.queryGreen(points, nullptr, queried.progress()), greensFunction(*laplacian, points)));
     }
     EXPECT_FALSE(queried.empty());
     EXPECT_FALSE(queried.haveFactors());
@@ -209,37 +209,36 @@ TEST(PoissonSolver, HasTheBitsOfTheFreeFunctionsAndFactorsOnce) {
 }
 
 TEST(PoissonSolver, NamesWhatACallerGotWrong) {
-  EXPECT_EQ(refusal([] { PoissonSolver(nullptr); }), "PoissonSolver: laplacian is null, must not be");
   const Shared laplacian = oddCloud();
-  EXPECT_NE(refusal([&] { PoissonSolver(laplacian, {.tolerance = 2}); }), "accepted");
-  const PoissonSolver solver(laplacian);
-  EXPECT_EQ(refusal([&] { solver.poisson(valuesOf(9, 0)); }),
+  EXPECT_NE(refusal([&] { PoissonSolver(*laplacian, {.tolerance = 2}); }), "accepted");
+  const PoissonSolver solver(*laplacian);
+  EXPECT_EQ(refusal([&] { solver.query(valuesOf(9, 0)); }),
             "poisson: f has 9 rows, must have 2004, one per point of the Laplacian");
   MatrixXd f = valuesOf(2004, 0);
   f(2002, 0) = NAN;
-  EXPECT_EQ(refusal([&] { solver.poisson(f); }), "accepted");  // of a point that takes no part
+  EXPECT_EQ(refusal([&] { solver.query(f); }), "accepted");  // of a point that takes no part
   f(4, 1) = NAN;
-  EXPECT_EQ(refusal([&] { solver.poisson(f); }), "poisson: f of point 4 is not finite, must be");
-  EXPECT_EQ(refusal([&] { solver.green({}); }), "greensFunction: points is empty, must name at least one");
-  EXPECT_EQ(refusal([&] { solver.green({2004}); }), "greensFunction: point 2004, must lie in [0, 2004)");
-  EXPECT_EQ(refusal([&] { solver.green({2003}); }),
+  EXPECT_EQ(refusal([&] { solver.query(f); }), "poisson: f of point 4 is not finite, must be");
+  EXPECT_EQ(refusal([&] { solver.queryGreen({}); }), "greensFunction: points is empty, must name at least one");
+  EXPECT_EQ(refusal([&] { solver.queryGreen({2004}); }), "greensFunction: point 2004, must lie in [0, 2004)");
+  EXPECT_EQ(refusal([&] { solver.queryGreen({2003}); }),
             "greensFunction: point 2003 is isolated, lies on no component, must be active");
   Laplacian negative = *laplacian;
   negative.L *= -1;
-  EXPECT_THROW(PoissonSolver(std::make_shared<const Laplacian>(negative)), SolverFailure);
+  EXPECT_THROW(PoissonSolver{negative}, SolverFailure);
   const Progress stop = [](std::string_view, double) { return false; };
-  EXPECT_THROW(PoissonSolver(laplacian, {.progress = stop}), Cancelled);
-  EXPECT_THROW(solver.green({0}, nullptr, stop), Cancelled);
+  EXPECT_THROW(PoissonSolver(*laplacian, {.progress = stop}), Cancelled);
+  EXPECT_THROW(solver.queryGreen({0}, nullptr, stop), Cancelled);
 }
 
 TEST(PoissonSolver, StaysUsableWhereItIsMovedTo) {
   const Shared laplacian = torus(1000);
-  PoissonSolver first(laplacian);
-  const MatrixXd expected = first.green({3});
+  PoissonSolver first(*laplacian);
+  const MatrixXd expected = first.queryGreen({3});
   PoissonSolver second(std::move(first));
-  EXPECT_TRUE(sameBits(second.green({3}), expected));
+  EXPECT_TRUE(sameBits(second.queryGreen({3}), expected));
   first = std::move(second);
-  EXPECT_TRUE(sameBits(first.green({3}), expected));
+  EXPECT_TRUE(sameBits(first.queryGreen({3}), expected));
 }
 
 TEST(SmoothingSolver, HasTheBitsOfTheFreeFunctionAndFactorsOnce) {
@@ -249,13 +248,13 @@ TEST(SmoothingSolver, HasTheBitsOfTheFreeFunctionAndFactorsOnce) {
   for (int i = 0; i < 2000; i += 7) fixed[i] = 1;
   for (const Mask* held : {static_cast<const Mask*>(nullptr), static_cast<const Mask*>(&fixed)}) {
     Stages made, queried;
-    const SmoothingSolver solver(laplacian, 3, held, {.progress = made.progress()});
+    const SmoothingSolver solver(*laplacian, {.time_step = 3, .fixed = held, .solver = {.progress = made.progress()}});
     EXPECT_TRUE(made.haveFactors());
     EXPECT_EQ(solver.report().unknowns, held == nullptr ? 2000 : 2000 - 286);
     for (const int steps : {1, 3}) {
       for (const double scale : {1.0, 2.0}) {
         const Points given = scale * points;
-        const Points found = solver.smooth(given, steps, queried.progress());
+        const Points found = solver.query(given, steps, queried.progress());
         const Points expected = smooth(*laplacian, given, {.time_step = 3, .iterations = steps, .fixed = held});
         EXPECT_TRUE(support::sameBits(found.data(), expected.data(), found.size()));
         EXPECT_NE(found, given);
@@ -270,9 +269,9 @@ TEST(SmoothingSolver, LeavesAllPointsWhereNothingMoves) {
   const Points points = shapes::sphere(500).points;
   const auto laplacian = std::make_shared<const Laplacian>(pointCloudLaplacian(points));
   const Mask all(500, 1);
-  EXPECT_EQ(SmoothingSolver(laplacian, 0).smooth(points, 4), points);
-  const SmoothingSolver held(laplacian, 1, &all);
-  EXPECT_EQ(held.smooth(points), points);
+  EXPECT_EQ(SmoothingSolver(*laplacian, {.time_step = 0}).query(points, 4), points);
+  const SmoothingSolver held(*laplacian, {.fixed = &all});
+  EXPECT_EQ(held.query(points), points);
   EXPECT_EQ(held.report().method, "");
 }
 
@@ -280,36 +279,39 @@ TEST(SmoothingSolver, NamesWhatACallerGotWrong) {
   const Points points = shapes::sphere(500).points;
   const auto laplacian = std::make_shared<const Laplacian>(pointCloudLaplacian(points));
   const Mask short_mask(499, 0);
-  EXPECT_EQ(refusal([] { SmoothingSolver(nullptr); }), "SmoothingSolver: laplacian is null, must not be");
-  EXPECT_EQ(refusal([&] { SmoothingSolver(laplacian, -1); }),
+  EXPECT_EQ(refusal([&] { SmoothingSolver(*laplacian, {.method = SmoothingMethod::taubin}); }),
+            "SmoothingSolver: method = taubin, must be implicit: there is nothing to factorise");
+  const Triangles none(0, 3);
+  EXPECT_EQ(refusal([&] { SmoothingSolver(*laplacian, {.volume_of = &none}); }),
+            "SmoothingSolver: volume_of is given, must not be");
+  EXPECT_EQ(refusal([&] { SmoothingSolver(*laplacian, {.time_step = -1}); }),
             "SmoothingSolver: time_step = -1, must be finite and at least 0");
-  EXPECT_NE(refusal([&] { SmoothingSolver(laplacian, NAN); }), "accepted");
-  EXPECT_EQ(refusal([&] { SmoothingSolver(laplacian, 1, &short_mask); }),
+  EXPECT_NE(refusal([&] { SmoothingSolver(*laplacian, {.time_step = NAN}); }), "accepted");
+  EXPECT_EQ(refusal([&] { SmoothingSolver(*laplacian, {.fixed = &short_mask}); }),
             "SmoothingSolver: fixed has 499 rows, must have 500, one per point of the Laplacian");
-  EXPECT_EQ(refusal([&] { SmoothingSolver(laplacian, 1, nullptr, {.threads = -1}); }),
+  EXPECT_EQ(refusal([&] { SmoothingSolver(*laplacian, {.solver = {.threads = -1}}); }),
             "SmoothingSolver: threads = -1, must be >= 0");
-  const SmoothingSolver solver(laplacian);
-  EXPECT_EQ(refusal([&] { solver.smooth(points, 0); }), "smooth: iterations = 0, must be at least 1");
-  EXPECT_EQ(refusal([&] { solver.smooth(points.topRows(10)); }),
+  const SmoothingSolver solver(*laplacian);
+  EXPECT_EQ(refusal([&] { solver.query(points, 0); }), "smooth: iterations = 0, must be at least 1");
+  EXPECT_EQ(refusal([&] { solver.query(points.topRows(10)); }),
             "smooth: points has 10 rows, must have 500, one per point of the Laplacian");
   Points odd = points;
   odd(3, 1) = NAN;
-  EXPECT_EQ(refusal([&] { solver.smooth(odd); }),
-            "smooth: point 3 is not finite, must be: the Laplacian has it active");
+  EXPECT_EQ(refusal([&] { solver.query(odd); }), "smooth: point 3 is not finite, must be: the Laplacian has it active");
   Laplacian negative = *laplacian;
   negative.L *= -10;
-  EXPECT_THROW(SmoothingSolver(std::make_shared<const Laplacian>(negative)), SolverFailure);
+  EXPECT_THROW(SmoothingSolver{negative}, SolverFailure);
   const Progress stop = [](std::string_view, double) { return false; };
-  EXPECT_THROW(SmoothingSolver(laplacian, 1, nullptr, {.progress = stop}), Cancelled);
-  EXPECT_THROW(solver.smooth(points, 1, stop), Cancelled);
+  EXPECT_THROW(SmoothingSolver(*laplacian, {.solver = {.progress = stop}}), Cancelled);
+  EXPECT_THROW(solver.query(points, 1, stop), Cancelled);
 }
 
 TEST(SmoothingSolver, TakesMemoryThatSomebodyElseHolds) {
   const Points points = shapes::sphere(500).points;
   const auto laplacian = std::make_shared<const Laplacian>(pointCloudLaplacian(points));
-  const SmoothingSolver solver(laplacian);
+  const SmoothingSolver solver(*laplacian);
   const std::vector<double> memory(points.data(), points.data() + points.size());
-  EXPECT_EQ(solver.smooth(Eigen::Map<const Points>(memory.data(), 500, 3)), solver.smooth(points));
+  EXPECT_EQ(solver.query(Eigen::Map<const Points>(memory.data(), 500, 3)), solver.query(points));
 }
 
 TEST(LinearSystem, WithAnotherDiagonalIsAsOneMadeWithIt) {

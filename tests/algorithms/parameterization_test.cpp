@@ -11,6 +11,7 @@
 
 #include "shapes/shapes.h"
 #include "support/defined_values.h"
+#include "support/joined_meshes.h"
 #include "support/maps.h"
 #include "support/odd_cloud.h"
 #include "support/refusal.h"
@@ -117,14 +118,8 @@ TEST(Conformal, DoesNotDependOnUnitPlaceOrThreads) {
 }
 
 TEST(Conformal, LaysChartsOutBesideEachOther) {
-  shapes::Mesh mesh = shapes::gridSquare(6);
-  const shapes::Mesh cap = hemisphere(1);
-  const int n = static_cast<int>(mesh.points.rows());
-  const Eigen::Index f = mesh.triangles.rows();
-  mesh.points.conservativeResize(n + cap.points.rows(), 3);
-  mesh.points.bottomRows(cap.points.rows()) = cap.points.rowwise() + Eigen::RowVector3d(9, 0, 0);
-  mesh.triangles.conservativeResize(f + cap.triangles.rows(), 3);
-  mesh.triangles.bottomRows(cap.triangles.rows()) = cap.triangles.array() + n;
+  const shapes::Mesh plane = shapes::gridSquare(6), mesh = support::joined(plane, hemisphere(1), {9, 0, 0});
+  const int n = static_cast<int>(plane.points.rows());
   ParameterizationReport report;
   const MatrixX2d uv = mapMesh(mesh, {}, &report);
   EXPECT_EQ(report.charts, 2);

@@ -120,7 +120,7 @@ TEST(ComponentEdges, AreTheSameByBothBuildsAndForAnyThreads) {
   const Laplacian one = pointCloudLaplacian(points, options);
   options.threads = 3;
   const Laplacian three = pointCloudLaplacian(points, options);
-  options.gluing = Gluing::vertex_pair;
+  options.paper.gluing = Gluing::vertex_pair;
   const Laplacian reference = pointCloudLaplacian(points, options);
   ASSERT_EQ(one.component_edges.size(), 2u);
   ASSERT_EQ(reference.component_edges.size(), 2u);

@@ -41,7 +41,7 @@ Comparison compareOn(const shapes::Mesh& mesh, int sources, int targets, std::ui
     for (int t = 0; t < targets; ++t) {
       const int to = static_cast<int>(random.uniform() * static_cast<double>(mesh.points.rows()));
       if (!(exact[to] > 0)) continue;
-      const SurfacePath path = solver.path(mesh.triangles(face, 0), to);
+      const SurfacePath path = solver.query(mesh.triangles(face, 0), to);
       const double share = path.length / exact[to] - 1;
       ++made.pairs;
       made.long_ones += share > 0.005 ? 1 : 0;
@@ -59,7 +59,7 @@ TEST(Path, IsStraightInThePlane) {
     for (int i = 0; i < 40; ++i) {
       const auto draw = [&] { return static_cast<int>(random.uniform() * static_cast<double>(mesh.points.rows())); };
       const int from = draw(), to = draw();
-      const SurfacePath path = solver.path(from, to);
+      const SurfacePath path = solver.query(from, to);
       const double exact = (mesh.points.row(to) - mesh.points.row(from)).norm();
       EXPECT_NEAR(path.length, exact, 1e-9) << mesh.name << " from " << from << " to " << to;
       EXPECT_NEAR(polylineLength(path.points), exact, 1e-7) << mesh.name << " from " << from << " to " << to;
@@ -80,7 +80,7 @@ TEST(Path, IsStraightAlongARimThatEdgesWereFlippedOver) {
       for (int from = 0; from < mesh.points.rows(); from += 10) {
         for (int to = 0; to < mesh.points.rows(); ++to) {
           const double straight = (mesh.points.row(to) - mesh.points.row(from)).norm();
-          EXPECT_NEAR(solver.path(from, to).length, straight, 1e-9)
+          EXPECT_NEAR(solver.query(from, to).length, straight, 1e-9)
               << "seed " << seed << ", order " << order << ", from " << from << " to " << to;
         }
       }
@@ -103,7 +103,7 @@ TEST(Path, RunsAlongGreatCirclesOfClouds) {
   const VectorXd exact = shapes::sphereDistances(points, 0);
   const PathSolver solver(pointCloudLaplacian(points));
   for (int to = 1; to < 8000; to += 400) {
-    const SurfacePath path = solver.path(0, to);
+    const SurfacePath path = solver.query(0, to);
     EXPECT_NEAR(path.length, exact[to], 0.005 * exact[to]) << to;
     EXPECT_NEAR(polylineLength(path.points), path.length, 0.001 * path.length) << to;
     const Eigen::Vector3d first = points.row(0), last = points.row(to);
@@ -118,15 +118,15 @@ TEST(Path, CrossesTheSpineOfABook) {
   const int from = 100;
   const PathSolver solver(meshLaplacian(book.points, book.triangles, {.mollify = 0}));
   const VectorXd exact = oracles::bookDistances(book, from);
-  for (int to = 0; to < exact.size(); ++to) EXPECT_NEAR(solver.path(from, to).length, exact[to], 1e-9) << to;
+  for (int to = 0; to < exact.size(); ++to) EXPECT_NEAR(solver.query(from, to).length, exact[to], 1e-9) << to;
 }
 
 TEST(Path, IsAsLongBackwards) {
   const shapes::Mesh strip = shapes::moebius(12);
   const PathSolver solver(meshLaplacian(strip.points, strip.triangles));
   for (int i = 1; i < strip.points.rows(); i += 5) {
-    const double there = solver.path(0, i).length;
-    EXPECT_NEAR(solver.path(i, 0).length, there, 1e-9 * there) << i;
+    const double there = solver.query(0, i).length;
+    EXPECT_NEAR(solver.query(i, 0).length, there, 1e-9 * there) << i;
   }
 }
 
@@ -135,7 +135,7 @@ TEST(Path, OfOnePointAndOfCoincidentOnesIsThatPoint) {
   points.row(7) = points.row(3);
   const PathSolver solver(pointCloudLaplacian(points));
   for (const auto& [from, to] : {std::pair(5, 5), std::pair(3, 7)}) {
-    const SurfacePath path = solver.path(from, to);
+    const SurfacePath path = solver.query(from, to);
     EXPECT_EQ(path.length, 0);
     ASSERT_EQ(path.points.rows(), 1);
     EXPECT_EQ(path.points.row(0), points.row(from));
@@ -144,10 +144,10 @@ TEST(Path, OfOnePointAndOfCoincidentOnesIsThatPoint) {
 
 TEST(Path, ScalesWithThePoints) {
   const shapes::Mesh mesh = shapes::cubeMesh(5, shapes::Quality::good);
-  const SurfacePath before = PathSolver(meshLaplacian(mesh.points, mesh.triangles)).path(0, 60);
+  const SurfacePath before = PathSolver(meshLaplacian(mesh.points, mesh.triangles)).query(0, 60);
   for (const int exponent : {400, -400}) {
     const double scale = std::ldexp(1.0, exponent);
-    const SurfacePath after = PathSolver(meshLaplacian(scale * mesh.points, mesh.triangles)).path(0, 60);
+    const SurfacePath after = PathSolver(meshLaplacian(scale * mesh.points, mesh.triangles)).query(0, 60);
     EXPECT_EQ(after.length, scale * before.length) << exponent;
     EXPECT_EQ(after.points, scale * before.points) << exponent;
   }
@@ -163,7 +163,7 @@ TEST(Path, IsNoLongerThanDistancesOnAnyShape) {
     const VectorXd distance = DistanceSolver(laplacian).query({from});
     for (int to = 0; to < n; to += std::max(1, n / 7)) {
       if (laplacian.component[to] != laplacian.component[from]) continue;
-      const SurfacePath path = solver.path(from, to);
+      const SurfacePath path = solver.query(from, to);
       EXPECT_TRUE(path.points.allFinite()) << mesh.name << " to " << to;
       EXPECT_LE(path.length, 1.02 * distance[to] + 1e-9 * distance.maxCoeff()) << mesh.name << " to " << to;
     }
@@ -178,15 +178,15 @@ TEST(Path, NamesWhatACallerGotWrongAndStopsWhenTold) {
   points.bottomRows(50) = ball.rowwise() + Eigen::RowVector3d(100, 0, 0);
   const Laplacian laplacian = pointCloudLaplacian(points, {.neighbors = 12});
   const PathSolver solver(laplacian);
-  EXPECT_EQ(refusal([&] { solver.path(100, 0); }), "PathSolver::path: from = 100, must lie in [0, 100)");
-  EXPECT_EQ(refusal([&] { solver.path(0, -1); }), "PathSolver::path: to = -1, must lie in [0, 100)");
-  EXPECT_EQ(refusal([&] { solver.path(0, 99); }),
-            "PathSolver::path: no path leads from 0 to 99, must lie on one component");
+  EXPECT_EQ(refusal([&] { solver.query(100, 0); }), "PathSolver::query: from = 100, must lie in [0, 100)");
+  EXPECT_EQ(refusal([&] { solver.query(0, -1); }), "PathSolver::query: to = -1, must lie in [0, 100)");
+  EXPECT_EQ(refusal([&] { solver.query(0, 99); }),
+            "PathSolver::query: no path leads from 0 to 99, must lie on one component");
   Laplacian without = laplacian;
   without.positions.resize(0, 3);
   EXPECT_EQ(refusal([&] { PathSolver{without}; }), "PathSolver: positions has 0 rows, must have 100");
-  EXPECT_THROW(PathSolver(laplacian, 0, [](std::string_view, double) { return false; }), Cancelled);
-  EXPECT_THROW(solver.path(0, 20, [](std::string_view, double) { return false; }), Cancelled);
+  EXPECT_THROW(PathSolver(laplacian, {.progress = [](std::string_view, double) { return false; }}), Cancelled);
+  EXPECT_THROW(solver.query(0, 20, [](std::string_view, double) { return false; }), Cancelled);
 }
 
 }  // namespace

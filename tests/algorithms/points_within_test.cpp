@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "base/cover_source.h"
 #include "shapes/shapes.h"
 #include "support/refusal.h"
 #include "tufted/tufted.h"

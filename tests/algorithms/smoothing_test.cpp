@@ -166,7 +166,8 @@ TEST(Smoothing, InSeveralStepsIsOneStepAfterTheOther) {
 TEST(Smoothing, OnAnyNumberOfThreadsGivesTheSameBits) {
   const Points points = shapes::torus(2000).points;
   const Laplacian laplacian = pointCloudLaplacian(points);
-  EXPECT_EQ(smooth(laplacian, points, {.threads = 1}), smooth(laplacian, points, {.threads = 3}));
+  EXPECT_EQ(smooth(laplacian, points, {.solver = {.threads = 1}}),
+            smooth(laplacian, points, {.solver = {.threads = 3}}));
 }
 
 TEST(Smoothing, LeavesFixedPointsWhereTheyAre) {
@@ -239,7 +240,7 @@ TEST(Smoothing, NamesWhatACallerGotWrong) {
   const Eigen::RowVector3d centre = laplacian.M.transpose() * points / laplacian.M.sum();
   EXPECT_LT((together.rowwise() - centre).rowwise().norm().maxCoeff(), 1e-5);
   EXPECT_EQ(refusal(points, {.iterations = 0}), "smooth: iterations = 0, must be at least 1");
-  EXPECT_EQ(refusal(points, {.threads = -1}), "smooth: threads = -1, must be >= 0");
+  EXPECT_EQ(refusal(points, {.solver = {.threads = -1}}), "smooth: threads = -1, must be >= 0");
   EXPECT_EQ(refusal(points, {.fixed = &short_mask}),
             "smooth: fixed has 499 rows, must have 500, one per point of the Laplacian");
   EXPECT_EQ(refusal(points.topRows(10), {}),
@@ -262,7 +263,8 @@ TEST(Smoothing, CancelsAtEveryCall) {
   int calls = 0;
   const auto smoothUntil = [&](int stop) {
     calls = 0;
-    smooth(laplacian, points, {.iterations = 3, .progress = [&](std::string_view, double) { return ++calls < stop; }});
+    smooth(laplacian, points,
+           {.iterations = 3, .solver = {.progress = [&](std::string_view, double) { return ++calls < stop; }}});
   };
   smoothUntil(INT32_MAX);
   const int all = calls;

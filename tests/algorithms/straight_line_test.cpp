@@ -70,7 +70,7 @@ TEST(StraightLine, IsNotLongerThanPaths) {
                      straight = (laplacian.positions.rowwise() - laplacian.positions.row(from)).rowwise().norm();
       for (int to = from % 7; to < n; to += n / 20)
         if (std::isfinite(distance[to])) {
-          ASSERT_GE(paths.path(from, to).length, (1 - rounding) * straight[to]) << from << " to " << to;
+          ASSERT_GE(paths.query(from, to).length, (1 - rounding) * straight[to]) << from << " to " << to;
         }
     }
   }

@@ -11,6 +11,7 @@
 
 #include "shapes/shapes.h"
 #include "support/defined_values.h"
+#include "support/joined_meshes.h"
 #include "tufted/tufted.h"
 
 namespace tufted::welded_mesh_test {
@@ -20,17 +21,12 @@ using Eigen::MatrixXd;
 
 /// A sphere and a bent square beside it: one component is closed, one has a rim.
 shapes::Mesh sharedMesh() {
-  shapes::Mesh mesh = shapes::icosphere(2);
-  const shapes::Mesh square = shapes::gridSquare(6);
-  const Eigen::Index n = mesh.points.rows(), f = mesh.triangles.rows();
-  mesh.points.conservativeResize(n + square.points.rows(), 3);
-  mesh.triangles.conservativeResize(f + square.triangles.rows(), 3);
+  shapes::Mesh square = shapes::gridSquare(6);
   for (Eigen::Index i = 0; i < square.points.rows(); ++i) {
     const double x = square.points(i, 0), y = square.points(i, 1);
-    mesh.points.row(n + i) << x + 0.1 * y * y + 3, y + 0.07 * x, 0.3 * x * y + 0.2 * x * x;
+    square.points.row(i) << x + 0.1 * y * y + 3, y + 0.07 * x, 0.3 * x * y + 0.2 * x * x;
   }
-  mesh.triangles.bottomRows(square.triangles.rows()) = square.triangles.array() + static_cast<int>(n);
-  return mesh;
+  return support::joined(shapes::icosphere(2), square);
 }
 
 class WeldedMesh : public testing::Test {
@@ -159,8 +155,8 @@ TEST_F(WeldedMesh, HasDistancesFromCopiesAndFromPlacesInTriangles) {
 
 TEST_F(WeldedMesh, HasPathsBetweenCopies) {
   for (const auto& [from, to] : {std::pair(copies_[0], copies_[1]), std::pair(copies_[3], copies_[2])})
-    EXPECT_NEAR(PathSolver(*welded_).path(from, to).length,
-                PathSolver(*shared_).path(shared_of_[from], shared_of_[to]).length, 1e-12);
+    EXPECT_NEAR(PathSolver(*welded_).query(from, to).length,
+                PathSolver(*shared_).query(shared_of_[from], shared_of_[to]).length, 1e-12);
 }
 
 TEST_F(WeldedMesh, IsInterpolatedBetweenCopies) {

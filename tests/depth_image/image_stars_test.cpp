@@ -76,7 +76,7 @@ TEST(ImageStars, AreThoseOfCgal) {
   for (const bool smooths : {false, true}) {
     const Image image(scene(false), smooths ? 1e-3 : 0, smooths);
     CloudOptions by_cgal;
-    by_cgal.delaunay = Delaunay::cgal;
+    by_cgal.paper.delaunay = Delaunay::cgal;
     Report report, report_of_cgal;
     const BuiltStars ours = starsOf(image, {}, report), expected = starsOf(image, by_cgal, report_of_cgal);
     EXPECT_EQ(report.open_stars, report_of_cgal.open_stars);

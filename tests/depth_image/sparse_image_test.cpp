@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "shapes/random.h"
-#include "tufted/pixel_fill.h"
 #include "tufted/scan_structure.h"
 
 namespace tufted::sparse_image_test {

@@ -37,7 +37,7 @@ TEST_P(GuaranteesOfFile, AsCloudAndAsMesh) {
   const Laplacian clean = pointCloudLaplacian(points, cloudOptions(Preset::clean));
   EXPECT_THAT(brokenGuarantees(clean, points), IsEmpty()) << "cloud, preset clean";
   if (points.rows() > most_glued_by_pairs) return;
-  const Laplacian by_pairs = pointCloudLaplacian(points, {.gluing = Gluing::vertex_pair});
+  const Laplacian by_pairs = pointCloudLaplacian(points, {.paper = {.gluing = Gluing::vertex_pair}});
   EXPECT_THAT(brokenGuarantees(by_pairs, points), IsEmpty()) << "cloud, glued per vertex pair";
 }
 

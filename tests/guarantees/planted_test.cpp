@@ -44,9 +44,9 @@ int neighborOfFirst(const Laplacian& laplacian) {
 
 Planted onCover(std::string name, const std::function<void(IntrinsicTriangulation&)>& change) {
   return {std::move(name), "cover", [change](Laplacian& laplacian) {
-            auto cover = std::make_shared<IntrinsicTriangulation>(laplacian.cover());
-            change(*cover);
-            laplacian.stored_cover = std::move(cover);
+            IntrinsicTriangulation cover = laplacian.cover();
+            change(cover);
+            laplacian.setCover(std::move(cover));
           }};
 }
 

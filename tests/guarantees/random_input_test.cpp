@@ -91,8 +91,8 @@ TEST_P(RandomInput, Cloud) {
     const Points points = oddPoints(n);
     CloudOptions options = cloudOptions(static_cast<Preset>(below(3)));
     options.neighbors = 3 + below(40);
-    options.gluing = below(2) == 0 ? Gluing::star : Gluing::vertex_pair;
-    options.order = static_cast<FaceOrder>(below(3));
+    options.paper.gluing = below(2) == 0 ? Gluing::star : Gluing::vertex_pair;
+    options.paper.order = static_cast<FaceOrder>(below(3));
     SCOPED_TRACE("round " + std::to_string(round) + ", " + std::to_string(n) + " points");
     const Laplacian l = pointCloudLaplacian(points, options);
     ASSERT_THAT(brokenGuarantees(l, points), IsEmpty());
@@ -105,7 +105,7 @@ TEST_P(RandomInput, Mesh) {
     const int n = 1 + below(round % 2 == 0 ? 12 : 200);
     const Points points = oddPoints(n);
     const Triangles triangles = oddTriangles(n, below(3 * n + 5));
-    const MeshOptions options{.order = static_cast<FaceOrder>(below(3))};
+    const MeshOptions options{.paper = {.order = static_cast<FaceOrder>(below(3))}};
     SCOPED_TRACE("round " + std::to_string(round) + ", " + std::to_string(n) + " points");
     const Laplacian l = meshLaplacian(points, triangles, options);
     ASSERT_THAT(brokenGuarantees(l, points), IsEmpty());

@@ -53,7 +53,7 @@ TEST_P(GuaranteesOfCloud, InAnyGluingAndOrder) {
     for (const FaceOrder order : face_orders) {
       if (is_sanitized && gluing == Gluing::vertex_pair && order != FaceOrder::angle) continue;
       SCOPED_TRACE(std::to_string(static_cast<int>(gluing)) + " " + std::to_string(static_cast<int>(order)));
-      const CloudOptions options{.gluing = gluing, .order = order, .seed = 3};
+      const CloudOptions options{.paper = {.gluing = gluing, .order = order, .seed = 3}};
       EXPECT_THAT(brokenGuarantees(pointCloudLaplacian(points(), options), points()), IsEmpty());
     }
   }
@@ -83,7 +83,7 @@ TEST_P(GuaranteesOfMesh, InAnyOrder) {
   const shapes::Mesh& mesh = *GetParam();
   for (const FaceOrder order : face_orders) {
     SCOPED_TRACE(static_cast<int>(order));
-    const Laplacian laplacian = meshLaplacian(mesh.points, mesh.triangles, {.order = order, .seed = 3});
+    const Laplacian laplacian = meshLaplacian(mesh.points, mesh.triangles, {.paper = {.order = order, .seed = 3}});
     EXPECT_THAT(brokenGuarantees(laplacian, mesh.points), IsEmpty());
   }
 }
@@ -97,7 +97,7 @@ TEST_P(GuaranteesOfMesh, ItsVerticesAsCloud) {
   const Points& points = GetParam()->points;
   for (const Gluing gluing : {Gluing::star, Gluing::vertex_pair}) {
     SCOPED_TRACE(static_cast<int>(gluing));
-    EXPECT_THAT(brokenGuarantees(pointCloudLaplacian(points, {.gluing = gluing}), points), IsEmpty());
+    EXPECT_THAT(brokenGuarantees(pointCloudLaplacian(points, {.paper = {.gluing = gluing}}), points), IsEmpty());
   }
 }
 

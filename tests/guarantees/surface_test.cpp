@@ -115,8 +115,7 @@ TEST(Surface, FindsAMassThatWasMoved) {
 
 TEST(Surface, WithoutTheStarsMassesAreComparedButWhereItEndsAndThatIsSaid) {
   Laplacian laplacian = pointCloudLaplacian(shapes::saddle(400).points);
-  laplacian.stored_cover = std::make_shared<IntrinsicTriangulation>(laplacian.cover());
-  laplacian.cover_source.reset();
+  laplacian.setCover(laplacian.cover());
   const LaplacianCheck check = validate(laplacian);
   EXPECT_THAT(check.faults, IsEmpty());
   EXPECT_FALSE(check.surface->masses_compared);

@@ -47,7 +47,7 @@ std::vector<HeapCase> heapCases() {
     lattice.row(i) << i % 50, row, 0;
   }
   CloudOptions pairs = {};
-  pairs.gluing = Gluing::vertex_pair;
+  pairs.paper.gluing = Gluing::vertex_pair;
   CloudOptions forgetful = {};
   forgetful.keep_cover = false;
   return {{"sphere", sphere},

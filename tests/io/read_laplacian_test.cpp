@@ -36,10 +36,10 @@ class ReadLaplacian : public testing::Test {
   }
 
   void expectRefusal(const std::string& word, const std::function<void(IntrinsicTriangulation&)>& damage) {
-    auto cover = std::make_shared<IntrinsicTriangulation>(laplacian_.cover());
-    damage(*cover);
     tufted::Laplacian damaged = laplacian_;
-    damaged.stored_cover = cover;
+    IntrinsicTriangulation cover = laplacian_.cover();
+    damage(cover);
+    damaged.setCover(std::move(cover));
     tufted::writeLaplacian(dir_.path(), damaged, geometry_, {.formats = {Format::npz, Format::cover}});
     expectRefusal("cover.npz", word);
   }

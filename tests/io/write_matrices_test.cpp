@@ -115,7 +115,7 @@ TEST(ResultFiles, AreThoseThatAreWrittenWhateverTheFormats) {
   tufted::Laplacian laplacian = sampleLaplacian();
   tufted::IntrinsicTriangulation cover;
   cover.vertices = 4;
-  laplacian.stored_cover = std::make_shared<const tufted::IntrinsicTriangulation>(cover);
+  laplacian.setCover(cover);
   for (const auto& formats : choices) {
     const TemporaryDir dir;
     tufted::writeLaplacian(dir.path(), laplacian, sampleGeometry(), {.formats = formats});

@@ -235,7 +235,7 @@ TEST(ToJson, StatesEveryCountOfTheReport) {
 
 TEST(WriteLaplacian, TheReportStatesSignScaleAndOptions) {
   const TemporaryDir dir;
-  const tufted::CloudOptions cloud = {.neighbors = 17, .gluing = tufted::Gluing::vertex_pair};
+  const tufted::CloudOptions cloud = {.neighbors = 17, .paper = {.gluing = tufted::Gluing::vertex_pair}};
   tufted::Geometry geometry = sampleGeometry();
   geometry.polygons = 5;
   geometry.merged_vertices = 6;

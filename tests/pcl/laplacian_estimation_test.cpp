@@ -259,12 +259,12 @@ TEST(LaplacianEstimation, KeepsWhatIsSet) {
   EXPECT_EQ(estimation.getKSearch(), 30);
   EXPECT_EQ(estimation.getNumberOfThreads(), 0U);
   EXPECT_EQ(estimation.getSearchMethod(), nullptr);
-  estimation.setOptions({.neighbors = 12, .gluing = Gluing::vertex_pair});
+  estimation.setOptions({.neighbors = 12, .paper = {.gluing = Gluing::vertex_pair}});
   estimation.setKSearch(20);
   estimation.setNumberOfThreads(1);
   EXPECT_EQ(estimation.getKSearch(), 20);
   EXPECT_EQ(estimation.getNumberOfThreads(), 1U);
-  EXPECT_EQ(estimation.getOptions().gluing, Gluing::vertex_pair);
+  EXPECT_EQ(estimation.getOptions().paper.gluing, Gluing::vertex_pair);
   EXPECT_EQ(estimation.getClassName(), "LaplacianEstimation");
   const Estimation::ConstPtr shared(new Estimation(estimation));
   EXPECT_EQ(shared->getKSearch(), 20);
@@ -273,8 +273,8 @@ TEST(LaplacianEstimation, KeepsWhatIsSet) {
   estimation.setInputCloud(cloud);
   const Laplacian result = computed(estimation);
   EXPECT_EQ(result.report.threads, 1);
-  EXPECT_TRUE(
-      sameBits(result.L, pointCloudLaplacian(pointsOf(*cloud), {.neighbors = 20, .gluing = Gluing::vertex_pair}).L));
+  EXPECT_TRUE(sameBits(
+      result.L, pointCloudLaplacian(pointsOf(*cloud), {.neighbors = 20, .paper = {.gluing = Gluing::vertex_pair}}).L));
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ TEST_P(SphereSpectrum, Of16kRandomPointsIsWithin3Permille) {
 
 TEST_P(SphereSpectrum, StaysFivePercentOffWithThePapersOwnGluing) {
   const Points points = shapes::sphere(16000, shapes::Sampling::uniform, GetParam()).points;
-  const double error = spectrumError(points, {.gluing = Gluing::vertex_pair});
+  const double error = spectrumError(points, {.paper = {.gluing = Gluing::vertex_pair}});
   EXPECT_LE(error, 6e-2);
   EXPECT_GE(error, 4e-2);  // or `star` would need another reason to be the default
 }
@@ -73,7 +73,7 @@ TEST(Lattice, IsCoveredExactlyOnceInAnyOrder) {
       if (delaunay == Delaunay::cgal) continue;
 #endif
       CloudOptions options = cloudOptions(preset);
-      options.delaunay = delaunay;
+      options.paper.delaunay = delaunay;
       const Laplacian laplacian = pointCloudLaplacian(cloud.points, options);
       const Eigen::RowVector3d low = cloud.points.colwise().minCoeff(), high = cloud.points.colwise().maxCoeff();
       int inside = 0;

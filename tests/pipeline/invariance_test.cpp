@@ -55,9 +55,9 @@ TEST_F(Invariance, PermutedGivesThePermutedBits) {
 
 TEST_F(Invariance, AnyNumberOfThreadsGivesTheSameBits) {
   for (const Gluing gluing : {Gluing::star, Gluing::vertex_pair}) {
-    const Laplacian one = pointCloudLaplacian(points(), {.gluing = gluing, .threads = 1});
+    const Laplacian one = pointCloudLaplacian(points(), {.threads = 1, .paper = {.gluing = gluing}});
     for (const int threads : {2, 4}) {
-      const Laplacian many = pointCloudLaplacian(points(), {.gluing = gluing, .threads = threads});
+      const Laplacian many = pointCloudLaplacian(points(), {.threads = threads, .paper = {.gluing = gluing}});
       EXPECT_TRUE(sameBits(many.L, one.L)) << threads;
       EXPECT_TRUE(sameBits(many.M, one.M)) << threads;
       EXPECT_EQ(many.cover().glue, one.cover().glue) << threads;
@@ -82,19 +82,19 @@ TEST_F(Invariance, TurnedOrScaledChangesNothingButRounding) {
 
 TEST_F(Invariance, BothBackendsGiveTheSameBits) {
 #ifdef TUFTED_WITH_GPL
-  const Laplacian laplacian = pointCloudLaplacian(points(), {.delaunay = Delaunay::cgal});
+  const Laplacian laplacian = pointCloudLaplacian(points(), {.paper = {.delaunay = Delaunay::cgal}});
   EXPECT_TRUE(sameBits(laplacian.L, reference().L));
   EXPECT_TRUE(sameBits(laplacian.M, reference().M));
   EXPECT_EQ(laplacian.report.votes, reference().report.votes);
 #else
-  EXPECT_THROW(pointCloudLaplacian(points(), {.delaunay = Delaunay::cgal}), InvalidInput);
+  EXPECT_THROW(pointCloudLaplacian(points(), {.paper = {.delaunay = Delaunay::cgal}}), InvalidInput);
 #endif
 }
 
 TEST_F(Invariance, TheFaceOrderMattersLittle) {
   // Section 5.4: pools of more than two faces are rare with `star`, so the orders differ in few rows.
   for (const FaceOrder order : {FaceOrder::area, FaceOrder::random}) {
-    const Laplacian laplacian = pointCloudLaplacian(points(), {.order = order, .seed = 3});
+    const Laplacian laplacian = pointCloudLaplacian(points(), {.paper = {.order = order, .seed = 3}});
     EXPECT_TRUE(validate(laplacian.cover()).ok());
     const SparseMatrix difference = laplacian.L - reference().L;
     int rows = 0;
@@ -109,7 +109,8 @@ TEST_F(Invariance, TheFaceOrderMattersLittle) {
 
 TEST_F(Invariance, TheRandomOrderFollowsItsSeed) {
   const auto build = [&](std::uint64_t seed) {
-    return pointCloudLaplacian(points(), {.gluing = Gluing::vertex_pair, .order = FaceOrder::random, .seed = seed});
+    return pointCloudLaplacian(points(),
+                               {.paper = {.gluing = Gluing::vertex_pair, .order = FaceOrder::random, .seed = seed}});
   };
   const Laplacian one = build(1);
   EXPECT_TRUE(sameBits(build(1).L, one.L));

@@ -68,9 +68,9 @@ std::vector<Frame> frames() {
   Points holes = shapes::sphere(2000).points;
   for (int i = 0; i < 500; ++i) holes(3 * i, 1) = std::numeric_limits<double>::infinity();
   frames.push_back({holes});
-  frames.push_back({shapes::square(1000).points, {.gluing = Gluing::vertex_pair}});
+  frames.push_back({shapes::square(1000).points, {.paper = {.gluing = Gluing::vertex_pair}}});
   frames.push_back({shapes::sphere(1000).points, {.keep_cover = false}});
-  frames.push_back({shapes::sphere(1000).points, {.gluing = Gluing::vertex_pair, .keep_cover = false}});
+  frames.push_back({shapes::sphere(1000).points, {.keep_cover = false, .paper = {.gluing = Gluing::vertex_pair}}});
   frames.push_back({frames[1]});
   return frames;
 }

@@ -186,7 +186,7 @@ TEST(MeshLaplacian, NamesAnIndexOutOfRange) {
 TEST(MeshLaplacian, OrdersOfFacesAllGiveValidCovers) {
   const shapes::Mesh book = shapes::book(5, 8);
   for (const FaceOrder order : {FaceOrder::angle, FaceOrder::area, FaceOrder::random}) {
-    const Laplacian laplacian = meshLaplacian(book.points, book.triangles, {.order = order, .seed = 11});
+    const Laplacian laplacian = meshLaplacian(book.points, book.triangles, {.paper = {.order = order, .seed = 11}});
     EXPECT_TRUE(validate(laplacian.cover()).ok());
     EXPECT_NEAR(laplacian.M.sum(), book.area, 1e-9);
   }

@@ -46,7 +46,7 @@ inline std::vector<Algorithm> algorithms() {
       {"SmoothingSolver by multigrid", true,
        [](const Laplacian& laplacian, const Points& points) -> MatrixXd {
          const SolverOptions options = {.method = SolverMethod::multigrid, .tolerance = 1e-10};
-         return SmoothingSolver(std::make_shared<Laplacian>(laplacian), 2, nullptr, options).smooth(points);
+         return SmoothingSolver(laplacian, {.time_step = 2, .solver = options}).query(points);
        }},
       {"curvature", true,
        [](const Laplacian& laplacian, const Points&) -> MatrixXd {
@@ -69,7 +69,7 @@ inline std::vector<Algorithm> algorithms() {
        }},
       {"path", true,
        [=](const Laplacian& laplacian, const Points&) -> MatrixXd {
-         return MatrixXd::Constant(1, 1, PathSolver(laplacian).path(3, 40).length);
+         return MatrixXd::Constant(1, 1, PathSolver(laplacian).query(3, 40).length);
        }},
       {"extension", true,
        [=](const Laplacian& laplacian, const Points&) {

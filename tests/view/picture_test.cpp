@@ -13,7 +13,6 @@
 #include <random>
 
 #include "tufted/errors.h"
-#include "tufted/view/colors.h"
 #include "view/color_maps.h"
 
 namespace picture_test {

@@ -81,8 +81,8 @@ void runCloud(benchmark::State& state, const CloudCase& c) {
   const Points& points = pointsOf(c);
   CloudOptions options = cloudOptions(c.preset);
   options.neighbors = neighbor_count;
-  options.gluing = c.gluing;
-  options.delaunay = c.delaunay;
+  options.paper.gluing = c.gluing;
+  options.paper.delaunay = c.delaunay;
   options.threads = c.threads;
   options.keep_cover = false;
   chooseKernels(c.portable ? &portableKernels() : nullptr);

@@ -197,12 +197,12 @@ void printPaths() {
   double milliseconds = 0;
   forEachMesh([&](const std::filesystem::path&, const Geometry& geometry, const VectorXd& exact) {
     const Laplacian laplacian = meshLaplacian(geometry.points, geometry.triangles);
-    const PathSolver solver(laplacian, 1);
+    const PathSolver solver(laplacian, {.threads = 1});
     std::vector<std::pair<int, double>> lengths;
     const Stopwatch watch;
     for (int t = 0; t < targets; ++t) {
       const int to = drawn(exact.size());
-      if (exact[to] > 0) lengths.emplace_back(to, solver.path(geometry.triangles(0, 0), to).length);
+      if (exact[to] > 0) lengths.emplace_back(to, solver.query(geometry.triangles(0, 0), to).length);
     }
     milliseconds += 1e3 * watch.seconds();
     for (const auto& [to, length] : lengths)
@@ -211,14 +211,14 @@ void printPaths() {
   meshes.print("CGAL's meshes", milliseconds);
   for (const int n : {4000, 16000, 64000}) {
     const Points points = shapes::sphere(n, shapes::Sampling::uniform, seed).points;
-    const PathSolver solver(pointCloudLaplacian(points), 1);
+    const PathSolver solver(pointCloudLaplacian(points), {.threads = 1});
     PathCount clouds;
     const int from = drawn(n);
     const VectorXd exact = shapes::sphereDistances(points, from);
     const Stopwatch watch;
     for (int t = 0; t < targets; ++t) {
       const int to = drawn(n);
-      if (exact[to] > 0) clouds.add(solver.path(from, to).length, exact[to]);
+      if (exact[to] > 0) clouds.add(solver.query(from, to).length, exact[to]);
     }
     clouds.print(("sphere, " + std::to_string(n) + " points").c_str(), 1e3 * watch.seconds());
   }

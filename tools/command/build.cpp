@@ -60,26 +60,31 @@ void addBuildOptions(CLI::App& command, Build& build) {
                        "Where the sensor stood, clouds only (the file's, or the origin of a depth image)")
            ->type_name("X,Y,Z")});
   addNumber(command, "--threads", build.cloud.threads, 1, 1 << 16, "At most this many threads (all)")->type_name("N");
-  build.cloud_only.insert(
-      build.cloud_only.end(),
-      {addChoice(command, "--gluing", build.cloud.gluing, gluings, "How the stars are glued, clouds only (star)"),
-       addChoice(command, "--delaunay", build.cloud.delaunay, backends, "Who finds the stars, clouds only (star)")});
-  build.seed = addNumber(command, "--seed", build.cloud.seed, std::uint64_t(0),
-                         std::numeric_limits<std::uint64_t>::max(), "Seed, only with --order random (0)")
-                   ->type_name("S");
+  const CLI::Option* const mollify =
+      addNumber(
+          command, "--mollify", build.mollify, 0.0, 1.0,
+          "Shortest edge, in the longest side of the smaller of its triangles; 0: flat triangles stay flat (1e-6)")
+          ->type_name("D");
+
+  tufted::PaperOptions& paper = build.cloud.paper;
+  CLI::Option* const gluing =
+      addChoice(command, "--gluing", paper.gluing, gluings, "How the stars are glued, clouds only (star)");
+  CLI::Option* const delaunay =
+      addChoice(command, "--delaunay", paper.delaunay, backends, "Who finds the stars, clouds only (star)");
+  CLI::Option* const order =
+      addChoice(command, "--order", paper.order, orders, "Order of the faces around an edge (angle)");
+  CLI::Option* const seed = addNumber(command, "--seed", paper.seed, std::uint64_t(0),
+                                      std::numeric_limits<std::uint64_t>::max(), "Seed, only with --order random (0)")
+                                ->type_name("S");
+  for (CLI::Option* const option : {gluing, delaunay, order, seed}) option->group("For comparison with the paper");
+  build.seed = seed;
+  build.cloud_only.insert(build.cloud_only.end(), {gluing, delaunay});
   build.building = build.cloud_only;
-  build.building.insert(
-      build.building.end(),
-      {addChoice(command, "--order", build.cloud.order, orders, "Order of the faces around an edge (angle)"),
-       build.seed,
-       addNumber(
-           command, "--mollify", build.mollify, 0.0, 1.0,
-           "Shortest edge, in the longest side of the smaller of its triangles; 0: flat triangles stay flat (1e-6)")
-           ->type_name("D")});
+  build.building.insert(build.building.end(), {order, seed, mollify});
 }
 
 void checkSeed(const Build& build) {
-  if (build.seed->count() > 0 && build.cloud.order != tufted::FaceOrder::random)
+  if (build.seed->count() > 0 && build.cloud.paper.order != tufted::FaceOrder::random)
     throw CLI::RequiresError("--seed", "--order random");
 }
 
@@ -112,8 +117,7 @@ tufted::Laplacian buildLaplacian(const tufted::Geometry& geometry, const Input& 
   if (is_given || geometry.height > 1 || !build.viewpoint.isZero(0)) build.cloud.viewpoint = &build.viewpoint;
   build.cloud.progress = progress;
   build.cloud.keep_cover = keep_cover;
-  build.mesh.order = build.cloud.order;
-  build.mesh.seed = build.cloud.seed;
+  build.mesh.paper = build.cloud.paper;
   build.mesh.threads = build.cloud.threads;
   build.mesh.progress = progress;
   build.mesh.keep_cover = keep_cover;

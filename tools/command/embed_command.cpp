@@ -6,7 +6,7 @@
 #include "operator.h"
 #include "options.h"
 #include "reports.h"
-#include "tufted/spectral.h"
+#include "tufted/signatures.h"
 
 namespace embed_command {
 namespace {

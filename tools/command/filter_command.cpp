@@ -15,7 +15,7 @@
 #include "signal_options.h"
 #include "tufted/errors.h"
 #include "tufted/interpolation.h"
-#include "tufted/spectral.h"
+#include "tufted/signatures.h"
 
 namespace filter_command {
 namespace {

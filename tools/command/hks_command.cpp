@@ -15,7 +15,7 @@
 #include "options.h"
 #include "reports.h"
 #include "tufted/errors.h"
-#include "tufted/spectral.h"
+#include "tufted/signatures.h"
 
 namespace hks_command {
 namespace {

@@ -20,9 +20,9 @@
 #include "scene_fields.h"
 #include "suggestion.h"
 #include "tufted/errors.h"
-#include "tufted/view/color_map.h"
-#include "tufted/view/colors.h"
 #include "tufted/view/page.h"
+#include "tufted/view/picture.h"
+#include "tufted/view/scene.h"
 
 namespace {
 

@@ -48,8 +48,9 @@ Results compute(Settings& settings, Operator& source) {
   Results results;
   const std::vector<int> ends = locate(settings.ends, source, results);
   requireTakingPart(ends, source);
-  const tufted::PathSolver solver(source.laplacian, source.threads, source.progress);
-  const tufted::SurfacePath path = blameSurface(source, [&] { return solver.path(ends[0], ends[1], source.progress); });
+  const tufted::PathSolver solver(source.laplacian, {source.threads, source.progress});
+  const tufted::SurfacePath path =
+      blameSurface(source, [&] { return solver.query(ends[0], ends[1], source.progress); });
   const tufted::DistanceSolver distances(source.laplacian, {.solver = source.solverOptions()});
   results.arrays = {{.name = "path", .values = path.points, .per_point = false},
                     {.name = "distance", .values = distances.query({ends[0]}, nullptr, source.progress)}};

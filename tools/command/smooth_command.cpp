@@ -82,8 +82,7 @@ Results compute(Settings& settings, Operator& source) {
   tufted::SmoothingOptions options = {.method = settings.method,
                                       .iterations = settings.iterations,
                                       .fixed = settings.fixed.empty() ? nullptr : &settings.fixed,
-                                      .threads = source.threads,
-                                      .progress = source.progress};
+                                      .solver = source.solverOptions()};
   options.time_step = settings.time_step.value_or(options.time_step);
   options.lambda = settings.lambda.value_or(options.lambda);
   options.mu = settings.mu.value_or(options.mu);

@@ -3,8 +3,8 @@
 #include <cstdio>
 
 #include "tufted/errors.h"
-#include "tufted/io/rings.h"
-#include "tufted/pixel_fill.h"
+#include "tufted/io/read.h"
+#include "tufted/scan_structure.h"
 
 namespace {
 

@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <string>
 
-#include "tufted/view/camera.h"
 #include "tufted/view/scene.h"
 #include "tufted/view/whole_file.h"
 

@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-#include "tufted/view/camera.h"
 #include "tufted/view/scene.h"
 #include "tufted/view/whole_file.h"
 
@@ -60,5 +59,11 @@ void writePicture(const std::filesystem::path& path, const Scene& scene, const P
 /// remains.
 /// @throws InvalidInput and IoError for the same reasons as writePicture()
 WholeFile preparePicture(const std::filesystem::path& path, const Scene& scene, const PictureOptions& options = {});
+
+/// Computes the colours that drawPicture() gives the points, before shading.
+/// @param options only field, column, color_map and range are used
+/// @return N x (red, green, blue)
+/// @throws InvalidInput for the same reasons as drawPicture()
+std::vector<std::array<std::uint8_t, 3>> pointColors(const Scene& scene, const PictureOptions& options = {});
 
 }  // namespace tufted

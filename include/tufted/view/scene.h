@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -55,5 +56,32 @@ struct Scene {
 /// @throws InvalidInput for a number of rows other than N, a number of columns that the kind does not allow, or a
 /// corner of a triangle that is no point
 void checkScene(const Scene& scene, const char* function);
+
+/// The camera of a picture or a page, in perspective: the height of a picture covers an angle of 0.62 radians. What is
+/// not given is chosen: flat scenes are seen from above at an angle, or from the front if they stand upright, all
+/// others from their broad side; the distance is such that the scene fits, ignoring the few points far from all others.
+struct Camera {
+  /// Direction from the scene to the eye, of any length; 0: chosen.
+  Eigen::Vector3d eye = Eigen::Vector3d::Zero();
+  /// Direction that is up in the picture, of any length; 0: chosen.
+  Eigen::Vector3d up = Eigen::Vector3d::Zero();
+  /// Angle of the eye around `up` in degrees, instead of `eye`; 0 is the axis that follows up: x if z is up, z if y is
+  /// up.
+  std::optional<double> azimuth = {};
+  /// Angle of the eye above the plane perpendicular to `up` in degrees, from -90 to 90, instead of `eye`.
+  std::optional<double> elevation = {};
+  double zoom = 1;  ///< positive factor; 2: the eye is at half the distance
+  /// Position of the eye, instead of `eye` and `zoom`.
+  std::optional<Eigen::Vector3d> viewpoint = {};
+  /// Position in the middle of the picture; empty: the middle of the scene.
+  std::optional<Eigen::Vector3d> look_at = {};
+};
+
+/// The names of the colour maps that pages and pictures accept: viridis, cividis and magma are sequential, coolwarm and
+/// purple_green diverging, and labels has a colour for each of many integers.
+std::vector<std::string> colorMapNames();
+
+/// The name of the default colour map of a kind; empty for FieldKind::color, whose values are colours themselves.
+std::string defaultColorMap(FieldKind kind);
 
 }  // namespace tufted

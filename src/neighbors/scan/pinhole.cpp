@@ -8,7 +8,6 @@
 
 #include "base/buffer.h"
 #include "neighbors/scan/pixel_fill.h"
-#include "tufted/pixel_fill.h"
 #include "tufted/scan_structure.h"
 
 namespace tufted {

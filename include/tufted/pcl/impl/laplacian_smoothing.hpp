@@ -25,9 +25,9 @@ void tufted::LaplacianSmoothing<PointT>::applyFilter(PointCloud& output) {
     const Laplacian laplacian = detail::cloudLaplacian<PointT>(input_, all, points, search_, organized_, options_);
     report_ = laplacian.report;
     detail::sayWarnings(getClassName(), report_);
-    const Points smoothed =
-        smooth(laplacian, points,
-               {.time_step = time_step_, .iterations = iterations_, .fixed = &fixed, .threads = options_.threads});
+    const Points smoothed = smooth(
+        laplacian, points,
+        {.time_step = time_step_, .iterations = iterations_, .fixed = &fixed, .solver = {.threads = options_.threads}});
 
     output.is_dense = smoothed.allFinite();
     for (const pcl::index_t i : all) {

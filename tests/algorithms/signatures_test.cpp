@@ -1,5 +1,5 @@
 // Signatures, embeddings and filters: against the sphere's own, and unchanged wherever the cloud lies.
-#include "tufted/spectral.h"
+#include "tufted/signatures.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // Heat kernel signature (Sun, Ovsjanikov, Guibas 2009), wave kernel signature (Aubry, Schlickewei, Cremers 2011),
 // global point signature (Rustamov 2007), biharmonic distance (Lipman et al. 2010) and spectral filters.
-#include "tufted/spectral.h"
+#include "tufted/signatures.h"
 
 #include <algorithm>
 #include <cmath>
