@@ -61,9 +61,9 @@ void addBuildOptions(CLI::App& command, Build& build) {
            ->type_name("X,Y,Z")});
   addNumber(command, "--threads", build.cloud.threads, 1, 1 << 16, "At most this many threads (all)")->type_name("N");
   const CLI::Option* const mollify =
-      addNumber(
-          command, "--mollify", build.mollify, 0.0, 1.0,
-          "Shortest edge, in the longest side of the smaller of its triangles; 0: flat triangles stay flat (1e-6)")
+      addNumber(command, "--mollify", build.mollify, 0.0, 1.0,
+                "Shortest edge, in the longest side of the smaller of its triangles; 0: flat triangles stay flat (" +
+                    numberText(tufted::default_mollify) + ")")
           ->type_name("D");
 
   tufted::PaperOptions& paper = build.cloud.paper;
