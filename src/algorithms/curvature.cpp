@@ -23,8 +23,8 @@ constexpr const char* function_name = "curvatures";
 
 /// Rings of neighbours in the first window of exact points: some 19 points for six unknowns.
 constexpr int first_rings = 2;
-/// Rings in the first window of noisy points, some 61 points: errors of denoised points are alike over three spacings.
-/// With 3 rings the error on a sphere with 1 % noise is 4.9 % instead of 2.2 %.
+/// Rings in the first window of noisy points, some 61 points: errors of denoised points are correlated over three
+/// spacings. With 3 rings the error on a sphere with 1 % noise is 4.9 % instead of 2.2 %.
 constexpr int first_noisy_rings = 4;
 /// Rings in the widest window. 15 rings of 1,200 points lower the errors on the noisy sphere to 1.5 %, but not on the
 /// torus, and take 1.4 times as long.
@@ -115,7 +115,7 @@ class Fitter {
  private:
   /// Errors of the heights around a point.
   struct Errors {
-    int first_rings;  ///< of the first window
+    int first_rings;  ///< rings of the first window
     double interval;  ///< half the width of the confidence interval of a height, in the caller's unit
   };
 

@@ -61,7 +61,7 @@ class BestStep {
  private:
   struct Half {
     Vector2d from, to;
-    double at_from, at_to;  ///< distances
+    double at_from, at_to;  ///< distances from the target
     double first, last;     ///< fractions of the side
   };
 
