@@ -7,8 +7,8 @@
 
 namespace tufted {
 
-/// Masses below this part of the mean of their component are raised to it before something is divided by them: a point
-/// of mass 0 would make bending infinite.
+/// A divisor M_i is raised to at least this part of the mean mass of its component, as a mass of 0 would make bending
+/// infinite.
 constexpr double least_mass_of_bending = 1e-9;
 
 /// The mean mass of each component.
@@ -16,7 +16,7 @@ inline VectorXd meanMasses(const Laplacian& laplacian, const Components& compone
   return components.sums(laplacian.M).cwiseQuotient(components.sums(VectorXd::Ones(laplacian.M.size())));
 }
 
-/// For each active point the mean mass of its component divided by the point's mass, N; 0 at other points.
+/// N; the mean mass of the component over the mass of each active point, 0 at others.
 inline VectorXd inverseMasses(const Laplacian& laplacian, const Components& components) {
   const VectorXd means = meanMasses(laplacian, components);
   VectorXd inverse = VectorXd::Zero(laplacian.M.size());

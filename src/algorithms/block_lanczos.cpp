@@ -35,7 +35,7 @@ constexpr double settled = 1e-8;
 constexpr double least_left = 1e-5, mostly_left = 0.1;
 
 /// A restart keeps more than the usual third of its room if the wanted pairs then converge this many times as fast, as
-/// they do where they end within a cluster of eigenvalues.
+/// where they end within a cluster of eigenvalues.
 constexpr double clearly_faster = 3;
 
 class BlockLanczos {
@@ -75,8 +75,7 @@ class BlockLanczos {
   }
 
  private:
-  /// Fills in the pairs and measures their residuals. Convergence was judged by residuals that are computed from T,
-  /// which do not contain the rounding of the basis.
+  /// Fills in the pairs and measures their residuals; those computed from T do not contain the rounding of the basis.
   void finish(LanczosResult& result) {
     result.values = values_.head(problem_.wanted);
     multiplyInPlace(basis_.leftCols(size_), vectors_.leftCols(problem_.wanted), quiet_);
@@ -115,8 +114,8 @@ class BlockLanczos {
 
   auto fresh() { return basis_.middleCols(size_, fresh_); }
 
-  /// Applies A to the fresh block, adds the inner products to T, and makes the next block from the part that is
-  /// orthogonal to the basis. False if the basis spans the whole space.
+  /// Applies A to the fresh block, adds the inner products to T, and makes the next block from the part outside of the
+  /// basis. False if the basis spans the whole space.
   bool step() {
     if (fresh_ == 0) return false;
     MatrixXd image = problem_.apply(fresh());
@@ -155,7 +154,7 @@ class BlockLanczos {
   }
 
   /// Appends at most `room` orthonormal columns to the basis that span the part of `block` outside of it. Columns of
-  /// which no more than `least` remains are rounding and dropped.
+  /// which at most `least` remains are dropped.
   Index orthonormalize(const MatrixXd& block, Index room, double least) {
     if (block.cols() <= room) {
       basis_.middleCols(size_, block.cols()) = block;
@@ -224,8 +223,8 @@ class BlockLanczos {
     vectors_.bottomRightCorner(rest, rest) = solver.eigenvectors().rowwise().reverse();
   }
 
-  /// Locks the pairs whose eigenvalues are far above all others and restarts from a random block, because their
-  /// rounding is in all other vectors found so far. False if there are none.
+  /// Locks the pairs whose eigenvalues are far above all others and restarts from a random block, as their rounding is
+  /// in all other vectors. False if there are none.
   bool lockLeading() {
     Index leading = locked_;
     for (Index i = locked_; i + 1 < std::min(size_, problem_.wanted); ++i)
@@ -259,9 +258,9 @@ class BlockLanczos {
   }
 
   /// How many vectors a restart keeps, so that the wanted ones converge fastest. The error of the last wanted vector
-  /// falls exponentially in the number of steps until the next restart times the root of its relative gap to the first
-  /// eigenvalue that is not kept; this product is made largest. For evenly falling eigenvalues a third of the room is
-  /// kept; if the wanted ones end within a cluster, the whole cluster.
+  /// falls exponentially in the steps until the next restart times the root of its relative gap to the first eigenvalue
+  /// that is not kept; this product is maximised. For evenly falling eigenvalues a third of the room is kept; if the
+  /// wanted ones end within a cluster, the whole cluster.
   Index countToKeep() const {
     const Index wanted = problem_.wanted;
     const auto steps = [&](Index keep) { return static_cast<double>(most_ - keep); };
@@ -295,7 +294,7 @@ class BlockLanczos {
   Index most_ = 0;  ///< columns that the basis may have
   MatrixXd basis_;  ///< mass-orthonormal: `size_` columns that A has been applied to, then `fresh_` others
   Index size_ = 0, fresh_ = 0;
-  Index locked_ = 0;   ///< number of leading columns of the basis that are converged eigenvectors and no longer change
+  Index locked_ = 0;   ///< number of leading columns of the basis that are final eigenvectors
   MatrixXd T_;         ///< basis^T diag(mass) A basis
   MatrixXd coupling_;  ///< the block of A that maps the last block to the fresh one
   VectorXd values_;
@@ -303,9 +302,8 @@ class BlockLanczos {
   VectorXd before_;          ///< eigenvalues that had converged when the search for missed ones began
   int search_from_ = 0;      ///< iteration at which the search for missed eigenvalues began
   bool is_missing_ = false;  ///< whether an eigenvalue is known to be missing
-  double scale_ =
-      0;  ///< largest diagonal entry of T since the last locking, about the largest eigenvalue that is not locked
-  double found_ = 0;  ///< share of the wanted pairs that have converged
+  double scale_ = 0;         ///< about the largest eigenvalue that is not locked
+  double found_ = 0;         ///< share of the wanted pairs that have converged
 };
 
 }  // namespace

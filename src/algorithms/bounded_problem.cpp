@@ -12,10 +12,9 @@ namespace {
 
 constexpr const char* function_name = "boundedBiharmonicWeights";  // the only caller
 /// A weight at a bound is freed if pull() would move it inwards by more than this, in weights. Rounding is about 1e-15.
-/// The value is far below `allowed`, because a single weight can hardly move while its neighbours stay.
+/// It is far below `allowed`, because a single weight can hardly move while others stay.
 constexpr double allowed_pull = 1e-12;
-/// Exchanges of all points in the wrong state that may pass without making these fewer. After that one point is
-/// exchanged at a time, which always terminates.
+/// If this many exchanges of all wrong points have not made them fewer, one is exchanged at a time, which always ends.
 constexpr int patience = 10;
 
 /// The interior point method solves at most this many systems. It needs 14 to 41.

@@ -10,8 +10,8 @@
 
 namespace tufted {
 
-/// Finds the function within [0, 1] of least bending energy u^T L M^-1 L u, with given values at some points: a guess
-/// by an interior point method, then exchanges of points between free and bound (docs/algorithm.md, section 19).
+/// Minimises u^T L M^-1 L u over functions within [0, 1] with some given values: an interior point method guesses which
+/// weights lie at a bound, then wrong ones are exchanged (docs/algorithm.md, section 19).
 class BoundedProblem {
  public:
   /// A free weight outside [0, 1] by more than this is put on the bound; by less, it stays free.
@@ -36,8 +36,7 @@ class BoundedProblem {
  private:
   enum class State : std::uint8_t { fixed, free, lower, upper };
 
-  /// Gradient of the energy over its diagonal, (Q u)_i / Q_ii, computed from differences: how far each weight lies
-  /// above its optimum while the others stay.
+  /// (Q u)_i / Q_ii from differences: how far each weight lies above its optimum while all others stay.
   VectorXd pull(const VectorXd& u) const;
   /// Factors the rows and columns of Q of free points, plus a diagonal.
   /// @param added N, added to the diagonal; size 0: nothing

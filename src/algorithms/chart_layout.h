@@ -17,8 +17,7 @@ struct Collapse {
 /// Scales a chart in the plane to the area of its triangles, in units of 2^exponent, rotates it so that its longer axis
 /// runs along u, and moves it so that its least u and v are 0.
 /// @param local for each point of the Laplacian its row in `uv`
-/// @return the collapsed triangles; all of the chart if its area in the plane is not positive, and `uv` is then
-/// unusable
+/// @return all triangles if the area in the plane is not positive; `uv` is then unusable
 Collapse placeAlone(const Points& positions, const Chart& chart, int exponent, const std::vector<int>& local,
                     Eigen::MatrixX2d& uv);
 

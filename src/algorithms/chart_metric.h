@@ -12,8 +12,7 @@ namespace tufted {
 /// The sides of a triangle with less slack than this part of its longest side are lengthened, so that its angles are
 /// defined.
 constexpr double least_slack = 1e-8;
-/// The longest side of a triangle counts as at least this long, in units of 2^exponent, about the longest side of the
-/// chart.
+/// The longest side of a triangle counts as at least this long, in units of about the longest side of the chart.
 constexpr double shortest_side = 1e-12;
 
 /// The binary exponent of the longest side of some triangles; 0 if all sides are 0.
@@ -25,7 +24,7 @@ inline int exponentOf(const Points& positions, const std::vector<std::array<int,
   return longest > 0 ? std::ilogb(longest) : 0;
 }
 
-/// Sides and angles of a triangle, lengthened if necessary so that its area is positive.
+/// Sides and angles of a triangle, lengthened if that is needed for a positive area.
 struct TriangleSides {
   std::array<double, 3> opposite;  ///< length of the side opposite each corner, in units of 2^exponent
   std::array<double, 3> cotan;     ///< cotangent of the angle at each corner

@@ -12,7 +12,7 @@ namespace {
 
 using Corners = std::array<int, 3>;
 
-/// Values in place of a mate: the edge of the side has one triangle, or more than two.
+/// In place of a mate: the edge has one triangle, or more than two.
 constexpr int open_side = -1, crowded_side = -2;
 
 /// The sides of triangles: side s of triangle t is 3 t + s, from corner s to the next.
@@ -55,7 +55,7 @@ class Sides {
   std::vector<std::vector<int>> crowds_;
 };
 
-/// The rims of consistently oriented triangles without edges of more than two triangles, see Chart::rims.
+/// The rims of an oriented manifold chart, see Chart::rims.
 std::vector<std::vector<int>> rimsOf(const std::vector<Corners>& triangles) {
   const Sides sides(triangles);
   std::vector<std::vector<int>> rims;
@@ -66,7 +66,7 @@ std::vector<std::vector<int>> rimsOf(const std::vector<Corners>& triangles) {
     for (int side = first; seen[side] == 0;) {
       seen[side] = 1;
       rims.back().push_back(sides.from(side));
-      // Walks around the end of the side, through the triangles of its fan, to the next open side.
+      // Goes around the end of the side, through its fan, to the next open side.
       side = nextSide(side);
       while (sides.mate(side) != open_side) side = nextSide(sides.mate(side));
     }
@@ -77,8 +77,7 @@ std::vector<std::vector<int>> rimsOf(const std::vector<Corners>& triangles) {
 /// Collects the chart of triangle `first`, marks its triangles in `seen`, and orients them consistently.
 /// @param crowd_of for each side its index in Sides::crowds(); -1: none
 /// @param[out] triangles those of the chart, oriented
-/// @param[in,out] disagreeing of each edge where orientations do not agree, the triangle that was visited later is
-/// added
+/// @param[in,out] disagreeing gets the later triangle at each edge where orientations do not agree
 Chart chartOf(int first, const Sides& sides, const std::vector<int>& crowd_of, std::vector<Corners>& triangles,
               const std::vector<Corners>& given, std::vector<std::uint8_t>& seen, std::vector<int>& disagreeing) {
   Chart chart;

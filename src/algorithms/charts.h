@@ -15,7 +15,7 @@ struct Chart {
   /// Boundary curves, each a closed sequence of points in the direction of the triangles' sides. At a point where
   /// several fans meet, each fan has a curve of its own.
   std::vector<std::vector<int>> rims;
-  int vertices = 0;  ///< number of points that its triangles name
+  int vertices = 0;  ///< number of different points
   int edges = 0;
   bool is_manifold = true;    ///< no edge has more than two triangles
   bool is_orientable = true;  ///< no edge has the same direction in both of its triangles
@@ -33,7 +33,6 @@ std::vector<std::array<int, 3>> usableTriangles(const char* function, const Lapl
 /// The charts of usableTriangles(), those of more triangles first.
 /// @param cut if given, charts of a cloud are cut where orientations do not agree, as single wrong triangles may cause;
 /// gets the number of triangles left out for that
-///
 /// @throws InvalidInput for an index out of range, in the name of `function`
 std::vector<Chart> findCharts(const char* function, const Laplacian& laplacian, const TrianglesRef& triangles,
                               std::int64_t* cut = nullptr);

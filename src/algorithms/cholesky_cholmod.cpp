@@ -12,7 +12,7 @@ namespace {
 
 static_assert(sizeof(SuiteSparse_long) == sizeof(std::int64_t));
 
-/// CHOLMOD's parameters and workspace. Each solve makes its own, so that solves may run in parallel.
+/// CHOLMOD's parameters and workspace; one per solve, as solves may run in parallel.
 class Common {
  public:
   Common() {
@@ -32,7 +32,7 @@ class Common {
   cholmod_common common_;
 };
 
-/// The matrix as CHOLMOD sees it, without a copy. CHOLMOD takes no pointers to const, but changes nothing.
+/// A view for CHOLMOD, which takes no pointers to const, but changes nothing.
 cholmod_sparse viewOf(const LongMatrix& lower) {
   cholmod_sparse view = {};
   view.nrow = view.ncol = static_cast<std::size_t>(lower.rows());

@@ -3,7 +3,7 @@
 namespace tufted {
 namespace {
 
-/// Most iterations of k-means; it usually ends after ten.
+/// Maximum number of iterations of k-means; it usually takes ten.
 constexpr int most_iterations = 100;
 
 /// The first centres, see clusters(): `count` x d.

@@ -1,4 +1,4 @@
-// Spectral conformal parameterisation (Mullen, Tong, Alliez, Desbrun: "Spectral conformal parameterization", 2008).
+// Spectral conformal parameterisation (Mullen, Tong, Alliez, Desbrun 2008).
 #include "algorithms/conformal_map.h"
 
 #include <Eigen/Eigenvalues>
@@ -27,20 +27,20 @@ using Eigen::VectorXcd;
 constexpr double least_shift = 1e-13;
 /// While the matrix is not positive definite, the shift grows by this factor.
 constexpr double shift_growth = 100;
-/// Most shifts that are tried.
+/// Maximum number of shifts that are tried.
 constexpr int most_shifts = 4;
-/// Number of eigenvectors that are iterated together. Only the first is used, but then eigenvalues nearly equal to its
-/// own do not slow it down.
+/// Eigenvectors that are iterated together. Only the first is used; with others, eigenvalues nearly equal to its own do
+/// not slow it down.
 constexpr int block_columns = 6;
-/// Iterations end when (L_C + s B)^-1 B takes the eigenvector to a complex multiple of it (a similar map) up to this
-/// relative error. The rounding of the factor is about 1e-15 over the gap to the next eigenvalue.
+/// Iterations end when (L_C + s B)^-1 B takes the vector to a complex multiple, a similar map, up to this relative
+/// error. The rounding of the factor is about 1e-15 over the gap to the next eigenvalue.
 constexpr double most_residual = 1e-7;
 /// If iterations no longer help, a residual up to this part of the size of the map is accepted and reported: the
 /// rounding of the large weights of thin triangles may exceed `most_residual`.
 constexpr double most_rounding = 1e-4;
 /// Iterations no longer help if so many of them have not halved the least residual.
 constexpr int most_idle = 20;
-/// Most iterations for the eigenvector.
+/// Maximum number of iterations for the eigenvector.
 constexpr int most_iterations = 500;
 /// The length of the rim that belongs to one of its points is raised to at least this part of the mean.
 constexpr double least_rim_mass = 1e-3;
@@ -128,8 +128,8 @@ LinearSystem shiftedSystem(const char* function, const SparseMatrix& A, const Ri
   }
 }
 
-/// First vectors of the iteration, the same on every system: the positions projected into three planes, slightly
-/// perturbed, and pseudo-random numbers.
+/// First vectors, the same on every system: the positions projected into three planes, slightly perturbed, and
+/// pseudo-random ones.
 MatrixXcd firstColumns(const Points& positions, const std::vector<int>& points, const RimMasses& rim, int exponent,
                        int columns) {
   MatrixXcd start(std::ssize(rim.points), columns);

@@ -9,8 +9,7 @@
 namespace tufted {
 namespace {
 
-/// Two points are not joined by a weight below this part of the smaller of their diagonals: it is lost in the rounding
-/// of the rows.
+/// Weights below this part of the smaller diagonal do not join, see Components.
 constexpr double least_weight = 1e-14;
 
 /// The components of points joined by weights above `least_share` of the smaller diagonal.

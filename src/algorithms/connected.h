@@ -30,18 +30,18 @@ struct Components {
 
 Components findComponents(const Laplacian& laplacian);
 
-/// Why a point that is not active lies on no component, as text for errors such as "source 3 is not finite".
-/// @param what the caller's word for the point, for example "source"
+/// Why a point lies on no component, for errors such as "source 3 is not finite".
+/// @param what the caller's word for the point
 std::string whyOnNone(const std::string& what, int point, PointStatus status);
 
 /// Parts joined only by weights of at most this part of the smaller diagonal are solved for separately: across a weight
-/// that is the part p of the diagonal, a factor has a relative error of about 1e-13 / p.
+/// of the part p, a factor has a relative error of about 1e-13 / p.
 constexpr double weak_share = 1e-6;
 /// At most this many more parts than components are solved for separately, as each takes a solve and N values.
 constexpr int most_floating_parts = 64;
 
 /// The parts joined by weights above `weak_share` of the smaller diagonal, nearly always the components themselves. If
-/// there are more than components + `most_floating_parts`, a smaller share is used.
+/// there would be too many, a smaller share is used.
 Components findParts(const Laplacian& laplacian);
 
 }  // namespace tufted

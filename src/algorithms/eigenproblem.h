@@ -14,7 +14,7 @@ namespace tufted {
 struct Eigenproblem {
   const SparseMatrix& L;  ///< the Laplacian's matrix, which must outlive this
   Components components;
-  double total;               ///< sum of M over the active points, in the points' unit squared
+  double total;               ///< sum of M over the active points
   VectorXd mass;              ///< N; M over `total`
   VectorXd area;              ///< area of each component, as a part of `total`
   std::vector<int> order;     ///< components of positive area, larger ones first

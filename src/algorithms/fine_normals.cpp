@@ -16,7 +16,7 @@ namespace {
 /// clean shapes, and the second best on denoised ones.
 constexpr std::size_t few = 10;
 constexpr int terms = 6;  // coefficients of a quadratic in two variables
-/// Least points for a quadratic: three more than terms, so that residuals say how well it fits.
+/// A quadratic needs this many points: three more than terms, so that residuals say how well it fits.
 constexpr std::size_t least_points = 9;
 /// Pivots and variances below this part of the largest count as 0: points on a conic or a line keep the normal of 30
 /// points.
@@ -98,7 +98,7 @@ std::span<const Eigen::Vector3d> fewOf(std::span<const Eigen::Vector3d> offsets)
   return offsets.first(count);
 }
 
-/// The normal with a sign that does not depend on the given one, because fits on both sides round differently.
+/// The normal or its opposite, the same for both: fits on either side round differently.
 Eigen::Vector3d upright(const Eigen::Vector3d& normal) {
   const double decides = normal.z() != 0 ? normal.z() : normal.y() != 0 ? normal.y() : normal.x();
   return decides < 0 ? Eigen::Vector3d(-normal) : normal;

@@ -38,7 +38,7 @@ struct Layout {
 };
 
 /// The best step from a point to the sides of its faces: the target is unfolded beyond each half of a side by the
-/// distances at its ends and middle.
+/// distances at its ends and midpoint.
 class BestStep {
  public:
   BestStep(const MarchFaces& faces, const std::vector<double>& distance) : faces_(faces), distance_(distance) {}

@@ -17,7 +17,7 @@ class GrowingSurface {
  public:
   /// @param frames of the points; borrowed
   /// @param positions of the points; borrowed
-  /// @param most N; most triangles at each point
+  /// @param most N; maximum number of triangles at each point
   GrowingSurface(const Frames& frames, const Points& positions, const std::vector<int>& most);
 
   /// Adds a triangle if the surface allows it. False if not.

@@ -139,8 +139,8 @@ std::vector<std::uint8_t> HeatDistance::State::facesInside(const Sources& source
   return inside;
 }
 
-/// Shifts a function that is known up to a constant per component to the distances at the sources. Result in the
-/// points' unit; infinite on components without a source.
+/// Shifts a function, known up to a constant per component, to the distances at sources, in the points' unit; infinite
+/// on components without a source.
 void HeatDistance::State::shift(const Sources& sources, VectorXd& distance) const {
   VectorXd excess = VectorXd::Zero(distance.size()), count = VectorXd::Zero(distance.size());
   for (const int i : components.points) {

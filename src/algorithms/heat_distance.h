@@ -18,6 +18,7 @@ class HeatDistance {
   HeatDistance(const Laplacian& laplacian, const Components& components, const DistanceOptions& options);
   ~HeatDistance();
 
+  /// Computes the distance from the nearest of some places.
   /// @param places whose corners are representatives, at least one on a component
   /// @param report newly made; gets rounds, iterations, the residual and the backward error
   /// @return N distances in the points' unit; those of coincident points are not set

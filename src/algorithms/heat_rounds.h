@@ -13,9 +13,9 @@ namespace tufted {
 
 /// The system M / t + L: factors of the whole matrix if they fit into memory, otherwise the matrix, for windows.
 struct HeatSystem {
-  std::unique_ptr<const LinearSystem> closed;  ///< the factor; null: rounds are solved in windows
+  std::unique_ptr<const LinearSystem> closed;  ///< factor in which heat cannot leave (Neumann); null: windows are used
   std::unique_ptr<const LinearSystem>
-      open;              ///< the factor without the points where the surface ends; null if it ends nowhere
+      open;              ///< factor without the points where the surface ends (Dirichlet); null if it ends nowhere
   SparseMatrix matrix;   ///< M / t + L where there is no factor, otherwise empty
   VectorXd interior;     ///< N; 0 where the surface ends, 1 elsewhere; size 0: it ends nowhere
   SolverOptions window;  ///< how windows are solved

@@ -9,7 +9,7 @@
 namespace tufted {
 
 /// Checks the time step of the heat equation.
-/// @param time_step in mean squared distances of neighbours
+/// @param time_step in mean squared edges
 /// @throws InvalidInput outside of [1e-4, 1e12]
 inline void checkHeatTime(const std::string& function, double time_step) {
   // Below, heat would spread a hundredth of the way to the next point and be rounding there; above, masses are lost

@@ -24,8 +24,8 @@
 namespace tufted {
 namespace {
 
-/// The last correction must be at most this part of the range of the pins' values: the first for harmonic(), the second
-/// for biharmonic(), whose matrix has the squared condition number.
+/// The last correction must be at most this part of the range of values: the first for harmonic(), the second for
+/// biharmonic(), whose matrix has the squared condition number.
 constexpr double promised = 1e-12, promised_of_bending = 1e-3;
 
 Eigen::MatrixXd finish(const Laplacian& laplacian, Eigen::MatrixXd u, const Stopwatch& watch, SolveReport made,
@@ -74,7 +74,7 @@ class Interpolator {
   /// Solves with given values at the pins.
   /// @param b N x c
   /// @param watch started before the system was made or, if it is reused, before the solve
-  /// @param those of making the system, reported with the solve
+  /// @param iterations those of making the system, added to the report
   Eigen::MatrixXd solve(const std::string& function, const Laplacian& laplacian, const Eigen::MatrixXd& values,
                         const Eigen::MatrixXd& b, const Stopwatch& watch, int iterations, const Progress& progress,
                         SolveReport* report) const {

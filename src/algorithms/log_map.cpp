@@ -23,14 +23,14 @@ namespace {
 constexpr const char* constructor = "LogMapSolver";
 constexpr const char* query_name = "LogMapSolver::query";
 
-/// The field of directions away from the source starts in a ring between these distances from it, in mean distances of
-/// neighbours: nearer points are few, and wider rings reach over features.
+/// The field of directions away from the source starts in a ring between these distances from it, in units of
+/// FieldHeat::spacingAt(): nearer points are few, and wider rings reach over features.
 constexpr double ring_begin = 2, ring_end = 8;
-/// A point of the ring counts with at least this area, in squared mean distances of neighbours, so that a ring of
-/// points of mass 0 still has directions.
+/// The least area of a point of the ring, in units of spacingAt() squared, so that points of mass 0 have directions,
+/// too.
 constexpr double least_area = 1e-3;
 
-/// The weight of a point of the ring by its distance from the source, in mean distances of neighbours.
+/// The weight of a point by its distance from the source, in units of spacingAt().
 double ringWeight(double distance) {
   const double place = (2 * distance - ring_begin - ring_end) / (ring_end - ring_begin);
   const double inner = std::max(0.0, 1 - place * place);
@@ -48,8 +48,7 @@ struct LogMapSolver::State {
   FieldHeat heat;
   SolverReport report;
 
-  /// The offset of a point from the source in its tangent plane, in the coordinates of its frame and mean distances of
-  /// neighbours.
+  /// The offset of a point from the source, in the source's frame and units of spacingAt().
   Eigen::Vector2d inPlane(int source, int point) const;
   /// The points connected to a source within the ring's outer distance; at least its neighbours.
   std::vector<int> disc(int source) const;

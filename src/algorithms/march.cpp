@@ -39,7 +39,7 @@ struct WholeFaces {
   }
 };
 
-/// The four triangles into which each face is cut at the middles of its sides.
+/// The four triangles into which each face is cut at the midpoints of its sides.
 struct SplitFaces {
   const MarchFaces& faces;
 
@@ -87,7 +87,7 @@ class March {
 
   void start(const MarchStart& start) {
     const int label = labels_.labelAt(start.vertex, start.source, heap_);
-    // In a face, a source may be nearer to the middle of a bent edge than to the position assumed for it, halfway
+    // In a face, a source may be nearer to the midpoint of a bent edge than to the position assumed for it, halfway
     // between the ends.
     offer(label, std::max(start.distance, straightTo(label)));
   }

@@ -12,7 +12,7 @@
 namespace tufted {
 namespace {
 
-/// Most times that each face is cut into four: three would take 64 times the memory of none.
+/// Each face is cut into four at most this many times: three would take 64 times the memory of none.
 constexpr int most_splits = 2;
 /// By default, surfaces of up to this many points are cut twice: their triangles are coarse, and a query takes some 30
 /// ms.
@@ -131,7 +131,7 @@ MarchFaces wholeFaces(const std::vector<DistinctFace>& faces, int vertices, int 
   return result;
 }
 
-/// Cuts every face into four at the middles of its sides.
+/// Cuts every face into four at the midpoints of its sides.
 MarchFaces splitInFour(const MarchFaces& coarse, const Workers& workers) {
   std::vector<DistinctFace> faces(4 * coarse.faces.size());
   const auto part = [](const std::array<int, 3>& corners, const MarchFace& whole) {

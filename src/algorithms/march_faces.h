@@ -35,13 +35,13 @@ struct MarchFaces {
   int edges = 0;     ///< number of edges; sides with the same ends and length are one edge
   int exponent = 0;  ///< lengths are in units of 2^exponent of the caller's
   std::vector<MarchFace> faces;
-  /// Position of each vertex, in the unit of the lengths; empty if not known, and no face is bent then. The middle of
+  /// Position of each vertex, in the unit of the lengths; empty if not known, and no face is bent then. The midpoint of
   /// an edge counts as halfway between its ends, though a bent edge passes beside that.
   std::vector<Eigen::Vector3d> positions;
   std::vector<int> corner_offset, corner_slots;  ///< vertices + 1; slots by the vertex at their corner
   std::vector<int> edge_offset, edge_slots;      ///< edges + 1; slots by the edge of their side
-  /// For the slot of a side from a vertex to itself, which end of the edge (0 or 1) the next corner is; -1 if not known
-  /// or on other sides. Empty, or one per slot; see setLoopEnds().
+  /// For each slot of a side from a vertex to itself, which end of the edge (0 or 1) the next corner is; otherwise or
+  /// if unknown -1. May be empty; see setLoopEnds().
   std::vector<std::int8_t> loop_end;
 
   int vertexAt(int slot) const { return faces[slot / 3].corners[slot % 3]; }
@@ -68,7 +68,7 @@ constexpr int thirdSlot(int a, int b) {
 /// @param faces distinct ones with corners in [0, vertices)
 /// @param exponent lengths are divided by 2^exponent
 /// @param split how often each face is cut into four, 0 to 2. The march itself makes the last cut, the one before is
-/// stored here: the middle of edge e of the given faces is then vertex `vertices + e`.
+/// stored here: the midpoint of edge e of the given faces is then vertex `vertices + e`.
 /// @param positions of each vertex, in the caller's unit; no rows: not known
 MarchFaces marchFaces(const std::vector<DistinctFace>& faces, int vertices, int exponent, int split,
                       const Workers& workers, const Points& positions = {});

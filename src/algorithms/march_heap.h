@@ -61,7 +61,7 @@ class MarchHeap {
   }
 
  private:
-  /// Place of a number that is not in the heap; children per entry: with four the heap is half as deep as with two.
+  /// Place of a number outside of the heap; children per entry: with four it is half as deep as with two.
   static constexpr int absent = -1, children = 4;
 
   void put(const Entry& entry, int place) {

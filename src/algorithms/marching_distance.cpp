@@ -50,7 +50,7 @@ bool hasCorner(const MarchFace& face, int vertex) {
 /// A whole face of the cover.
 struct MarchingDistance::CoverFace {
   MarchFace face;                    ///< its `edges` are not set if cut twice
-  std::array<int, 3> middle;         ///< vertex at the middle of each side, if cut
+  std::array<int, 3> middle;         ///< vertex at the midpoint of each side, if cut
   std::span<const MarchFace> parts;  ///< its four stored parts, if cut twice
 };
 
@@ -75,24 +75,24 @@ MarchingDistance::CoverFace MarchingDistance::coverFace(int face) const {
     for (int k = 0; k < 3; ++k) result.middle[k] = vertices_ + stored.edges[k];
     return result;
   }
-  // The parts are stored one after another: one at each corner, then the one between the middles.
+  // The parts are stored one after another: one at each corner, then the one between the midpoints.
   const MarchFace* const part = &faces_.faces[face / 4 * 4];
   result.parts = {part, 4};
   result.face.double_area = 4 * part[3].double_area;
   const auto& middles = part[3].corners;
   for (int k = 0; k < 3; ++k) {
-    // Corners of a part ascend, and vertices of the cover come before middles.
+    // Corners of a part ascend, and vertices of the cover come before midpoints.
     result.face.corners[k] = part[k].corners[0];
     result.face.opposite[k] = 2 * part[k].opposite[0];
     const auto found =
         std::find_if(middles.begin(), middles.end(), [&](int middle) { return !hasCorner(part[k], middle); });
-    // If two sides are one edge, its middle is twice in the last part, and in all others.
+    // If two sides are one edge, its midpoint is twice in the last part, and in all others.
     result.middle[k] = found != middles.end() ? *found : middles[1];
   }
   return result;
 }
 
-/// Starts all vertices of a face that a source lies in, middles included, at their distance in its plane.
+/// Starts all vertices of a face that a source lies in, midpoints included, at their distance in its plane.
 /// @param weights of the source, by corner of the face
 void MarchingDistance::startIn(const CoverFace& whole, const std::array<double, 3>& weights, int source,
                                std::vector<MarchStart>& starts) const {

@@ -16,6 +16,7 @@ class MarchingDistance {
   /// @param split see checkedSplit()
   MarchingDistance(const Laplacian& laplacian, int split, const DistanceOptions& options);
 
+  /// Computes the nearest of some sources to each point.
   /// @param sources whose corners are representatives
   /// @param places of the sources in the cover
   /// @param component N; corners without a component, -1, are ignored

@@ -17,7 +17,7 @@ namespace {
 
 /// Coarsening ends at a level of at most this many rows.
 constexpr int coarsest_size = 500;
-/// Most levels.
+/// Maximum number of levels.
 constexpr int most_levels = 25;
 /// Neighbours are strong if their weight exceeds this part of the geometric mean of the two diagonals; it is halved per
 /// level (Vanek et al.).

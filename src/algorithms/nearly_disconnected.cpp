@@ -9,7 +9,7 @@
 namespace tufted {
 namespace {
 
-/// Weights below this part of the smaller diagonal do not join: they are lost in the rounding of rows.
+/// Weights below this part of the smaller diagonal do not join, see Components.
 constexpr double least_share = 1e-14;
 
 struct Link {

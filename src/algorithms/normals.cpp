@@ -27,8 +27,8 @@ namespace {
 
 constexpr const char* function_name = "orientedFrames";
 
-/// The sign between planes that meet at less than 45 degrees comes from the cosine of their normals, which noise in the
-/// positions does not change.
+/// Between planes that meet at less than 45 degrees, the cosine of the normals gives the sign; noise in positions does
+/// not matter.
 constexpr double smooth_cosine = 0.7;
 /// The weight of an edge across a crease, which is less certain; an edge on a smooth surface has 1. From 0.25 to 0.8
 /// the signs at all but 0.7 % of the points are the same.
@@ -191,7 +191,7 @@ bool disagrees(const Edge& edge, const Points& normals, const Points& positions)
   return edgeBetween(positions, normals, edge.low, edge.high).alike < 0;
 }
 
-/// The parts that remain of components without joints and `joint_rings` rings of neighbours around them.
+/// The parts of components outside of joints and `joint_rings` rings around them.
 /// @param joint N; 1 at points whose normals disagree with a neighbour's; on return 1 at all points left out
 Components partsBeside(const Laplacian& laplacian, const std::vector<Edge>& edges, std::vector<std::uint8_t>& joint) {
   for (int ring = 0; ring < joint_rings; ++ring) {
@@ -237,9 +237,8 @@ void settleJoints(const Laplacian& laplacian, const std::vector<Edge>& edges, st
   }
 }
 
-/// Separates bodies that touch. They are one component, and the edges between them turn one inside out, so that some
-/// neighbours there disagree. A part that these joints cut off and that is closed otherwise is oriented outwards on its
-/// own.
+/// Separates bodies that touch. They are one component, in which one is inside out and some neighbours disagree. A part
+/// that these joints cut off and that is closed otherwise is oriented outwards.
 void turnBodies(const Laplacian& laplacian, const std::vector<Edge>& edges, Points& normals) {
   std::vector<std::uint8_t> joint(static_cast<std::size_t>(normals.rows()), 0);
   bool has_joint = false;

@@ -25,8 +25,8 @@ namespace tufted {
 namespace {
 
 constexpr const char* function_name = "parameterize";
-/// A chart is not laid out if its conformal map collapses more than this share of its area, as for long tubes. Needles
-/// and ends of thin spikes are less.
+/// A chart is not laid out if more than this share of its area collapses, as on long tubes; needles and ends of spikes
+/// are less.
 constexpr double most_collapsed = 1e-3;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -54,7 +54,7 @@ bool canBeMapped(const Chart& chart) {
   return chart.is_manifold && chart.is_orientable && !chart.rims.empty();
 }
 
-/// The charts that can be mapped to the plane. Counts the others; throws if the largest is one of them.
+/// The charts that can be mapped to the plane. The others are counted; throws if the largest is one.
 std::vector<const Chart*> mappableCharts(const std::vector<Chart>& charts, ParameterizationReport& report) {
   std::vector<const Chart*> kept;
   for (const Chart& chart : charts) {
@@ -73,9 +73,9 @@ std::vector<const Chart*> mappableCharts(const std::vector<Chart>& charts, Param
   return kept;
 }
 
-/// Maps charts conformally and places them beside each other.
+/// Maps charts conformally, side by side.
 /// @param charts those that collapse are removed
-/// @param[out] owner N; number of the chart that each point's (u, v) belongs to
+/// @param[out] owner N; chart of each point's (u, v)
 Eigen::MatrixX2d conformal(const Laplacian& laplacian, std::vector<const Chart*>& charts,
                            const ParameterizationOptions& options, std::vector<int>& owner,
                            ParameterizationReport& report) {

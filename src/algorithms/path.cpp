@@ -24,8 +24,8 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr const char* constructor = "PathSolver";
 constexpr const char* query_name = "PathSolver::path";
-/// A path is led around a point only if that makes it shorter by this part, which is above rounding; otherwise it might
-/// alternate between two ways forever.
+/// A path is led around a point only if that makes it shorter by this part, which is above rounding; it might alternate
+/// forever otherwise.
 constexpr double least_gain = 1e-13;
 /// Shortenings between two calls of `progress`.
 constexpr int between_reports = 64;

@@ -25,12 +25,12 @@ struct PinnedValues {
 /// Checks the points of pins and replaces them by their representatives.
 /// @param function named in errors
 /// @param what name of `points` in errors
-/// @throws InvalidInput
+/// @throws InvalidInput for an index out of range, or no pin at an active point
 PinnedPoints pinnedPoints(const std::string& function, const Laplacian& laplacian, const std::vector<int>& points,
                           const std::string& what = "pins.points");
 
 /// Checks the values of pins.
-/// @throws InvalidInput
+/// @throws InvalidInput for values of the wrong size or not finite
 void checkPinnedValues(const std::string& function, const std::vector<int>& points, const Eigen::MatrixXd& values);
 
 /// Transfers checked values of pins to representatives; pins at one place are averaged.

@@ -25,11 +25,11 @@ namespace tufted {
 namespace {
 
 constexpr const char* function = "pointsWithin";
-/// Faces are collected up to this many longest edges of the source beyond the radius, as flips reach one or two edges.
+/// Faces are collected up to this many longest edges of the source beyond the radius, as flips span one or two.
 /// isComplete() finds out if faces are missing; with 6 a query takes 1.5 times as long.
 constexpr double margin_in_spacings = 3;
-/// The area around a point from the collected faces and that from the whole cover are equal if they differ by less than
-/// this part: the sums run in different orders.
+/// The areas around a point by the collected faces and by the whole cover are equal up to this part, as sums run in
+/// different orders.
 constexpr double same_area = 1e-9;
 
 int checkedSource(const Laplacian& laplacian, int source) {
@@ -93,8 +93,7 @@ bool facesFromStars(const Laplacian& laplacian, const std::vector<int>& sources,
   return laplacian.cover_source->appendFacesNear(balls, faces.corners, faces.length);
 }
 
-/// All faces with a corner in one of the balls of the radius around sources, as no path is shorter than the straight
-/// line.
+/// All faces with a corner in a ball of the radius around a source; no path is shorter than the straight line.
 Faces facesFromCover(const Laplacian& laplacian, const std::vector<int>& sources, double radius) {
   checkCover(function, laplacian);
   const IntrinsicTriangulation& cover = laplacian.cover();
@@ -176,8 +175,7 @@ bool isComplete(const Laplacian& laplacian, const Patch& patch, const std::vecto
   return true;
 }
 
-/// Makes distances infinite on components without a source. Uses Laplacian::component if it is stored, which saves a
-/// pass over L.
+/// Makes distances infinite on components without a source. Stored labels save a pass over L.
 void leaveOtherComponents(const Laplacian& laplacian, const std::vector<int>& sources, const Patch& patch,
                           std::vector<double>& distance) {
   const std::vector<int> made = laplacian.component.empty() ? componentLabels(laplacian) : std::vector<int>();

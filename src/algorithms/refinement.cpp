@@ -11,7 +11,7 @@
 namespace tufted {
 namespace {
 
-/// Most solves, the first one included; more than two are rarely needed.
+/// Maximum number of solves, the first one included; more than two are rarely needed.
 constexpr int most_corrections = 6;
 /// A correction below this part of the range of the values is the last.
 constexpr double negligible = 1e-15;

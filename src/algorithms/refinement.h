@@ -11,8 +11,8 @@ namespace tufted {
 /// digits are those of differences.
 using Missing = std::function<Eigen::RowVectorXd(const Eigen::MatrixXd& u, int point)>;
 
-/// Iterative refinement of a pinned system: repeats the solve for the residual b - A u until that is rounding. Far more
-/// accurate than one solve, because the residual is computed from differences of neighbours.
+/// Iterative refinement of a pinned system: solves for the residual b - A u until that is rounding. More accurate than
+/// one solve, because the residual is computed from differences of neighbours.
 class Refinement {
  public:
   /// @param function named in errors

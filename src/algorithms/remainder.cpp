@@ -13,7 +13,7 @@ using Eigen::MatrixXd;
 
 /// Values of x below these, relative to the largest of their column and absolute, have lost digits near underflow.
 constexpr double least_part = 1e-290, least_value = 1e-300;
-/// Most sweeps of relaxation; after that a correction by the factor is cheaper.
+/// Maximum number of sweeps of relaxation; more cost as much as a correction by the factor.
 constexpr int most_sweeps = 30;
 /// Relaxation ends if it would affect more rows than this, and more than a tenth of all; the factor then corrects.
 constexpr std::size_t many_rows = 100;

@@ -16,7 +16,7 @@ namespace {
 /// A step is accepted if the energy falls by this part of force times step (Armijo's rule with the usual value, Nocedal
 /// and Wright).
 constexpr double least_descent = 1e-4;
-/// Most halvings of a step: a direction that needs less than 1/4096 of it does not descend.
+/// Maximum number of halvings of a step: a direction that needs less than 1/4096 does not descend.
 constexpr int most_halvings = 12;
 /// The energy may rise by this part of itself, some roundings of the sum, which would decide about the last steps
 /// otherwise.

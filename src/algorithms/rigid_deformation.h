@@ -38,6 +38,7 @@ class RigidDeformation {
   /// Moves the free points to follow the pinned ones.
   /// @param[in,out] pose with pinned points at their targets; its rotations are ignored
   /// @param tolerance on `last_move`
+  /// @throws SolverFailure if a position overflows
   Result run(const std::string& function, Pose& pose, double tolerance, int max_iterations, int threads,
              const Progress& progress) const;
 

@@ -7,8 +7,8 @@
 
 namespace tufted {
 
-/// Coordinates relative to the middle of the active points, in units of a power of two near their extent, so that
-/// neither the caller's unit nor the distance from the origin matters.
+/// Coordinates relative to the centre of the active points' bounding box, in units of a power of two near their extent,
+/// so that neither the caller's unit nor the distance from the origin matters.
 class ShapeFrame {
  public:
   /// @param function named in errors

@@ -63,7 +63,7 @@ struct SignedDistanceSolver::State {
   /// The fields to transport: at both ends of each segment of the curve its normal to the left, times half its length.
   /// @param[out] length N; of the curve at each point, in mean distances of neighbours
   HeatFields flowOf(const std::vector<int>& places, VectorXd& length, SignedDistanceReport& made) const;
-  /// The right side of the function whose differences over edges are nearest to those of `slope`, by the weights of L.
+  /// The right side for the function whose rises along edges are nearest to those of `slope`, by the weights of L.
   /// @param slope N unit vectors; NaN: unknown
   VectorXd divergence(const std::vector<Eigen::RowVector3d>& slope) const;
 };
@@ -141,7 +141,7 @@ VectorXd SignedDistanceSolver::query(const std::vector<int>& curve, SignedDistan
       state.system.solve(query_name, state.divergence(slope), &solved, progress, Refine::where_needed);
   made.residual = solved.residual;
 
-  // On each component, shifted to mean 0 over the curve there.
+  // Shifts the distance on each component to mean 0 over the curve.
   VectorXd sum = VectorXd::Zero(state.components.count), weight = sum;
   for (const int i : state.components.points) {
     sum[state.components.of[i]] += length[i] * distance(i, 0);

@@ -29,7 +29,7 @@ Index firstPositive(const Spectrum& spectrum, const char* function) {
   return first;
 }
 
-/// Weighted sums over i of phi_i(x)^2 at all points x, one column per column of weights.
+/// Weighted sums over i of phi_i(x)^2 at each point x, one per column of weights.
 MatrixXd sumSquares(const Eigen::Ref<const MatrixXd>& vectors, const MatrixXd& weights) {
   // Rows that are treated together, so that they stay in cache.
   constexpr Index rows_per_block = 1024;
@@ -48,8 +48,8 @@ int exponentOf(double value) {
   return exponent;
 }
 
-/// The least width of the wave kernel: far above the rounding by which logarithms of equal eigenvalues differ, so that
-/// they get equal weights.
+/// The least width of the wave kernel, far above the rounding of logarithms, so that equal eigenvalues get equal
+/// weights.
 constexpr double least_width = 1e-8;
 
 VectorXd logarithmic(double low, double high, int count) {
@@ -62,7 +62,8 @@ VectorXd logarithmic(double low, double high, int count) {
 VectorXd heatTimes(const Spectrum& spectrum, int count) {
   if (count < 1) throw InvalidInput("heatTimes: count = " + std::to_string(count) + ", must be at least 1");
   const Index first = firstPositive(spectrum, "heatTimes");
-  // Between these times the waves of the last and of the first positive eigenvalue have decayed to 1e-4.
+  // Times run from where the wave of the last eigenvalue has decayed to 1e-4 to where that of the first positive one
+  // has.
   constexpr double decay = 4 * std::numbers::ln10;
   return logarithmic(decay / spectrum.values[spectrum.values.size() - 1], decay / spectrum.values[first], count);
 }

@@ -35,8 +35,8 @@ using Eigen::MatrixXd;
 
 /// Up to this many points dense matrices are always used: at 100 points they are faster for any number of pairs.
 constexpr Index small_space = 150;
-/// Dense matrices are also used if this share of all pairs or more is wanted. On tori they are faster from 0.15 at 200
-/// points, 0.25 at 500 and 0.35 at 2,000.
+/// Dense matrices are also used if more than this share of all pairs is wanted. On tori they are faster from 0.15 at
+/// 200 points, 0.25 at 500 and 0.35 at 2,000.
 constexpr double large_share = 0.3;
 
 void checkLaplacian(const std::string& function, const Laplacian& laplacian) {

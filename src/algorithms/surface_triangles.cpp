@@ -24,14 +24,14 @@ namespace {
 constexpr const char* function_name = "surfaceTriangles";
 /// A triangle of at least two stars has at least this many faces in the cover: front and back for each star.
 constexpr int least_faces = 4;
-/// Most triangles in no star that close holes at a point; more holes there stay open.
+/// Maximum number of triangles in no star that close holes at a point; more holes there stay open.
 constexpr int most_closing = 4;
 /// Triangles between two calls of `progress`.
 constexpr std::int64_t between_reports = 65536;
 
 using Corners = std::array<int, 3>;
 
-/// Most triangles at each point: all candidates, and `most_closing`.
+/// Maximum number of triangles at each point: all candidates, and `most_closing`.
 std::vector<int> roomFor(const std::vector<TriangleCandidate>& candidates, Eigen::Index points) {
   std::vector<int> most(static_cast<std::size_t>(points), most_closing);
   for (const TriangleCandidate& candidate : candidates)

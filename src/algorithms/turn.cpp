@@ -17,8 +17,8 @@ namespace {
 
 /// Angles within this of pi, in radians, count as straight.
 constexpr double straight = 1e-9;
-/// Most faces to try per triangle of a piece that is laid through others; usually two meet at an edge, three next to
-/// flips.
+/// Maximum number of faces to try per triangle of a piece that is laid through others; usually two meet at an edge,
+/// three next to flips.
 constexpr int most_faces_by_doors = 8;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 

@@ -18,9 +18,8 @@ namespace {
 
 /// A mass below this part of the diagonal of L is raised to it, as it would be lost in the sum.
 constexpr double least_mass = 1e-13;
-/// Heat is used down to this part of the largest. With a factor its relative error is small everywhere, and half the
-/// exponents of a double remain, as squares are taken; that of conjugate gradients grows as heat falls, so six digits
-/// above their tolerance are used.
+/// Heat is used down to this part of the largest: with a factor half the exponents of a double, as squares are taken;
+/// with conjugate gradients six digits above their tolerance, which is relative to the largest.
 constexpr double front_of_factor = 1e-150, front_of_iterations = 1e-6;
 /// The tolerance of conjugate gradients for heat, near the best that they reach, as heat is used far below its largest
 /// value.
@@ -122,7 +121,7 @@ std::string FieldHeat::whyIgnored(int source) const {
 
 HeatFields FieldHeat::solve(const char* function, HeatFields flow, const std::vector<std::uint8_t>& passed,
                             VectorHeatReport& report, const Progress& progress) const {
-  // Scales each component to the same size for the tolerance of iterations; scalars by the heat in their first column.
+  // Scales each component to the same size for iterations, scalars by their first column.
   VectorXd top = VectorXd::Zero(components_.count);
   for (const int i : components_.points) top[components_.of[i]] = std::max(top[components_.of[i]], flow.scalars(i, 0));
   for (const int i : components_.points)

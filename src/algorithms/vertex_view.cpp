@@ -138,8 +138,7 @@ double VertexView::nearest(int vertex) const {
   return found == nearest_.end() ? std::numeric_limits<double>::infinity() : found->second;
 }
 
-/// Adds a window, unless it is beyond the longer side of the triangle, a shorter path leads around a vertex, or it was
-/// seen.
+/// Adds a window unless it is too far, a shorter path leads around an end of its side, or it lies in one added before.
 void VertexView::add(Window window) {
   const double on_line = wedge_.on_line;
   const int side = window.door.side;

@@ -14,8 +14,8 @@ namespace tufted {
 
 /// A triangle as seen from the corner that is nearest to a point inside it.
 struct Wedge {
-  /// Two vertices seen from the corner match the triangle if they lie where its lengths place them, up to this part of
-  /// the longer side; the best match is taken. Mollification moves them by far less.
+  /// Two vertices match the triangle if they lie where its lengths place them, up to this part of the longer side; the
+  /// best match is taken. Mollification moves them by far less.
   static constexpr double same_triangle = 1e-2;
 
   int corner;                    ///< the corner nearest to the point
@@ -31,9 +31,8 @@ struct Wedge {
   static Wedge of(const SurfacePoint& source, double on_line);
 };
 
-/// The surface around a vertex of a cover, as far as a triangle there reaches (docs/algorithm.md, section 18, sources
-/// inside triangles). A vertex may have several such fans of faces. Directions are angles from the first side, growing
-/// to the left.
+/// One fan of faces around a vertex of a cover, and the surface beyond as far as a triangle reaches (docs/algorithm.md,
+/// section 18). Directions are angles from the first side, growing to the left.
 ///
 /// Straight lines are followed through the faces in windows (Chen and Han 1990): ranges of directions that leave a face
 /// through one side. Sides of triangles are straight in space, so no path is shorter, and windows that a shorter path
@@ -42,9 +41,9 @@ class VertexView {
  public:
   /// Two vertices that match the triangle, and the place of the point.
   struct Match {
-    double misfit = std::numeric_limits<double>::infinity();  ///< distance of the vertices from their expected places,
-                                                              ///< in the wedge's unit
-    double distance = 0, angle = 0;                           ///< of the point from the vertex
+    double misfit =
+        std::numeric_limits<double>::infinity();  ///< of the vertices from their expected places, in the wedge's unit
+    double distance = 0, angle = 0;               ///< of the point from the vertex
     /// Vertices on the line to the point count as to its left (1) or right (-1), outside of the triangle.
     int vertices_on_line = 0;
   };
@@ -53,7 +52,7 @@ class VertexView {
   /// @param side a side of the cover that starts at the vertex
   VertexView(const IntrinsicTriangulation& cover, const Wedge& wedge, int side);
 
-  /// Visits the sides of the cover that start at the vertex in this fan.
+  /// Visits the sides of this fan that start at the vertex.
   template <class Visit>
   void forSides(const Visit& visit) const {
     for (const Sector& sector : sectors_) visit(sector.side);

@@ -13,11 +13,11 @@ namespace {
 /// If the smaller spread of the points in the tangent plane is below this part of the larger, they lie on a line, and
 /// the slope across it is 0.
 constexpr double flat = 1e-10;
-/// If the smaller spread is below this part of the larger, more neighbours are taken: at the corner of a square L has
-/// one neighbour only, and a scan line does not determine the slope across.
+/// If it is below this part of the larger, more neighbours are taken: at the corner of a square L has one neighbour
+/// only, and a scan line does not determine the slope across.
 constexpr double narrow = 1e-4;
-/// Most times that a narrow neighbourhood is doubled to reach the next scan line; one of the neighbours in L gets one
-/// more ring each time.
+/// Maximum number of doublings of a narrow neighbourhood, to reach the next scan line; one of the neighbours in L gets
+/// a ring instead.
 constexpr int most_doublings = 3;
 /// The nearest points are chosen among at least this many times their number, because rings are not circles.
 constexpr double gathered = 2.5;
@@ -64,7 +64,7 @@ bool SlopeFitter::gather(int p, int doublings) {
   return grows;
 }
 
-/// Computes the edges over a power of two near the largest coordinate, against overflow and underflow of squares.
+/// Computes the edges over a power of two near the largest, against overflow of squares.
 /// @return this power of two; 0 if all points are at one place
 double SlopeFitter::findEdges(int p) {
   double extent = 0;
