@@ -18,9 +18,9 @@ using Eigen::VectorXd;
 /// Number of right sides that share one pass over the factor: a solve takes 6 ms for each of them, and 14 ms for a
 /// single one.
 constexpr Index block_size = 8;
-/// Steps in which a random block is searched for a missed eigenvalue if the factor cannot count the eigenvalues.
+/// Steps in which a random block is searched for missed eigenvalues if the factor cannot count them.
 constexpr int search_steps = 8;
-/// Steps in which a random block is searched for a missed eigenvalue if the count says that one is missing.
+/// The same if the count says that one is missing.
 constexpr int longest_search = 40;
 /// A column is rounding if less of it than this part of the largest eigenvalue remains after orthogonalisation.
 constexpr double least_part = 1e-15;
@@ -96,7 +96,7 @@ class BlockLanczos {
   /// Whether no eigenvalue is known to be missing, once the basis spans the whole space.
   bool isWhole() const { return !problem_.is_complete || problem_.is_complete(values_.head(problem_.wanted)) != false; }
 
-  /// Whether no eigenvalue was missed. If that is not known, starts or continues a search from a random block.
+  /// Whether no eigenvalue was missed. If unknown, starts or continues a search from a random block.
   bool isComplete(int iteration) {
     const VectorXd now = values_.head(problem_.wanted);
     const bool searching = before_.size() > 0;
@@ -164,7 +164,7 @@ class BlockLanczos {
   }
 
   /// Orthonormalises the `count` columns behind the basis by the Cholesky factor of their Gram matrix, repeatedly if
-  /// much was subtracted. False if they are too close to linearly dependent.
+  /// much was subtracted. False if they are nearly dependent.
   bool orthonormalizeTogether(Index count, double least) {
     auto all = basis_.leftCols(size_ + count);
     for (int pass = 0; pass < 4; ++pass) {

@@ -7,7 +7,7 @@
 
 namespace tufted {
 
-/// The spectral conformal parameterisation of a chart with a rim (Mullen, Tong, Alliez, Desbrun 2008).
+/// The spectral conformal parameterisation of a chart with a rim.
 /// @param points the points of the chart, ascending
 /// @param local for each point of the Laplacian its index in `points`
 /// @param report gets iterations, residual and method

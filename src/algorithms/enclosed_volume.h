@@ -11,11 +11,10 @@ namespace tufted {
 /// The volumes that the components of a surface enclose. Small holes in the triangles of a cloud are closed by fans.
 class EnclosedVolume {
  public:
-  /// @param function to be named in errors
+  /// @param function named in errors
   /// @param points N x 3, finite at active points
-  /// @throws InvalidInput for indices out of range, and for a component without triangles, or whose triangles have an
-  /// edge of more than two triangles, cannot be oriented, or have a rim; on a cloud fans over rims may have 5 % of the
-  /// area
+  /// @throws InvalidInput for indices out of range, and for a component without triangles, with an edge of more than
+  /// two, nonorientable, or with a rim (on a cloud, with fans over rims of more than 5 % of the area)
   EnclosedVolume(const std::string& function, const Laplacian& laplacian, const TrianglesRef& triangles,
                  const Eigen::MatrixXd& points);
 

@@ -14,8 +14,8 @@ namespace tufted {
 
 /// The constants on parts of a Laplacian that are joined by tiny weights only. A factor of the whole matrix computes
 /// the flow between parts as a difference of strong weights, in which the tiny ones are lost; sums of rows of L over
-/// parts contain only the tiny ones. So one point of each part stays out of the factor, and its value is solved for
-/// here, by the Schur complement from these sums (docs/algorithm.md, section 16).
+/// parts contain only the tiny ones. So one point of each part stays out of the factor and is solved for here, by the
+/// Schur complement of these sums.
 class PartConstants {
  public:
   /// A solve with the first point of each floating part, and all pinned points, held at 0: N x c to N x c.

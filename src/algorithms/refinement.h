@@ -27,8 +27,7 @@ class Refinement {
   Eigen::MatrixXd run(const SparseMatrix& A, const Progress& progress, SolveReport& made);
 
  private:
-  /// Measures residual and backward error of the solution.
-  /// @throws SolverFailure if they are too large
+  /// Measures residual and backward error; too large ones throw SolverFailure.
   /// @param first norms of the first residual, by column
   void measure(const SparseMatrix& A, const Eigen::RowVectorXd& first, SolveReport& made) const;
   /// The residual at the free points, in components and columns where `wanted` is 1.

@@ -61,7 +61,7 @@ struct SignedDistanceSolver::State {
   /// The representatives of active points of the curve, without consecutive repetitions.
   std::vector<int> placesOf(const std::vector<int>& curve) const;
   /// The fields to transport: at both ends of each segment of the curve its normal to the left, times half its length.
-  /// @param[out] length N; of the curve at each point, in mean distances of neighbours
+  /// @param[out] length N; of the curve at each point, in units of spacingAt()
   HeatFields flowOf(const std::vector<int>& places, VectorXd& length, SignedDistanceReport& made) const;
   /// The right side for the function whose rises along edges are nearest to those of `slope`, by the weights of L.
   /// @param slope N unit vectors; NaN: unknown

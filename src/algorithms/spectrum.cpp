@@ -114,8 +114,8 @@ bool searchPairs(const Eigenproblem& problem, const InverseTimes& inverse, Index
   return found.converged;
 }
 
-/// Whether parts of L are joined so weakly that solves without corrections are inaccurate. Tested on vectors of the
-/// smallest eigenvalues, to which steps of the inverse lead.
+/// Whether parts of L are joined so weakly that solves without corrections are inaccurate, tested on vectors of small
+/// eigenvalues.
 bool isWeak(const Eigenproblem& problem, const InverseTimes& inverse) {
   std::mt19937_64 random(1);
   VectorXd x(problem.mass.size()), before;

@@ -6,8 +6,7 @@
 
 namespace tufted {
 
-/// The triangles along a straight line from a corner of a triangle to a vertex (docs/algorithm.md, section 18, end of
-/// paths).
+/// The triangles along a straight line from a corner of a triangle to a vertex (docs/algorithm.md, section 18).
 /// @param start slot of the corner
 /// @param angle from the edge to the next corner of the triangle, radians, within the angle of the corner
 /// @param length of the line

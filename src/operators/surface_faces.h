@@ -31,7 +31,7 @@ struct SurfaceFaces {
 /// @param scale of L: 1/2 for meshes, 1/6 for clouds
 SurfaceFaces surfaceFaces(const IntrinsicTriangulation& cover, double scale, const Workers& workers);
 
-/// The mean squared side of the faces of each part of the surface, in units of 2^(2 exponent); 0 without a face.
+/// The mean squared side of the faces of each part, in units of 2^(2 exponent); 0 without a face.
 /// @param part number of each point's part, in [0, parts); -1: none
 /// @param by_area whether each face is weighted by its area
 VectorXd meanSquaredSides(const SurfaceFaces& surface, const std::vector<int>& part, int parts, bool by_area);
