@@ -4,8 +4,9 @@
 
 namespace tufted {
 
-/// Where the corner opposite a side lies, to the left of the side from `a` to `b`.
+/// The corner of a triangle opposite its side from `a` to `b`, to the left of that side.
 /// @param to_a, to_b lengths of the other two sides
+/// @param double_area twice the triangle's area
 inline Eigen::Vector2d apexLeftOf(const Eigen::Vector2d& a, const Eigen::Vector2d& b, double to_a, double to_b,
                                   double double_area) {
   const Eigen::Vector2d along = b - a;

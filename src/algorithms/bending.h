@@ -7,8 +7,8 @@
 
 namespace tufted {
 
-/// Where something is divided by a mass, masses below this part of the mean of their component count as that much,
-/// since a zero area would bend nothing.
+/// A divisor M_i is raised to at least this part of the mean mass of its component, as a mass of 0 would make bending
+/// infinite.
 constexpr double least_mass_of_bending = 1e-9;
 
 /// The mean mass of each component.
@@ -16,7 +16,7 @@ inline VectorXd meanMasses(const Laplacian& laplacian, const Components& compone
   return components.sums(laplacian.M).cwiseQuotient(components.sums(VectorXd::Ones(laplacian.M.size())));
 }
 
-/// The mean mass of its component over the mass of each active point, N; 0 elsewhere.
+/// N; the mean mass of the component over the mass of each active point, 0 at others.
 inline VectorXd inverseMasses(const Laplacian& laplacian, const Components& components) {
   const VectorXd means = meanMasses(laplacian, components);
   VectorXd inverse = VectorXd::Zero(laplacian.M.size());
@@ -27,8 +27,8 @@ inline VectorXd inverseMasses(const Laplacian& laplacian, const Components& comp
   return inverse;
 }
 
-/// L M^-1 L, in 1 / mean mass of each component.
-/// @param inverse as inverseMasses()
+/// The matrix L M^-1 L of the bending energy, in units of 1 / mean mass of each component.
+/// @param inverse result of inverseMasses()
 inline SparseMatrix bendingMatrix(const SparseMatrix& L, const VectorXd& inverse) {
   const SparseMatrix scaled = inverse.asDiagonal() * L;
   return SparseMatrix(L * scaled);

@@ -15,33 +15,34 @@ using Eigen::Index;
 using Eigen::MatrixXd;
 using Eigen::VectorXd;
 
-/// Right sides that share one pass over the factor: a solve takes 6 ms for each of them, and 14 ms alone.
+/// Number of right sides that share one pass over the factor: a solve takes 6 ms for each of them, and 14 ms for a
+/// single one.
 constexpr Index block_size = 8;
-/// Steps that a random block gets to show a missed eigenvalue where the factor cannot count the eigenvalues.
+/// Steps in which a random block is searched for missed eigenvalues if the factor cannot count them.
 constexpr int search_steps = 8;
-/// Steps that a random block gets to show a missed eigenvalue where the count says that one is missing.
+/// The same if the count says that one is missing.
 constexpr int longest_search = 40;
-/// A column is noise if orthogonalisation leaves less of it than this part of the largest eigenvalue.
+/// A column is rounding if less of it than this part of the largest eigenvalue remains after orthogonalisation.
 constexpr double least_part = 1e-15;
 /// Products with A are uncertain by this part of the largest eigenvalue.
 constexpr double rounding = 1e-13;
-/// An eigenvalue this many times the next one is found at once, and spoils the digits of the others.
+/// An eigenvalue this many times the next one converges at once, and its rounding spoils the digits of the others.
 constexpr double dominance = 1e4;
-/// The change of an eigenvalue, as a part of it, below which a random block shows nothing new.
+/// If no eigenvalue changes by more than this part of itself, a random block has shown nothing new.
 constexpr double settled = 1e-8;
-/// If orthogonalisation leaves less than `least_left` of a column, the Cholesky factor of the Gram matrix is not used;
-/// above `mostly_left` one pass is enough: with 0.01 for it equal eigenvalues were off by 1e-10.
+/// If less than `least_left` of a column remains after orthogonalisation, the Cholesky factor of the Gram matrix is not
+/// used. If more than `mostly_left` remains, one pass is enough: with 0.01 equal eigenvalues were off by 1e-10.
 constexpr double least_left = 1e-5, mostly_left = 0.1;
 
 /// A restart keeps more than the usual third of its room if the wanted pairs then converge this many times as fast, as
-/// they do where they end within a cluster of eigenvalues.
+/// where they end within a cluster of eigenvalues.
 constexpr double clearly_faster = 3;
 
 class BlockLanczos {
  public:
   BlockLanczos(const LanczosProblem& problem, const LanczosOptions& options, const Workers& workers)
       : problem_(problem), options_(options), workers_(workers), quiet_(workers.count(), silent_) {
-    // Room for half as many vectors again as are wanted, or for some steps.
+    // Room for 1.5 times the wanted vectors, or for six steps beyond them if that is more.
     const Index room = problem.wanted + std::max<Index>(problem.wanted / 2, 6 * block_size);
     most_ = std::min(problem.dimension, (room + block_size - 1) / block_size * block_size);
     basis_.resize(problem.mass.size(), most_ + block_size);
@@ -57,7 +58,7 @@ class BlockLanczos {
       const bool exhausted = !step();
       ++result.iterations;
       const bool full = size_ + fresh_ > most_;
-      const bool cheap = size_ * size_ < problem_.mass.size();  // to decompose, beside the products of a step
+      const bool cheap = size_ * size_ < problem_.mass.size();  // decomposing costs less than the products of a step
       if (!exhausted && !full && !cheap && result.iterations % 8 != 0) continue;
       decompose();
       if (exhausted) {
@@ -66,7 +67,7 @@ class BlockLanczos {
       }
       if (lockLeading()) continue;
       found = countConverged() == problem_.wanted && isComplete(result.iterations);
-      // A search may have made room already.
+      // isComplete() may have restarted already.
       if (!found && size_ + fresh_ > most_) restart(countToKeep());
     }
     if (found) finish(result);
@@ -74,8 +75,7 @@ class BlockLanczos {
   }
 
  private:
-  /// Fills in the pairs and measures their residuals. The residuals that showed convergence followed from the basis,
-  /// which does not show what it has lost.
+  /// Fills in the pairs and measures their residuals; those computed from T do not contain the rounding of the basis.
   void finish(LanczosResult& result) {
     result.values = values_.head(problem_.wanted);
     multiplyInPlace(basis_.leftCols(size_), vectors_.leftCols(problem_.wanted), quiet_);
@@ -93,10 +93,10 @@ class BlockLanczos {
     }
   }
 
-  /// Whether nothing is known to be missing where the space is used up.
+  /// Whether no eigenvalue is known to be missing, once the basis spans the whole space.
   bool isWhole() const { return !problem_.is_complete || problem_.is_complete(values_.head(problem_.wanted)) != false; }
 
-  /// Whether nothing was missed among what has converged; otherwise begins to search.
+  /// Whether no eigenvalue was missed. If unknown, starts or continues a search from a random block.
   bool isComplete(int iteration) {
     const VectorXd now = values_.head(problem_.wanted);
     const bool searching = before_.size() > 0;
@@ -107,15 +107,15 @@ class BlockLanczos {
     is_missing_ = complete == false;
     before_ = now;
     search_from_ = iteration;
-    // The random block takes the place of the fresh one, which only pairs that have converged do not miss.
+    // The random block replaces the fresh one, which the converged pairs no longer need.
     restart(problem_.wanted);
     return !addRandom();
   }
 
   auto fresh() { return basis_.middleCols(size_, fresh_); }
 
-  /// Applies A to the fresh block, adds the products to T, and makes the next block of what is new. False if nothing is
-  /// new.
+  /// Applies A to the fresh block, adds the inner products to T, and makes the next block from the part outside of the
+  /// basis. False if the basis spans the whole space.
   bool step() {
     if (fresh_ == 0) return false;
     MatrixXd image = problem_.apply(fresh());
@@ -134,7 +134,7 @@ class BlockLanczos {
     return true;
   }
 
-  /// Adds a random block to the basis. False if the space is used up.
+  /// Adds a random block to the basis. False if the basis spans the whole space.
   bool addRandom() {
     const Index room = std::min<Index>(block_size, problem_.dimension - size_);
     fresh_ = 0;
@@ -154,7 +154,7 @@ class BlockLanczos {
   }
 
   /// Appends at most `room` orthonormal columns to the basis that span the part of `block` outside of it. Columns of
-  /// which no more than `least` is left are noise.
+  /// which at most `least` remains are dropped.
   Index orthonormalize(const MatrixXd& block, Index room, double least) {
     if (block.cols() <= room) {
       basis_.middleCols(size_, block.cols()) = block;
@@ -163,12 +163,12 @@ class BlockLanczos {
     return orthonormalizeOneByOne(block, room, least);
   }
 
-  /// Orthonormalises the columns behind the basis by the Cholesky factor of their Gram matrix, repeatedly if much was
-  /// taken away. False if they are too close to dependent for that.
+  /// Orthonormalises the `count` columns behind the basis by the Cholesky factor of their Gram matrix, repeatedly if
+  /// much was subtracted. False if they are nearly dependent.
   bool orthonormalizeTogether(Index count, double least) {
     auto all = basis_.leftCols(size_ + count);
     for (int pass = 0; pass < 4; ++pass) {
-      // Rounding leads into the space that A maps to 0, too, and grows wherever much of a column is taken away.
+      // Rounding also adds parts of the null space of A, which grow if much of a column is subtracted.
       problem_.deflate(all.rightCols(count));
       const MatrixXd products = innerProducts(all, problem_.mass, all.rightCols(count), quiet_);
       const auto known = products.topRows(size_), own = products.bottomRows(count);
@@ -200,7 +200,7 @@ class BlockLanczos {
         if (!(norm > (pass == 0 ? least : 0.5))) break;
         column /= norm;
       }
-      // A column that shrinks again after it was made orthogonal was noise.
+      // A column that shrinks again after it was made orthogonal was rounding.
       if (norm > 0.5) basis_.col(size_ + count++) = column;
     }
     return count;
@@ -223,8 +223,8 @@ class BlockLanczos {
     vectors_.bottomRightCorner(rest, rest) = solver.eigenvectors().rowwise().reverse();
   }
 
-  /// Sets aside the pairs whose eigenvalues are far above all others, and begins anew without them, as their rounding
-  /// is in all that was found so far. False if there are none.
+  /// Locks the pairs whose eigenvalues are far above all others and restarts from a random block, as their rounding is
+  /// in all other vectors. False if there are none.
   bool lockLeading() {
     Index leading = locked_;
     for (Index i = locked_; i + 1 < std::min(size_, problem_.wanted); ++i)
@@ -240,8 +240,8 @@ class BlockLanczos {
     return true;
   }
 
-  /// |A x - theta x| of the leading pairs: the coupling times the last rows of their vectors, or noise if nothing was
-  /// left to be coupled.
+  /// |A x - theta x| of the first `count` pairs: the coupling times the last rows of their vectors, or the size of
+  /// rounding if there is no coupling.
   VectorXd residuals(Index count) const {
     if (coupling_.cols() == 0) return VectorXd::Constant(count, least_part * scale_);
     return (coupling_ * vectors_.bottomRows(coupling_.cols()).leftCols(count)).colwise().norm();
@@ -257,10 +257,10 @@ class BlockLanczos {
     return count;
   }
 
-  /// How many vectors a restart keeps, so that the wanted ones converge fastest. Each step until the next restart takes
-  /// out of the last wanted one what it has of those that are given up, by a power of their gap that grows with its
-  /// root: steps times root are made largest. Of eigenvalues that fall evenly a third of the room is kept; of a cluster
-  /// that the wanted ones end in, the whole.
+  /// How many vectors a restart keeps, so that the wanted ones converge fastest. The error of the last wanted vector
+  /// falls exponentially in the steps until the next restart times the root of its relative gap to the first eigenvalue
+  /// that is not kept; this product is maximised. For evenly falling eigenvalues a third of the room is kept; if the
+  /// wanted ones end within a cluster, the whole cluster.
   Index countToKeep() const {
     const Index wanted = problem_.wanted;
     const auto steps = [&](Index keep) { return static_cast<double>(most_ - keep); };
@@ -274,13 +274,13 @@ class BlockLanczos {
     return worth(best) > clearly_faster * worth(usual) ? best : usual;
   }
 
-  /// Keeps the `keep` leading vectors, and the fresh block behind them.
+  /// Reduces the basis to its first `keep` Ritz vectors, and keeps the fresh block behind them.
   void restart(Index keep) {
     const MatrixXd next = fresh();
     multiplyInPlace(basis_.leftCols(size_), vectors_.leftCols(keep), quiet_);
     T_.setZero();
     T_.diagonal().head(keep) = values_.head(keep);
-    vectors_ = MatrixXd::Identity(keep, keep);  // the basis is made of them now
+    vectors_ = MatrixXd::Identity(keep, keep);  // they are the basis now
     size_ = keep;
     fresh() = next;
   }
@@ -294,7 +294,7 @@ class BlockLanczos {
   Index most_ = 0;  ///< columns that the basis may have
   MatrixXd basis_;  ///< mass-orthonormal: `size_` columns that A has been applied to, then `fresh_` others
   Index size_ = 0, fresh_ = 0;
-  Index locked_ = 0;   ///< the first columns of the basis, eigenvectors that are not touched any more
+  Index locked_ = 0;   ///< number of leading columns of the basis that are final eigenvectors
   MatrixXd T_;         ///< basis^T diag(mass) A basis
   MatrixXd coupling_;  ///< the block of A that maps the last block to the fresh one
   VectorXd values_;
@@ -302,8 +302,8 @@ class BlockLanczos {
   VectorXd before_;          ///< eigenvalues that had converged when the search for missed ones began
   int search_from_ = 0;      ///< iteration at which the search for missed eigenvalues began
   bool is_missing_ = false;  ///< whether an eigenvalue is known to be missing
-  double scale_ = 0;         ///< the largest eigenvalue so far that is not locked
-  double found_ = 0;         ///< share of the wanted that has converged
+  double scale_ = 0;         ///< about the largest eigenvalue that is not locked
+  double found_ = 0;         ///< share of the wanted pairs that have converged
 };
 
 }  // namespace

@@ -11,28 +11,29 @@ namespace tufted {
 /// An operator A that is self-adjoint and positive in the inner product x^T diag(mass) y.
 struct LanczosProblem {
   std::function<Eigen::MatrixXd(const Eigen::Ref<const Eigen::MatrixXd>&)> apply;  ///< A times several columns
-  /// Takes the directions that A maps to 0, and that are not to be found, out of columns.
+  /// Projects columns onto the complement of the null space of A, which is not searched for.
   std::function<void(Eigen::Ref<Eigen::MatrixXd>)> deflate;
   Eigen::VectorXd mass;    ///< n, >= 0; rows of mass 0 do not matter to A
-  Eigen::Index dimension;  ///< dimension of the space that is left, >= `wanted`
+  Eigen::Index dimension;  ///< dimension of that complement, >= `wanted`
   Eigen::Index wanted;     ///< number of pairs to find, >= 1
-  /// Tells whether eigenvalues are the `wanted` largest, or some that are as large were missed; nullopt if unknown. May
-  /// be empty.
+  /// Says whether the given eigenvalues are the `wanted` largest, so that no copy of a multiple one was missed; nullopt
+  /// if unknown. May be empty.
   std::function<std::optional<bool>(const Eigen::VectorXd&)> is_complete;
 };
 
 struct LanczosOptions {
   double tolerance;    ///< on |A x - theta x| / theta, in the norm of `mass`
-  int max_iterations;  ///< blocks that A is applied to
+  int max_iterations;  ///< most blocks that A is applied to
 };
 
 struct LanczosResult {
-  Eigen::VectorXd values;     ///< the `wanted` largest eigenvalues, descending; empty if iterations do not suffice
-  Eigen::MatrixXd vectors;    ///< n x wanted, mass-orthonormal
-  Eigen::MatrixXd images;     ///< A times `vectors`
+  Eigen::VectorXd values;   ///< the `wanted` largest eigenvalues, descending; empty if `max_iterations` do not suffice
+  Eigen::MatrixXd vectors;  ///< n x wanted, mass-orthonormal
+  Eigen::MatrixXd images;   ///< A times `vectors`
   Eigen::VectorXd residuals;  ///< |A x - theta x| / theta of each pair, measured on `images`
   int iterations = 0;         ///< blocks that A was applied to
-  /// Whether all residuals are at most the tolerance and what rounding of A leaves, 1e-13 of the largest eigenvalue.
+  /// Whether every residual is at most the tolerance plus the rounding of A, 1e-13 of the largest eigenvalue over
+  /// theta.
   bool converged = false;
 };
 

@@ -10,18 +10,17 @@
 namespace tufted {
 namespace {
 
-constexpr const char* function_name = "boundedBiharmonicWeights";  // which is the only caller
-/// A weight leaves its bound if bending pulls it off by more than this, in weights. Rounding leaves about 1e-15; it is
-/// far less than `allowed`, as a weight alone can hardly move between its neighbours.
+constexpr const char* function_name = "boundedBiharmonicWeights";  // the only caller
+/// A weight at a bound is freed if pull() would move it inwards by more than this, in weights. Rounding is about 1e-15.
+/// It is far below `allowed`, because a single weight can hardly move while others stay.
 constexpr double allowed_pull = 1e-12;
-/// After so many exchanges of all points of the wrong kind that do not make them fewer, single ones are exchanged,
-/// which ends in any case.
+/// If this many exchanges of all wrong points have not made them fewer, one is exchanged at a time, which always ends.
 constexpr int patience = 10;
 
-/// The interior point method ends after so many systems. It needs 14 to 41.
+/// The interior point method solves at most this many systems. It needs 14 to 41.
 constexpr int most_guesses = 60;
 /// The interior point method ends where the mean product of slack and multiplier is this part of the mean diagonal: at
-/// 16,000 points multipliers are as small as 1e-7, and 1e-12 took 163 points for free that were not.
+/// 16,000 points multipliers are as small as 1e-7, and with 1e-12 it left 163 points free that lie at a bound.
 constexpr double guessed = 1e-22;
 /// The part of the way to the nearest bound that a step of the interior point method takes at most; the value of
 /// Mehrotra.
@@ -69,7 +68,7 @@ int BoundedProblem::guess(const Progress& progress, VectorXd u, std::vector<Stat
   const auto n = static_cast<double>(free.size());
   unit /= n;
   VectorXd lower = VectorXd::Zero(u.size()), upper = lower;  // multipliers
-  VectorXd slack = lower;                                    // 1 - u, which would lose its digits
+  VectorXd slack = lower;  // 1 - u, kept separately because the subtraction would cancel digits
   for (const int i : free) u[i] = slack[i] = 0.5, lower[i] = upper[i] = unit;
   std::optional<LinearSystem> system;
   int iteration = 0;
@@ -86,7 +85,7 @@ int BoundedProblem::guess(const Progress& progress, VectorXd u, std::vector<Stat
     else
       system.emplace(factor(state, added, progress));
     VectorXd du = VectorXd::Zero(u.size()), d_lower = du, d_upper = du;
-    // Mehrotra's two steps: straight to the solution, then along what that says about the curve to it.
+    // Mehrotra's predictor (aim 0), then the corrector, whose second-order terms come from the predictor.
     const auto step = [&](double aim) {
       VectorXd lower_aim = VectorXd::Zero(u.size()), upper_aim = lower_aim;
       Eigen::MatrixXd right = Eigen::MatrixXd::Zero(u.size(), 1);
@@ -136,7 +135,7 @@ void BoundedProblem::solveFree(const std::vector<State>& state, const Progress& 
   const auto is_free = [&](Eigen::Index i) { return state[static_cast<std::size_t>(i)] == State::free; };
   if (std::none_of(state.begin(), state.end(), [](State s) { return s == State::free; })) return;
   const LinearSystem system = factor(state, {}, progress);
-  // One solve, and a second one for what the first left over, so that only its rounding is left.
+  // The second solve corrects the residual of the first.
   constexpr int solves = 2;
   for (int k = 0; k < solves; ++k) {
     const VectorXd pulled = pull(u);

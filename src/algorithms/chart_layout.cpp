@@ -11,18 +11,18 @@
 namespace tufted {
 namespace {
 
-/// The gap between two charts, as a part of the side of a square that has the area of all charts.
+/// The gap between two charts, as a part of the side of a square with the total area of their bounding boxes.
 constexpr double gap_share = 0.02;
-/// A triangle lower than this part of the extent of the map counts as collapsed, unless it is as low on the
-/// surface: single precision, which points.ply has, and eigenvectors are no more accurate.
+/// A triangle whose height is below this part of the extent of the map counts as collapsed, unless it is as low on the
+/// surface. Single-precision coordinates and eigenvectors are no more accurate.
 constexpr double least_height = 1e-7;
 
 double cross(const Eigen::RowVector2d& a, const Eigen::RowVector2d& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// The largest distance of a corner of a chart from the first one.
-/// @param at the place of a point; NaN where it has none
+/// The largest distance of a corner of a chart from its first corner.
+/// @param at returns the position of a point; NaN where it has none
 template <class At>
 double extentOf(const Chart& chart, const At& at) {
   auto first = at(chart.triangles[0][0]);
@@ -44,7 +44,8 @@ double extentOnSurface(const Points& positions, const Chart& chart, int exponent
   });
 }
 
-/// Whether a triangle is too low in the plane, but not on the surface.
+/// Whether a triangle has collapsed in the plane, but not on the surface.
+/// @param surface, plane extents of the chart
 /// @param a, b two sides in the plane
 bool hasCollapsed(const TriangleSides& sides, double surface, const Eigen::RowVector2d& a, const Eigen::RowVector2d& b,
                   double plane) {
@@ -57,7 +58,7 @@ bool hasCollapsed(const TriangleSides& sides, double surface, const Eigen::RowVe
 
 Collapse placeAlone(const Points& positions, const Chart& chart, int exponent, const std::vector<int>& local,
                     Eigen::MatrixX2d& uv) {
-  // About the mean, in units of the largest coordinate.
+  // Centres coordinates at their mean and scales them by the largest, against overflow.
   const Eigen::RowVector2d mean = uv.colwise().mean();
   uv.rowwise() -= mean;
   const double size = uv.cwiseAbs().maxCoeff();

@@ -8,25 +8,25 @@
 
 namespace tufted {
 
-/// What of a map has collapsed: triangles that are lower in the plane than 1e-7 of its extent, but not on the surface.
+/// The collapsed triangles of a map: those lower in the plane than 1e-7 of the map's extent, but not on the surface.
 struct Collapse {
   std::int64_t triangles = 0;
-  double area_share = 0;  ///< of the chart, on the surface
+  double area_share = 0;  ///< their area on the surface over that of the chart
 };
 
-/// Gives a chart in the plane the area of its triangles, in units of 2^exponent, turns it so that its longer axis runs
-/// along u, and moves it so that its least u and v are 0.
-/// @param local of each point, its row in `uv`
-/// @return all triangles where it has no area in the plane; `uv` is of no use then
+/// Scales a chart in the plane to the area of its triangles, in units of 2^exponent, rotates it so that its longer axis
+/// runs along u, and moves it so that its least u and v are 0.
+/// @param local for each point of the Laplacian its row in `uv`
+/// @return all triangles if the area in the plane is not positive; `uv` is then unusable
 Collapse placeAlone(const Points& positions, const Chart& chart, int exponent, const std::vector<int>& local,
                     Eigen::MatrixX2d& uv);
 
-/// Moves charts beside each other, in rows: higher ones first.
-/// @param exponent of the unit 2^exponent of each; they come to be in the caller's unit
+/// Places charts beside each other in rows: the first one at the origin, then by falling height.
+/// @param[in,out] charts each in its unit 2^exponent, on return in the caller's unit
 void placeBesideEachOther(std::vector<Eigen::MatrixX2d>& charts, const std::vector<int>& exponents);
 
-/// Measures a parameterisation: triangles, flipped, collapsed and quasi_conformal_error.
-/// @param owner of each point, the chart whose position it has
+/// Measures a parameterisation and sets `triangles`, `flipped`, `collapsed` and `quasi_conformal_error` of the report.
+/// @param owner for each point the chart that its position in `uv` belongs to
 void measureMaps(const Points& positions, const std::vector<const Chart*>& charts, const std::vector<int>& owner,
                  const Eigen::MatrixX2d& uv, ParameterizationReport& report);
 

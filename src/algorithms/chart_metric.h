@@ -9,12 +9,13 @@
 
 namespace tufted {
 
-/// Triangles with less slack than this part of their longest side get longer sides, so that they have angles.
+/// The sides of a triangle with less slack than this part of its longest side are lengthened, so that its angles are
+/// defined.
 constexpr double least_slack = 1e-8;
-/// The longest side of a triangle is at least this part of the longest side of the chart.
+/// The longest side of a triangle counts as at least this long, in units of about the longest side of the chart.
 constexpr double shortest_side = 1e-12;
 
-/// The binary exponent of the longest side of some triangles.
+/// The binary exponent of the longest side of some triangles; 0 if all sides are 0.
 inline int exponentOf(const Points& positions, const std::vector<std::array<int, 3>>& triangles) {
   double longest = 0;
   for (const auto& corners : triangles)
@@ -23,12 +24,12 @@ inline int exponentOf(const Points& positions, const std::vector<std::array<int,
   return longest > 0 ? std::ilogb(longest) : 0;
 }
 
-/// Three sides of a triangle, which has a positive area.
+/// Sides and angles of a triangle, lengthened if that is needed for a positive area.
 struct TriangleSides {
-  std::array<double, 3> opposite;  ///< length of the side opposite each corner, in a unit of the caller's
-  std::array<double, 3> cotan;     ///< of the angle at each corner
+  std::array<double, 3> opposite;  ///< length of the side opposite each corner, in units of 2^exponent
+  std::array<double, 3> cotan;     ///< cotangent of the angle at each corner
   std::array<double, 3> half_tan;  ///< tangent of half the angle at each corner
-  double area;                     ///< before sides were made longer; may be 0
+  double area;                     ///< area before the sides were lengthened, >= 0
 };
 
 /// Measures a triangle in units of 2^exponent.
@@ -38,7 +39,7 @@ inline TriangleSides measureTriangle(const Points& positions, const std::array<i
   for (int k = 0; k < 3; ++k)
     l[k] =
         std::ldexp((positions.row(corners[(k + 1) % 3]) - positions.row(corners[(k + 2) % 3])).stableNorm(), -exponent);
-  // Kahan's order, by which no digits cancel.
+  // Kahan's formula for the area from sorted sides, in which no digits cancel.
   const auto sorted = [&] {
     std::array<double, 3> s = l;
     std::sort(s.begin(), s.end());

@@ -12,7 +12,7 @@ namespace {
 
 using Corners = std::array<int, 3>;
 
-/// Marks in place of a mate: the side has one triangle, or more than two.
+/// In place of a mate: the edge has one triangle, or more than two.
 constexpr int open_side = -1, crowded_side = -2;
 
 /// The sides of triangles: side s of triangle t is 3 t + s, from corner s to the next.
@@ -55,7 +55,7 @@ class Sides {
   std::vector<std::vector<int>> crowds_;
 };
 
-/// The rims of oriented triangles without crowded sides.
+/// The rims of an oriented manifold chart, see Chart::rims.
 std::vector<std::vector<int>> rimsOf(const std::vector<Corners>& triangles) {
   const Sides sides(triangles);
   std::vector<std::vector<int>> rims;
@@ -66,7 +66,7 @@ std::vector<std::vector<int>> rimsOf(const std::vector<Corners>& triangles) {
     for (int side = first; seen[side] == 0;) {
       seen[side] = 1;
       rims.back().push_back(sides.from(side));
-      // Around the end of the side, through the triangles of its fan.
+      // Goes around the end of the side, through its fan, to the next open side.
       side = nextSide(side);
       while (sides.mate(side) != open_side) side = nextSide(sides.mate(side));
     }
@@ -74,14 +74,15 @@ std::vector<std::vector<int>> rimsOf(const std::vector<Corners>& triangles) {
   return rims;
 }
 
-/// Finds the chart of a triangle: marks it in `seen`, turns its triangles.
-/// @param crowd_of of a side, its place in Sides::crowds(); -1: none
-/// @param disagreeing gets of each edge at which orientations do not agree the triangle that was found later
+/// Collects the chart of triangle `first`, marks its triangles in `seen`, and orients them consistently.
+/// @param crowd_of for each side its index in Sides::crowds(); -1: none
+/// @param[out] triangles those of the chart, oriented
+/// @param[in,out] disagreeing gets the later triangle at each edge where orientations do not agree
 Chart chartOf(int first, const Sides& sides, const std::vector<int>& crowd_of, std::vector<Corners>& triangles,
               const std::vector<Corners>& given, std::vector<std::uint8_t>& seen, std::vector<int>& disagreeing) {
   Chart chart;
   std::vector<int> members = {first};
-  std::vector<std::uint8_t>& turned = seen;  // 0: not seen, 1: as given, 2: turned
+  std::vector<std::uint8_t>& turned = seen;  // 0: not seen, 1: as given, 2: reversed
   seen[first] = 1;
   std::int64_t twice_edges = 0;
   for (std::size_t k = 0; k < members.size(); ++k) {
@@ -126,7 +127,8 @@ Chart chartOf(int first, const Sides& sides, const std::vector<int>& crowd_of, s
   return chart;
 }
 
-/// @param disagreeing as chartOf()
+/// All charts of some triangles, those of more triangles first.
+/// @param disagreeing see chartOf()
 std::vector<Chart> chartsOf(const std::vector<Corners>& given, std::vector<int>& disagreeing) {
   const Sides sides(given);
   std::vector<int> crowd_of(3 * given.size(), -1);

@@ -6,8 +6,8 @@
 
 namespace tufted {
 
-/// Checks the arrays of a Laplacian of which a function needs the positions.
-/// @param function to be named in errors
+/// Checks the arrays of a Laplacian, for functions that need its positions.
+/// @param function named in errors
 /// @throws InvalidInput for arrays of the wrong size, or positions of active points that are not finite
 void checkPositions(const std::string& function, const Laplacian& laplacian);
 

@@ -12,7 +12,7 @@ namespace {
 
 static_assert(sizeof(SuiteSparse_long) == sizeof(std::int64_t));
 
-/// CHOLMOD's parameters and workspace; a solve has its own.
+/// CHOLMOD's parameters and workspace; one per solve, as solves may run in parallel.
 class Common {
  public:
   Common() {
@@ -32,7 +32,7 @@ class Common {
   cholmod_common common_;
 };
 
-/// A view; CHOLMOD takes no pointers to const, but changes nothing.
+/// A view for CHOLMOD, which takes no pointers to const, but changes nothing.
 cholmod_sparse viewOf(const LongMatrix& lower) {
   cholmod_sparse view = {};
   view.nrow = view.ncol = static_cast<std::size_t>(lower.rows());
@@ -56,7 +56,7 @@ struct FreeFactor {
 };
 using Factor = std::unique_ptr<cholmod_factor, FreeFactor>;
 
-/// False if the matrix is not positive definite.
+/// Computes the numeric factor. False if the matrix is not positive definite.
 bool computeFactor(cholmod_sparse& matrix, cholmod_factor& factor, Common& common) {
   const SerialBlas serial;
   cholmod_l_factorize(&matrix, &factor, common.get());
@@ -113,16 +113,17 @@ Cholesky::Cholesky(const LongMatrix& lower, std::size_t limit) : analysis_(std::
     a.common->method[0].ordering = ordering;
     return Factor(cholmod_l_analyze(&a.matrix, a.common.get()));
   };
-  // Minimum degree at every size, as nested dissection only saves memory. For a torus, seconds of one processor:
+  // Minimum degree (AMD) at every size: nested dissection (METIS) saves only memory. Seconds on one processor for a
+  // torus:
   //                            30,000 points        100,000              500,000
   //     AMD    analyse, factor   0.04 0.05  11 MB     0.24 0.22  43 MB     1.7 1.3  258 MB
   //     METIS                    0.14 0.05  10 MB     0.61 0.24  37 MB     3.9 1.1  207 MB
-  // A solve takes as long either way: 2, 14 and 70 ms.
+  // A solve takes as long with both: 2, 14 and 70 ms.
   a.factor = analyze(CHOLMOD_AMD);
   if (!a.factor) throw std::bad_alloc();
   a.nonzeros = a.common->lnz;
   if (bytes() <= limit) return;
-  Factor other = analyze(CHOLMOD_METIS);  // null where SuiteSparse was built without
+  Factor other = analyze(CHOLMOD_METIS);  // null if SuiteSparse was built without METIS
   a.metis = other && other->xsize < a.factor->xsize;
   if (!a.metis) return;
   a.nonzeros = a.common->lnz;

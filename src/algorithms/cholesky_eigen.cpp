@@ -8,12 +8,12 @@ namespace {
 
 class Factor : public Eigen::SimplicialLDLT<LongMatrix> {
  public:
-  /// False if the matrix is not positive definite.
+  /// Computes the numeric factor. False if the matrix is not positive definite.
   bool compute(const LongMatrix& lower) {
     factorize(lower);
     return info() == Eigen::Success && vectorD().minCoeff() > 0;
   }
-  /// Entries below the diagonal; known after the analysis.
+  /// Number of entries of the factor below the diagonal; known after the analysis.
   std::int64_t nonzeros() const { return m_matrix.outerIndexPtr()[m_matrix.outerSize()]; }
 };
 

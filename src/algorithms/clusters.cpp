@@ -3,10 +3,10 @@
 namespace tufted {
 namespace {
 
-/// Iterations of k-means at most; it usually ends after ten.
+/// Maximum number of iterations of k-means; it usually takes ten.
 constexpr int most_iterations = 100;
 
-/// The first centres.
+/// The first centres, see clusters(): `count` x d.
 Eigen::MatrixXd farthestRows(const Eigen::MatrixXd& rows, const VectorXd& weights, int count) {
   Eigen::MatrixXd centres(count, rows.cols());
   const Eigen::RowVectorXd mean = weights.transpose() * rows / weights.sum();
@@ -44,7 +44,7 @@ std::vector<int> clusters(const Eigen::MatrixXd& rows, VectorXd weights, int cou
       sums.row(cluster[i]) += weights[i] * rows.row(i);
       size[cluster[i]] += weights[i];
     }
-    // A centre that has lost all its rows stays where it is.
+    // A centre without rows stays where it is.
     for (int c = 0; c < count; ++c)
       if (size[c] > 0) centres.row(c) = sums.row(c) / size[c];
   }

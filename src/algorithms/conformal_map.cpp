@@ -22,27 +22,27 @@ using Complex = std::complex<double>;
 using Eigen::MatrixXcd;
 using Eigen::VectorXcd;
 
-/// L_C is singular, so B times this times the number of points over that of the rim is added. It must stay above what a
-/// factor rounds by, and far below the second eigenvalue, which is about the squared length of an edge.
+/// L_C is singular, so s B is added, where s is this times the number of points over that of the rim. It must stay
+/// above the rounding of a factor, and far below the second eigenvalue, which is about the squared length of an edge.
 constexpr double least_shift = 1e-13;
 /// While the matrix is not positive definite, the shift grows by this factor.
 constexpr double shift_growth = 100;
-/// How often the shift grows at most.
+/// Maximum number of shifts that are tried.
 constexpr int most_shifts = 4;
-/// Eigenvectors that are iterated together. Only the first is taken; nearly equal eigenvalues beside it do not slow it
-/// down then.
+/// Eigenvectors that are iterated together. Only the first is used; with others, eigenvalues nearly equal to its own do
+/// not slow it down.
 constexpr int block_columns = 6;
-/// How far (L_C + shift B)^-1 B may turn the eigenvector away from its complex multiples, which are similar maps. The
-/// rounding of the factor leaves about 1e-15 over the gap to the next eigenvalue.
+/// Iterations end when (L_C + s B)^-1 B takes the vector to a complex multiple, a similar map, up to this relative
+/// error. The rounding of the factor is about 1e-15 over the gap to the next eigenvalue.
 constexpr double most_residual = 1e-7;
-/// Where iterations no longer help, a residual up to this part of the size of the map is accepted and reported: thin
-/// triangles have large weights, whose rounding leaves more than `most_residual`.
+/// If iterations no longer help, a residual up to this part of the size of the map is accepted and reported: the
+/// rounding of the large weights of thin triangles may exceed `most_residual`.
 constexpr double most_rounding = 1e-4;
 /// Iterations no longer help if so many of them have not halved the least residual.
 constexpr int most_idle = 20;
-/// Iterations for the eigenvector at most.
+/// Maximum number of iterations for the eigenvector.
 constexpr int most_iterations = 500;
-/// The length of the rim that belongs to one of its points is at least this part of the mean.
+/// The length of the rim that belongs to one of its points is raised to at least this part of the mean.
 constexpr double least_rim_mass = 1e-3;
 
 /// The matrix of twice the conformal energy, 2n x 2n; rows 2i and 2i + 1 are u and v of point i.
@@ -63,7 +63,7 @@ SparseMatrix conformalMatrix(const Points& positions, const Chart& chart, int ex
       }
     }
   }
-  // The area in the plane: terms of inner edges cancel.
+  // Minus the area in the plane, which is a sum over the rim, as inner edges cancel.
   for (const std::vector<int>& rim : chart.rims) {
     for (std::size_t k = 0; k < rim.size(); ++k) {
       const int a = local[rim[k]], b = local[rim[(k + 1) % rim.size()]];
@@ -78,10 +78,10 @@ SparseMatrix conformalMatrix(const Points& positions, const Chart& chart, int ex
   return A;
 }
 
-/// The points of all rims and the length that belongs to each.
+/// The points of all rims, and the length of rim that belongs to each: the diagonal of B.
 struct RimMasses {
-  std::vector<int> points;  ///< local, ascending
-  VectorXd masses;          ///< mean 1
+  std::vector<int> points;  ///< local indices, ascending
+  VectorXd masses;          ///< scaled to the mean 1
 };
 
 RimMasses rimMasses(const Points& positions, const Chart& chart, int exponent, int n, const std::vector<int>& local) {
@@ -106,7 +106,7 @@ RimMasses rimMasses(const Points& positions, const Chart& chart, int exponent, i
   return rim;
 }
 
-/// Factorises L_C + shift B, and finds a shift with which that can be done.
+/// Factorises L_C + s B with the first shift s for which it is positive definite.
 LinearSystem shiftedSystem(const char* function, const SparseMatrix& A, const RimMasses& rim,
                            const SolverOptions& options) {
   const SystemNames names = {.function = function,
@@ -128,7 +128,8 @@ LinearSystem shiftedSystem(const char* function, const SparseMatrix& A, const Ri
   }
 }
 
-/// A start that is the same on every system: the positions in three planes, and waves.
+/// First vectors, the same on every system: the positions projected into three planes, slightly perturbed, and
+/// pseudo-random ones.
 MatrixXcd firstColumns(const Points& positions, const std::vector<int>& points, const RimMasses& rim, int exponent,
                        int columns) {
   MatrixXcd start(std::ssize(rim.points), columns);
@@ -159,7 +160,7 @@ Eigen::MatrixX2d conformalMap(const char* function, const Points& positions, con
   const LinearSystem system = shiftedSystem(function, A, rim, options);
   report.solver_method = system.report().method;
 
-  // Inverse iteration with Rayleigh and Ritz on sqrt(B) x at the rim, which is all that B sees.
+  // Inverse iteration on a block with a Rayleigh-Ritz step, on sqrt(B) x at the rim: B is 0 at all other points.
   const VectorXd root = rim.masses.cwiseSqrt();
   const VectorXd constant = root / root.norm();
   const int columns = std::min<int>(block_columns, static_cast<int>(rim.points.size()) - 1);
@@ -192,7 +193,8 @@ Eigen::MatrixX2d conformalMap(const char* function, const Points& positions, con
     const Eigen::SelfAdjointEigenSolver<MatrixXcd> ritz((small + small.adjoint()) / 2);
     const double theta = ritz.eigenvalues()[columns - 1];
     const VectorXcd weights = ritz.eigenvectors().col(columns - 1);
-    // A complex factor is of no consequence: where the eigenvalue is near 0, rounding turns the map in its plane.
+    // A complex factor only scales and rotates the map; if the eigenvalue is near 0, rounding rotates it from step to
+    // step.
     const VectorXcd vector = x * weights, turned = image * weights;
     const Complex factor = vector.dot(turned);
     const double residual = (turned - factor * vector).norm() / std::abs(factor);

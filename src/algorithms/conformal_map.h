@@ -9,9 +9,9 @@ namespace tufted {
 
 /// The spectral conformal parameterisation of a chart with a rim.
 /// @param points the points of the chart, ascending
-/// @param local of each point of the Laplacian, its place in `points`
+/// @param local for each point of the Laplacian its index in `points`
 /// @param report gets iterations, residual and method
-/// @return a row for each of `points`, up to a similarity
+/// @return one row (u, v) for each of `points`, determined up to a similarity
 /// @throws SolverFailure and Cancelled in the name of `function`
 Eigen::MatrixX2d conformalMap(const char* function, const Points& positions, const Chart& chart,
                               const std::vector<int>& points, const std::vector<int>& local,

@@ -9,10 +9,10 @@
 namespace tufted {
 namespace {
 
-/// Weights below this part of the smaller diagonal join nothing: they are lost in the rounding of the rows.
+/// Weights below this part of the smaller diagonal do not join, see Components.
 constexpr double least_weight = 1e-14;
 
-/// The components that weights above `least_share` of the smaller diagonal join.
+/// The components of points joined by weights above `least_share` of the smaller diagonal.
 Components joinedAbove(double least_share, const Laplacian& laplacian) {
   const SparseMatrix& L = laplacian.L;
   const VectorXd diagonal = L.diagonal();

@@ -31,7 +31,7 @@ SparseMatrix connectionLaplacian(const SparseMatrix& L, const Frames& frames) {
         result.insert(2 * j, 2 * j) = result.insert(2 * j + 1, 2 * j + 1) = entry.value();
         continue;
       }
-      // The same numbers on both sides of the diagonal, as rounding may differ.
+      // Both blocks of a pair come from the same transport, so that the matrix is exactly symmetric.
       const Eigen::Matrix2d block = i > j ? transportBetween(frames, j, i) : transportBetween(frames, i, j).transpose();
       for (int c = 0; c < 2; ++c)
         for (int r = 0; r < 2; ++r) result.insert(2 * i + r, 2 * j + c) = entry.value() * block(r, c);

@@ -7,8 +7,8 @@
 namespace tufted {
 
 /// Parallel transport between tangent planes, in the coordinates of the frames: the smallest rotation that takes the
-/// plane of point `from` to that of point `to`. If their normals point to different sides, one counts with the other
-/// sign, and the determinant is -1.
+/// plane of point `from` to that of point `to`. If their normals point to different sides, one is negated first, and
+/// the determinant is -1.
 Eigen::Matrix2d transportBetween(const Frames& frames, int from, int to);
 
 /// The connection Laplacian (Sharp, Soliman, Crane 2019, Section 3.2), 2N x 2N: rows and columns 2i and 2i + 1 belong

@@ -23,8 +23,8 @@ constexpr const char* function_name = "curvatures";
 
 /// Rings of neighbours in the first window of exact points: some 19 points for six unknowns.
 constexpr int first_rings = 2;
-/// Rings in the first window of noisy points, some 61 points: what is left of noise after denoising spans three
-/// spacings. With 3 rings the errors on a sphere with 1 % noise are 4.9 % instead of 2.2 %.
+/// Rings in the first window of noisy points, some 61 points: errors of denoised points are correlated over three
+/// spacings. With 3 rings the error on a sphere with 1 % noise is 4.9 % instead of 2.2 %.
 constexpr int first_noisy_rings = 4;
 /// Rings in the widest window. 15 rings of 1,200 points lower the errors on the noisy sphere to 1.5 %, but not on the
 /// torus, and take 1.4 times as long.
@@ -34,11 +34,11 @@ constexpr int last_rings = 12;
 constexpr double ring_growth = 1.25;
 /// A window with more points than this gets no further ring; 12 rings of an even sampling have fewer.
 constexpr int most_points = 800;
-/// A fit that misses the heights by less than this part of its radius leaves only rounding, as on a plane or a sphere;
-/// taken for noise, that would choose wide windows.
+/// Residuals below this part of the radius of a window are rounding, as on a plane or a sphere; taken for noise, they
+/// would widen the windows.
 constexpr double exact_below = 1e-6;
-/// If four rings leave over less than this many times what two rings do, it is noise (1 to 2 times); a smooth surface
-/// has a ratio of 8 or 16. With 5 the results are the same.
+/// If the residuals over four rings are less than this many times those over two, they are noise (1 to 2 times); a
+/// smooth surface has a ratio of 8 or 16. With 5 the results are the same.
 constexpr double noisy_below = 4;
 /// Where the fitted surface is steeper than this over its plane, the plane is turned to be tangent and the heights are
 /// measured anew, as second derivatives are off by the square of the slope.
@@ -46,33 +46,33 @@ constexpr double most_slope = 0.1;
 /// Half the width of a confidence interval, in standard deviations of independent errors. With 2 windows are wider,
 /// which takes longer, and a clean torus has 0.55 %.
 constexpr double confidence = 1;
-/// Half the width of a confidence interval for noise that was moved out, whose errors are not independent but span some
+/// The same where noise is estimated from residuals: errors of denoised points are not independent but span some
 /// spacings. With 8 and 13 a noisy sphere has 3.2 and 1.8 %, a torus 2.2 and 2.3 %.
 constexpr double noisy_confidence = 10;
 
-/// A fit, with lengths in the caller's unit.
+/// A fit over one window.
 struct Window {
   SurfaceFit fit;
-  Eigen::RowVector3d normal, x;  ///< of the plane over which heights were measured, and an axis in it
+  Eigen::RowVector3d normal, x;  ///< normal of the plane over which heights were measured, and an axis in it
   double radius;
   int rings;
 };
 
-/// What fits of few and of some more rings leave over of the heights, root mean square in the caller's unit.
+/// Height residuals of fits to two and to four rings, root mean square in the caller's unit.
 struct Residuals {
   double few = 0, more = 0;
 };
 
-/// Heights over the tangent plane of one point after the other.
+/// Fits heights over the tangent plane of one point after the other.
 class Fitter {
  public:
   Fitter(const Laplacian& laplacian, const Frames& frames)
       : positions_(laplacian.positions), frames_(frames), noise_(laplacian.noise), rings_(laplacian.L) {}
 
-  /// Whether a point was moved out of noise, which is known then.
+  /// Whether denoising has moved a point, so that its noise is known.
   bool isMoved(int p) const { return noise_.size() > 0 && noise_[p] > 0; }
 
-  /// What fits leave over around one point.
+  /// The residuals of fits around one point; 0 where they are only rounding.
   Residuals residuals(int p) {
     const auto leftOver = [&](int rings) {
       while (rings_.count() < rings && rings_.grow()) {
@@ -87,7 +87,7 @@ class Fitter {
     return {few, leftOver(first_noisy_rings)};
   }
 
-  /// The widest window that agrees with all narrower ones.
+  /// The widest window whose confidence intervals have a value in common with those of all narrower ones.
   /// @param residuals of all points, 0 at those whose noise is known
   std::optional<Window> fit(int p, const std::vector<Residuals>& residuals) {
     const Errors errors = errorsAround(p, residuals);
@@ -107,20 +107,20 @@ class Fitter {
       high = high.min(second + half);
       if (best && (low > high).any()) break;
       best = window;
-      if (errors.interval == 0) break;  // exact heights, of which a wider window tells nothing more
+      if (errors.interval == 0) break;  // heights are exact: a wider window gains nothing
     }
     return best;
   }
 
  private:
-  /// What the heights around a point are off by.
+  /// Errors of the heights around a point.
   struct Errors {
-    int first_rings;  ///< of the first window
+    int first_rings;  ///< rings of the first window
     double interval;  ///< half the width of the confidence interval of a height, in the caller's unit
   };
 
-  /// Where most points around were moved out of noise, it is theirs, on average. What is left of it is smooth, so that
-  /// residuals do not show it, but over wide windows it is as strong as before, and independent.
+  /// If most points around were moved, their mean noise counts: after denoising it is smooth, so residuals do not show
+  /// it, but over wide windows it is as strong as before, and independent.
   Errors errorsAround(int p, const std::vector<Residuals>& residuals) {
     rings_.start(p);
     while (rings_.count() < first_noisy_rings && rings_.grow()) {
@@ -166,14 +166,14 @@ class Fitter {
     return fit ? std::optional(Window{*fit, normal_, x_, radius * unit_, rings_.count()}) : std::nullopt;
   }
 
-  /// Makes the plane the one in which the fitted surface rises by b along x and by c along the other axis.
+  /// Turns the plane to be tangent to a surface that rises by b along x and by c along the other axis.
   void turnPlane(double b, double c) {
     const Eigen::RowVector3d tangent = (x_ + b * normal_).normalized();
     normal_ = (normal_ - b * x_ - c * normal_.cross(x_)).normalized();
     x_ = tangent;
   }
 
-  /// Makes samples of the points that the rings have gained since the last window.
+  /// Adds samples for the points of rings added since the last window.
   void takeNewPoints(int p) {
     const Eigen::RowVector3d center = positions_.row(p), y = normal_.cross(x_);
     const std::vector<int>& points = rings_.points();
@@ -189,30 +189,30 @@ class Fitter {
     }
   }
 
-  /// Weights end at this many times the distance of the outermost point, so that it counts.
+  /// The radius is this many times the distance of the farthest point, so that its weight is not 0.
   static constexpr double wider = 1.1;
 
   const Points& positions_;
   const Frames& frames_;
   const VectorXd& noise_;
   Rings rings_;
-  Eigen::RowVector3d normal_, x_;  ///< of the plane of the samples; see Window
-  HeightSamples samples_;          ///< of the points of the rings, in units of `unit_`
+  Eigen::RowVector3d normal_, x_;  ///< see Window
+  HeightSamples samples_;          ///< one per point of the rings, in units of `unit_`
   double unit_ = 1;                ///< a power of two near the extent of the first window, in the caller's unit
   double farthest_ = 0;            ///< squared distance of the farthest sample
 };
 
-/// Curvatures of the fitted surface at the point.
+/// Stores the curvatures of the fitted surface at a point.
 void setCurvatures(int p, const Window& window, Curvatures& result) {
   const auto& c = window.fit.coefficients;
   const double b = c[1], e = c[2], length = std::sqrt(1 + b * b + e * e);
   Eigen::Matrix2d second;
   second << c[3], c[4], c[4], c[5];
-  second *= -1 / length;  // positive where heights fall on all sides
+  second *= -1 / length;  // positive where the surface falls on all sides
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(second);
   const Eigen::RowVector3d normal = window.normal, x = window.x, y = normal.cross(x);
   const Eigen::Vector2d k = solver.eigenvalues() / window.radius;  // ascending
-  // Plus 0, as that of a plane is no -0.
+  // Adding 0 turns -0 into 0.
   result.principal.row(p) << k[1] + 0.0, k[0] + 0.0;
   result.mean[p] = (k[0] + k[1]) / 2 + 0.0;
   result.gaussian[p] = k[0] * k[1] + 0.0;
@@ -258,7 +258,7 @@ Curvatures fitCurvatures(const Laplacian& laplacian, const Frames& frames, const
   return result;
 }
 
-/// L x = 2 H n M at each point.
+/// The mean curvature H from L x = 2 H n M at each point.
 Curvatures laplacianCurvatures(const Laplacian& laplacian, const Frames& frames, const Workers& workers) {
   const Points& positions = laplacian.positions;
   const auto n = static_cast<Eigen::Index>(laplacian.status.size());
@@ -267,10 +267,10 @@ Curvatures laplacianCurvatures(const Laplacian& laplacian, const Frames& frames,
   workers.forBlocks("curvature", n, costly_block, [&](std::int64_t begin, std::int64_t end, int) {
     for (int p = static_cast<int>(begin); p < end; ++p) {
       if (laplacian.status[p] != PointStatus::active || !(laplacian.M[p] > 0)) continue;
-      Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();  // of differences, whatever the distance from the origin
+      Eigen::RowVector3d sum = Eigen::RowVector3d::Zero();  // of differences: exact far from the origin
       for (SparseMatrix::InnerIterator entry(laplacian.L, p); entry; ++entry)
         sum += entry.value() * (positions.row(entry.row()) - positions.row(p));
-      result.mean[p] = sum.dot(frames.normals.row(p)) / laplacian.M[p] / 2 + 0.0;  // a plane has no -0
+      result.mean[p] = sum.dot(frames.normals.row(p)) / laplacian.M[p] / 2 + 0.0;  // no -0
     }
   });
   return result;

@@ -1,4 +1,4 @@
-// Surfaces that follow their handles: as rigid as possible (Levi and Gotsman 2015), and linear (Lipman et al. 2004).
+// Deformation by handles: as rigid as possible (Levi and Gotsman 2015), and linear (Lipman et al. 2004).
 #include "tufted/deformation.h"
 
 #include <algorithm>
@@ -59,7 +59,7 @@ struct DeformationSolver::State {
   DeformationOptions options;
   Points positions;
   ShapeFrame frame;
-  Eigen::MatrixXd x;  ///< N x 3, in the frame
+  Eigen::MatrixXd x;  ///< N x 3 positions, in `frame`
   std::optional<RigidDeformation> rigid;
   std::optional<InterpolationSolver> linear;
   PinnedPoints pinned;

@@ -11,7 +11,7 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// L between points of `rows` and of `columns`.
+/// The entries of L in some rows and columns, as a dense matrix.
 MatrixXd denseBlock(const SparseMatrix& L, const std::vector<int>& rows, const std::vector<int>& columns) {
   std::vector<Index> place(static_cast<std::size_t>(L.rows()), -1);
   for (Index i = 0; i < std::ssize(rows); ++i) place[rows[i]] = i;
@@ -31,7 +31,7 @@ std::optional<Eigenpairs> densePairs(const Eigenproblem& problem, Index wanted) 
   std::vector<int> points;
   for (const int i : problem.components.points)
     if (problem.mass[i] > 0) points.push_back(i);
-  // The largest entries come first, so that the reduction to a tridiagonal matrix keeps the small ones.
+  // The largest entries come first, so that reduction to a tridiagonal matrix keeps the digits of the small ones.
   std::stable_sort(points.begin(), points.end(), [&](int a, int b) { return scaled[a] > scaled[b]; });
   MatrixXd S = denseBlock(L, points, points);
   if (!problem.massless.empty()) {

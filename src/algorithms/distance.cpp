@@ -1,4 +1,4 @@
-// Geodesic distances: what callers give, checked, and what they get, whichever method finds it.
+// DistanceSolver: checks arguments, calls marching or the heat method, and completes the results of both.
 #include "tufted/distance.h"
 
 #include <algorithm>
@@ -65,7 +65,7 @@ struct DistanceSolver::State {
   Components components;
   std::vector<int> representative;
   std::vector<PointStatus> status;
-  std::shared_ptr<const IntrinsicTriangulation> cover;  ///< shared with the Laplacian or what has built it
+  std::shared_ptr<const IntrinsicTriangulation> cover;  ///< shared with the Laplacian or its builder
   double maximum = infinity;
   std::optional<MarchingDistance> marching;
   std::optional<HeatDistance> heat;
@@ -120,7 +120,7 @@ const SolverReport& DistanceSolver::report() const {
   return state_->report;
 }
 
-/// The sources with the representatives of their corners.
+/// Checks sources, and replaces their corners by the representatives.
 std::vector<SurfacePoint> DistanceSolver::State::checked(const std::vector<SurfacePoint>& sources) const {
   if (sources.empty()) throw InvalidInput(std::string(query_name) + ": sources is empty, must name at least one");
   std::vector<SurfacePoint> found = sources;
@@ -142,7 +142,7 @@ std::vector<SurfacePoint> DistanceSolver::State::checked(const std::vector<Surfa
   return found;
 }
 
-/// Removes what lies on components without sources or beyond the maximum, and copies to coincident points.
+/// Sets distances on components without sources and beyond the maximum to infinity, and copies to coincident points.
 void DistanceSolver::State::finish(const std::vector<SurfacePoint>& sources, NearestSources& found) const {
   std::vector<bool> has_source(static_cast<std::size_t>(components.count), false);
   for (const SurfacePoint& source : sources)
@@ -163,7 +163,7 @@ NearestSources DistanceSolver::State::nearestByHeat(const std::vector<PlaceInCov
                                                     DistanceReport& made) const {
   const auto n = static_cast<Eigen::Index>(representative.size());
   NearestSources found{VectorXd::Constant(n, infinity), std::vector<int>(representative.size(), -1)};
-  std::vector<PlaceInCover> here;  // of one source
+  std::vector<PlaceInCover> here;  // places of one source
   for (std::size_t first = 0; first < places.size(); first += here.size()) {
     const int s = places[first].source;
     here.clear();
@@ -245,7 +245,7 @@ SurfacePoint SurfacePoint::inFace(const Points& points, const Triangles& triangl
     throw InvalidInput(name + "barycentric coordinates sum to " + numberText(sum) + ", must be above 0");
   SurfacePoint result{{triangles(face, 0), triangles(face, 1), triangles(face, 2)}, {}, {}, {}};
   const Eigen::RowVector3d origin = points.row(result.corners[0]);
-  Eigen::RowVector3d place = Eigen::RowVector3d::Zero();  // from the first corner
+  Eigen::RowVector3d place = Eigen::RowVector3d::Zero();  // relative to the first corner
   for (int k = 0; k < 3; ++k) {
     result.weights[k] = barycentric[k] / sum;
     place += result.weights[k] * (points.row(result.corners[k]) - origin);

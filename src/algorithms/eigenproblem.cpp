@@ -56,7 +56,7 @@ void Eigenproblem::fillMassless(Eigen::Ref<MatrixXd> x) const {
       lowerTriangle(L, selection, [](int, int, double value) { return value; }));
   for (const int i : massless) x.row(i).setZero();
   const MatrixXd right = -MatrixXd(L * x)(massless, Eigen::all);
-  const MatrixXd solution = factor.solve(right);  // in its own place: Eigen does not solve into selected rows
+  const MatrixXd solution = factor.solve(right);  // Eigen cannot solve into selected rows
   x(massless, Eigen::all) = solution;
 }
 

@@ -9,30 +9,30 @@
 
 namespace tufted {
 
-/// The eigenproblem L x = lambda diag(mass) x without unit, so that tiny and huge clouds neither underflow nor
-/// overflow: areas are parts of `total`.
+/// The eigenproblem L x = lambda diag(mass) x with masses and areas as parts of `total`, so that tiny and huge clouds
+/// neither underflow nor overflow.
 struct Eigenproblem {
   const SparseMatrix& L;  ///< the Laplacian's matrix, which must outlive this
   Components components;
-  double total;               ///< area of the active points
-  VectorXd mass;              ///< N; masses as parts of `total`
+  double total;               ///< sum of M over the active points
+  VectorXd mass;              ///< N; M over `total`
   VectorXd area;              ///< area of each component, as a part of `total`
   std::vector<int> order;     ///< components of positive area, larger ones first
-  Eigen::Index usable = 0;    ///< points of positive mass
+  Eigen::Index usable = 0;    ///< number of points of positive mass
   std::vector<int> massless;  ///< active points of no mass in components of positive area, ascending
 
   explicit Eigenproblem(const Laplacian& laplacian);
 
   /// Number of eigenvalues that are exactly 0: one for each component of positive area.
   Eigen::Index nulls() const { return std::ssize(order); }
-  /// How many pairs there are.
+  /// Number of eigenpairs, with or without those of eigenvalue 0.
   Eigen::Index count(bool null_space) const { return usable - (null_space ? 0 : nulls()); }
 
-  /// The first `count` of the constants of the components, N x count, of mass 1.
+  /// The null vectors of the first `count` components in `order`, N x count, mass-orthonormal.
   Eigen::MatrixXd constants(Eigen::Index count) const;
-  /// Takes the constants out of columns.
+  /// Subtracts the mean by mass over each component from columns.
   void deflate(Eigen::Ref<Eigen::MatrixXd> x) const;
-  /// Sets points without mass to what L x = 0 demands there.
+  /// Sets the values at points without mass so that L x = 0 there.
   void fillMassless(Eigen::Ref<Eigen::MatrixXd> x) const;
 };
 

@@ -10,8 +10,8 @@
 namespace tufted {
 namespace {
 
-/// If the fans that close the holes of a cloud's triangles have more than this part of the area, there is no volume:
-/// noise leaves small holes, an open half sphere has one of half its area.
+/// If the fans that close the holes of a cloud's triangles have more than this part of their area, the surface counts
+/// as open: noise leaves small holes, an open half sphere has one of half its area.
 constexpr double most_hole_area = 0.05;
 
 [[noreturn]] void refuse(const std::string& function, int point, const std::string& why) {
@@ -75,7 +75,7 @@ EnclosedVolume::Body EnclosedVolume::measure(const Eigen::MatrixXd& x, int compo
       for (const int i : rim) middle += at(i) / static_cast<double>(rim.size());
       for (std::size_t k = 0; k < rim.size(); ++k) {
         const Eigen::RowVector3d a = at(rim[k]), b = at(rim[(k + 1) % rim.size()]);
-        sum += middle.dot(b.cross(a));  // the other way than the triangle beside it
+        sum += middle.dot(b.cross(a));  // against the direction of the triangle beside it
         body.hole_area += (a - middle).cross(b - middle).norm() / 2;
       }
     }

@@ -14,8 +14,8 @@ namespace {
 constexpr const char* constructor = "ExtensionSolver";
 constexpr const char* query_name = "ExtensionSolver::query";
 
-/// The middle of each column, and half its range, or 1 where that is 0. Values are carried in these units, so that
-/// those which are large beside their range lose no digits.
+/// The middle of each column's range, and half its width, or 1 if that is 0. Values are extended relative to these, so
+/// that no digits are lost if they are large beside their range.
 struct Range {
   Eigen::RowVectorXd middle, half;
 

@@ -12,27 +12,28 @@
 namespace tufted {
 namespace {
 
-/// Points of a plane, its own among them. Of 10, 16, 30 and 48 the best on 14 clean shapes, and the second best in
-/// noise that was moved out.
+/// Nearest points that a plane is fitted to, the point itself included. Of 10, 16, 30 and 48 this is the best on 14
+/// clean shapes, and the second best on denoised ones.
 constexpr std::size_t few = 10;
-constexpr int terms = 6;  // of a quadratic in two variables
-/// Points that a quadratic needs: three more than terms, or no variance is left to judge it by.
+constexpr int terms = 6;  // coefficients of a quadratic in two variables
+/// A quadratic needs this many points: three more than terms, so that residuals say how well it fits.
 constexpr std::size_t least_points = 9;
-/// Pivots below this part of the largest one, and variances likewise, are 0: points on a conic or a line have no fit
-/// and keep the plane of 30 points.
+/// Pivots and variances below this part of the largest count as 0: points on a conic or a line keep the normal of 30
+/// points.
 constexpr double singular = 1e-9;
-/// Least cosine to the normal of 30 points. A plane that disagrees more follows noise: on a cube with 1 % noise one
-/// normal in 800 would point inwards.
+/// Least cosine to the normal of 30 points; a fit below it follows noise and is not used. Without it one normal in 800
+/// would point inwards on a cube with 1 % noise.
 constexpr double least_agreement = 0.5;
 /// Squared distances that differ by less than this part count as equal, so that a lattice has one answer in any order.
 constexpr double tie = 1e-9;
 
-/// A surface through some points.
+/// A plane or quadratic fitted to some points.
 struct Fit {
   Eigen::Vector3d normal;
-  double variance;  ///< of the heights over it
+  double variance;  ///< of the heights over it, by degrees of freedom
 };
 
+/// Fits a plane.
 /// @param offsets from one of the points to all, itself included; at most 1 long
 std::optional<Fit> planeThrough(std::span<const Eigen::Vector3d> offsets) {
   const auto count = static_cast<double>(offsets.size());
@@ -49,7 +50,7 @@ std::optional<Fit> planeThrough(std::span<const Eigen::Vector3d> offsets) {
   return Fit{axes.eigenvectors().col(0), std::max(0.0, along[0]) / (count - 3)};
 }
 
-/// A quadratic over the plane of a normal, and once more over its own.
+/// Fits a quadratic over the plane of a normal, and once more over its own tangent plane.
 std::optional<Fit> quadraticThrough(std::span<const Eigen::Vector3d> offsets, Eigen::Vector3d normal) {
   double variance = 0;
   for (int round = 0; round < 2; ++round) {
@@ -74,14 +75,14 @@ std::optional<Fit> quadraticThrough(std::span<const Eigen::Vector3d> offsets, Ei
   return Fit{normal, variance};
 }
 
-/// From p to the points of its first two rings, over the farthest, the nearest first, which is p itself.
+/// Offsets from p to itself and the points of its first two rings, divided by the longest, in ascending length.
 void takeOffsets(int p, const Points& positions, Rings& rings, std::vector<Eigen::Vector3d>& offsets) {
   rings.start(p);
   rings.grow();
   rings.grow();
   offsets.clear();
   for (const int q : rings.points()) offsets.emplace_back(positions.row(q) - positions.row(p));
-  // No square of these overflows or underflows.
+  // Against overflow and underflow of squares.
   double extent = 0;
   for (const Eigen::Vector3d& d : offsets) extent = std::max(extent, d.stableNorm());
   for (Eigen::Vector3d& d : offsets) d /= extent;
@@ -89,7 +90,7 @@ void takeOffsets(int p, const Points& positions, Rings& rings, std::vector<Eigen
             [](const Eigen::Vector3d& a, const Eigen::Vector3d& b) { return a.squaredNorm() < b.squaredNorm(); });
 }
 
-/// The nearest few of at least so many, and those that are as far away as the last of them.
+/// The nearest `few` offsets, and those as long as the last of them.
 std::span<const Eigen::Vector3d> fewOf(std::span<const Eigen::Vector3d> offsets) {
   std::size_t count = std::min(few, offsets.size());
   const double farthest = (1 + tie) * offsets[count - 1].squaredNorm();
@@ -97,7 +98,7 @@ std::span<const Eigen::Vector3d> fewOf(std::span<const Eigen::Vector3d> offsets)
   return offsets.first(count);
 }
 
-/// A normal of one of both signs: fits round differently on either side.
+/// The normal or its opposite, the same for both: fits on either side round differently.
 Eigen::Vector3d upright(const Eigen::Vector3d& normal) {
   const double decides = normal.z() != 0 ? normal.z() : normal.y() != 0 ? normal.y() : normal.x();
   return decides < 0 ? Eigen::Vector3d(-normal) : normal;

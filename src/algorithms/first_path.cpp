@@ -12,21 +12,21 @@ namespace tufted {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-/// A way that meets a side so near to its end or middle, as a share of the half, leads there: a target on the side
-/// itself is unfolded onto it but for rounding.
+/// A step that meets half a side within this share of one of its ends leads to that end: a target on the side is
+/// unfolded onto it only up to rounding.
 constexpr double at_an_end = 1e-6;
 
 using Eigen::Vector2d;
 
-/// A straight way in one face, from a corner or a side to another. Slots are those of these corners and sides.
+/// A straight step through one face from a corner or side to another; `start` and `end` are their slots.
 struct Step {
-  int to;  ///< number of the vertex, or V + that of the edge
+  int to;  ///< number of the vertex, or V + number of the edge
   int start, end;
-  double fraction;  ///< where the edge is reached, from the corner after the side's own in this face
-  double left;      ///< how far the target is from there
+  double fraction;  ///< where the edge is crossed: 0 at the corner after slot `end`, 1 at the one before it
+  double left;      ///< distance from there to the target
 };
 
-/// A face in the plane, seen from one of its slots: the side from (0, 0) to (length, 0) and the corner above it.
+/// A face in the plane: the side of a slot from (0, 0) to (length, 0), and the slot's own corner above it.
 struct Layout {
   Vector2d after, before, own;
 
@@ -37,15 +37,16 @@ struct Layout {
                        faces.faces[slot / 3].double_area)) {}
 };
 
-/// The best of the ways from a point to sides of its faces, by the distances at the ends and the middle of each side:
-/// the target is unfolded beyond each half.
+/// The best step from a point to the sides of its faces: the target is unfolded beyond each half of a side by the
+/// distances at its ends and midpoint.
 class BestStep {
  public:
   BestStep(const MarchFaces& faces, const std::vector<double>& distance) : faces_(faces), distance_(distance) {}
 
+  /// Considers the steps to one side.
   /// @param start slot of the corner or side that the point lies on
-  /// @param at where the point lies, in the plane of the face
-  /// @param after,before where the ends of the side lie
+  /// @param at position of the point in the plane of the face
+  /// @param after,before positions of the ends of the side
   void offer(int start, const Vector2d& at, int side, const Vector2d& after, const Vector2d& before) {
     const int edge = faces_.edgeAt(side), middle = faces_.vertices + edge;
     const Vector2d half = (after + before) / 2;
@@ -54,13 +55,13 @@ class BestStep {
               side);
   }
 
-  /// Its `to` is -1 if there is no way.
+  /// The best step; its `to` is -1 if there is none.
   const Step& step() const { return best_; }
 
  private:
   struct Half {
     Vector2d from, to;
-    double at_from, at_to;  ///< distances
+    double at_from, at_to;  ///< distances from the target
     double first, last;     ///< fractions of the side
   };
 
@@ -113,7 +114,7 @@ Step stepFrom(const MarchFaces& faces, const std::vector<double>& distance, int 
   return best.step();
 }
 
-/// The best step from where the step before has met an edge.
+/// The best step from where the last one has met an edge.
 Step stepOn(const MarchFaces& faces, const std::vector<double>& distance, const Step& step) {
   const int edge = step.to - faces.vertices;
   BestStep best(faces, distance);
@@ -130,8 +131,8 @@ Step stepOn(const MarchFaces& faces, const std::vector<double>& distance, const 
   return best.step();
 }
 
-/// Takes a strip that has come to a side one step on.
-/// @param strip its `end` is the slot of that side
+/// Extends a strip that ends at a side by one step.
+/// @param strip `end` is the slot of that side
 void goOn(const MarchFaces& faces, const Step& step, Strip& strip) {
   const int leave = strip.end, enter = step.start;
   if (step.to < faces.vertices && step.end != enter) {  // along the side to one of its ends
@@ -148,7 +149,8 @@ std::vector<Strip> stripsDownhill(const MarchFaces& faces, const std::vector<dou
   std::vector<Strip> strips;
   Strip strip;
   Step step{from, -1, -1, 0, distance[from]};
-  std::size_t left = 3 * faces.faces.size();  // who crosses more sides than there are goes in circles by rounding
+  std::size_t left =
+      3 * faces.faces.size();  // a path that crosses more sides than there are runs in circles by rounding
   while (step.to >= faces.vertices || distance[step.to] > 0) {
     const bool is_at_vertex = step.to < faces.vertices;
     const Step next = is_at_vertex ? stepFrom(faces, distance, step.to) : stepOn(faces, distance, step);

@@ -5,15 +5,15 @@
 #include "algorithms/march_faces.h"
 #include "algorithms/strip.h"
 
-// Paths that are to be straightened.
+// First paths between two vertices, not yet shortest.
 
 namespace tufted {
 
-/// The way from a vertex down the distances to where they are 0, straight across each face to where its boundary is
-/// nearest to the target, which is unfolded beyond each half of a side. Empty where it comes to a point from which none
-/// is nearer, as where points are closer than their distances tell.
-/// @param distance of the vertices and then of the middles of the edges, see MarchResult
-/// @returns a strip from each vertex to the next
+/// The path from a vertex down the marched distance to where it is 0 (docs/algorithm.md, section 18, paths, step 1). In
+/// each face it runs straight to where the other sides are nearest to the target, which is unfolded by the distances at
+/// their ends and midpoints. Empty if no side leads nearer, as rounding may cause.
+/// @param distance of the vertices, then of the midpoints of the edges, see MarchResult
+/// @returns one strip from each vertex on the path to the next
 std::vector<Strip> stripsDownhill(const MarchFaces& faces, const std::vector<double>& distance, int from);
 
 /// The shortest edge path between two vertices of one component (Dijkstra).

@@ -11,7 +11,7 @@ float cross(const Eigen::Vector2f& a, const Eigen::Vector2f& b) {
   return a[0] * b[1] - a[1] * b[0];
 }
 
-/// Whether x lies within the sector from a to b, which is smaller than half a turn.
+/// Whether x lies within the sector from a counterclockwise to b, of less than pi.
 bool isWithin(const Eigen::Vector2f& x, const Eigen::Vector2f& a, const Eigen::Vector2f& b) {
   return cross(a, x) > 0 && cross(x, b) > 0;
 }
@@ -34,9 +34,9 @@ Eigen::Vector2f GrowingSurface::direction(int from, int to) const {
 bool GrowingSurface::fits(int point, const Sector& sector) const {
   if (offset_[point] + size_[point] == offset_[point + 1]) return false;
   const int a = sector.first, b = sector.second;
-  int at_a = 0, at_b = 0;  // triangles with these edges
+  int at_a = 0, at_b = 0;  // number of triangles at these edges
   for (const Sector& other : sectorsAt(point)) {
-    // Both start, or both end, at one edge: they lie on the same side of it.
+    // Two sectors that both begin or both end at an edge overlap.
     if (other.first == a || other.second == b) return false;
     at_a += other.second == a ? 1 : 0;
     at_b += other.first == b ? 1 : 0;

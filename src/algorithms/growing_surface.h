@@ -11,44 +11,44 @@
 
 namespace tufted {
 
-/// A surface that is put together from triangles: no edge gets three, and around no corner do two of them overlap in
-/// its tangent plane.
+/// A surface assembled from triangles: no edge has more than two, and no two overlap around a corner in its tangent
+/// plane (docs/algorithm.md, section 23).
 class GrowingSurface {
  public:
-  /// @param frames of the points, in whose planes triangles are compared; borrowed
+  /// @param frames of the points; borrowed
   /// @param positions of the points; borrowed
-  /// @param most how many triangles there may be at each point
+  /// @param most N; maximum number of triangles at each point
   GrowingSurface(const Frames& frames, const Points& positions, const std::vector<int>& most);
 
-  /// Adds a triangle if it fits.
+  /// Adds a triangle if the surface allows it. False if not.
   bool add(const std::array<int, 3>& corners);
-  /// Takes back the triangle that was added last.
+  /// Removes the triangle that was added last.
   void removeLast();
 
   const std::vector<std::array<int, 3>>& triangles() const { return triangles_; }
-  /// How many triangles have the edge.
+  /// Number of triangles at an edge.
   int facesAt(int a, int b) const;
-  /// The other ends of the edges of one triangle at a point.
+  /// The other ends of the edges at a point that have one triangle, ascending.
   void openNeighbors(int point, std::vector<int>& neighbors) const;
-  /// The fans that the triangles around a point form.
+  /// Number of fans that the triangles around a point form.
   int fansAround(int point) const;
 
  private:
-  /// A triangle at one of its corners: the other two, counterclockwise in the tangent plane.
+  /// A triangle seen from one corner: the other two, counterclockwise in its tangent plane.
   struct Sector {
     int first, second;
-    Eigen::Vector2f to_first, to_second;  ///< their directions
+    Eigen::Vector2f to_first, to_second;  ///< their directions from the corner, in its frame
   };
 
   std::span<const Sector> sectorsAt(int point) const { return {sectors_.data() + offset_[point], size_[point]}; }
-  /// Whether there is room for a triangle at a corner, and it overlaps none of those there.
+  /// Whether a triangle may be added at one of its corners.
   bool fits(int point, const Sector& sector) const;
   Eigen::Vector2f direction(int from, int to) const;
 
   const Frames& frames_;
   const Points& positions_;
   std::vector<std::array<int, 3>> triangles_;
-  std::vector<std::int64_t> offset_;  ///< N + 1, of the sectors of each point
+  std::vector<std::int64_t> offset_;  ///< N + 1; first place in `sectors_` of each point
   std::vector<std::uint32_t> size_;   ///< N
   std::vector<Sector> sectors_;
 };

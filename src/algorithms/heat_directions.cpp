@@ -1,4 +1,5 @@
-// Step 2 of the heat method (Crane, Weischedel, Wardetzky 2013, 2017): the normalised gradient of heat.
+// Step 2 of the heat method (Crane, Weischedel, Wardetzky 2013, 2017): the normalised gradient of heat, and its
+// divergence.
 #include "algorithms/heat_directions.h"
 
 #include <algorithm>
@@ -9,7 +10,7 @@
 namespace tufted {
 namespace {
 
-/// Faces that wait for heat: those that are not `still`, in components with heat.
+/// Faces whose direction is still unknown: those that are not `still`, in components with heat.
 std::vector<int> waitingFaces(const HeatProblem& problem, const VectorXd& heat,
                               const std::vector<std::uint8_t>& still) {
   const Components& components = problem.components;
@@ -47,7 +48,7 @@ VectorXd divergenceOfHeat(const std::string& function, const HeatProblem& proble
         if (isKnown(face)) outflow[k] = divergence(face, -gradientDirection(face, log_u[a], log_u[b], log_u[c]));
       }
     });
-    // Added in the order of the faces, whatever the number of threads.
+    // Sums run in the order of the faces, so that the number of threads does not matter.
     std::size_t kept = 0;
     for (std::int64_t k = 0; k < count; ++k) {
       const SurfaceFace& face = problem.surface.faces[waiting[k]];

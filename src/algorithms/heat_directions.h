@@ -10,10 +10,10 @@
 
 namespace tufted {
 
-/// The divergence of X = -grad u / |grad u| (weak: N integrals against hat functions), where u is the heat that starts
-/// as `heat`. X is zero in the faces that are `still`.
+/// The weak divergence (N integrals against hat functions) of X = -grad u / |grad u|, where u is the heat that spreads
+/// from `heat`.
 /// @param heat N, >= 0
-/// @param still by face; not 0 where X is zero
+/// @param still by face; other than 0 where X is set to 0
 /// @param report gets rounds, iterations, the residual and the backward error
 /// @throws SolverFailure and Cancelled in the name of `function`
 VectorXd divergenceOfHeat(const std::string& function, const HeatProblem& problem, const VectorXd& heat,

@@ -20,12 +20,13 @@ namespace tufted {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-/// A mass below this part of its row of L is lost when the two are added, and the matrix may become singular.
+/// A mass below this part of the diagonal of L is raised to it: it would be lost in the sum, and the matrix might be
+/// singular.
 constexpr double least_mass = 1e-13;
 
 constexpr const char* constructor = "DistanceSolver";
 
-/// The matrix M / t + L of the heat equation, with M from the areas of the faces.
+/// The matrix M / t + L of the heat equation, M being the lumped areas of the faces.
 /// @param time of each component
 SparseMatrix heatMatrix(const Laplacian& laplacian, const SurfaceFaces& surface, const Components& components,
                         const VectorXd& time) {
@@ -39,7 +40,7 @@ SparseMatrix heatMatrix(const Laplacian& laplacian, const SurfaceFaces& surface,
   return A;
 }
 
-/// Distance and heat that the sources give, by active point.
+/// Distance and heat at the points next to sources, N each.
 struct Sources {
   VectorXd distance;  ///< in the solver's unit; infinite away from sources
   VectorXd heat;
@@ -88,7 +89,7 @@ HeatDistance::HeatDistance(const Laplacian& laplacian, const Components& compone
     interior.resize(n);
     for (Eigen::Index i = 0; i < n; ++i) interior[i] = isInner(laplacian.boundary[i]) ? 1 : 0;
   }
-  // All factors are held at once, and are about as large.
+  // All factors are held at once, and have about the same size.
   const int factors = interior.size() > 0 ? 3 : 2;
   SolverOptions one = options.solver;
   one.memory_limit = std::max<std::size_t>(memoryLimit(options.solver.memory_limit) / factors, 1);
@@ -117,17 +118,17 @@ Sources HeatDistance::State::locate(const std::vector<PlaceInCover>& places) con
       const int i = point.corners[k];
       if (components.of[i] < 0) continue;
       found.distance[i] = std::min(found.distance[i], std::ldexp(point.distances[k], -surface.exponent));
-      double heat = 0;  // after flips a face may have a corner twice
+      double heat = 0;  // summed, as after flips a face may have a corner twice
       for (int m = 0; m < 3; ++m)
         if (point.corners[m] == i) heat += point.weights[m];
-      // The greater heat and not the sum, so that a source counts once.
+      // The maximum of repeated sources, not their sum, so that each counts once.
       found.heat[i] = std::max(found.heat[i], heat);
     }
   }
   return found;
 }
 
-/// Marks the faces inside a region of sources, where the gradient has no direction.
+/// Marks the faces whose corners are all sources, where the gradient has no direction.
 std::vector<std::uint8_t> HeatDistance::State::facesInside(const Sources& sources) const {
   std::vector<std::uint8_t> inside(surface.faces.size(), 0);
   for (std::size_t f = 0; f < inside.size(); ++f) {
@@ -138,7 +139,8 @@ std::vector<std::uint8_t> HeatDistance::State::facesInside(const Sources& source
   return inside;
 }
 
-/// Turns a function that is right up to a constant per component into distances, in the points' unit.
+/// Shifts a function, known up to a constant per component, to the distances at sources, in the points' unit; infinite
+/// on components without a source.
 void HeatDistance::State::shift(const Sources& sources, VectorXd& distance) const {
   VectorXd excess = VectorXd::Zero(distance.size()), count = VectorXd::Zero(distance.size());
   for (const int i : components.points) {

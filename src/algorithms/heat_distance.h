@@ -10,16 +10,17 @@ namespace tufted {
 
 struct Components;
 
-/// Distances by the heat method (Crane, Weischedel, Wardetzky 2013, 2017), as DistanceSolver says.
+/// Distances by the heat method (Crane, Weischedel, Wardetzky 2013, 2017), see DistanceSolver.
 class HeatDistance {
  public:
-  /// @param laplacian with a cover that was checked
-  /// @param components of the Laplacian, borrowed as long as this lives
+  /// @param laplacian with a valid cover
+  /// @param components of the Laplacian; borrowed as long as this lives
   HeatDistance(const Laplacian& laplacian, const Components& components, const DistanceOptions& options);
   ~HeatDistance();
 
-  /// @param places of which all corners are representatives, at least one on a component
-  /// @param report a new one
+  /// Computes the distance from the nearest of some places.
+  /// @param places whose corners are representatives, at least one on a component
+  /// @param report newly made; gets rounds, iterations, the residual and the backward error
   /// @return N distances in the points' unit; those of coincident points are not set
   VectorXd query(const char* function, const std::vector<PlaceInCover>& places, const Progress& progress,
                  DistanceReport& report) const;

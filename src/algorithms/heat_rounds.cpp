@@ -1,4 +1,4 @@
-// Step 1 of the heat method (Crane, Weischedel, Wardetzky 2013, 2017): heat that spreads, here in rounds.
+// Step 1 of the heat method (Crane, Weischedel, Wardetzky 2013, 2017), the spread of heat, in rounds.
 #include "algorithms/heat_rounds.h"
 
 #include <algorithm>
@@ -13,16 +13,17 @@
 namespace tufted {
 namespace {
 
-/// Heat found by elimination is accurate above this, relative to its own size: in the factor of an M-matrix and with
-/// sources >= 0 only numbers of one sign are ever added, so accuracy lasts down to underflow.
+/// Heat solved for by a factor has a small relative error above this, where the largest heat is 1: with an M-matrix and
+/// sources >= 0 only numbers of one sign are added, so accuracy lasts down to underflow.
 constexpr double valid = 1e-285;
-/// The next round starts where heat falls below this: far enough above `valid` to even out.
+/// The next round starts where heat falls below this, but is used only beyond `valid`, where the error of its start has
+/// evened out.
 constexpr double front = 1e-245;
 
 /// The tolerance of conjugate gradients for heat, which is used far below its largest value.
 constexpr double heat_tolerance = 1e-12;
 
-/// A factor, or null where it takes more memory than the options allow.
+/// The factor of a matrix; null if it takes more memory than the options allow.
 std::unique_ptr<const LinearSystem> factorise(const std::string& function, const SparseMatrix& matrix,
                                               const SolverOptions& options) {
   auto system = std::make_unique<const LinearSystem>(LinearSystem::positiveDefinite(
@@ -31,7 +32,7 @@ std::unique_ptr<const LinearSystem> factorise(const std::string& function, const
   return system;
 }
 
-/// Rounds of heat in which every round solves with the factors of the whole matrix.
+/// Rounds of heat that are solved with the factors of the whole matrix.
 class RoundsByFactor : public HeatRounds {
  public:
   RoundsByFactor(const std::string& function, const HeatProblem& problem, const VectorXd& heat,
@@ -53,7 +54,7 @@ class RoundsByFactor : public HeatRounds {
     u_ = solve(*system.closed, heat_);
     if (system.ends()) u_ = (u_ + solve(*system.open, heat_.cwiseProduct(system.interior))) / 2;
     problem_.components.normalise(u_);
-    log_heat_ = u_.array().max(0).log();  // -infinity where nothing is
+    log_heat_ = u_.array().max(0).log();  // -infinity without heat
     return true;
   }
 
@@ -66,8 +67,8 @@ class RoundsByFactor : public HeatRounds {
     return u;
   }
 
-  /// Prepares the next round, whose heat is what flows from points that heat has reached into those that it has not.
-  /// Past the front the wave is the same as if it had never stopped (Huygens). Returns whether anything flows.
+  /// Prepares the next round, which starts from the flow out of points that heat has reached into the others. Beyond
+  /// the front its heat is nearly that without a restart, up to a factor (Huygens). Returns whether anything flows.
   bool restart() {
     const auto reached = [&](Eigen::Index i) { return u_[i] >= front; };
     bool advanced = false, flows = false;

@@ -7,7 +7,7 @@
 namespace tufted {
 namespace {
 
-/// A vector of which less than this part lies in the tangent plane has no direction there.
+/// A vector whose projection into the tangent plane is shorter than this part of it has no direction there.
 constexpr double least_tangential = 1e-6;
 
 }  // namespace

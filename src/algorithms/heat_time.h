@@ -8,12 +8,12 @@
 
 namespace tufted {
 
-/// @param time_step in squared distances of neighbours
-/// @throws InvalidInput where heat would go less than a hundredth of these, or where rounding decides: next to the heat
-/// of such a time the areas of points are lost
+/// Checks the time step of the heat equation.
+/// @param time_step in mean squared edges
+/// @throws InvalidInput outside of [1e-4, 1e12]
 inline void checkHeatTime(const std::string& function, double time_step) {
-  // Bounds of the time, in squared distances of neighbours. Below, heat would go a hundredth of the way to the next
-  // point and be rounding there; above, masses are lost beside t L.
+  // Below, heat would spread a hundredth of the way to the next point and be rounding there; above, masses are lost
+  // beside t L.
   constexpr double shortest = 1e-4, longest = 1e12;
   if (!(time_step > 0 && std::isfinite(time_step)))
     throw InvalidInput(function + ": time_step = " + numberText(time_step) + ", must be finite and above 0");

@@ -1,4 +1,5 @@
-// Step 1 of the heat method (Crane, Weischedel, Wardetzky 2013, 2017) in windows, for systems too large for a factor.
+// Step 1 of the heat method (Crane, Weischedel, Wardetzky 2013, 2017), the spread of heat, in windows, for systems too
+// large for a factor.
 #include "algorithms/heat_windows.h"
 
 #include <algorithm>
@@ -10,21 +11,22 @@
 namespace tufted {
 namespace {
 
-/// Edges that a window is wide at first, and at least. Heat falls to 1e-61 over the first number of edges of mean
-/// length. If a factor does not fit, windows become as narrow as what conjugate gradients resolve.
+/// First and least width of a window in edges. Heat falls to 1e-61 over `first_layers` edges of mean length. If a
+/// factor of a window does not fit, windows shrink to the width that conjugate gradients resolve.
 constexpr int first_layers = 128, least_layers = 32;
-/// Heat is right above this part of the window's largest value. A factor keeps it right down to underflow, conjugate
-/// gradients only down to their tolerance.
+/// Heat is accurate above this part of the window's largest value: with a factor down to underflow, with conjugate
+/// gradients down to their tolerance.
 constexpr double valid_by_factor = 1e-285, valid_by_iteration = 1e-9;
-/// Heat is right above this many times the greatest heat of the window's last layer. Beyond that layer it is taken for
-/// 0; the error is the square of their ratio.
+/// Heat is accurate above this many times the greatest heat of the window's last layer. Beyond that layer it is taken
+/// for 0; the relative error is the square of their ratio.
 constexpr double above_outer = 1e6;
-/// The next round starts at this many times the least heat that is right, so that faces across the front are right at
-/// all corners.
+/// The next round starts at this many times the least accurate heat, so that faces across the front are accurate at all
+/// corners.
 constexpr double front_above_valid = 1e4;
-/// A window whose front would lie above this part of its greatest heat is widened: short edges have made it too narrow.
+/// A window whose front would lie above this part of its greatest heat is widened: its edges are short and it is too
+/// narrow.
 constexpr double highest_front = 1e-3;
-/// The logarithm of heat over that at the front is at most this: exp overflows above 709.
+/// The logarithm of heat over that at the front is cut off here: exp overflows above 709.
 constexpr double hottest = 600;
 constexpr double nothing = -std::numeric_limits<double>::infinity();
 
@@ -62,13 +64,13 @@ bool HeatWindows::next() {
     }
     layers_ *= 2;
   }
-  for (const int i : window_) log_heat_[i] = std::log(u_[i]);  // -infinity where nothing is
+  for (const int i : window_) log_heat_[i] = std::log(u_[i]);  // -infinity without heat
   if (!by_factor_) layers_ = std::max(least_layers, layers_ / 2);
   return true;
 }
 
-/// Scales the heat of passed points like that of the points ahead.
-/// @param factors by component, what the heat ahead was divided by
+/// Scales the heat of points passed in earlier rounds as that of the points ahead.
+/// @param factors by component, the divisors of the heat ahead
 void HeatWindows::scalePassed(const Eigen::VectorXd& factors) {
   for (const int i : problem_.components.points)
     if (passed_[i] != 0) log_heat_[i] -= std::log(factors[problem_.components.of[i]]);
@@ -97,11 +99,11 @@ void HeatWindows::findWindow() {
       }
     }
   }
-  outer_ = layer;  // all of the window, where nothing lies beyond
+  outer_ = layer;  // the end of the window if nothing lies beyond it
   for (const int i : window_) number_[i] = -1;
 }
 
-/// Adds half of the solution over the window, or the whole of it if the surface does not end.
+/// Solves over the window and adds half of the solution to `u_`, or all of it if the surface does not end.
 /// @param open leaves out the points where the surface ends
 void HeatWindows::solveSystem(bool open) {
   std::vector<int> points;
@@ -134,8 +136,8 @@ void HeatWindows::solveSystem(bool open) {
   for (int k = 0; k < n; ++k) u_[points[k]] += (problem_.system.ends() ? 0.5 : 1) * u[k];
 }
 
-/// Finds the window's heat, with a largest value of 1 per component.
-/// @return by component, what it was divided by
+/// Computes the window's heat, scaled to a largest value of 1 per component.
+/// @return the divisors by component
 VectorXd HeatWindows::solve() {
   u_.setZero();
   by_factor_ = true;
@@ -145,8 +147,8 @@ VectorXd HeatWindows::solve() {
   return problem_.components.normalise(u_);
 }
 
-/// Prepares the next round, whose heat is what flows from points that heat has passed into those ahead. Returns whether
-/// anything flows.
+/// Prepares the next round, which starts from the flow out of passed points into those ahead. Returns whether anything
+/// flows.
 bool HeatWindows::restart() {
   for (const int i : window_) {
     if (log_heat_[i] >= log_front_) {

@@ -13,16 +13,16 @@ namespace {
 using Vector6 = Eigen::Matrix<double, 6, 1>;
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 
-/// A pivot below this part of the largest is 0: points on a line or a conic do not determine the quadric.
+/// A pivot below this part of the largest counts as 0: points on a line or a conic do not determine the fit.
 constexpr double least_pivot = 1e-9;
 
-/// Samples that are added at once, in packets of the processor.
+/// Samples that vector instructions treat at once.
 constexpr int lanes = 4;
 using Lanes = Eigen::Array<double, lanes, 1>;
 
-/// Samples over the radius, and what a fit takes of them.
+/// Samples in units of the radius, as terms of the fit.
 struct Terms {
-  std::array<Lanes, 6> row;  ///< the terms of a fit; quadratic ones of the coordinates stretched to the whole distance
+  std::array<Lanes, 6> row;  ///< 1, u, v, U^2 / 2, U V, V^2 / 2, see SurfaceFit
   Lanes height, weight;
 };
 
@@ -35,7 +35,7 @@ Terms termsOf(const Lanes& u, const Lanes& v, const Lanes& height) {
           .weight = inner * inner};
 }
 
-/// Calls `take` with the terms of all samples. Those that fill up the last lanes have the weight 0.
+/// Calls `take` with the terms of all samples. The last lanes are filled up with samples of weight 0.
 template <class Take>
 void forTerms(const HeightSamples& samples, double radius, const Take& take) {
   const std::size_t count = samples.u.size(), whole = count - count % lanes;
@@ -57,7 +57,7 @@ void forTerms(const HeightSamples& samples, double radius, const Take& take) {
 }  // namespace
 
 std::optional<SurfaceFit> fitHeights(const HeightSamples& samples, double radius) {
-  // They hold the lower triangles of the symmetric matrices sum w r r^T and sum w^2 r r^T, row by row.
+  // Lower triangles of the symmetric matrices sum w r r^T and sum w^2 r r^T, row by row.
   std::array<Lanes, 21> sums, squared_sums;
   std::array<Lanes, 6> right_sums;
   sums.fill(Lanes::Zero());
@@ -91,7 +91,7 @@ std::optional<SurfaceFit> fitHeights(const HeightSamples& samples, double radius
   if (!(pivots.minCoeff() > least_pivot * pivots.maxCoeff())) return std::nullopt;
   SurfaceFit fit;
   fit.coefficients = factor.solve(right);
-  // Of independent errors: sum w e^2 has the mean variance * (sum w - trace(N^-1 sum w^2 r r^T)).
+  // For independent errors, sum w e^2 has the mean variance * (sum w - trace(N^-1 sum w^2 r r^T)).
   const Matrix6 inverse = factor.solve(Matrix6::Identity());
   fit.freedom = weights.sum() - inverse.cwiseProduct(squared).sum();
   for (Eigen::Index i = 0; i < 3; ++i) {

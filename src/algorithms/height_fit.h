@@ -6,7 +6,7 @@
 
 namespace tufted {
 
-/// Points over a tangent plane, in any one unit: two coordinates in it and the height.
+/// Points over a tangent plane: two coordinates in it and the height, all in one unit.
 struct HeightSamples {
   std::vector<double> u, v, height;
 
@@ -22,24 +22,25 @@ struct HeightSamples {
   }
 };
 
-/// The surface h = a + b u + c v + d U^2 / 2 + e U V + f V^2 / 2, all over the radius of a window, where (U, V) points
-/// as (u, v) does and is as long as (u, v, h): U^2 + V^2 = u^2 + v^2 + h^2. So a sphere is such a surface however wide
-/// the window, where heights would need ever higher powers of u and v, and other surfaces are nearly so.
+/// The surface h = a + b u + c v + d U^2 / 2 + e U V + f V^2 / 2, lengths in units of a window's radius, where (U, V)
+/// has the direction of (u, v) and the length of (u, v, h). A sphere is exactly such a surface in a window of any
+/// width.
 ///
-/// Where a is 0, the curvatures at the origin are the eigenvalues of -(d, e; e, f) / sqrt(1 + b^2 + c^2), positive
-/// where the surface falls on all sides.
+/// If a = 0, the curvatures at the origin are the eigenvalues of -(d, e; e, f) / sqrt(1 + b^2 + c^2), positive where
+/// the surface falls on all sides.
 struct SurfaceFit {
   Eigen::Matrix<double, 6, 1> coefficients;
-  Eigen::Vector3d deviation;  ///< standard deviations of d, e, f for independent errors of the heights of 1
-  double freedom;             ///< that independent errors of the heights of 1 would leave over, weighted, squared
+  Eigen::Vector3d deviation;  ///< standard deviations of d, e, f for independent height errors of 1
+  double freedom;             ///< expected weighted sum of squared residuals for such errors
 };
 
 /// Fits heights by weighted least squares. The weight (1 - u^2 - v^2 - h^2)^2 falls to 0 at the radius.
-/// @return nothing where the samples lie on a line or a conic, so that the fit is not determined
+/// @param radius of the window, > 0, in the unit of the samples
+/// @return nullopt if the samples lie on a line or a conic
 std::optional<SurfaceFit> fitHeights(const HeightSamples& samples, double radius);
 
-/// Standard deviation of the heights over the radius, from what the fit leaves over; infinite where it leaves no
-/// freedom.
+/// Standard deviation of the height errors over the radius, from the residuals of a fit; infinite if `freedom` is not
+/// positive.
 double errorOf(const SurfaceFit& fit, const HeightSamples& samples, double radius);
 
 }  // namespace tufted

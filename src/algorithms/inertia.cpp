@@ -12,7 +12,7 @@ namespace {
 
 class Factor : public Eigen::SimplicialLDLT<LongMatrix> {
  public:
-  /// Memory of the factor; known after the analysis.
+  /// Bytes of the factor; known after the analysis.
   std::size_t bytes() const {
     return static_cast<std::size_t>(m_matrix.outerIndexPtr()[m_matrix.outerSize()]) *
            (sizeof(double) + sizeof(std::int64_t));
@@ -27,7 +27,7 @@ std::optional<Eigen::Index> eigenvaluesBelow(const SparseMatrix& L, const Vector
   for (const int i : points) selection.add(i);
   const LongMatrix lower =
       lowerTriangle(L, selection, [&](int i, int j, double value) { return i == j ? value - bound * mass[i] : value; });
-  // Eigen's factor, as CHOLMOD's fast part only factors positive definite matrices.
+  // Eigen's factor, as CHOLMOD's supernodal one is for positive definite matrices only.
   Factor factor;
   factor.analyzePattern(lower);
   if (factor.bytes() > memory_limit) return std::nullopt;

@@ -25,13 +25,13 @@
 namespace tufted {
 namespace {
 
-/// The last correction of harmonic() is at most the first of these parts of the pins' range, that of biharmonic(),
-/// whose system squares the condition, at most the second.
+/// The last correction must be at most this part of the range of values: the first for harmonic(), the second for
+/// biharmonic(), whose matrix has the squared condition number.
 constexpr double promised = 1e-12, promised_of_bending = 1e-3;
 
 Eigen::MatrixXd finish(const Laplacian& laplacian, Eigen::MatrixXd u, const Stopwatch& watch, SolveReport made,
                        SolveReport* report) {
-  copyToCoincident(laplacian, u);  // pinned copies keep the mean of their place
+  copyToCoincident(laplacian, u);  // coincident pins get the mean of their values
   if (!(made.residual <= large_residual)) made.weak_joint = weakestJoint(laplacian.L);
   made.seconds = watch.seconds();
   if (report != nullptr) *report = made;
@@ -47,13 +47,13 @@ Eigen::MatrixXd weighted(const Laplacian& laplacian, const Eigen::MatrixXd& f) {
   return b;
 }
 
-/// Advice for errors. It does not mention the tolerance: corrections make a solve exact whatever that is.
+/// Advice for errors. It does not mention the tolerance, as corrections make solves exact with any.
 constexpr const char* if_slow = "raise max_iterations, or set method to SolverMethod::cholesky";
 
-/// The matrix that a function of one kind solves, over one set of pins and factored.
+/// The factored system of harmonic or biharmonic functions for one set of pinned points.
 class Interpolator {
  public:
-  /// @param function to be named in errors
+  /// @param function named in errors
   Interpolator(const std::string& function, const Laplacian& laplacian, std::vector<int> points, Interpolation kind,
                const SolverOptions& options)
       : kind_(kind), points_(std::move(points)) {
@@ -74,8 +74,8 @@ class Interpolator {
 
   /// Solves with given values at the pins.
   /// @param b N x c
-  /// @param watch runs since the system began to be made, or, where it was there, the solve
-  /// @param iterations before this solve, to be reported with it
+  /// @param watch started before the system was made or, if it is reused, before the solve
+  /// @param iterations those of making the system, added to the report
   Eigen::MatrixXd solve(const std::string& function, const Laplacian& laplacian, const Eigen::MatrixXd& values,
                         const Eigen::MatrixXd& b, const Stopwatch& watch, int iterations, const Progress& progress,
                         SolveReport* report) const {
@@ -101,7 +101,7 @@ class Interpolator {
     return finish(laplacian, std::move(u), watch, made, report);
   }
 
-  /// The right side with which M^-1 L u is as near to f as it can be, in the norm of M.
+  /// The right side for which M^-1 L u is as near to f as possible, in the norm of M; for harmonic functions M f.
   /// @param f N x c
   Eigen::MatrixXd rightOf(const Laplacian& laplacian, const Eigen::MatrixXd& f) const {
     Eigen::MatrixXd b = weighted(laplacian, f);
@@ -117,8 +117,8 @@ class Interpolator {
  private:
   Interpolation kind_;
   std::vector<int> points_;
-  VectorXd inverse_;      ///< of biharmonic functions: 1 over M over its mean
-  SparseMatrix bending_;  ///< of biharmonic functions
+  VectorXd inverse_;      ///< for biharmonic functions: see inverseMasses()
+  SparseMatrix bending_;  ///< for biharmonic functions: L M^-1 L
   std::optional<PinnedSolver> solver_;
 };
 
@@ -126,7 +126,7 @@ Eigen::MatrixXd noRight(const Laplacian& laplacian, Eigen::Index columns) {
   return Eigen::MatrixXd::Zero(laplacian.L.rows(), columns);
 }
 
-/// Makes a system for one solve.
+/// Makes a system, solves once, and discards it.
 Eigen::MatrixXd solveOnce(const std::string& function, const Laplacian& laplacian, const Pins& pins,
                           const Eigen::MatrixXd& b, Interpolation kind, const SolverOptions& options,
                           SolveReport* report) {
@@ -163,8 +163,8 @@ LinearSystem systemOf(const std::string& function, const Laplacian& laplacian, c
   return LinearSystem::laplacian({.function = function, .matrix = "L"}, laplacian, options);
 }
 
-/// Solves L u = b by components, with mean 0.
-/// @param watch runs since the system began to be made, or, where it was there, the solve
+/// Solves L u = b with mean 0 by M on each component; NaN at points that are not active.
+/// @param watch started before the system was made or, if it is reused, before the solve
 Eigen::MatrixXd solveBalanced(const std::string& function, const Laplacian& laplacian, const LinearSystem& system,
                               const Eigen::MatrixXd& b, const Stopwatch& watch, const Progress& progress,
                               SolveReport* report) {
@@ -176,7 +176,7 @@ Eigen::MatrixXd solveBalanced(const std::string& function, const Laplacian& lapl
   return finish(laplacian, std::move(u), watch, made, report);
 }
 
-/// The right sides of Green's functions, which must be of points on a component.
+/// The right sides of Green's functions, N x points: 1 at each point, which must be active.
 Eigen::MatrixXd unitSources(const std::string& function, const Laplacian& laplacian, const std::vector<int>& points) {
   const int n = static_cast<int>(laplacian.status.size());
   if (points.empty()) throw InvalidInput(function + ": points is empty, must name at least one");

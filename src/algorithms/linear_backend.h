@@ -11,25 +11,25 @@
 
 namespace tufted {
 
-/// Thrown if iterations do not suffice; LinearSystem turns it into a SolverFailure.
+/// Thrown if `max_iterations` do not suffice; LinearSystem turns it into a SolverFailure.
 struct NotConverged {
   int iterations;
   double residual;  ///< |b - A x| / |b|
 };
 
-/// Called with the fraction of a solve that is done; may throw to end it.
+/// Called with the fraction of a solve that is done; may throw to cancel it.
 using Tick = std::function<void(double)>;
 
-/// A positive definite system that is prepared for solves.
+/// A positive definite system, prepared for repeated solves.
 class LinearBackend {
  public:
   virtual ~LinearBackend() = default;
   /// Replaces right sides (n x c) by solutions. May be called from several threads at once.
-  /// @return iterations, the most of any column; 0 with a factor
+  /// @return most iterations of any column; 0 with a factor
   /// @throws NotConverged, std::bad_alloc, and what `tick` throws
   virtual int solve(Eigen::Ref<Eigen::MatrixXd> x, const Tick& tick) const = 0;
-  /// Takes the factor of another matrix with the same pattern, in the memory and the order of the one before. False if
-  /// the matrix is not positive definite; then, and without a factor, solve() must not be called any more.
+  /// Replaces the factor by that of another matrix with the same pattern, in the same memory and order. False if that
+  /// matrix is not positive definite or there is no factor; solve() must not be called then.
   /// @throws std::bad_alloc
   virtual bool refactor(const LongMatrix& /*lower*/) { return false; }
 
@@ -38,11 +38,11 @@ class LinearBackend {
   std::size_t bytes = 0;
 };
 
-/// The symbolic analysis of a Cholesky factor, and the factor itself on demand.
+/// A sparse Cholesky factorisation in two steps: symbolic analysis, then the factor on demand.
 class Cholesky {
  public:
   /// Orders and analyses the lower triangle of a symmetric matrix, which is borrowed.
-  /// @param limit bytes; if the first ordering needs more, another that saves memory is tried, if there is one
+  /// @param limit bytes; if the factor needs more, an ordering that saves memory is tried, if there is one
   Cholesky(const LongMatrix& lower, std::size_t limit);
   ~Cholesky();
   Cholesky(const Cholesky&) = delete;
@@ -64,8 +64,8 @@ struct MultigridOptions {
   int max_iterations;  ///< of conjugate gradients
 };
 
-/// Makes conjugate gradients, preconditioned by a V-cycle of smoothed aggregation. Null if a diagonal entry is not
-/// positive.
+/// Makes a solver by conjugate gradients, preconditioned by a V-cycle of smoothed aggregation (Vanek, Mandel, Brezina
+/// 1996). Null if a diagonal entry is not positive.
 /// @param lower lower triangle of a positive definite matrix, most of whose off-diagonals are negative
 std::unique_ptr<LinearBackend> makeMultigrid(const LongMatrix& lower, const MultigridOptions& options,
                                              const Workers& workers);

@@ -10,27 +10,27 @@
 #include "base/stage_clock.h"
 #include "tufted/errors.h"
 
-// Solves with a LinearSystem and corrections of the solutions; linear_system.cpp makes the system.
+// Solves with a LinearSystem and corrects solutions; linear_system.cpp makes the system.
 namespace tufted {
 namespace {
 
-/// Right sides that are solved together, for any number of threads: each takes half the time of one alone, and as long
-/// as among 16.
+/// Right sides that are solved together, with any number of threads: each takes half the time of a single one; with 16
+/// together it takes the same.
 constexpr Eigen::Index columns_per_block = 8;
 
 /// The most corrections of a solution; rarely more than three are needed.
 constexpr int most_corrections = 10;
-/// A correction below this part of the largest value changes nothing any more.
+/// A correction below this part of the largest value is the last.
 constexpr double negligible = 1e-15;
-/// The part of the largest value that rounding alone leaves.
+/// Sums of right sides below this part of an entry are rounding that the entry may absorb.
 constexpr double last_digits = 1e-15;
 
 }  // namespace
 
-// The functions below go column by column in one pass each, as they take as long as some solves.
+// The functions below treat column by column in one pass each, because they take as long as some solves.
 
-/// Sums over components with the digits that rounding loses (Kahan). An error in these sums of a right side cannot be
-/// corrected later: the pinned rows keep it.
+/// Sums over components by compensated summation (Kahan). An error in these sums of a right side stays in the pinned
+/// rows and cannot be corrected later.
 VectorXd LinearSystem::exactSums(const Eigen::Ref<const VectorXd>& values) const {
   VectorXd sums = VectorXd::Zero(components_->count), lost = sums;
   for (const int i : components_->points) {
@@ -57,7 +57,8 @@ LinearSystem::RightSides LinearSystem::rightSides(const Eigen::Ref<const Eigen::
       right.values(i, c) = b(i, c) - taken_out;
       right.size(i, c) = std::abs(b(i, c)) + std::abs(taken_out);
     }
-    // Rounding leaves sums that no x can have: they go into the last digits of entries that are large beside them.
+    // Rounding leaves sums other than 0, for which no x exists. They are subtracted from the last digits of large
+    // entries.
     VectorXd left = exactSums(right.values.col(c));
     for (const int i : components_->points) {
       double& sum = left[components_->of[i]];
@@ -134,8 +135,8 @@ void LinearSystem::improve(const std::string& function, const RightSides& right,
                        : remainderOf(lower_, b, solution);
   };
   Remainder left = measured(right.values, right.size, x);
-  VectorXd last = VectorXd::Constant(x.cols(), HUGE_VAL);  // largest value of each column's last correction
-  std::vector<int> open;                                   // columns that go on
+  VectorXd last = VectorXd::Constant(x.cols(), HUGE_VAL);  // largest magnitude in each column's last correction
+  std::vector<int> open;                                   // columns still to be corrected
   for (int c = 0; c < x.cols(); ++c)
     if (thorough || !isGood(left, c)) open.push_back(c);
   int rounds = 0;
@@ -149,14 +150,14 @@ void LinearSystem::improve(const std::string& function, const RightSides& right,
     for (std::size_t k = 0; k < open.size(); ++k) {
       const int c = open[k];
       const double largest = largestOf(step.col(static_cast<Eigen::Index>(k)));
-      if (!(largest < last[c] / 2)) continue;  // rounding is all that is left
+      if (!(largest < last[c] / 2)) continue;  // only rounding remains
       Eigen::MatrixXd column = x.col(c) + step.col(static_cast<Eigen::Index>(k));
       const Remainder now = measured(right.values.col(c), right.size.col(c), column);
       x.col(c) = column;
       left.rest.col(c) = now.rest;
       left.residual[c] = now.residual[0];
       left.backward_error[c] = now.backward_error[0];
-      // The next correction would be smaller than this one by the same factor as this one than the last.
+      // Corrections are taken to shrink by a constant factor.
       const double size = largestOf(x.col(c));
       const bool goes_on = largest * (largest / std::min(last[c], size)) > negligible * size;
       if (thorough ? goes_on : !isGood(left, c)) still_open.push_back(c);
@@ -202,7 +203,7 @@ Eigen::MatrixXd LinearSystem::solve(const std::string& function, const Eigen::Re
     const auto total = static_cast<double>(b.cols()), columns = static_cast<double>(end - begin);
     double most_done = 0;
     const Tick tick = [&](double done_here) {
-      // Only the caller's own thread talks to the caller. Corrections begin anew and are not shown.
+      // Only the caller's own thread reports progress. Corrections would begin again at 0 and are not reported.
       if (worker != 0) return;
       most_done = std::max(most_done, done_here);
       workers.report("solve", (static_cast<double>(begin) + most_done * columns) / total);

@@ -46,7 +46,7 @@ std::string bytesText(std::size_t bytes) {
 LinearSystem::LinearSystem(const SystemNames& names, const SolverOptions& options, std::size_t points)
     : names_(names), unknowns_(points), tolerance_(options.tolerance), threads_(options.threads) {}
 
-/// Prepares the system by the method chosen, or by the one that fits into memory.
+/// Prepares the backend by the method chosen, or by the one that fits into memory.
 void LinearSystem::prepare(const SolverOptions& options, const Workers& workers) {
   report_.unknowns = lower_.rows();
   if (report_.unknowns == 0) return;
@@ -143,7 +143,7 @@ LinearSystem LinearSystem::laplacian(const SystemNames& names, const Laplacian& 
   const Components& components = *system.components_;
   const Components parts = findParts(laplacian);
   system.weights_ = components.weights(laplacian.M);
-  // The first point of each part is pinned: it stays out. The part that a component begins with keeps its constant.
+  // The first point of each part is pinned and no unknown. In each component the first part is not floating.
   std::vector<bool> pinned(parts.count, false), begun(components.count, false);
   std::vector<std::uint8_t> floating(parts.count, 0);
   for (const int i : components.points) {
@@ -164,7 +164,7 @@ LinearSystem LinearSystem::laplacian(const SystemNames& names, const Laplacian& 
   system.lower_ = {};
   if (parts.count > components.count) system.separate(parts, floating);
   if (system.backend_ && !system.report_.iterative && !system.joints_) {
-    // L z = 1 at the pinned points, minus the weights.
+    // L z = (1 at the pinned points) - weights.
     Eigen::MatrixXd right = -system.weights_;
     for (const int i : system.pinned_) right(i, 0) += 1;
     int iterations = 0;

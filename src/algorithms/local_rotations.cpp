@@ -11,7 +11,7 @@ Eigen::Matrix3d nearestRotation(const Eigen::Matrix3d& products) {
   if (!(size > 0)) return Eigen::Matrix3d::Identity();
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(products / size, Eigen::ComputeFullU | Eigen::ComputeFullV);
   Eigen::Matrix3d u = svd.matrixU();
-  // The direction that is known least, that of the normal, makes it a rotation.
+  // Against a reflection, the direction of the least singular value is reversed: nearly the normal.
   if (u.determinant() * svd.matrixV().determinant() < 0) u.col(2) *= -1;
   return u * svd.matrixV().transpose();
 }

@@ -23,14 +23,14 @@ namespace {
 constexpr const char* constructor = "LogMapSolver";
 constexpr const char* query_name = "LogMapSolver::query";
 
-/// Directions that lead away from the source start in a ring between these distances from it, in mean distances of
-/// neighbours: nearer points are few, and wider rings reach over features.
+/// The field of directions away from the source starts in a ring between these distances from it, in units of
+/// FieldHeat::spacingAt(): nearer points are few, and wider rings reach over features.
 constexpr double ring_begin = 2, ring_end = 8;
-/// A point of the ring counts with at least this area, in mean squared distances, so that a ring of points without
-/// areas still has directions.
+/// The least area of a point of the ring, in units of spacingAt() squared, so that points of mass 0 have directions,
+/// too.
 constexpr double least_area = 1e-3;
 
-/// The weight of a point at this distance from the source.
+/// The weight of a point by its distance from the source, in units of spacingAt().
 double ringWeight(double distance) {
   const double place = (2 * distance - ring_begin - ring_end) / (ring_end - ring_begin);
   const double inner = std::max(0.0, 1 - place * place);
@@ -48,12 +48,12 @@ struct LogMapSolver::State {
   FieldHeat heat;
   SolverReport report;
 
-  /// Where a point lies in the tangent plane of the source, in the coordinates of its frame and mean distances of
-  /// neighbours.
+  /// The offset of a point from the source, in the source's frame and units of spacingAt().
   Eigen::Vector2d inPlane(int source, int point) const;
-  /// The points around a source that are joined to it within the ring's outer distance; at least its neighbours.
+  /// The points connected to a source within the ring's outer distance; at least its neighbours.
   std::vector<int> disc(int source) const;
-  /// What the fields start from: in their columns directions away from the source, and the two axes.
+  /// The fields to transport, as columns: directions away from the source, and the two axes at the source.
+  /// @param first the first axis, a unit vector in the frame of the source
   HeatFields startingFields(int source, const std::vector<int>& disc, const Eigen::Vector2d& first) const;
 };
 

@@ -9,9 +9,9 @@
 namespace tufted {
 namespace {
 
-/// A side of a face of the cover as one of the distinct faces.
+/// Where a side of the cover lies in the distinct faces.
 struct PlacedSide {
-  int slot;   ///< of the side
+  int slot;   ///< slot of the side
   int start;  ///< slot of the corner that the side runs from
 };
 
@@ -20,7 +20,7 @@ PlacedSide placedSide(const IntrinsicTriangulation& cover, const MarchFaces& fac
   const auto& corners = cover.faces[face];
   std::array<double, 3> opposite;
   for (int i = 0; i < 3; ++i) opposite[i] = std::ldexp(cover.length[3 * face + (i + 1) % 3], -faces.exponent);
-  // The corners in the order into which distinctFace() sorts them.
+  // The order of the corners in distinctFace().
   std::array<int, 3> order = {0, 1, 2};
   std::sort(order.begin(), order.end(),
             [&](int a, int b) { return std::pair(corners[a], opposite[a]) < std::pair(corners[b], opposite[b]); });
@@ -35,7 +35,7 @@ PlacedSide placedSide(const IntrinsicTriangulation& cover, const MarchFaces& fac
   return {slotOf((k + 2) % 3), slotOf(k)};
 }
 
-/// A side that is glued to another one, and whether the corners after them are one end.
+/// Two sides that are glued to each other, and whether the corners after them are the same end of the edge.
 struct JoinedSides {
   int side, other;
   bool is_same;
@@ -47,7 +47,7 @@ std::vector<JoinedSides> loopJoints(const IntrinsicTriangulation& cover, const M
     const auto& corners = cover.faces[side / 3];
     if (corners[side % 3] != corners[(side + 1) % 3]) continue;
     const PlacedSide here = placedSide(cover, faces, side), there = placedSide(cover, faces, cover.glue[side]);
-    // The other one runs back: it starts where this one ends.
+    // The other side starts where this one ends.
     const bool starts_after = here.start == nextSide(here.slot), ends_after = there.start == nextSide(there.slot);
     joints.push_back({here.slot, there.slot, starts_after != ends_after});
   }

@@ -1,4 +1,5 @@
-// Fast marching (Kimmel, Sethian 1998) with the source unfolded into the plane of each triangle.
+// Fast marching (Kimmel, Sethian 1998), the source unfolded into the plane of each triangle (docs/algorithm.md, section
+// 18).
 #include "algorithms/march.h"
 
 #include <Eigen/Geometry>
@@ -17,10 +18,10 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Labels between two calls of `progress`.
 constexpr std::int64_t between_reports = 65536;
-/// A distance may be shorter than the straight line by this part, by rounding.
+/// A distance may be shorter than the straight line by this part because of rounding.
 constexpr double straight_rounding = 1e-13;
 
-/// The triangles of faces as they are.
+/// The faces as triangles, not cut.
 struct WholeFaces {
   const MarchFaces& faces;
 
@@ -38,7 +39,7 @@ struct WholeFaces {
   }
 };
 
-/// The triangles of faces that are cut into four at the middles of their sides.
+/// The four triangles into which each face is cut at the midpoints of its sides.
 struct SplitFaces {
   const MarchFaces& faces;
 
@@ -71,8 +72,8 @@ struct SplitFaces {
   }
 };
 
-/// One march. All that are equally near are taken together, and distances change only when all new ones are known, so
-/// that the order of vertices and faces does not matter.
+/// One march. Equally near labels are frozen together, and new distances are set only when all are known, so that the
+/// order of vertices and faces does not matter.
 template <class Faces, class Labels>
 class March {
  public:
@@ -86,7 +87,8 @@ class March {
 
   void start(const MarchStart& start) {
     const int label = labels_.labelAt(start.vertex, start.source, heap_);
-    // A source in a face may be nearer to the middle of a bent edge than to where that counts as lying.
+    // In a face, a source may be nearer to the midpoint of a bent edge than to the position assumed for it, halfway
+    // between the ends.
     offer(label, std::max(start.distance, straightTo(label)));
   }
 
@@ -106,14 +108,14 @@ class March {
  private:
   struct Corner {
     int label;
-    MarchTriangle triangle;  ///< with labels of the same source for vertices
+    MarchTriangle triangle;  ///< its vertices are labels of the same source
   };
   struct Offer {
     int label;
     double distance;
   };
 
-  /// Freezes all labels that are nearest. @returns whether there are some
+  /// Freezes all labels of the least distance. False if none is left.
   bool takeNearest() {
     nearest_.clear();
     if (heap_.empty()) return false;
@@ -133,7 +135,7 @@ class March {
     return true;
   }
 
-  /// Offers distances to the neighbours of the nearest labels.
+  /// Offers distances from the labels just frozen to their neighbours.
   void spread() {
     fans_.clear();
     for (const int a : nearest_) addFan(a);
@@ -157,7 +159,7 @@ class March {
     labels_.setReach(a, longest);
   }
 
-  /// Whether distances up to the maximum can come from a label: through one of its edges from beyond it.
+  /// Whether a label may lead to distances up to the maximum. One beyond the maximum may, through its edges.
   bool isUseful(int a) const {
     const double beyond = labels_.distance(a) - maximum_;
     if (beyond <= 0) return true;
@@ -182,7 +184,7 @@ class March {
     if (!labels_.isFrozen(t.b)) throughEdge(a, {t.c, t.b, t.ac, t.ab, t.bc, t.double_area, t.is_bent});
   }
 
-  /// Offers a distance to the last corner of a triangle, through the edge between the others.
+  /// Offers a distance to corner c of a triangle through its edge ab.
   void throughEdge(int a, const MarchTriangle& t) {
     const auto& [b, c, ab, ac, bc, double_area, is_bent] = t;
     const double from_a = labels_.distance(a), from_b = labels_.distance(b);
@@ -198,20 +200,18 @@ class March {
     if (must_see || labels_.mayBe(c, distance)) offers_.push_back({c, distance});
   }
 
-  /// The straight line from the source; 0 where its position is not known. Middles of edges count as halfway between
-  /// their ends.
+  /// Straight distance of a label from its source; 0 if positions are not known.
   double straightTo(int label) const {
     if (sources_.empty()) return 0;
     return (faces_.position(labels_.vertexOf(label)) - sources_[static_cast<std::size_t>(labels_.sourceOf(label))])
         .norm();
   }
 
-  /// Whether a distance is shorter than the straight line: the source unfolded into the triangle is nearer than it can
-  /// be, as the edge between the other corners leads past what lies between them. That of a triangle whose sides are
-  /// straight never is, if those of its other corners are not (Stewart's theorem).
+  /// Whether a distance is below the straight line. Stewart's theorem excludes that for a triangle with straight sides
+  /// if it does not hold at its other corners, but the unfolded source may be too near if an edge is bent in space.
   bool isTooShort(int label, double distance) const { return distance < (1 - straight_rounding) * straightTo(label); }
 
-  /// The distance through the triangle that the corners span in space, whose sides are straight.
+  /// The distance through the triangle that the corners span in space.
   double distanceInSpace(int a, int b, int c, bool must_see) const {
     const Eigen::Vector3d at_a = faces_.position(labels_.vertexOf(a));
     const Eigen::Vector3d to_b = faces_.position(labels_.vertexOf(b)) - at_a,
@@ -222,7 +222,7 @@ class March {
   }
 
   /// Lowers distances along edges until none exceeds that of a neighbour by more than the length of their edge. Only
-  /// what was frozen after a farther neighbour can lower it.
+  /// vertices that were frozen after farther ones can lower others.
   void limitSlopes() {
     const auto lower = [&](int a, int b, double ab) {
       const double distance = result_.distance[a] + ab;
@@ -238,7 +238,7 @@ class March {
       });
     };
     if (late_.empty()) return;
-    heap_ = MarchHeap(faces_.size());  // of vertices, no longer of labels
+    heap_ = MarchHeap(faces_.size());  // now of vertices, not of labels
     for (const int a : late_) relax(a);
     while (!heap_.empty()) {
       const int a = heap_.top().number;
@@ -255,7 +255,7 @@ class March {
   const double maximum_;
   const Workers& workers_;
   MarchResult result_;
-  double farthest_ = 0;    ///< of all that are frozen
+  double farthest_ = 0;    ///< largest distance of a frozen label
   std::vector<int> late_;  ///< vertices that were frozen after farther ones
   std::vector<int> nearest_;
   std::vector<Corner> fans_;  ///< the triangles around each of `nearest_`

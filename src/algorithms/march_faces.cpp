@@ -12,19 +12,19 @@
 namespace tufted {
 namespace {
 
-/// Cuts of each face at most: three would take 64 times the memory of none.
+/// Each face is cut into four at most this many times: three would take 64 times the memory of none.
 constexpr int most_splits = 2;
-/// Points of a surface that is cut twice unless the caller says otherwise: its triangles are coarse, and a query takes
-/// some 30 ms.
+/// By default, surfaces of up to this many points are cut twice: their triangles are coarse, and a query takes some 30
+/// ms.
 constexpr std::int64_t few_points = 5000;
-/// Sides between the same two ends are one edge if their lengths differ by at most this part: flips on the front and on
-/// the back round differently.
+/// Sides with the same ends are one edge if their lengths differ by at most this part: flips on front and back round
+/// differently.
 constexpr double equal_lengths = 1e-9;
-/// A side that is longer than the straight line between its ends by more than this part leads over an edge in space, or
-/// mollification has made it longer. Flips in a plane round by less.
+/// A side that is longer than the straight line between its ends by more than this part was flipped around an edge in
+/// space or mollified. Flips in a plane round by less.
 constexpr double straight_side = 1e-12;
 
-/// A side at its end with the smaller number.
+/// A side, stored at its end with the smaller number.
 struct Side {
   int other;  ///< the end with the larger number
   double length;
@@ -49,8 +49,8 @@ void groupByCorner(MarchFaces& result) {
     for (int k = 0; k < 3; ++k) result.corner_slots[fill[result.faces[f].corners[k]]++] = static_cast<int>(3 * f) + k;
 }
 
-/// The sides whose smaller end is at a vertex, sorted. Corners of faces ascend, so that these are two sides at the
-/// first corner of a face, one at the second and none at the third.
+/// The sides whose smaller end is a vertex, sorted. Corners of faces ascend, so a face has two such sides at its first
+/// corner, one at the second and none at the third.
 void sidesAt(const MarchFaces& faces, int vertex, std::vector<Side>& sides) {
   sides.clear();
   const auto add = [&](int face, int side, int far) {
@@ -70,7 +70,7 @@ void sidesAt(const MarchFaces& faces, int vertex, std::vector<Side>& sides) {
 
 /// The edges whose smaller end lies in one block of vertices.
 struct EdgeBlock {
-  std::vector<int> sizes;  ///< how many sides each edge has
+  std::vector<int> sizes;  ///< number of sides of each edge
   std::vector<int> slots;
 };
 
@@ -131,7 +131,7 @@ MarchFaces wholeFaces(const std::vector<DistinctFace>& faces, int vertices, int 
   return result;
 }
 
-/// Every face cut into four at the middle of its sides.
+/// Cuts every face into four at the midpoints of its sides.
 MarchFaces splitInFour(const MarchFaces& coarse, const Workers& workers) {
   std::vector<DistinctFace> faces(4 * coarse.faces.size());
   const auto part = [](const std::array<int, 3>& corners, const MarchFace& whole) {
@@ -194,7 +194,7 @@ std::vector<int> numbersByFaces(const IntrinsicTriangulation& cover) {
 }
 
 int checkedSplit(const std::string& function, std::optional<int> split, const Laplacian& laplacian) {
-  // Points that take no part, as those of other components, make no triangle finer.
+  // Only active points have triangles.
   if (!split)
     return std::count(laplacian.status.begin(), laplacian.status.end(), PointStatus::active) <= few_points ? 2 : 1;
   if (*split >= 0 && *split <= most_splits) return *split;

@@ -7,7 +7,7 @@
 
 namespace tufted {
 
-/// A heap of numbers by key, the least first, whose keys may fall. Four children each: half as deep as with two.
+/// A heap of numbers ordered by key, the least first. Keys may be lowered.
 class MarchHeap {
  public:
   struct Entry {
@@ -18,7 +18,7 @@ class MarchHeap {
   /// @param size numbers lie in [0, size)
   explicit MarchHeap(std::size_t size) : place_(size, absent) {}
 
-  /// Allows so many more numbers.
+  /// Extends the range of numbers by `count`.
   void grow(int count) { place_.resize(place_.size() + static_cast<std::size_t>(count), absent); }
 
   bool empty() const { return entries_.empty(); }
@@ -61,7 +61,7 @@ class MarchHeap {
   }
 
  private:
-  /// The mark of an entry that is not in the heap, and the children of an entry: four make it half as deep as two.
+  /// Place of a number outside of the heap; children per entry: with four it is half as deep as with two.
   static constexpr int absent = -1, children = 4;
 
   void put(const Entry& entry, int place) {
@@ -70,7 +70,7 @@ class MarchHeap {
   }
 
   std::vector<Entry> entries_;
-  std::vector<int> place_;  ///< of each number
+  std::vector<int> place_;  ///< place of each number in `entries_`
 };
 
 }  // namespace tufted

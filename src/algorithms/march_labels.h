@@ -8,11 +8,11 @@
 
 #include "algorithms/march_heap.h"
 
-// What a march knows of the vertices. A label is the distance of a vertex from one source.
+// The state of a march. A label is the distance of a vertex from one source.
 
 namespace tufted {
 
-/// One label for each vertex, with the number of the vertex: all distances are from one source.
+/// The labels of a single source. Vertex and label have the same number.
 class LabelsOfOneSource {
  public:
   LabelsOfOneSource(std::size_t vertices, int source)
@@ -41,15 +41,15 @@ class LabelsOfOneSource {
 
  private:
   int source_;
-  std::vector<double> distance_;  ///< of each label
+  std::vector<double> distance_;  ///< by label
   std::vector<std::uint8_t> frozen_;
 };
 
-/// A label for each source that may be the nearest one at a vertex or close to it. Each source marches by itself, so
-/// that distances are those of a march from it alone, and goes no farther than that.
+/// The labels of several sources: at each vertex, one for each source that is nearest or nearly so there. Each source
+/// marches independently of the others, but only where it may be the nearest.
 class LabelsOfSeveralSources {
  public:
-  /// @param sources lie in [0, sources)
+  /// @param sources their numbers lie in [0, sources)
   LabelsOfSeveralSources(std::size_t vertices, int sources)
       : vertices_(vertices),
         labels_((vertices + block - 1) / block * block),
@@ -62,13 +62,13 @@ class LabelsOfSeveralSources {
   void setDistance(int label, double distance) { labels_[label].distance = distance; }
   bool isFrozen(int label) const { return labels_[label].is_frozen; }
 
-  /// @returns -1 if there is none
+  /// The label of a source at a vertex; -1 if there is none.
   int knownLabelAt(int vertex, int source) const {
     int label = vertex;
     while (label >= 0 && labels_[label].source != source) label = labels_[label].next;
     return label;
   }
-  /// Makes one if there is none.
+  /// The label of a source at a vertex, made if there is none.
   int labelAt(int vertex, int source, MarchHeap& heap) {
     const int known = knownLabelAt(vertex, source);
     if (known >= 0) return known;
@@ -88,17 +88,17 @@ class LabelsOfSeveralSources {
     labels_[label].is_frozen = true;
   }
 
-  /// Whether the source of a frozen label marches on from there.
+  /// Whether the source of a frozen label goes on from its vertex.
   bool goesOn(int label) const { return labels_[label].goes_on; }
-  /// Labels from which their source does not go on stand for its front beside where it does: the plane of a triangle
-  /// extended, whether or not the source sees the vertex through it.
+  /// Whether a distance through a triangle requires that the source sees the vertex. False for labels from which their
+  /// source does not go on; the plane of the triangle is extended for them.
   bool mustSee(int label) const { return isNear(label); }
   bool mayBe(int label, double distance) const { return distance > nearest(labels_[label].vertex); }
 
-  /// Says how long the edges at the vertex of a frozen label are.
+  /// Sets the longest edge at the vertex of a frozen label.
   void setReach(int label, double longest_edge) { labels_[labels_[label].vertex].longest_edge = longest_edge; }
 
-  /// The nearest source of each vertex, of equally near ones the first.
+  /// Returns the nearest source of each vertex and its distance; of equally near ones the first.
   void takeNearest(std::vector<double>& distance, std::vector<int>& source) const {
     distance.resize(vertices_);
     source.resize(vertices_);
@@ -114,23 +114,23 @@ class LabelsOfSeveralSources {
   }
 
  private:
-  /// The first label of a vertex has the number of the vertex, and says how long the edges there are.
+  /// The first label of a vertex has the vertex's number and holds its `longest_edge`.
   struct Label {
     double distance = std::numeric_limits<double>::infinity();
     double longest_edge = std::numeric_limits<double>::infinity();
     int vertex = -1;
     int source = -1;  ///< -1: not in use
-    int next = -1;    ///< label of the same vertex; -1: none
+    int next = -1;    ///< next label of the same vertex; -1: none
     bool is_frozen = false, goes_on = true;
   };
 
-  /// A source does not go on from where it is farther than the nearest source by more than this many of the longest
-  /// edges there. Each edge more makes the error a fifteenth.
+  /// A source goes on from a vertex only if it is farther than the nearest source by at most this many times the
+  /// longest edge there. Each edge more reduces the error to a fifteenth.
   static constexpr double reach = 4;
-  /// A source does not go on either from where so many others are nearer. On grids, squares and tori 2 of 213,600
-  /// distances differ from the least of single marches, by up to 3e-6, with 3, and none by 1e-9 with 5.
+  /// Nor does a source go on where this many others are nearer. On grids, squares and tori, with 3, 2 of 213,600
+  /// distances differ by up to 3e-6 from the least of single marches; with 5 none differs by 1e-9.
   static constexpr int most_nearer = 5;
-  /// Labels of a source that lie side by side in memory, or most would not be in the cache.
+  /// Labels of one source per block of memory, for the cache.
   static constexpr int block = 8;
 
   /// The least distance among the frozen labels of a vertex, infinite if it has none.
@@ -166,7 +166,7 @@ class LabelsOfSeveralSources {
 
   std::size_t vertices_;
   std::vector<Label> labels_;  ///< one for each vertex, then others in blocks
-  std::vector<int> free_;      ///< the next label of each source; a multiple of `block`: in a block to be made
+  std::vector<int> free_;      ///< next unused label of each source; a multiple of `block`: a new block is needed
 };
 
 }  // namespace tufted

@@ -5,7 +5,7 @@
 
 namespace tufted {
 
-/// A triangle a, b, c by its lengths.
+/// A triangle of vertex a and two others, by its lengths.
 struct MarchTriangle {
   int b, c;
   double ab, ac, bc;
@@ -13,10 +13,10 @@ struct MarchTriangle {
   bool is_bent;  ///< see MarchFace
 };
 
-/// How far c lies from a source that is known by its distances from a and b: the source is unfolded into the plane of
-/// the triangle, to the other side of ab, and must see c through ab. Infinite if it does not, or where no such source
-/// is. The same bits with a and b exchanged.
-/// @param must_see false: as if the plane of the triangle went on beyond a and b
+/// Distance of c from a source with given distances from a and b: the source is unfolded into the plane of the
+/// triangle, to the other side of ab. Infinite if there is no such source, or if it does not see c through ab.
+/// Exchanging a and b gives the same bits.
+/// @param must_see false: the plane of the triangle is extended beyond a and b
 inline double distanceThrough(double ab, double ac, double bc, double double_area, double from_a, double from_b,
                               bool must_see = true) {
   if (from_b < from_a || (from_b == from_a && bc < ac)) {
@@ -31,7 +31,7 @@ inline double distanceThrough(double ab, double ac, double bc, double double_are
   const double source_y = std::sqrt(square);
   const double c_x = (ab + (ac - bc) * ((ac + bc) * inverse)) / 2, c_y = double_area * inverse;
   const double across = source_y + c_y, along = c_x - source_x;
-  const double crossing = source_x * across + along * source_y;  // times `across`
+  const double crossing = source_x * across + along * source_y;  // place on ab, times `across`
   if (must_see && !(crossing >= 0 && crossing <= ab * across)) return HUGE_VAL;
   return std::sqrt(along * along + across * across);
 }

@@ -17,7 +17,8 @@
 namespace tufted {
 namespace {
 
-/// A source nearer to a side than this part of the longest one lies on it, and starts in all faces that meet there.
+/// A source nearer to a side than this part of the longest side counts as on it, and starts in all faces that meet
+/// there.
 constexpr double on_side = 1e-9;
 
 using Plane = std::array<Eigen::Vector2d, 3>;
@@ -29,7 +30,7 @@ Plane layOut(const MarchFace& face) {
   return {first, second, apexLeftOf(first, second, b, a, face.double_area)};
 }
 
-/// The numbers of the sources without those that others before them are the same as.
+/// The numbers of the sources without repeated ones.
 std::vector<int> firstOfEach(const std::vector<SurfacePoint>& sources) {
   std::vector<int> number(sources.size());
   std::iota(number.begin(), number.end(), 0);
@@ -46,11 +47,11 @@ bool hasCorner(const MarchFace& face, int vertex) {
 
 }  // namespace
 
-/// A face of the cover.
+/// A whole face of the cover.
 struct MarchingDistance::CoverFace {
-  MarchFace face;                    ///< without its edges, if cut twice
-  std::array<int, 3> middle;         ///< the vertex in the middle of each side, of which there is one if cut
-  std::span<const MarchFace> parts;  ///< the four that are stored of it, if cut twice
+  MarchFace face;                    ///< its `edges` are not set if cut twice
+  std::array<int, 3> middle;         ///< vertex at the midpoint of each side, if cut
+  std::span<const MarchFace> parts;  ///< its four stored parts, if cut twice
 };
 
 MarchingDistance::MarchingDistance(const Laplacian& laplacian, int split, const DistanceOptions& options)
@@ -66,7 +67,7 @@ MarchingDistance::MarchingDistance(const Laplacian& laplacian, int split, const 
   report_.bytes = faces_.bytes() + bytesOf(number_);
 }
 
-/// @param face a stored one
+/// The whole face that a stored face is or is part of.
 MarchingDistance::CoverFace MarchingDistance::coverFace(int face) const {
   const MarchFace& stored = faces_.faces[face];
   CoverFace result = {stored, {}, {}};
@@ -74,24 +75,24 @@ MarchingDistance::CoverFace MarchingDistance::coverFace(int face) const {
     for (int k = 0; k < 3; ++k) result.middle[k] = vertices_ + stored.edges[k];
     return result;
   }
-  // Four parts in a row: one at each corner, and one between the middles of the sides.
+  // The parts are stored one after another: one at each corner, then the one between the midpoints.
   const MarchFace* const part = &faces_.faces[face / 4 * 4];
   result.parts = {part, 4};
   result.face.double_area = 4 * part[3].double_area;
   const auto& middles = part[3].corners;
   for (int k = 0; k < 3; ++k) {
-    // Corners of a part ascend, and points come before middles.
+    // Corners of a part ascend, and vertices of the cover come before midpoints.
     result.face.corners[k] = part[k].corners[0];
     result.face.opposite[k] = 2 * part[k].opposite[0];
     const auto found =
         std::find_if(middles.begin(), middles.end(), [&](int middle) { return !hasCorner(part[k], middle); });
-    // Where two sides are one edge, the middle of that is twice in the last part, and in all others.
+    // If two sides are one edge, its midpoint is twice in the last part, and in all others.
     result.middle[k] = found != middles.end() ? *found : middles[1];
   }
   return result;
 }
 
-/// All vertices in and around a face that a source lies in are as far as they are in the plane of the face.
+/// Starts all vertices of a face that a source lies in, midpoints included, at their distance in its plane.
 /// @param weights of the source, by corner of the face
 void MarchingDistance::startIn(const CoverFace& whole, const std::array<double, 3>& weights, int source,
                                std::vector<MarchStart>& starts) const {
@@ -118,11 +119,10 @@ void MarchingDistance::startIn(const CoverFace& whole, const std::array<double, 
   }
 }
 
-/// Starts in the face of a place and, from a point on one of its sides, in all faces that meet there: none of them sees
-/// the others through that side.
-/// @param place in a face, with corners numbered as in `faces_`
+/// Starts in the face of a place and, if it lies on a side, in all faces that meet there.
+/// @param place inside a face, with corners numbered as in `faces_`
 void MarchingDistance::startInFaces(const PlaceInCover& place, std::vector<MarchStart>& starts) const {
-  // The corners of the place in the order that the face has them in.
+  // Corners of the place in the order of the face.
   std::array<int, 3> order = {0, 1, 2};
   std::array<double, 3> opposite, weights;
   for (int k = 0; k < 3; ++k) opposite[k] = std::ldexp(place.point.sides[k], -faces_.exponent);

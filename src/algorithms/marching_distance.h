@@ -9,18 +9,18 @@
 
 namespace tufted {
 
-/// Distances by fast marching, as DistanceSolver says.
+/// Distances by fast marching, see DistanceSolver.
 class MarchingDistance {
  public:
-  /// @param laplacian with a cover that was checked
+  /// @param laplacian with a valid cover
   /// @param split see checkedSplit()
   MarchingDistance(const Laplacian& laplacian, int split, const DistanceOptions& options);
 
-  /// @param sources of which all corners are representatives
+  /// Computes the nearest of some sources to each point.
+  /// @param sources whose corners are representatives
   /// @param places of the sources in the cover
-  /// @param component N; corners of places that have none, -1, are ignored
-  /// @return distances in the points' unit and sources, wherever the faces of the cover lead; those of coincident
-  /// points are not set
+  /// @param component N; corners without a component, -1, are ignored
+  /// @return distances in the points' unit and their sources; not set for coincident points
   NearestSources query(const std::vector<SurfacePoint>& sources, const std::vector<PlaceInCover>& places,
                        const std::vector<int>& component, const Progress& progress, DistanceReport& report) const;
   const SolverReport& report() const { return report_; }
@@ -34,7 +34,7 @@ class MarchingDistance {
                std::vector<MarchStart>& starts) const;
   CoverFace coverFace(int face) const;
 
-  std::vector<int> number_;  ///< of each point in `faces_`
+  std::vector<int> number_;  ///< number of each point in `faces_`
   MarchFaces faces_;
   int vertices_;
   int split_;

@@ -1,4 +1,4 @@
-// Harmonic parameterisation by mean value weights (Floater 2003).
+// Parameterisation by mean value weights (Floater 2003).
 #include "algorithms/mean_value_map.h"
 
 #include <Eigen/SparseLU>
@@ -14,9 +14,9 @@
 namespace tufted {
 namespace {
 
-/// The residual of a solution may be this part of the sum of a row's terms.
+/// Largest residual that is accepted, as a part of the largest coordinate; rows have sum 1.
 constexpr double most_left_over = 1e-10;
-/// How often the solution is corrected.
+/// Number of corrections of the solution.
 constexpr int corrections = 2;
 
 }  // namespace
@@ -38,7 +38,7 @@ void mapByMeanValues(const char* function, const Points& positions, const Chart&
   for (int k = 0; k < n; ++k) local[free[k]] = k;
   const int exponent = exponentOf(positions, chart.triangles);
 
-  // Rows are divided by their sum, so that sizes of triangles do not matter.
+  // Rows are divided by the sum of their weights, so that sizes of triangles do not matter.
   VectorXd sum = VectorXd::Zero(n);
   const auto forWeights = [&](const auto& visit) {
     for (const auto& corners : chart.triangles) {

@@ -7,10 +7,10 @@
 
 namespace tufted {
 
-/// Lays a chart out so that each point off the rim is the mean of its neighbours by mean value weights (Floater: "Mean
-/// value coordinates", 2003, Equation 2.3 at each point).
-/// @param uv N x 2; points of the rim have their position. The others of the chart get theirs.
-/// @param is_pinned N; not 0 at points of the rim, of which the chart has some
+/// Maps a chart so that each free point is the mean of its neighbours by mean value weights (Floater: "Mean value
+/// coordinates", 2003, Equation 2.3).
+/// @param uv N x 2; positions of pinned points are given, those of the chart's other points are set
+/// @param is_pinned N; not 0 at points of the rim
 /// @param report gets the residual and the method
 /// @throws SolverFailure and Cancelled in the name of `function`
 void mapByMeanValues(const char* function, const Points& positions, const Chart& chart,

@@ -13,17 +13,17 @@ namespace {
 
 using Path = std::filesystem::path;
 
-/// The limit that a file begins with, in bytes; no limit if it does not begin with a number, as in "max".
+/// The limit in bytes at the beginning of a file; SIZE_MAX if there is no number, as in "max".
 std::size_t numberIn(const Path& path) {
   std::ifstream file(path);
   std::size_t number = 0;
   return file >> number ? number : SIZE_MAX;
 }
 
-/// The least limit of a control group and of all those around it.
+/// The least limit of a control group and the groups that contain it.
 std::size_t groupLimit(const Path& top, Path group, const char* name) {
   std::size_t least = numberIn(top / name);
-  // Inside a container the group's path may be that of the host, which is not to be seen: then the top counts alone.
+  // In a container the path may be the host's and not visible; only the top counts then.
   for (; !group.empty(); group = group.parent_path()) least = std::min(least, numberIn(top / group / name));
   return least;
 }
@@ -50,7 +50,7 @@ std::size_t machineMemory() {
   return pages > 0 && size > 0 ? static_cast<std::size_t>(pages) * static_cast<std::size_t>(size) : SIZE_MAX;
 }
 
-/// MemAvailable: free memory and what caches would give back.
+/// MemAvailable: free memory and what caches can release.
 std::size_t freeMemory(const Path& root) {
   std::ifstream file(root / "proc/meminfo");
   for (std::string line; std::getline(file, line);) {

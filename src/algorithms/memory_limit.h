@@ -5,12 +5,12 @@
 
 namespace tufted {
 
-/// Bytes that this process may still take: the least of what the system has available (MemAvailable) and what its
-/// control groups, of version 1 or 2, allow it in all.
-/// @param root of the file system, for tests; if it states no memory, the machine's memory counts
+/// Bytes that this process may take: the least of the machine's memory, of what is available now (MemAvailable), and of
+/// the limits of its control groups (version 1 or 2).
+/// @param root of the file system, for tests
 std::size_t availableMemory(const std::filesystem::path& root = "/");
 
-/// A limit in bytes as options state it: 0 is half of the available memory.
+/// The limit in bytes for a value of SolverOptions::memory_limit: 0 means half of the available memory.
 std::size_t memoryLimit(std::size_t option);
 
 }  // namespace tufted

@@ -93,7 +93,8 @@ double areaOf(const Eigen::MatrixXd& x, const Triangles& triangles) {
   return area;
 }
 
-/// @param iterations that were done before
+/// One iteration: harmonic positions of the free points.
+/// @param iterations done before, for errors
 Eigen::MatrixXd harmonicPositions(const Laplacian& laplacian, const std::vector<int>& fixed, const Eigen::MatrixXd& x,
                                   const SolverOptions& options, int iterations) {
   try {
@@ -105,8 +106,8 @@ Eigen::MatrixXd harmonicPositions(const Laplacian& laplacian, const std::vector<
   }
 }
 
-/// The greatest way of a point off the surface: of its moves along the normals of its triangles the root of the mean
-/// square, by area. Points may slide within the surface for long without changing it.
+/// The farthest move of a point off the surface: root mean square, by area, of its moves along the normals of its
+/// triangles. Moves within the surface do not count, as they do not change it.
 double farthestOff(const Eigen::MatrixXd& x, const Eigen::MatrixXd& next, const Triangles& triangles) {
   VectorXd squares = VectorXd::Zero(x.rows()), areas = VectorXd::Zero(x.rows());
   for (Eigen::Index t = 0; t < triangles.rows(); ++t) {

@@ -15,24 +15,23 @@
 namespace tufted {
 namespace {
 
-/// A level of at most this many rows is the last one, and is factorised.
+/// Coarsening ends at a level of at most this many rows.
 constexpr int coarsest_size = 500;
-/// Levels at most, which ends the coarsening whatever the matrix is.
+/// Maximum number of levels.
 constexpr int most_levels = 25;
 /// Neighbours are strong if their weight exceeds this part of the geometric mean of the two diagonals; it is halved per
 /// level (Vanek et al.).
 constexpr double strong = 0.08;
-/// A diagonal to which weak neighbours were added must keep this part of itself, or the row keeps its own: it might
-/// turn negative.
+/// Weak entries are added to a diagonal only if this part of it remains; it might become negative otherwise.
 constexpr double least_lumped = 0.1;
-/// A level with more than this part of the rows of the one before does not pay, and coarsening ends.
+/// Coarsening ends if the next level would have more than this part of the rows.
 constexpr double least_shrinking = 0.9;
-/// A last level of at most this many rows is factorised, a larger one is smoothed.
+/// A last level of at most this many rows is factorised, a larger one only smoothed.
 constexpr int largest_direct = 20 * coarsest_size;
-/// Marks a row without strong neighbours.
+/// Group of a row without strong neighbours.
 constexpr int alone = -1;
 
-/// The matrix without weak off-diagonals, which are added to the diagonal: constants keep their image.
+/// The matrix with weak off-diagonals added to the diagonal, so that its product with constants stays the same.
 SparseMatrix filtered(const SparseMatrix& A, double threshold) {
   const VectorXd diagonal = A.diagonal();
   SparseMatrix result(A.rows(), A.cols());
@@ -46,17 +45,17 @@ SparseMatrix filtered(const SparseMatrix& A, double threshold) {
       if (!keep && i != j) lumped += entry.value();
       if (keep || i == j) result.insertBack(i, j) = entry.value();
     }
-    // A row that weak neighbours dominate would turn negative: it keeps its own diagonal.
     result.coeffRef(j, j) = lumped > least_lumped * diagonal[j] ? lumped : diagonal[j];
   }
   result.finalize();
   return result;
 }
 
-/// A number for every row, equal within a group of strong neighbours; `alone` where a row has none.
+/// The group of every row: neighbourhoods of strong neighbours, `alone` for rows without any.
+/// @param[out] count number of groups
 std::vector<int> aggregate(const SparseMatrix& A, int& count) {
   const int n = static_cast<int>(A.cols());
-  // Marks a row that is in no group yet.
+  // A row that is in no group yet.
   constexpr int open = -2;
   std::vector<int> group(n, open);
   const auto forNeighbors = [&](int j, const auto& visit) {
@@ -157,7 +156,7 @@ class Multigrid : public LinearBackend {
     int most = 0;
     const auto columns = static_cast<double>(x.cols());
     for (Eigen::Index c = 0; c < x.cols(); ++c) {
-      // Each part at the same size: norms shall neither overflow nor vanish.
+      // Scales each part to the same size, so that norms neither overflow nor underflow.
       VectorXd scale = VectorXd::Zero(parts_);
       for (Eigen::Index i = 0; i < x.rows(); ++i) scale[part_[i]] = std::max(scale[part_[i]], std::abs(x(i, c)));
       if (scale.isZero(0)) continue;
@@ -242,7 +241,7 @@ class Multigrid : public LinearBackend {
 
   MultigridOptions options_;
   std::vector<Level> levels_;
-  std::vector<int> part_;  ///< of each row: parts of the matrix that no entry joins
+  std::vector<int> part_;  ///< connected part of the matrix that each row belongs to
   int parts_ = 0;
   Eigen::SimplicialLDLT<SparseMatrix> coarsest_;
   bool direct_ = false;

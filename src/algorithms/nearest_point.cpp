@@ -13,9 +13,9 @@
 namespace tufted {
 namespace {
 
-/// For fewer positions than this, looking at all points is faster than making a search tree.
+/// For fewer positions than this, comparing all points is faster than building a search tree.
 constexpr Eigen::Index worth_a_tree = 16;
-/// Positions between two calls of `progress`: one far from all points may take a millisecond.
+/// Positions between two calls of `progress`; one far from all points may take a millisecond.
 constexpr std::int64_t positions_per_block = 64;
 
 /// The active points, ascending.

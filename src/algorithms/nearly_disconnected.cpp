@@ -9,7 +9,7 @@
 namespace tufted {
 namespace {
 
-/// Weights below this part of the smaller diagonal are lost in the rounding of rows, and join nothing.
+/// Weights below this part of the smaller diagonal do not join, see Components.
 constexpr double least_share = 1e-14;
 
 struct Link {
@@ -18,8 +18,8 @@ struct Link {
   double share;  ///< weight over the smaller diagonal
 };
 
-/// The last link of a maximum spanning forest, which is the weakest one that is needed, and the parts that it joins.
-/// @param points the caller's index by number; links may also have the next number, which is not a point
+/// The parts that the weakest link of a maximum spanning forest joins.
+/// @param points the caller's index of each number in links; the number after the last stands for a fixed value
 std::optional<WeakJoint> weakestOf(std::vector<Link>& links, const std::vector<int>& points) {
   const int count = static_cast<int>(points.size());
   const auto weak =
@@ -58,7 +58,7 @@ PartConstants::PartConstants(const SparseMatrix& L, const std::vector<int>& poin
   for (std::size_t part = 0; part < floating.size(); ++part)
     if (floating[part] != 0) number[part] = count++;
   for (const int i : parts.points) number_[i] = number[parts.of[i]];
-  // A constant on the part; outside of it the small values that follow from the weak weights around it.
+  // 1 on the part; outside of it the small values that its weak weights cause.
   extensions_ = Eigen::MatrixXd::Zero(L.cols(), count);
   for (const int i : parts.points)
     if (number_[i] >= 0) extensions_(i, number_[i]) = 1;
@@ -103,7 +103,7 @@ std::optional<WeakJoint> weakestJoint(const SparseMatrix& L) {
 
 std::optional<WeakJoint> weakestJoint(const LongMatrix& lower, const std::vector<int>& points) {
   const VectorXd diagonal = lower.diagonal();
-  VectorXd beyond = diagonal;  // the row's other entries
+  VectorXd beyond = diagonal;  // excess of each diagonal over the other entries of its row
   std::vector<Link> links;
   for (Eigen::Index j = 0; j < lower.cols(); ++j) {
     for (LongMatrix::InnerIterator entry(lower, j); entry; ++entry) {

@@ -1,4 +1,5 @@
-// Signs of normals: towards a viewpoint, or alike between neighbours (the problem of Hoppe et al. 1992, Section 3.3).
+// Signs of normals: towards a viewpoint, or consistent between neighbours (the problem of Hoppe et al. 1992, Section
+// 3.3).
 #include "tufted/normals.h"
 
 #include <algorithm>
@@ -26,38 +27,37 @@ namespace {
 
 constexpr const char* function_name = "orientedFrames";
 
-/// Planes that meet at less than 45 degrees belong to one smooth surface: their normals agree as they are, and noise in
-/// the positions cannot turn them.
+/// Between planes that meet at less than 45 degrees, the cosine of the normals gives the sign; noise in positions does
+/// not matter.
 constexpr double smooth_cosine = 0.7;
-/// The weight of an edge across a crease, beside 1 for one on a smooth surface: it says less. From 0.25 to 0.8 the same
-/// signs result at all but 0.7 % of the points.
+/// The weight of an edge across a crease, which is less certain; an edge on a smooth surface has 1. From 0.25 to 0.8
+/// the signs at all but 0.7 % of the points are the same.
 constexpr double crease_share = 0.5;
-/// A closed component whose normals point outwards by less than this part of its extent encloses no volume but
-/// rounding, and its mean normal decides.
+/// If the `outward` of a closed component is smaller than this, its volume is rounding, and its mean normal decides.
 constexpr double flat_share = 1e-6;
-/// An open sheet, whose mean normal is at least `most_mean` long, is flat if its normals point outwards by less than
-/// this part of its extent: airborne scans have up to 0.024 of either sign, one view of a rabbit 0.1.
+/// The same for an open component, whose mean normal is at least `most_mean` long: airborne scans have up to 0.024 of
+/// either sign, one view of a rabbit 0.1.
 constexpr double flat_share_of_open = 0.05;
-/// A part with fewer points than this share of the largest part of its component lies within a joint.
+/// A part with fewer points than this share of the largest part of its component counts as joint.
 constexpr double small_part = 0.05;
-/// Rings of neighbours around normals that disagree within which bodies that touch are joined. With 3 half of the
+/// Rings of neighbours around disagreeing normals that count as joint between touching bodies. With 3 half of the
 /// touching spheres stay joined, with 7 the holes are too large.
 constexpr int joint_rings = 5;
-/// The normals of a part are turned if they point inwards by more than `body_share` of its extent (a sphere has 0.5)
-/// and their mean is shorter than `most_mean`: a closed surface without joints has 0, half a sphere 0.5.
+/// The normals of a part are negated if its `outward` is below minus `body_share` (a sphere has 0.5 in size) and their
+/// mean is shorter than `most_mean`: a closed surface without joints has 0, half a sphere 0.5.
 constexpr double body_share = 0.1, most_mean = 0.3;
 
-/// Two neighbours.
+/// Two neighbours in L.
 struct Edge {
   int low, high;
-  double alike;  ///< -1 to 1: that their normals have one sign, or that they have not
+  double alike;  ///< -1 to 1; positive if their normals have the same sign, larger if that is more certain
 };
 
 Edge edgeBetween(const Points& positions, const Points& normals, int low, int high) {
   const Eigen::RowVector3d a = normals.row(low), b = normals.row(high);
   const double cosine = a.dot(b);
   if (std::abs(cosine) >= smooth_cosine) return {low, high, cosine};
-  // At a crease: an arc that both lie on is symmetric in the plane between them.
+  // At a crease: an arc through both points is symmetric about the plane between them.
   const Eigen::RowVector3d edge = (positions.row(high) - positions.row(low)).stableNormalized();
   const double reflected = cosine - 2 * a.dot(edge) * b.dot(edge);
   return {low, high, crease_share * (std::abs(reflected) > std::abs(cosine) ? reflected : cosine)};
@@ -74,8 +74,8 @@ std::vector<Edge> edgesOf(const Laplacian& laplacian, const Points& normals) {
   return edges;
 }
 
-/// Joins all sets that edges connect, the surest pair of sets first. What speaks for a pair is the sum over all edges
-/// between its two sets, so a few edges that are wrong do not matter (greedy additive contraction, Keuper et al. 2015).
+/// Joins all sets that edges connect, the most certain pair first. The certainty of a pair is the sum over all edges
+/// between its two sets, so a few wrong edges do not matter (greedy additive edge contraction, Keuper et al. 2015).
 class Contraction {
  public:
   Contraction(const std::vector<Edge>& edges, SignedSets& sets) : sets_(sets), alike_(sets.size()) {
@@ -126,21 +126,21 @@ class Contraction {
   }
 
   SignedSets& sets_;
-  std::vector<std::map<int, double>> alike_;  ///< by element that stands for its set
+  std::vector<std::map<int, double>> alike_;  ///< by root of a set: the sums to its neighbouring sets
   std::priority_queue<Pair> queue_;
   std::size_t joined_ = 0;
 };
 
-/// How each of some parts of the surface, whose normals agree, lies to them.
+/// For each part of the surface, how its normals point.
 struct Sides {
-  std::vector<double> outward;           ///< three times the volume over area and extent, negative if normals point in
-  std::vector<Eigen::RowVector3d> mean;  ///< normal, by area; 0 where the part is closed
+  std::vector<double> outward;  ///< three times the volume over area and extent; negative if normals point inwards
+  std::vector<Eigen::RowVector3d> mean;  ///< mean normal by area; 0 on a closed part
 };
 
 Sides sidesOf(const Laplacian& laplacian, const Components& components, const Points& normals) {
   const Points& positions = laplacian.positions;
   const VectorXd weights = components.weights(laplacian.M);
-  // Relative to one point and over the extent, so that neither distance nor size matters.
+  // Positions are taken relative to one point and over the extent, against overflow and cancellation.
   std::vector<int> first(components.count, -1);
   std::vector<double> extent(components.count, 0);
   for (const int i : components.points) {
@@ -165,9 +165,9 @@ Sides sidesOf(const Laplacian& laplacian, const Components& components, const Po
   return {std::move(outward), std::move(mean)};
 }
 
-/// Whether each component of normals that agree points inwards, or an open one away from `up`.
-/// @param up null: open ones are closed by their shadow, if they bulge
-/// @param open gets the number of open ones
+/// Whether the normals of each component must be negated: they point inwards, or away from `up` on an open one.
+/// @param up null: open components that bulge are treated as closed ones
+/// @param open increased by the number of open components
 std::vector<bool> inwardComponents(const Laplacian& laplacian, const Components& components, const Points& normals,
                                    const Eigen::Vector3d* up, std::int64_t& open) {
   const auto [outward, mean] = sidesOf(laplacian, components, normals);
@@ -191,9 +191,8 @@ bool disagrees(const Edge& edge, const Points& normals, const Points& positions)
   return edgeBetween(positions, normals, edge.low, edge.high).alike < 0;
 }
 
-/// The parts that components fall into without the points whose normals disagree with a neighbour's, and without some
-/// rings of neighbours around those.
-/// @param joint 1 for the points that are left out, of which there must be some
+/// The parts of components outside of joints and `joint_rings` rings around them.
+/// @param joint N; 1 at points whose normals disagree with a neighbour's; on return 1 at all points left out
 Components partsBeside(const Laplacian& laplacian, const std::vector<Edge>& edges, std::vector<std::uint8_t>& joint) {
   for (int ring = 0; ring < joint_rings; ++ring) {
     const std::vector<std::uint8_t> core = joint;
@@ -209,14 +208,15 @@ Components partsBeside(const Laplacian& laplacian, const std::vector<Edge>& edge
   parts.of.assign(joint.size(), -1);
   for (int i = 0; i < static_cast<int>(joint.size()); ++i) {
     if (joint[i] != 0 || laplacian.status[i] != PointStatus::active) continue;
-    const int root = sets.root(i);  // the first of its part
+    const int root = sets.root(i);  // first point of the part
     parts.of[i] = root == i ? parts.count++ : parts.of[root];
     parts.points.push_back(i);
   }
   return parts;
 }
 
-/// Gives points of joints the sign that their neighbours beside them have, from the outside in.
+/// Gives the normals of joints the sign of their neighbours, ring by ring from the outside.
+/// @param joint 1 at points without a sign; on return 0 at those that got one
 void settleJoints(const Laplacian& laplacian, const std::vector<Edge>& edges, std::vector<std::uint8_t>& joint,
                   Points& normals) {
   VectorXd alike(normals.rows());
@@ -237,8 +237,8 @@ void settleJoints(const Laplacian& laplacian, const std::vector<Edge>& edges, st
   }
 }
 
-/// Bodies that touch are one component, and where they do neighbours say that one of them is turned inside out. Some of
-/// them must disagree there. Where these cut off a part that is closed but for that, it faces outwards by itself.
+/// Separates bodies that touch. They are one component, in which one is inside out and some neighbours disagree. A part
+/// that these joints cut off and that is closed otherwise is oriented outwards.
 void turnBodies(const Laplacian& laplacian, const std::vector<Edge>& edges, Points& normals) {
   std::vector<std::uint8_t> joint(static_cast<std::size_t>(normals.rows()), 0);
   bool has_joint = false;
@@ -265,7 +265,7 @@ void turnBodies(const Laplacian& laplacian, const std::vector<Edge>& edges, Poin
   settleJoints(laplacian, edges, joint, normals);
 }
 
-/// Turns whole components outwards, open ones upwards.
+/// Negates the normals of whole components so that they point outwards, or towards `up` on open ones.
 void turnOutwards(const Laplacian& laplacian, const Eigen::Vector3d* up, Points& normals, OrientationReport& report) {
   const Components components = findComponents(laplacian);
   const std::vector<bool> inward = inwardComponents(laplacian, components, normals, up, report.open);
@@ -274,7 +274,7 @@ void turnOutwards(const Laplacian& laplacian, const Eigen::Vector3d* up, Points&
   report.components = components.count;
 }
 
-/// Normals alike between neighbours, and outwards.
+/// Makes normals consistent between neighbours, and outwards.
 void orientAlike(const Laplacian& laplacian, const OrientationOptions& options, Points& normals,
                  OrientationReport& report) {
   const Workers workers(1, options.progress);
@@ -313,7 +313,7 @@ Frames orientedFrames(const Laplacian& laplacian, const Frames& frames, const Or
       if (result.normals.row(i).dot(viewpoint - laplacian.positions.row(i) / 2) < 0) result.normals.row(i) *= -1;
     }
   } else if (laplacian.kind == Kind::mesh && frames.orientation == Orientation::given) {
-    turnOutwards(laplacian, options.up, result.normals, made);  // its triangles say what is one side
+    turnOutwards(laplacian, options.up, result.normals, made);  // triangles already give consistent signs
   } else {
     orientAlike(laplacian, options, result.normals, made);
     if (is_fine) takeFineNormals(laplacian, result);

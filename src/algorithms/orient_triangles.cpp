@@ -12,7 +12,7 @@ namespace {
 
 using Corners = std::array<int, 3>;
 
-/// A component that encloses less volume than this, for its size, encloses none but rounding, and its mean normal
+/// If the volume of a component over its area and size is smaller than this, it is rounding, and the mean normal
 /// decides.
 constexpr double flat_share = 1e-6;
 
@@ -20,16 +20,16 @@ constexpr double flat_share = 1e-6;
 struct Side {
   int low, high;
   int triangle;
-  bool ascends;  ///< whether the triangle runs from `low` to `high`
+  bool ascends;  ///< whether the side runs from `low` to `high`
 };
 
-/// Triangles that an inner edge joins to one.
+/// The triangle across an inner edge.
 struct AdjacentTriangle {
   int triangle = -1;
-  bool agrees = true;  ///< whether both run the edge in opposite directions
+  bool agrees = true;  ///< whether the two triangles' sides have opposite directions
 };
 
-/// The neighbours across each side.
+/// The neighbours of each triangle across its inner edges.
 std::vector<std::array<AdjacentTriangle, 3>> neighborsOf(const std::vector<Corners>& triangles,
                                                          TriangleReport& report) {
   std::vector<Side> sides;
@@ -66,7 +66,7 @@ std::vector<std::array<AdjacentTriangle, 3>> neighborsOf(const std::vector<Corne
   return neighbors;
 }
 
-/// Whether the triangles of one component are to be turned round.
+/// Whether the triangles of one component must be reversed.
 bool isInsideOut(const Laplacian& laplacian, const std::vector<Corners>& triangles, const std::vector<int>& component) {
   const Points& positions = laplacian.positions;
   const Eigen::RowVector3d origin = positions.row(triangles[component.front()][0]);
@@ -117,7 +117,7 @@ void orientTriangles(const Laplacian& laplacian, std::vector<Corners>& triangles
         if (neighbor.triangle < 0) continue;
         const std::uint8_t wanted = turned[t] ^ (neighbor.agrees ? 0 : 1);
         if (seen[neighbor.triangle] != 0) {
-          // Each edge is met from both sides.
+          // Each edge is visited from both sides, but counted once.
           if (turned[neighbor.triangle] != wanted && t < neighbor.triangle) ++report.disagreeing_edges;
           continue;
         }

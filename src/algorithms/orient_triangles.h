@@ -8,8 +8,8 @@
 
 namespace tufted {
 
-/// Orients triangles as surfaceTriangles() says.
-/// @param[in,out] triangles of which no edge has more than two; some are turned
+/// Orients triangles consistently, then as most of their normals or outwards, see surfaceTriangles().
+/// @param[in,out] triangles at most two at an edge; some are reversed
 /// @param[in,out] report gets the edges, components and disagreements
 void orientTriangles(const Laplacian& laplacian, std::vector<std::array<int, 3>>& triangles, TriangleReport& report);
 

@@ -25,8 +25,8 @@ namespace tufted {
 namespace {
 
 constexpr const char* function_name = "parameterize";
-/// A chart of whose area a conformal map collapses more than this, as it does of long tubes, is not laid out. Needles
-/// and the ends of thin spikes are less.
+/// A chart is not laid out if more than this share of its area collapses, as on long tubes; needles and ends of spikes
+/// are less.
 constexpr double most_collapsed = 1e-3;
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
@@ -45,7 +45,7 @@ void checkArguments(const Laplacian& laplacian, const ParameterizationOptions& o
   if (!options.rim_positions.allFinite()) refuse("rim_positions are not finite, must be");
 }
 
-/// The largest chart, as messages begin.
+/// The beginning of messages about the largest chart.
 std::string textOf(const Chart& largest) {
   return "the surface (its largest part, of " + std::to_string(largest.triangles.size()) + " triangles) ";
 }
@@ -54,7 +54,7 @@ bool canBeMapped(const Chart& chart) {
   return chart.is_manifold && chart.is_orientable && !chart.rims.empty();
 }
 
-/// Sorts out the charts that no plane can hold.
+/// The charts that can be mapped to the plane. The others are counted; throws if the largest is one.
 std::vector<const Chart*> mappableCharts(const std::vector<Chart>& charts, ParameterizationReport& report) {
   std::vector<const Chart*> kept;
   for (const Chart& chart : charts) {
@@ -73,7 +73,9 @@ std::vector<const Chart*> mappableCharts(const std::vector<Chart>& charts, Param
   return kept;
 }
 
-/// Lays charts out, and takes those out of `charts` that collapse.
+/// Maps charts conformally, side by side.
+/// @param charts those that collapse are removed
+/// @param[out] owner N; chart of each point's (u, v)
 Eigen::MatrixX2d conformal(const Laplacian& laplacian, std::vector<const Chart*>& charts,
                            const ParameterizationOptions& options, std::vector<int>& owner,
                            ParameterizationReport& report) {
@@ -137,12 +139,12 @@ std::vector<int> rimOfDisk(const std::vector<Chart>& charts) {
   if (chart.eulerCharacteristic() != 1)
     refuse("the surface has Euler characteristic " + std::to_string(chart.eulerCharacteristic()) +
            ", must have 1, that of a disk");
-  // From the point of the smallest index on.
+  // Starts at the smallest index.
   std::rotate(rim.begin(), std::min_element(rim.begin(), rim.end()), rim.end());
   return rim;
 }
 
-/// The rim that the caller gives, of representatives.
+/// The caller's rim, as representatives.
 std::vector<int> givenRim(const Laplacian& laplacian, const ParameterizationOptions& options) {
   const int n = static_cast<int>(laplacian.status.size());
   const Components components = findComponents(laplacian);
@@ -164,7 +166,7 @@ std::vector<int> givenRim(const Laplacian& laplacian, const ParameterizationOpti
   return rim;
 }
 
-/// Points on the circle of radius 1, spaced as along the rim.
+/// Positions on the unit circle, spaced by length along the rim.
 Eigen::MatrixX2d onCircle(const Points& positions, const std::vector<int>& rim) {
   const auto count = std::ssize(rim);
   VectorXd along(count);
@@ -237,7 +239,8 @@ Eigen::MatrixX2d parameterize(const Laplacian& laplacian, const TrianglesRef& tr
   }
   made.charts = std::ssize(mapped);
   for (const Chart* chart : mapped) made.rims += std::ssize(chart->rims);
-  if (options.method == ParameterizationMethod::harmonic) mapped.resize(1);  // others have no place of their own
+  if (options.method == ParameterizationMethod::harmonic)
+    mapped.resize(1);  // (u, v) is measured on the largest chart only
   measureMaps(laplacian.positions, mapped, owner, uv, made);
   copyToCoincident(laplacian, uv);
   made.not_mapped = uv.col(0).array().isNaN().count();

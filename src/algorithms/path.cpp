@@ -1,4 +1,4 @@
-// Shortest paths: a path down the distance, straightened.
+// PathSolver: first paths, straightened (docs/algorithm.md, section 18, paths).
 #include "tufted/path.h"
 
 #include <algorithm>
@@ -24,15 +24,15 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr const char* constructor = "PathSolver";
 constexpr const char* query_name = "PathSolver::query";
-/// A way around a point is taken only if it is shorter by this part, which is above rounding: otherwise a path may go
-/// to and fro between two ways for ever.
+/// A path is led around a point only if that makes it shorter by this part, which is above rounding; it might alternate
+/// forever otherwise.
 constexpr double least_gain = 1e-13;
 /// Shortenings between two calls of `progress`.
 constexpr int between_reports = 64;
 
 using SegmentList = std::list<Segment>;
 
-/// Leads a path around points while that makes it shorter.
+/// Step 3: leads a path around the other side of points while that makes it shorter.
 /// @returns how often
 int shorten(const MarchFaces& faces, SegmentList& path, const Workers& workers) {
   int count = 0;
@@ -50,7 +50,7 @@ int shorten(const MarchFaces& faces, SegmentList& path, const Workers& workers) 
     const auto end = path.erase(before, std::next(after));
     const auto first =
         path.insert(end, std::make_move_iterator(pieces->begin()), std::make_move_iterator(pieces->end()));
-    // The points before and after the new pieces have other angles now.
+    // The angles at both ends of the new pieces have changed and are tested again.
     after = first == path.begin() && first != path.end() ? std::next(first) : first;
   }
   return count;
@@ -99,7 +99,7 @@ int PathSolver::State::checked(const char* name, int point) const {
   return representative[point];
 }
 
-/// The path to straighten, from `from` on.
+/// Step 1: a path from `from` down the marched distance or, if rounding prevents that, along edges.
 std::vector<Strip> PathSolver::State::firstPath(int from, int to, const Workers& workers) const {
   const std::vector<double> distance = marchUntil(from, faces, true, {{to, 0, 0}}, workers).distance;
   if (!(distance[from] < infinity)) {
@@ -117,7 +117,7 @@ Points PathSolver::State::pointsOf(const SegmentList& path, int from) const {
       const int side = segment.strip.doors[d].leave;
       const int one = faces.vertexAt(nextSide(side)), other = faces.vertexAt(previousSide(side));
       const int low = std::min(one, other), high = std::max(one, other);
-      if (low == high) continue;  // around the rim and back to where it began
+      if (low == high) continue;  // an edge from a vertex to itself has no place in between
       const double share = segment.crossings[d];
       found.emplace_back((1 - share) * positions.row(low) + share * positions.row(high));
     }
@@ -128,7 +128,7 @@ Points PathSolver::State::pointsOf(const SegmentList& path, int from) const {
   return points;
 }
 
-/// The shortest path of those that are near some strips from `from` on.
+/// Steps 2 and 3: the locally shortest path near the strips of a first path.
 SurfacePath PathSolver::State::straightened(int from, const std::vector<Strip>& strips, const Workers& workers) const {
   SegmentList path;
   for (const Strip& strip : strips) {
@@ -149,9 +149,9 @@ SurfacePath PathSolver::query(int from, int to, const Progress& progress) const 
   const Workers workers(state.threads, progress);
   if (from == to) return {state.positions.row(from), 0, 0};
   SurfacePath there = state.straightened(from, state.firstPath(from, to, workers), workers);
-  // From the other end the first path may pass handles and hills on the other side.
+  // Step 4: from the other end, the first path may pass handles and hills on another side.
   SurfacePath back = state.straightened(to, state.firstPath(to, from, workers), workers);
-  // Near a rim both may lead over it onto the back, where a path is locally shortest, too. One along edges does not.
+  // Near a rim both may lead over it onto the back, where they are locally shortest, too. A path along edges does not.
   SurfacePath along = state.straightened(from, stripsAlongEdges(state.faces, from, to), workers);
   const int shortenings = there.shortenings + back.shortenings + along.shortenings;
   if (back.length < there.length) {

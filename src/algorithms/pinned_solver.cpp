@@ -8,16 +8,16 @@
 namespace tufted {
 namespace {
 
-/// The largest tolerance of conjugate gradients, so that corrections become small fast.
+/// The largest tolerance of conjugate gradients, so that few corrections are needed.
 constexpr double correction_tolerance = 1e-10;
 
-/// Parts of a Laplacian that are joined badly.
+/// Parts of a Laplacian that are joined by tiny weights only.
 struct BadlyJoined {
   Components parts;
-  std::vector<std::uint8_t> floating;  ///< by part; 1: no pin is there
+  std::vector<std::uint8_t> floating;  ///< by part; 1 if it has no pin
 };
 
-/// @return nullopt if no part is joined badly
+/// Nullopt if there are no such parts.
 std::optional<BadlyJoined> findBadlyJoined(const Laplacian& laplacian, const PinnedPoints& pinned) {
   BadlyJoined found{findParts(laplacian), {}};
   const Components& parts = found.parts;
@@ -69,7 +69,7 @@ PinnedSolver::PinnedSolver(const SystemNames& names, PinnedPoints pinned, const 
 
 Eigen::MatrixXd PinnedSolver::withinParts(const std::string& function, Eigen::MatrixXd rest, const Progress& progress,
                                           int& iterations) const {
-  if (rest.cols() == 0) return rest;  // no part floats
+  if (rest.cols() == 0) return rest;  // no part is floating
   for (const int i : held_) rest.row(i).setZero();
   const Eigen::MatrixXd scale = pinned_.components.normalise(rest);
   SolveReport solved;

@@ -11,18 +11,18 @@
 
 namespace tufted {
 
-/// A pinned system, factored: what solves for any values of the pins have in common.
+/// A factored system for one set of pinned points, reused for any values of the pins.
 class PinnedSolver {
  public:
-  /// @param A its rows and columns of free points make the system
-  /// @param badly_joined the Laplacian, if A is its L: then constants on badly joined parts without a pin are found by
-  /// themselves. Null otherwise.
+  /// @param A N x N; its rows and columns of free points are the system
+  /// @param badly_joined the Laplacian if A is its L, to solve separately for parts without a pin that are joined by
+  /// tiny weights only; null otherwise
   PinnedSolver(const SystemNames& names, PinnedPoints pinned, const SparseMatrix& A, const Laplacian* badly_joined,
                const SolverOptions& options);
 
-  /// Solves for what is missing at the free points, N x c.
-  /// @param function to be named in errors
-  /// @param iterations those of this solve are added
+  /// Solves A x = rest at the free points, N x c; x is 0 at the others.
+  /// @param function named in errors
+  /// @param iterations increased by those of this solve
   Eigen::MatrixXd solve(const std::string& function, const Eigen::MatrixXd& rest, const Progress& progress,
                         int& iterations) const;
 
@@ -31,19 +31,19 @@ class PinnedSolver {
   const std::vector<int>& freePoints() const { return free_points_; }
   const SolverReport& report() const { return system_->report(); }
   double tolerance() const { return tolerance_; }
-  /// Iterations of the solves that made it.
+  /// Iterations of the solves in the constructor.
   int iterations() const { return iterations_; }
 
  private:
-  /// Solves with the first points of floating parts held at 0.
+  /// Solves with the first point of each floating part held at 0.
   Eigen::MatrixXd withinParts(const std::string& function, Eigen::MatrixXd rest, const Progress& progress,
                               int& iterations) const;
 
   PinnedPoints pinned_;
   std::vector<int> free_points_;
-  std::vector<int> held_;                ///< active points outside of the factor
-  SparseMatrix L_;                       ///< with parts, without weights between components
-  std::optional<PartConstants> joints_;  ///< none if no part is joined badly
+  std::vector<int> held_;                ///< active points that are not in the factor
+  SparseMatrix L_;                       ///< if `joints_` is set: L without weights between components
+  std::optional<PartConstants> joints_;  ///< not set if no part is joined by tiny weights only
   std::optional<LinearSystem> system_;
   double tolerance_;
   int iterations_ = 0;

@@ -9,40 +9,40 @@
 
 namespace tufted {
 
-/// Which of the active points are pinned, and which are left free.
+/// The active points that are pinned, and those that are free.
 struct PinnedPoints {
   Components components;
-  std::vector<std::uint8_t> pinned;  ///< N; 1 at points with a value, also those that are not active
-  std::vector<std::uint8_t> free;    ///< N; 1 at active points without one, in components that have pins
+  std::vector<std::uint8_t> pinned;  ///< N; 1 at representatives of pins, active or not
+  std::vector<std::uint8_t> free;    ///< N; 1 at active points without a pin, in components with pins
 };
 
-/// Values of pins transferred to the active points.
+/// Values of pins, transferred to representatives.
 struct PinnedValues {
-  Eigen::MatrixXd values;  ///< N x c; the pins, NaN elsewhere
-  Eigen::MatrixXd means;   ///< mean of the pins, by component
+  Eigen::MatrixXd values;  ///< N x c; the mean of all pins at a place, NaN elsewhere
+  Eigen::MatrixXd means;   ///< components x c; means over the pins
 };
 
-/// Checks the points of pins and transfers them to the active points.
-/// @param function to be named in errors
-/// @param what the points are called there
-/// @throws InvalidInput
+/// Checks the points of pins and replaces them by their representatives.
+/// @param function named in errors
+/// @param what name of `points` in errors
+/// @throws InvalidInput for an index out of range, or no pin at an active point
 PinnedPoints pinnedPoints(const std::string& function, const Laplacian& laplacian, const std::vector<int>& points,
                           const std::string& what = "pins.points");
 
 /// Checks the values of pins.
-/// @throws InvalidInput
+/// @throws InvalidInput for values of the wrong size or not finite
 void checkPinnedValues(const std::string& function, const std::vector<int>& points, const Eigen::MatrixXd& values);
 
-/// Transfers values of pins, which were checked, to the active points.
-/// @param pinned of these points
+/// Transfers checked values of pins to representatives; pins at one place are averaged.
+/// @param pinned result of pinnedPoints() for `points`
 PinnedValues pinnedValues(const Laplacian& laplacian, const PinnedPoints& pinned, const std::vector<int>& points,
                           const Eigen::MatrixXd& values);
 
-/// The row of A u at point i, from differences of u alone: for matrices whose rows sum to 0 a constant costs no digits.
+/// Row i of A u from differences of u, for matrices whose rows sum to 0: a large mean of u costs no digits.
 inline Eigen::RowVectorXd rowOfDifferences(const SparseMatrix& A, const Eigen::MatrixXd& u, int i) {
   Eigen::RowVectorXd sum = Eigen::RowVectorXd::Zero(u.cols());
   for (SparseMatrix::InnerIterator entry(A, i); entry; ++entry) {
-    // A link of no weight may lead to where nothing is pinned and u is NaN.
+    // A weight too small to join may lead to a component without pins, where u is NaN.
     if (entry.row() != i && !u.row(entry.row()).hasNaN()) sum += entry.value() * (u.row(entry.row()) - u.row(i));
   }
   return sum;

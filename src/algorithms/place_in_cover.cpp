@@ -1,6 +1,6 @@
-// Points inside triangles of a mesh, found again in its cover after flips. Flips keep the surface: a triangle that they
-// removed is still a flat part of it without a vertex inside. Seen from one of its corners along straight lines, the
-// other two lie at the lengths of its sides with its angle between them, which tells where the point lies.
+// Locates points inside triangles of a mesh in its cover after flips. Flips keep the surface: a removed triangle is
+// still a flat part of it without a vertex inside. Along straight lines from one corner, the other two corners are
+// found at the lengths of its sides and with its angle between them; this determines the place of the point.
 #include "algorithms/place_in_cover.h"
 
 #include <algorithm>
@@ -16,11 +16,10 @@
 namespace tufted {
 namespace {
 
-/// A vertex lies on a line if it is no farther from it than this part of the longer side: but for rounding, and, where
-/// the triangle is not found so, but for what mollification has moved it by.
+/// A vertex counts as on a line if it is no farther from it than this part of the longer side. The values are tried in
+/// turn: the first allows for rounding, the others for mollification.
 constexpr std::array<double, 3> on_line = {1e-9, 1e-6, 1e-3};
-/// A triangle of the cover that fits to within this part of the longer side is the one, and no other place is looked
-/// for.
+/// If a match is exact up to this part of the longer side, the search ends.
 constexpr double exact_fit = 1e-9;
 
 void checkGlue(const std::string& function, const IntrinsicTriangulation& cover) {
@@ -56,8 +55,8 @@ std::unordered_map<int, std::vector<int>> sidesAt(const IntrinsicTriangulation& 
   return sides;
 }
 
-/// The places of a point on the front and on the back of its triangle. Where the triangle is there several times, any
-/// one is taken.
+/// The places of a point on the front and on the back of its triangle. If the triangle is there several times, any one
+/// of the places.
 std::vector<PlaceInCover> placesOf(const IntrinsicTriangulation& cover, const Wedge& wedge,
                                    const std::vector<int>& sides) {
   std::vector<VertexView> views;

@@ -1,4 +1,4 @@
-// Distances up to a radius, over the faces around the sources alone.
+// Points within a radius of sources, by marching over the faces near the sources only.
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -26,11 +26,11 @@ namespace tufted {
 namespace {
 
 constexpr const char* function = "pointsWithin";
-/// Faces are gathered up to this many longest edges of the source beyond the radius, as flips move them by one or two.
-/// What is missing is noticed; with 6 a query takes 1.5 times as long.
+/// Faces are collected up to this many longest edges of the source beyond the radius, as flips span one or two.
+/// isComplete() finds out if faces are missing; with 6 a query takes 1.5 times as long.
 constexpr double margin_in_spacings = 3;
-/// The areas around a point by the faces that were found and by the whole cover agree if they differ by less than this
-/// part: sums run in another order.
+/// The areas around a point by the collected faces and by the whole cover are equal up to this part, as sums run in
+/// different orders.
 constexpr double same_area = 1e-9;
 
 int checkedSource(const Laplacian& laplacian, int source) {
@@ -42,7 +42,7 @@ int checkedSource(const Laplacian& laplacian, int source) {
   return laplacian.representative[source];
 }
 
-/// The sources that lie on the surface, without copies.
+/// The representatives of active sources, ascending, each once.
 std::vector<int> checkedSources(const Laplacian& laplacian, const std::vector<int>& sources, double radius) {
   const std::string name = std::string(function) + ": ";
   const auto n = std::ssize(laplacian.status);
@@ -72,10 +72,10 @@ std::vector<int> checkedSources(const Laplacian& laplacian, const std::vector<in
 
 struct Faces {
   std::vector<std::array<int, 3>> corners;
-  std::vector<double> length;  ///< from each corner to the next
+  std::vector<double> length;  ///< of the side from each corner to the next
 };
 
-/// Some distance between neighbours.
+/// The longest distance of a point from a neighbour in L.
 double spacingAt(const Laplacian& laplacian, int point) {
   double longest = 0;
   for (SparseMatrix::InnerIterator entry(laplacian.L, point); entry; ++entry)
@@ -83,7 +83,8 @@ double spacingAt(const Laplacian& laplacian, int point) {
   return longest;
 }
 
-/// Faces from the stars of points in balls. Not sure to be all that are needed, see isComplete().
+/// Collects faces from the stars of points near the sources. Some may be missing, see isComplete(). False if there are
+/// no stars.
 bool facesFromStars(const Laplacian& laplacian, const std::vector<int>& sources, double radius, Faces& faces) {
   if (!laplacian.hasCover() || laplacian.cover_areas.size() == 0) return false;
   std::vector<Ball> balls;
@@ -93,7 +94,7 @@ bool facesFromStars(const Laplacian& laplacian, const std::vector<int>& sources,
   return laplacian.cover_source->appendFacesNear(balls, faces.corners, faces.length);
 }
 
-/// All faces with a corner in one of the balls around the sources, which no path is shorter than.
+/// All faces with a corner in a ball of the radius around a source; no path is shorter than the straight line.
 Faces facesFromCover(const Laplacian& laplacian, const std::vector<int>& sources, double radius) {
   checkCover(function, laplacian);
   const IntrinsicTriangulation& cover = laplacian.cover();
@@ -113,10 +114,10 @@ Faces facesFromCover(const Laplacian& laplacian, const std::vector<int>& sources
   return faces;
 }
 
-/// Faces with corners numbered from 0 in the order of the points.
+/// Distinct faces whose corners are numbered from 0 in the order of the points.
 struct Patch {
   std::vector<int> points;                 ///< ascending
-  std::unordered_map<int, int> number_of;  ///< of each point
+  std::unordered_map<int, int> number_of;  ///< number of each point
   std::vector<DistinctFace> faces;
   int exponent = 0;
 };
@@ -159,7 +160,7 @@ std::vector<double> distancesOn(const Laplacian& laplacian, const Patch& patch, 
   return distance;
 }
 
-/// Whether all faces at the points within the radius are there: their areas are those of the whole cover.
+/// Whether all faces at points within the radius were collected: the areas around these are those of the whole cover.
 bool isComplete(const Laplacian& laplacian, const Patch& patch, const std::vector<double>& distance, double radius) {
   std::vector<double> area(patch.points.size(), 0);
   for (const DistinctFace& face : patch.faces) {
@@ -175,8 +176,7 @@ bool isComplete(const Laplacian& laplacian, const Patch& patch, const std::vecto
   return true;
 }
 
-/// Makes distances infinite on components without a source. Stored labels are not made anew, which would take a pass
-/// over L.
+/// Makes distances infinite on components without a source. Stored labels save a pass over L.
 void leaveOtherComponents(const Laplacian& laplacian, const std::vector<int>& sources, const Patch& patch,
                           std::vector<double>& distance) {
   const std::vector<int> made = laplacian.component.empty() ? componentLabels(laplacian) : std::vector<int>();

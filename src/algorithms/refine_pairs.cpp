@@ -12,12 +12,13 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// Eigenvalues up to this many times the smallest one are refined by the inverse, which is exact to about 1e-12 there.
+/// Pairs with eigenvalues up to this many times the smallest one are refined by the inverse, whose error is about 1e-12
+/// there.
 constexpr double range_of_inverse = 1e4;
-/// Eigenvalues that differ by less than this part of themselves are equal and stay together.
+/// Eigenvalues that differ by less than this part of themselves count as equal and are refined in the same way.
 constexpr double equal_values = 1e-6;
 
-/// How many pairs the inverse refines. Equal eigenvalues stay together.
+/// Number of pairs to refine by the inverse.
 Index countLow(const VectorXd& values) {
   const double bound = range_of_inverse * values[0];
   Index low = 1;
@@ -33,7 +34,7 @@ bool orthonormalize(const VectorXd& mass, const Workers& workers, Eigen::Ref<Mat
   return true;
 }
 
-/// Eigenpairs of a matrix of products that is symmetric but for rounding.
+/// Eigenpairs of a matrix that is symmetric up to rounding.
 Eigen::SelfAdjointEigenSolver<MatrixXd> decompose(const MatrixXd& products) {
   return Eigen::SelfAdjointEigenSolver<MatrixXd>((products + products.transpose()) / 2);
 }
@@ -45,7 +46,7 @@ bool refinePairs(const Eigenproblem& problem, const InverseTimes& inverse, bool 
   const Index count = pairs.values.size(), low = countLow(pairs.values);
   auto x = pairs.vectors.leftCols(low);
   auto y = pairs.vectors.rightCols(count - low);
-  // A step of the inverse takes out what rounding left of high frequencies, and fills in points without mass.
+  // A step of the inverse removes high frequencies that come from rounding, and sets the values at points without mass.
   MatrixXd image = pairs.images.cols() > 0 ? MatrixXd(pairs.images.leftCols(low)) : inverse(x);
   if (pairs.images.cols() > 0) y = pairs.images.rightCols(count - low) * pairs.values.tail(count - low).asDiagonal();
   pairs.images.resize(0, 0);

@@ -5,11 +5,10 @@
 
 namespace tufted {
 
-/// Makes eigenpairs, values and vectors, as exact as rounding lets them be. The inverse of L is exact to a part of its
-/// largest eigenvalue, L to a part of its own. So pairs of small eigenvalues are refined by the inverse, all others by
-/// L.
-/// @param mixed each vector may hold parts of the others, however far their eigenvalues are apart
-/// @return whether the vectors are independent, without which the pairs mean nothing
+/// Refines eigenpairs up to rounding. The errors of L and of its inverse are parts of their own largest eigenvalues, so
+/// pairs of small eigenvalues of L are refined by the inverse, all others by L.
+/// @param mixed whether vectors may contain parts of others with far eigenvalues
+/// @return false if the vectors are linearly dependent; the pairs are then meaningless
 bool refinePairs(const Eigenproblem& problem, const InverseTimes& inverse, bool mixed, const Workers& workers,
                  Eigenpairs& pairs);
 

@@ -11,9 +11,9 @@
 namespace tufted {
 namespace {
 
-/// The most solves for what is missing; rarely more than two are needed until that is negligible.
+/// Maximum number of solves, the first one included; more than two are rarely needed.
 constexpr int most_corrections = 6;
-/// A correction below this part of the range of the values changes nothing any more.
+/// A correction below this part of the range of the values is the last.
 constexpr double negligible = 1e-15;
 
 Eigen::RowVectorXd norms(const Eigen::MatrixXd& values) {

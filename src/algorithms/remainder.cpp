@@ -11,17 +11,16 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// Values of x below these, relative to the largest in their column and absolute, are so near to underflow that they
-/// have lost digits.
+/// Values of x below these, relative to the largest of their column and absolute, have lost digits near underflow.
 constexpr double least_part = 1e-290, least_value = 1e-300;
-/// Sweeps of relaxation at most; after that a correction by the factor is cheaper.
+/// Maximum number of sweeps of relaxation; more cost as much as a correction by the factor.
 constexpr int most_sweeps = 30;
-/// Relaxation gives up if more rows than this, and more than a tenth of all, would need it: the factor is asked again.
+/// Relaxation ends if it would affect more rows than this, and more than a tenth of all; the factor then corrects.
 constexpr std::size_t many_rows = 100;
 
 using Column = Eigen::Ref<const VectorXd>;
 
-/// What is added to |x| so that nothing near underflow counts.
+/// Added to |x| so that values near underflow do not count.
 double leastOf(const Column& x) {
   return least_value + (x.size() > 0 ? least_part * x.cwiseAbs().maxCoeff() : 0);
 }
@@ -36,7 +35,7 @@ double normOf(const Column& values) {
 }
 
 /// Fills in the residual and the backward error of column c.
-/// @param ratios by row
+/// @param ratios backward errors by row
 void finish(const Column& b, const Column& ratios, Index c, Remainder& result) {
   result.backward_error[c] = ratios.size() > 0 ? ratios.maxCoeff<Eigen::PropagateNaN>() : 0;
   const double right = normOf(b);
@@ -53,7 +52,7 @@ std::vector<int> neighborsOf(const SparseMatrix& L, const std::vector<int>& rows
   return result;
 }
 
-/// Computes a column of a Laplacian's remainder, row by row.
+/// Computes a column of a Laplacian's remainder row by row.
 class LaplacianColumn {
  public:
   LaplacianColumn(const SparseMatrix& L, const Column& b, const Column& size, const Column& x,

@@ -13,18 +13,20 @@
 namespace tufted {
 namespace {
 
-/// A step is taken if the energy falls by this part of what the force promises (the usual value, Nocedal and Wright).
+/// A step is accepted if the energy falls by this part of force times step (Armijo's rule with the usual value, Nocedal
+/// and Wright).
 constexpr double least_descent = 1e-4;
-/// A step is halved so often at most: a direction that needs a step below 1/4096 leads nowhere.
+/// Maximum number of halvings of a step: a direction that needs less than 1/4096 does not descend.
 constexpr int most_halvings = 12;
-/// The energy may rise by this part of itself, some roundings of the sum, or it could not be told whether the last
-/// steps descend.
+/// The energy may rise by this part of itself, some roundings of the sum, which would decide about the last steps
+/// otherwise.
 constexpr double rounding = 1e-14;
-/// This part of the mean resistance holds the turn of a point whose edges have no length, and changes no other.
+/// The resistance to rotation is at least this part of its mean, so that it is not 0 at points whose edges have no
+/// length.
 constexpr double least_resistance = 1e-6;
 
-/// Second derivatives of the energy by the turns, with the places held. A turn about an axis across an edge of length l
-/// costs w l^2, about the edge none; half of that stands for all axes.
+/// Second derivatives of the energy by the rotations, with positions fixed. A rotation about an axis perpendicular to
+/// an edge of length l has w l^2, one about the edge 0; half of w l^2 is used for all axes.
 SparseMatrix turningMatrix(const Laplacian& laplacian, const Components& components, const Eigen::MatrixXd& x,
                            const VectorXd& smoothing) {
   VectorXd resistance = VectorXd::Zero(x.rows()), ones = VectorXd::Zero(x.rows());
@@ -41,7 +43,7 @@ SparseMatrix turningMatrix(const Laplacian& laplacian, const Components& compone
   return A;
 }
 
-/// The farthest that a step moves a point or, if that is more, its largest turn.
+/// The largest move or, if that is more, the largest rotation angle of a step.
 double lengthOf(const Eigen::MatrixXd& step) {
   return std::max(step.leftCols<3>().rowwise().norm().maxCoeff(), step.rightCols<3>().rowwise().norm().maxCoeff());
 }

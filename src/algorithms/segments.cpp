@@ -21,7 +21,7 @@ namespace tufted {
 namespace {
 
 constexpr const char* function_name = "segments";
-/// Segments where the caller asks for no number, if there are as many points.
+/// Number of segments by default, if there are as many points.
 constexpr int usual_count = 8;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
@@ -51,7 +51,7 @@ void checkArguments(const Laplacian& laplacian, const SegmentOptions& options, c
   }
 }
 
-/// Voronoi cells of seeds, one seed after the other.
+/// Voronoi cells of seeds that are added one by one.
 class Cells {
  public:
   Cells(const Laplacian& laplacian, const Components& components, const SolverOptions& options)
@@ -75,7 +75,8 @@ class Cells {
     seeds_.push_back(seed);
   }
 
-  /// The point that is farthest from all seeds; -1 if all points are seeds.
+  /// The point that is farthest from all seeds; a component without a seed counts with the diameter of a disc of its
+  /// area. -1 if all points are seeds.
   int farthest() const {
     int best = -1;
     double best_distance = 0;
@@ -96,12 +97,12 @@ class Cells {
   const std::vector<int>& cells() const { return cell_; }
 
  private:
-  /// The point of a component that is farthest from its centre.
+  /// The point of a component that is farthest from its centre of mass.
   int outermost(int component) const {
     const Points& positions = laplacian_.positions;
     int first = -1;
     double weights = 0;
-    Eigen::RowVector3d centre = Eigen::RowVector3d::Zero();  // from the first point
+    Eigen::RowVector3d centre = Eigen::RowVector3d::Zero();  // relative to the first point
     const auto forPoints = [&](const auto& visit) {
       for (const int i : components_.points)
         if (components_.of[i] == component) visit(i);
@@ -131,7 +132,7 @@ class Cells {
   const Progress& progress_;
   const VectorXd area_;  ///< of each component
   std::vector<bool> has_seed_;
-  VectorXd distance_;  ///< N, from the nearest seed
+  VectorXd distance_;  ///< N; from the nearest seed
   std::vector<int> cell_, seeds_;
 };
 
@@ -172,7 +173,7 @@ Segments spectral(const Laplacian& laplacian, int count, const SolverOptions& so
                                    .memory_limit = solver.memory_limit,
                                    .threads = solver.threads,
                                    .progress = solver.progress});
-  // Points of components beyond the first `count` have rows of zeros.
+  // Points of components beyond the `count` largest have rows of zeros.
   std::vector<int> points;
   for (const int i : components.points)
     if (found.vectors.row(i).norm() > 0) points.push_back(i);
@@ -183,7 +184,7 @@ Segments spectral(const Laplacian& laplacian, int count, const SolverOptions& so
   return result;
 }
 
-/// Numbers segments by their area, and gives coincident points the label of their representative.
+/// Numbers segments by falling area, and copies labels to coincident points.
 void finish(const Laplacian& laplacian, int count, Segments& result) {
   VectorXd areas = VectorXd::Zero(count);
   for (std::size_t i = 0; i < result.labels.size(); ++i)

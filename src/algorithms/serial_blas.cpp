@@ -12,9 +12,9 @@ Function* found(const char* name) {
   return reinterpret_cast<Function*>(dlsym(RTLD_DEFAULT, name));
 }
 
-/// OpenBLAS keeps one number of threads for the whole process; it is put back when the last user leaves.
+/// OpenBLAS's number of threads, one for the whole process. It is restored when the last SerialBlas ends.
 struct Setting {
-  // Looked up at run time, as Debian's alternatives decide which BLAS is used when the program starts.
+  // Looked up at run time, as Debian's alternatives choose the BLAS when the program starts.
   int (*get)() = found<int()>("openblas_get_num_threads");
   void (*set)(int) = found<void(int)>("openblas_set_num_threads");
   std::mutex mutex;
@@ -27,16 +27,16 @@ Setting& setting() {
   return instance;
 }
 
-/// OpenMP keeps for each thread how deep parallel regions may lie in one another: with 0 it starts no threads for them,
-/// whatever number they ask for. CHOLMOD asks for four.
+/// OpenMP's limit on nested parallel regions, one per thread. With 0 it starts no threads, whatever number a region
+/// asks for; CHOLMOD asks for four.
 struct Nesting {
   int (*get)() = found<int()>("omp_get_max_active_levels");
   void (*set)(int) = found<void(int)>("omp_set_max_active_levels");
 };
-// Looked up when the library is loaded, as CHOLMOD's calls are bound then: later another OpenMP may come first.
+// Looked up when the library is loaded, as CHOLMOD's calls are bound then; later, another OpenMP may be found first.
 const Nesting nesting;
 
-/// Sets the depth, and returns the one before.
+/// Sets the limit, and returns the one before.
 int changeNesting(int levels) {
   if (nesting.get == nullptr || nesting.set == nullptr) return levels;
   const int before = nesting.get();

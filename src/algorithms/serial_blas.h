@@ -2,10 +2,10 @@
 
 namespace tufted {
 
-/// While one of these lives, OpenBLAS works on one thread: its sums, and so the last bits, depend on their number, and
-/// work is split over right sides instead. No effect on other BLAS libraries. So do the OpenMP loops of the thread that
-/// made it, of which CHOLMOD has some: OpenMP's threads do not survive a fork, after which a child would wait for them
-/// for ever.
+/// While an instance exists, OpenBLAS uses one thread, because the last bits of its sums depend on the number of
+/// threads; work is split over right sides instead. Other BLAS libraries are not affected. OpenMP loops of the same
+/// thread, as in CHOLMOD, are serial, too: OpenMP's threads do not survive a fork, and a child process would wait for
+/// them forever.
 class SerialBlas {
  public:
   SerialBlas();
@@ -14,7 +14,7 @@ class SerialBlas {
   SerialBlas& operator=(const SerialBlas&) = delete;
 
  private:
-  int nesting_;  ///< how deep OpenMP's parallel regions might lie in one another
+  int nesting_;  ///< OpenMP's limit on nested parallel regions before
 };
 
 }  // namespace tufted

@@ -7,11 +7,11 @@
 
 namespace tufted {
 
-/// Coordinates about the middle of the active points, in a power of two near their extent, in which shapes are
-/// computed: no unit is too large or too small, and no place too far away.
+/// Coordinates relative to the centre of the active points' bounding box, in units of a power of two near their extent,
+/// so that neither the caller's unit nor the distance from the origin matters.
 class ShapeFrame {
  public:
-  /// @param function to be named in errors
+  /// @param function named in errors
   /// @throws InvalidInput for arrays of the wrong size, or positions of active points that are not finite
   ShapeFrame(const std::string& function, const Laplacian& laplacian);
 
@@ -19,12 +19,12 @@ class ShapeFrame {
   /// @return N x 3
   Eigen::MatrixXd toFrame(const Eigen::Ref<const Eigen::MatrixXd>& positions) const;
   Eigen::RowVector3d toCaller(const Eigen::RowVector3d& position) const;
-  /// A length in the caller's unit.
+  /// Converts a length to the caller's unit.
   double toCaller(double length) const;
-  /// An area in the caller's unit squared.
+  /// Converts an area to the caller's unit squared.
   double areaToCaller(double area) const;
   double areaToFrame(double area) const;
-  /// The largest side of the box around the active points, in [1/2, 1] of the frame's unit; 0: one place, or none.
+  /// The largest side of the bounding box of the active points, in [1/2, 1) of the frame's unit; 0: one place, or none.
   double extent() const { return extent_; }
 
  private:

@@ -29,9 +29,9 @@ Index firstPositive(const Spectrum& spectrum, const char* function) {
   return first;
 }
 
-/// Weighted sums of phi_i(x)^2, one column of weights per result.
+/// Weighted sums over i of phi_i(x)^2 at each point x, one per column of weights.
 MatrixXd sumSquares(const Eigen::Ref<const MatrixXd>& vectors, const MatrixXd& weights) {
-  // Rows of tall matrices that stay in cache.
+  // Rows that are treated together, so that they stay in cache.
   constexpr Index rows_per_block = 1024;
   MatrixXd result(vectors.rows(), weights.cols());
   for (Index begin = 0; begin < vectors.rows(); begin += rows_per_block) {
@@ -41,14 +41,15 @@ MatrixXd sumSquares(const Eigen::Ref<const MatrixXd>& vectors, const MatrixXd& w
   return result;
 }
 
-/// The exponent of the power of two next above a value; 0 for 0.
+/// The exponent of the least power of two above a value; 0 for 0.
 int exponentOf(double value) {
   int exponent = 0;
   std::frexp(value, &exponent);
   return exponent;
 }
 
-/// The least width of the wave kernel: the logarithms of equal eigenvalues differ by rounding, and must count alike.
+/// The least width of the wave kernel, far above the rounding of logarithms, so that equal eigenvalues get equal
+/// weights.
 constexpr double least_width = 1e-8;
 
 VectorXd logarithmic(double low, double high, int count) {
@@ -61,7 +62,8 @@ VectorXd logarithmic(double low, double high, int count) {
 VectorXd heatTimes(const Spectrum& spectrum, int count) {
   if (count < 1) throw InvalidInput("heatTimes: count = " + std::to_string(count) + ", must be at least 1");
   const Index first = firstPositive(spectrum, "heatTimes");
-  // Times of heat kernel signatures end where the last wave has fallen by 1e-4.
+  // Times run from where the wave of the last eigenvalue has decayed to 1e-4 to where that of the first positive one
+  // has.
   constexpr double decay = 4 * std::numbers::ln10;
   return logarithmic(decay / spectrum.values[spectrum.values.size() - 1], decay / spectrum.values[first], count);
 }
@@ -109,7 +111,8 @@ MatrixXd waveKernelSignature(const Spectrum& spectrum, const VectorXd& energies,
   MatrixXd weights(count, energies.size());
   for (Index e = 0; e < energies.size(); ++e) {
     const VectorXd exponents = -((logarithms.array() - energies[e]) / width).square() / 2;
-    weights.col(e) = (exponents.array() - exponents.maxCoeff()).exp();  // far from all of them, the nearest one counts
+    weights.col(e) =
+        (exponents.array() - exponents.maxCoeff()).exp();  // far from all eigenvalues, the nearest one counts
     weights.col(e) /= weights.col(e).sum();
   }
   return sumSquares(spectrum.vectors.rightCols(count), weights);
@@ -147,7 +150,7 @@ MatrixXd filterSignals(const Laplacian& laplacian, const Spectrum& spectrum, con
     if (!signals.row(i).allFinite())
       throw InvalidInput("filterSignals: signals of point " + std::to_string(i) + " are not finite, must be");
   }
-  // Signals and areas near 1, by powers of two: products of both may be too large or small for a double.
+  // Signals and areas are scaled near 1 by powers of two, as their products may overflow or underflow.
   const int length = exponentOf(std::sqrt(laplacian.M.sum()));
   const PowerOfTwo per_area(-2 * length);
   std::vector<int> exponent;

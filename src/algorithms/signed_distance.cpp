@@ -23,7 +23,7 @@ constexpr const char* constructor = "SignedDistanceSolver";
 constexpr const char* query_name = "SignedDistanceSolver::query";
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-/// The part of the memory for factors that the two of the heat get, for scalars and vectors; that of L gets the rest.
+/// The part of the memory for the two factors of heat (scalars, vectors); the factor of L gets the rest.
 constexpr double heat_share = 0.75;
 
 std::size_t shareOf(std::size_t bytes, double share) {
@@ -58,12 +58,13 @@ struct SignedDistanceSolver::State {
     addReport(system.report(), report);
   }
 
-  /// The curve's points that take part, without repetitions.
+  /// The representatives of active points of the curve, without consecutive repetitions.
   std::vector<int> placesOf(const std::vector<int>& curve) const;
-  /// What flows in along the curve: at both ends of each segment its normal, by half its length.
-  /// @param[out] length of the curve at each point
+  /// The fields to transport: at both ends of each segment of the curve its normal to the left, times half its length.
+  /// @param[out] length N; of the curve at each point, in units of spacingAt()
   HeatFields flowOf(const std::vector<int>& places, VectorXd& length, SignedDistanceReport& made) const;
-  /// The right side of the least squares problem for the slopes, by the weights of L.
+  /// The right side for the function whose rises along edges are nearest to those of `slope`, by the weights of L.
+  /// @param slope N unit vectors; NaN: unknown
   VectorXd divergence(const std::vector<Eigen::RowVector3d>& slope) const;
 };
 
@@ -113,7 +114,7 @@ VectorXd SignedDistanceSolver::State::divergence(const std::vector<Eigen::RowVec
     for (SparseMatrix::InnerIterator entry(L, i); entry; ++entry) {
       const auto j = entry.row();
       if (j == i || !slope[j].allFinite()) continue;
-      // The rise from i to j.
+      // Rise of the distance from i to j.
       const double rise = (slope[i] + slope[j]).dot(positions.row(j) - positions.row(i)) / 2;
       b[i] += entry.value() * rise;
     }
@@ -140,7 +141,7 @@ VectorXd SignedDistanceSolver::query(const std::vector<int>& curve, SignedDistan
       state.system.solve(query_name, state.divergence(slope), &solved, progress, Refine::where_needed);
   made.residual = solved.residual;
 
-  // Positive is where the slope leads; 0 in the mean over the part of the curve on each component.
+  // Shifts the distance on each component to mean 0 over the curve.
   VectorXd sum = VectorXd::Zero(state.components.count), weight = sum;
   for (const int i : state.components.points) {
     sum[state.components.of[i]] += length[i] * distance(i, 0);

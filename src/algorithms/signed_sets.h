@@ -6,7 +6,7 @@
 
 namespace tufted {
 
-/// Union-find in which each element knows whether it has the sign of its set's root.
+/// Disjoint sets in which each element has the sign of its set's root or the opposite one.
 class SignedSets {
  public:
   explicit SignedSets(int size) : parent_(size), turned_(size, 0) {
@@ -15,13 +15,13 @@ class SignedSets {
 
   int size() const { return static_cast<int>(parent_.size()); }
 
-  /// Whether the sign of an element is not that of its root.
+  /// Whether the sign of an element is opposite to its root's.
   bool isTurned(int element) {
     compress(element);
     return turned_[element] != 0;
   }
 
-  /// Joins the sets of a and b, which must be two, so that b has the sign of a, or the other one.
+  /// Joins the different sets of a and b so that b has the sign of a, or the opposite one if `turns`.
   void unite(int a, int b, bool turns) {
     const int first = compress(a), second = compress(b);
     const bool differ = (turned_[a] ^ turned_[b]) != (turns ? 1 : 0);

@@ -1,4 +1,4 @@
-// Smoothing by implicit (backward Euler) steps of the heat equation, or as Taubin (1995).
+// Smoothing by implicit (backward Euler) steps of the heat equation, or after Taubin (1995).
 #include "tufted/smoothing.h"
 
 #include <algorithm>
@@ -19,12 +19,12 @@
 namespace tufted {
 namespace {
 
-/// A mass below this part of its row of t L is lost when the two are added: raised to it, the matrix stays positive
-/// definite and an M-matrix, so the maximum principle survives any step and any two components of unlike size.
+/// A mass below this part of the diagonal of t L is raised to it. In the sum it would be lost; so the matrix stays a
+/// positive definite M-matrix, and the maximum principle holds for any time step.
 constexpr double least_mass = 1e-13;
 
-/// Longest time step. A mesh of 642 points has then come together at its centre of mass to 1e-9; from 1e13 on masses
-/// are lost and it lies elsewhere.
+/// Longest time step. It moves all points of a mesh of 642 to their centre of mass up to 1e-9; from 1e13 on masses are
+/// lost, and they move elsewhere.
 constexpr double longest_step = 1e10;
 
 constexpr const char* smooth_name = "smooth";
@@ -57,7 +57,7 @@ void checkThreads(const std::string& function, int threads) {
   if (threads < 0) throw InvalidInput(function + ": threads = " + std::to_string(threads) + ", must be >= 0");
 }
 
-/// Whether a point moves.
+/// Whether each point may move.
 std::vector<bool> freePoints(const Laplacian& laplacian, const std::vector<std::uint8_t>* fixed) {
   const int n = static_cast<int>(laplacian.status.size());
   std::vector<bool> is_free(laplacian.status.size());
@@ -67,7 +67,7 @@ std::vector<bool> freePoints(const Laplacian& laplacian, const std::vector<std::
   return is_free;
 }
 
-/// The lower triangle of M / t + L over the free points, t with the unit of each component; rows of all others are
+/// The lower triangle of M / t + L over the free points, with t in the unit of each component; rows of other points are
 /// empty.
 SparseMatrix systemMatrix(const std::string& function, const Laplacian& laplacian, const std::vector<bool>& is_free,
                           double time_step) {
@@ -85,8 +85,8 @@ SparseMatrix systemMatrix(const std::string& function, const Laplacian& laplacia
     for (SparseMatrix::InnerIterator entry(L, j); entry; ++entry) {
       const int i = static_cast<int>(entry.row());
       if (i < j || !is_free[i] || !is_free[j]) continue;
-      // Divided one by one, as the product may not fit a double. Where unit and mass both underflow, the least mass
-      // wins over the NaN because it stands first.
+      // Divided one by one, as the product may overflow. If unit and mass are both 0, std::max returns its first
+      // argument, not the NaN.
       const double mass =
           i == j ? std::max(least_mass * entry.value(), laplacian.M[i] / edges[component[i]].mean_square / time_step)
                  : 0;
@@ -97,8 +97,8 @@ SparseMatrix systemMatrix(const std::string& function, const Laplacian& laplacia
   return lower;
 }
 
-/// The right side -L (x + moved) at the free points. It comes from differences of neighbours alone, as the rows of L
-/// sum to 0, so distance from the origin costs no digits.
+/// The right side -L (x + moved) at the free points, from differences of neighbours, so that distance from the origin
+/// costs no digits.
 Eigen::MatrixXd pull(const Laplacian& laplacian, const std::vector<bool>& is_free, const Eigen::MatrixXd& points,
                      const Eigen::MatrixXd& moved) {
   Eigen::MatrixXd result = Eigen::MatrixXd::Zero(points.rows(), points.cols());
@@ -115,10 +115,10 @@ Eigen::MatrixXd pull(const Laplacian& laplacian, const std::vector<bool>& is_fre
 /// The matrix of one step, factored.
 struct Step {
   std::vector<bool> is_free;
-  std::optional<LinearSystem> system;  ///< none: nothing moves
+  std::optional<LinearSystem> system;  ///< not set if nothing moves
   SolverReport report;
 
-  /// @param function to be named in errors
+  /// @param function named in errors
   Step(const std::string& function, const Laplacian& laplacian, const SmoothingOptions& options) {
     const double time_step = options.time_step;
     checkSizes(function, laplacian);
@@ -147,7 +147,7 @@ struct Step {
     Eigen::MatrixXd result = points;
     if (!system) return result;
     const Workers workers(1, progress);
-    // Solved for the way each point goes: x' = x + d with (M + t L) d = -t L x.
+    // Solves for displacements: x' = x + d with (M + t L) d = -t L x.
     Eigen::MatrixXd moved = Eigen::MatrixXd::Zero(points.rows(), points.cols());
     for (int step = 0; step < iterations; ++step) {
       const auto before = static_cast<double>(step);
@@ -165,7 +165,7 @@ struct Step {
   }
 };
 
-/// A step towards the means of the neighbours, or away from them: x -= share D^-1 L x at the free points.
+/// A step of Taubin's towards the means of neighbours, or away from them: x -= share D^-1 L x at the free points.
 void stepToMeans(const Laplacian& laplacian, const std::vector<bool>& is_free, double share, const Workers& workers,
                  Eigen::MatrixXd& x) {
   const Eigen::MatrixXd old = x;

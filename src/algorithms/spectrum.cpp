@@ -33,10 +33,10 @@ namespace {
 using Eigen::Index;
 using Eigen::MatrixXd;
 
-/// Up to so many points dense matrices are always used: at 100 points they are faster for any number of pairs.
+/// Up to this many points dense matrices are always used: at 100 points they are faster for any number of pairs.
 constexpr Index small_space = 150;
-/// Above this share of wanted pairs dense matrices are used too. On tori they are faster from 0.15 at 200 points, 0.25
-/// at 500 and 0.35 at 2,000.
+/// Dense matrices are also used if more than this share of all pairs is wanted. On tori they are faster from 0.15 at
+/// 200 points, 0.25 at 500 and 0.35 at 2,000.
 constexpr double large_share = 0.3;
 
 void checkLaplacian(const std::string& function, const Laplacian& laplacian) {
@@ -65,8 +65,9 @@ void fixSign(Eigen::Ref<VectorXd> x) {
   }
 }
 
-/// Whether no eigenvalue is missing: as many must lie below the last wide gap among those found (ascending) as were
-/// found there. Values behind that gap are equal, so none between them can be missing. Returns nullopt if unknown.
+/// Whether no eigenvalue is missing, by counting those below the last gap among the values found: they must be as many
+/// as were found below it. The values above the gap are equal, so none between them can be missing. Nullopt if unknown.
+/// @param values ascending
 std::optional<bool> isComplete(const Eigenproblem& problem, const VectorXd& values, std::size_t memory_limit) {
   Index below = values.size() - 1;
   while (below > 0 && values[below] - values[below - 1] <= 1e-6 * values[below]) --below;
@@ -79,7 +80,7 @@ std::optional<bool> isComplete(const Eigenproblem& problem, const VectorXd& valu
   return *count == below + problem.nulls();
 }
 
-/// Whether dense matrices are faster, and fit.
+/// Whether dense matrices are faster and fit into memory.
 bool isForDense(const Eigenproblem& problem, Index wanted, const SpectrumOptions& options) {
   const Index points = problem.usable + std::ssize(problem.massless);
   if (points > options.dense_limit) return false;
@@ -88,8 +89,8 @@ bool isForDense(const Eigenproblem& problem, Index wanted, const SpectrumOptions
 }
 
 /// Finds pairs by Lanczos' method.
-/// @param is_complete may be empty
-/// @return whether the pairs have the accuracy that the inverse allows
+/// @param is_complete see LanczosProblem
+/// @return see LanczosResult::converged
 bool searchPairs(const Eigenproblem& problem, const InverseTimes& inverse, Index wanted,
                  const std::function<std::optional<bool>(const VectorXd&)>& is_complete, const SpectrumOptions& options,
                  const Workers& workers, Eigenpairs& pairs, SpectrumReport& report) {
@@ -113,8 +114,8 @@ bool searchPairs(const Eigenproblem& problem, const InverseTimes& inverse, Index
   return found.converged;
 }
 
-/// Whether parts of L are joined so weakly that only rounding is left of a solve. Steps of the inverse lead to the
-/// smallest eigenvalues, where that shows.
+/// Whether parts of L are joined so weakly that solves without corrections are inaccurate, tested on vectors of small
+/// eigenvalues.
 bool isWeak(const Eigenproblem& problem, const InverseTimes& inverse) {
   std::mt19937_64 random(1);
   VectorXd x(problem.mass.size()), before;
@@ -128,7 +129,7 @@ bool isWeak(const Eigenproblem& problem, const InverseTimes& inverse) {
   return !((problem.L * x - weighted).norm() <= large_residual * weighted.norm());
 }
 
-/// Finds the pairs of positive eigenvalues, M-orthonormal.
+/// Finds the pairs of positive eigenvalues, mass-orthonormal.
 void findVibrations(const Laplacian& laplacian, const Eigenproblem& problem, Index wanted,
                     const SpectrumOptions& options, Spectrum& spectrum) {
   const std::size_t limit = memoryLimit(options.memory_limit);
@@ -138,7 +139,7 @@ void findVibrations(const Laplacian& laplacian, const Eigenproblem& problem, Ind
       {.method = options.method, .memory_limit = limit, .threads = options.threads, .progress = options.progress});
   spectrum.report.solver = system.report();
 
-  // Solves can be cancelled, but what they show is how many pairs have been found.
+  // Solves can be cancelled, but report the share of pairs found so far as their progress.
   double found_share = 0;
   const Progress progress = [&](std::string_view stage, double fraction) {
     if (stage == "eigenpairs") found_share = fraction;
@@ -148,12 +149,12 @@ void findVibrations(const Laplacian& laplacian, const Eigenproblem& problem, Ind
   const Workers workers(options.threads, progress);
   const Progress silent;
   const Workers quiet(options.threads, silent);
-  // Single solves are not judged: vectors that are 0 on parts of the surface are rounding there, and what counts is the
-  // residual of each pair.
+  // Errors of single solves are not checked: vectors that are 0 on parts of the surface are only rounding there. The
+  // residual of each pair is checked in the end.
   const InverseTimes inverse = [&](const Eigen::Ref<const MatrixXd>& x) {
     return system.solve("spectrum", problem.mass.asDiagonal() * x, nullptr, progress, Refine::never);
   };
-  // But if parts are joined weakly, every solve needs corrections; if these fail, the residuals show it.
+  // If parts are joined weakly, every solve needs corrections; if these fail, the residuals of pairs show it.
   const InverseTimes corrected = [&](const Eigen::Ref<const MatrixXd>& x) {
     try {
       return system.solve("spectrum", problem.mass.asDiagonal() * x, nullptr, progress, Refine::always);
@@ -161,7 +162,7 @@ void findVibrations(const Laplacian& laplacian, const Eigenproblem& problem, Ind
       return inverse(x);
     }
   };
-  // Counting takes a factor beside the one that is held.
+  // Counting eigenvalues takes a second factor.
   const std::size_t held = system.report().bytes;
   std::function<std::optional<bool>(const VectorXd&)> is_complete;
   if (!system.report().iterative && held < limit) {
@@ -191,7 +192,7 @@ void findVibrations(const Laplacian& laplacian, const Eigenproblem& problem, Ind
   spectrum.vectors.rightCols(wanted) = pairs->vectors;
 }
 
-/// The Rayleigh quotient x^T L x / x^T M x by differences, which is exact where L x is lost in rounding.
+/// The Rayleigh quotient x^T L x / x^T diag(mass) x from differences, accurate even if L x is only rounding.
 double rayleighQuotient(const Eigenproblem& problem, const VectorXd& x) {
   double energy = 0;
   for (int j = 0; j < problem.L.outerSize(); ++j) {
@@ -201,7 +202,7 @@ double rayleighQuotient(const Eigenproblem& problem, const VectorXd& x) {
   return energy / problem.mass.cwiseProduct(x).dot(x);
 }
 
-/// Measures the accuracy of the pairs, without unit, and fills in the report.
+/// Measures the accuracy of the pairs and fills in the report.
 /// @throws SolverFailure for the first pair that is not accurate enough
 void measure(const Eigenproblem& problem, const SpectrumOptions& options, Spectrum& spectrum) {
   SpectrumReport& report = spectrum.report;
@@ -214,7 +215,7 @@ void measure(const Eigenproblem& problem, const SpectrumOptions& options, Spectr
     return gram;
   };
   const MatrixXd gram = innerProductsOfPairs();
-  // Weights of very different sizes, as those of a thin plate, cost digits, which Gram and Schmidt give back.
+  // Weights of very different sizes, as on a thin plate, cost digits; Gram-Schmidt restores orthogonality.
   if (report.orthogonality > large_residual && report.orthogonality < 1e-3) {
     const Eigen::LLT<MatrixXd> factor(gram);
     factor.matrixU().solveInPlace<Eigen::OnTheRight>(spectrum.vectors);

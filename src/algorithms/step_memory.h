@@ -9,12 +9,13 @@
 
 namespace tufted {
 
-/// Directions towards the least value of a function by L-BFGS (Nocedal and Wright: "Numerical Optimization", Algorithm
-/// 7.4): the last steps correct a fixed guess of the second derivatives.
+/// Descent directions of L-BFGS (Nocedal and Wright: "Numerical Optimization", Algorithm 7.4): the last steps correct a
+/// fixed guess of the second derivatives.
 class StepMemory {
  public:
+  /// The next step.
   /// @param force minus the gradient
-  /// @param solve by the guess: of a force, the step after which there would be none
+  /// @param solve returns for a force the step after which it would be 0, by the guess
   template <class Solve>
   Eigen::MatrixXd direction(Eigen::MatrixXd force, const Solve& solve) const {
     std::vector<double> shares(steps_.size());
@@ -28,7 +29,8 @@ class StepMemory {
     return found;
   }
 
-  /// @param change by how much the force fell in this step; a step along which it does not fall is not kept
+  /// Stores a step, unless the force does not fall along it.
+  /// @param change the force before the step minus that after it
   void add(Eigen::MatrixXd step, Eigen::MatrixXd change) {
     const double fall = product(step, change);
     if (!(fall > least_fall * step.norm() * change.norm())) return;
@@ -42,17 +44,16 @@ class StepMemory {
   static double product(const Eigen::MatrixXd& a, const Eigen::MatrixXd& b) { return a.cwiseProduct(b).sum(); }
 
  private:
-  /// Steps that are remembered, about a kilobyte per point. With 5 a twisted tube took 56 iterations instead of 31.
+  /// Steps that are stored, about a kilobyte per point. With 5 a twisted tube took 56 iterations instead of 31.
   static constexpr std::size_t most_steps = 10;
-  /// A step whose cosine with the fall of the force is below this is not remembered: it is rounding, and would be
-  /// divided by.
+  /// A step whose cosine with `change` is below this is not stored: the product is rounding, and a divisor later.
   static constexpr double least_fall = 1e-12;
 
   struct Step {
     Eigen::MatrixXd step, change;
     double product;
   };
-  std::deque<Step> steps_;  ///< the last one is the latest
+  std::deque<Step> steps_;  ///< oldest first
 };
 
 }  // namespace tufted

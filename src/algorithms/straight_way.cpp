@@ -10,15 +10,15 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// A piece ends at a vertex if it misses it by less than this part of its length.
+/// A piece ends at the target if it misses it by less than this part of its length.
 constexpr double at_target = 1e-9;
 
-/// A side that the way leaves a face through, in the plane.
+/// A side through which the line leaves a face, in the plane.
 struct Exit {
-  int leave;  ///< its slot
+  int leave;  ///< slot of the side
   Vector2d left, right;
-  int left_slot, right_slot;  ///< of the corners there
-  int tried = 0;              ///< faces beyond
+  int left_slot, right_slot;  ///< slots of the corners at its ends
+  int tried = 0;              ///< number of faces beyond it that were tried
 };
 
 }  // namespace

@@ -1,5 +1,5 @@
-// The shortest way through unfolded triangles (Lee, Preparata: "Euclidean shortest paths in the presence of rectilinear
-// barriers", 1984).
+// The shortest path through unfolded triangles (Lee, Preparata: "Euclidean shortest paths in the presence of
+// rectilinear barriers", 1984).
 #include "algorithms/strip.h"
 
 #include <algorithm>
@@ -14,24 +14,24 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// A door in the plane, as who goes through it sees its ends.
+/// A door in the plane, with its ends as seen in the direction of the path.
 struct OpenDoor {
   Vector2d left, right;
-  int left_before, right_before;  ///< slots of these corners in the face before
-  int left_after, right_after;    ///< and in the face after
+  int left_before, right_before;  ///< slots of these ends in the face before
+  int left_after, right_after;    ///< slots in the face after
 };
 
 struct Layout {
   Vector2d start, end;
   std::vector<OpenDoor> doors;
 
-  /// An end of a door; behind the last one the end of the strip.
+  /// An end of a door; after the last door, the end of the strip.
   const Vector2d& endOf(std::size_t door, bool is_left) const {
     return door == doors.size() ? end : is_left ? doors[door].left : doors[door].right;
   }
 };
 
-/// Unfolds a strip. The start lies at 0.
+/// Unfolds a strip into the plane, its start at 0.
 Layout layOut(const MarchFaces& faces, const Strip& strip) {
   Layout layout;
   const auto areaOf = [&](int slot) { return faces.faces[slot / 3].double_area; };
@@ -47,7 +47,7 @@ Layout layOut(const MarchFaces& faces, const Strip& strip) {
   for (const Strip::Door& passed : strip.doors) {
     const int leave = passed.leave, enter = passed.enter;
     OpenDoor door;
-    // Seen from the corner opposite the door, a counterclockwise face has its next corner on the right.
+    // Seen from the corner opposite the door, the next corner of a counterclockwise face is on the right.
     door.right_before = is_counterclockwise ? nextSide(leave) : previousSide(leave);
     door.left_before = is_counterclockwise ? previousSide(leave) : nextSide(leave);
     door.right = corners[door.right_before % 3];
@@ -57,7 +57,7 @@ Layout layOut(const MarchFaces& faces, const Strip& strip) {
     is_counterclockwise = door.left_after == nextSide(enter);
     corners[door.left_after % 3] = door.left;
     corners[door.right_after % 3] = door.right;
-    // From its left end to its right one, what lies beyond the door is on the left.
+    // The face beyond the door is to the left of the line from its left to its right end.
     corners[enter % 3] = apexLeftOf(door.left, door.right, faces.lengthAt(door.right_after),
                                     faces.lengthAt(door.left_after), areaOf(enter));
     layout.doors.push_back(door);
@@ -66,20 +66,20 @@ Layout layOut(const MarchFaces& faces, const Strip& strip) {
   return layout;
 }
 
-/// A corner that the shortest way touches.
+/// A corner that the shortest path touches.
 struct Touch {
-  std::size_t door;  ///< one of those that end there
+  std::size_t door;  ///< one of the doors that end there
   bool is_left;
 };
 
-/// The funnel from the last turn: what is seen from there through the doors so far.
+/// The funnel at the last turn: what is visible from there through the doors so far.
 class Funnel {
  public:
   /// @param door the first after the apex
   Funnel(const Layout& layout, const Vector2d& apex, std::size_t door)
       : layout_(layout), apex_(apex), left_(door), right_(door) {}
 
-  /// Narrows it by a door, or by the end of the strip. @returns the turn, if the door is out of sight
+  /// Narrows the funnel by a door, or by the end of the strip. @returns the next turn, if the door is not visible
   std::optional<Touch> pass(std::size_t door) {
     const Vector2d right = endOf(door, false) - apex_, left = endOf(door, true) - apex_;
     if (cross(endOf(right_, false) - apex_, right) >= 0) {
@@ -98,10 +98,10 @@ class Funnel {
 
   const Layout& layout_;
   const Vector2d apex_;
-  std::size_t left_, right_;  ///< the doors whose ends bound it
+  std::size_t left_, right_;  ///< doors whose ends bound the funnel
 };
 
-/// The corners at which the shortest way through the doors turns, in order.
+/// The corners at which the shortest path through the doors turns, in order.
 std::vector<Touch> turnsOf(const Layout& layout) {
   std::vector<Touch> turns;
   const std::size_t count = layout.doors.size();
@@ -113,20 +113,20 @@ std::vector<Touch> turnsOf(const Layout& layout) {
     if (!turn) break;
     turns.push_back(*turn);
     apex = layout.endOf(turn->door, turn->is_left);
-    // The doors that end there are passed there.
+    // Doors that end at the turn are passed.
     first = turn->door;
     while (first < count && layout.endOf(first, turn->is_left) == apex) ++first;
   }
   return turns;
 }
 
-/// The doors around a turn: those of its run that end at the same corner.
+/// The consecutive doors that end at the corner of a turn.
 struct Run {
   std::size_t first, last;
 };
 
 Run runAround(const Layout& layout, const Touch& touch) {
-  const auto isOneCorner = [&](std::size_t d) {  // of this door and the next
+  const auto isOneCorner = [&](std::size_t d) {  // whether this door and the next end at one corner
     const OpenDoor &door = layout.doors[d], &next = layout.doors[d + 1];
     return touch.is_left ? door.left_after == next.left_before : door.right_after == next.right_before;
   };
@@ -149,7 +149,7 @@ Segment segmentThrough(const MarchFaces& faces, const Strip& whole, const Layout
   segment.strip.doors.assign(whole.doors.begin() + static_cast<std::ptrdiff_t>(begin),
                              whole.doors.begin() + static_cast<std::ptrdiff_t>(end));
   if (segment.strip.isEdge()) {
-    // Along an edge: the angle with itself is 0.
+    // Along an edge, whose angle with itself is 0.
     const int other = thirdSlot(start, last);
     segment.length = faces.lengthAt(other);
     const double at_start = cornerAngle(faces, start), at_end = cornerAngle(faces, last);
@@ -170,7 +170,7 @@ Segment segmentThrough(const MarchFaces& faces, const Strip& whole, const Layout
   }
   const auto anglesAt = [&](int slot, const OpenDoor& door, bool is_before, const Vector2d& corner,
                             const Vector2d& direction) {
-    // The side opposite the next corner leads to the corner before.
+    // The side opposite the next corner leads to the previous one.
     const int left = is_before ? door.left_before : door.left_after;
     const double to_left = angleBetween(door.left - corner, direction);
     const double to_right = angleBetween(door.right - corner, direction);
@@ -231,7 +231,7 @@ std::vector<Segment> straighten(const MarchFaces& faces, const Strip& strip) {
     const auto [first, last] = runAround(layout, touch);
     const OpenDoor &before = layout.doors[first], &after = layout.doors[last];
     const Vector2d to = touch.is_left ? before.left : before.right;
-    if (first < begin) {  // along a door, from one end to the other
+    if (first < begin) {  // along a door from one end to the other
       const OpenDoor& door = layout.doors[begin - 1];
       segments.push_back(segmentThrough(faces, strip, layout, slotBefore(door, was_left),
                                         slotBefore(door, touch.is_left), begin, begin, from, to));

@@ -1,4 +1,4 @@
-// Triangles to look at, from the cover of a cloud (the union of its stars; Sharp and Crane 2020, Section 5.7).
+// Triangles of a cloud from its cover (Sharp and Crane 2020, Section 5.7; docs/algorithm.md, section 23).
 #include "tufted/surface_triangles.h"
 
 #include <Eigen/Geometry>
@@ -22,17 +22,16 @@ namespace tufted {
 namespace {
 
 constexpr const char* function_name = "surfaceTriangles";
-/// Faces of the cover that a triangle of at least two stars has, front and back of each.
+/// A triangle of at least two stars has at least this many faces in the cover: front and back for each star.
 constexpr int least_faces = 4;
-/// Triangles at a point that close holes at most; they are in no star, so room is kept for them. More holes at one
-/// point stay open.
+/// Maximum number of triangles in no star that close holes at a point; more holes there stay open.
 constexpr int most_closing = 4;
 /// Triangles between two calls of `progress`.
 constexpr std::int64_t between_reports = 65536;
 
 using Corners = std::array<int, 3>;
 
-/// How many triangles there may be at each point: all candidates, and some that close holes.
+/// Maximum number of triangles at each point: all candidates, and `most_closing`.
 std::vector<int> roomFor(const std::vector<TriangleCandidate>& candidates, Eigen::Index points) {
   std::vector<int> most(static_cast<std::size_t>(points), most_closing);
   for (const TriangleCandidate& candidate : candidates)
@@ -40,8 +39,8 @@ std::vector<int> roomFor(const std::vector<TriangleCandidate>& candidates, Eigen
   return most;
 }
 
-/// Takes triangles in the order of how sure they are: first those of two or three stars, then those of one star, which
-/// are taken where they close a gap between two or three open edges.
+/// Adds triangles by falling certainty: first those of three and two stars, then those of one star if they close a gap
+/// between two or three open edges.
 void takeCandidates(std::vector<TriangleCandidate> candidates, const Workers& workers, GrowingSurface& fans) {
   std::sort(candidates.begin(), candidates.end(), [](const TriangleCandidate& a, const TriangleCandidate& b) {
     return std::tie(b.faces, a.radius, a.corners) < std::tie(a.faces, b.radius, b.corners);
@@ -76,10 +75,10 @@ class HoleFiller {
   HoleFiller(const std::vector<TriangleCandidate>& candidates, const Points& positions, GrowingSurface& fans)
       : candidates_(candidates), positions_(positions), fans_(fans) {}
 
-  /// @returns how many triangles it has added
+  /// @returns number of triangles added
   std::int64_t fill() {
     const std::size_t before = fans_.triangles().size();
-    std::vector<int> rim;  // points of open edges
+    std::vector<int> rim;  // points with open edges
     std::vector<int> open;
     for (int p = 0; p < static_cast<int>(positions_.rows()); ++p) {
       fans_.openNeighbors(p, open);
@@ -90,7 +89,7 @@ class HoleFiller {
   }
 
  private:
-  /// Looks for cycles of open edges through p: p, a, b or p, a, c, b.
+  /// Closes cycles of open edges through p: p, a, b or p, a, c, b.
   void fillAt(int p) {
     fans_.openNeighbors(p, open_);
     const std::vector<int> around = open_;
@@ -111,7 +110,7 @@ class HoleFiller {
 
   bool isOpen(int a, int b) const { return fans_.facesAt(a, b) == 1; }
 
-  /// How many faces of the cover, and the greater circumradius, two triangles have.
+  /// Order of pairs of triangles, the most certain first: by most faces in the cover, then by the greater circumradius.
   std::pair<int, double> sureness(const Corners& first, const Corners& second) const {
     return {-facesOf(first) - facesOf(second), std::max(radiusOf(first), radiusOf(second))};
   }
@@ -145,7 +144,7 @@ class HoleFiller {
   std::vector<int> open_;
 };
 
-/// Each triangle from its smallest corner on, in their order.
+/// Triangles that start at their smallest corner, sorted.
 Triangles sorted(std::vector<Corners> triangles) {
   for (Corners& corners : triangles)
     std::rotate(corners.begin(), std::min_element(corners.begin(), corners.end()), corners.end());

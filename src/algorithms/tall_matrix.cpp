@@ -15,7 +15,7 @@ using Block = Eigen::Ref<MatrixXd>;
 using ConstBlock = Eigen::Ref<const MatrixXd>;
 
 #ifdef TUFTED_WITH_GPL
-// The BLAS that CHOLMOD brings with it; several times faster than Eigen, which is limited to the oldest instructions.
+// The BLAS that CHOLMOD uses, several times faster than Eigen, which is compiled for the oldest processors.
 // NOLINTNEXTLINE(readability-identifier-naming): its name
 extern "C" void dgemm_(const char* transpose_a, const char* transpose_b, const int* m, const int* n, const int* k,
                        const double* alpha, const double* a, const int* lda, const double* b, const int* ldb,
@@ -26,7 +26,7 @@ void multiply(bool transpose, double alpha, const ConstBlock& A, const ConstBloc
   const int m = static_cast<int>(C.rows()), n = static_cast<int>(C.cols());
   const int k = static_cast<int>(B.rows());
   if (m == 0 || n == 0) return;
-  if (k == 0) {  // an empty matrix has no leading dimension that BLAS would take
+  if (k == 0) {  // BLAS rejects the leading dimension of an empty matrix
     if (beta == 0) C.setZero();
     return;
   }
@@ -44,7 +44,7 @@ void multiply(bool transpose, double alpha, const ConstBlock& A, const ConstBloc
 }
 #endif
 
-/// Rows that fit into a processor's own cache together with the columns that they are multiplied by.
+/// Rows of a block, which fit into a core's cache together with the columns that they are multiplied by.
 constexpr std::int64_t rows_per_block = 1024;
 
 }  // namespace
@@ -52,7 +52,7 @@ constexpr std::int64_t rows_per_block = 1024;
 MatrixXd innerProducts(const Eigen::Ref<const MatrixXd>& X, const Eigen::VectorXd& weights,
                        const Eigen::Ref<const MatrixXd>& Y, const Workers& workers) {
   const SerialBlas serial;
-  // A few sums per worker would depend on their number: one per block of blocks, whose size is fixed.
+  // One sum per this many rows, because sums per worker would depend on the number of threads.
   constexpr std::int64_t rows_per_sum = 16 * rows_per_block;
   std::vector<MatrixXd> sums(static_cast<std::size_t>((X.rows() + rows_per_sum - 1) / rows_per_sum));
   workers.forBlocks("products", X.rows(), rows_per_sum, [&](std::int64_t first, std::int64_t last, int) {

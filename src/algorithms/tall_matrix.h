@@ -6,7 +6,7 @@
 
 namespace tufted {
 
-// Products of tall, narrow matrices by blocks of rows, summed up in their order: the same bits for any number of
+// Products of tall, narrow matrices by blocks of rows, summed in a fixed order: the same bits for any number of
 // threads.
 
 /// The products X^T diag(weights) Y of X (n x a) and Y (n x b).
@@ -21,7 +21,7 @@ void subtractProduct(Eigen::Ref<Eigen::MatrixXd> Y, const Eigen::Ref<const Eigen
 void multiplyInto(const Eigen::Ref<const Eigen::MatrixXd>& X, const Eigen::MatrixXd& C, Eigen::Ref<Eigen::MatrixXd> Y,
                   const Workers& workers);
 
-/// Computes X = X C, where C has no more columns than X; further columns of X are left as they are.
+/// Computes X = X C, where C has no more columns than X; further columns of X do not change.
 void multiplyInPlace(Eigen::Ref<Eigen::MatrixXd> X, const Eigen::MatrixXd& C, const Workers& workers);
 
 }  // namespace tufted

@@ -50,7 +50,7 @@ Points TransportSolver::query(const std::vector<int>& sources, const Points& vec
   const FieldHeat& heat = state_->heat;
   checkSources(query_name, sources, "vectors", vectors);
   const int n = heat.size();
-  double longest = 0;  // lengths are carried in this unit
+  double longest = 0;  // unit of the lengths that are transported
   for (Eigen::Index s = 0; s < vectors.rows(); ++s) longest = std::max(longest, vectors.row(s).stableNorm());
   const double unit = longest > 0 ? longest : 1;
   HeatFields start{Eigen::MatrixXd::Zero(n, 2), Eigen::MatrixXd::Zero(2 * Eigen::Index{n}, 1)};

@@ -33,7 +33,7 @@ std::vector<TriangleCandidate> triangleCandidates(const IntrinsicTriangulation& 
     std::sort(face.begin(), face.end());
     others[fill[face[0]]++] = {face[1], face[2]};
   }
-  double unit = 0;  // of length
+  double unit = 0;  // longest side of the cover
   for (const double length : cover.length) unit = std::max(unit, length);
   std::vector<TriangleCandidate> candidates;
   candidates.reserve(others.size() / 4);

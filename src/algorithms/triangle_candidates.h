@@ -8,14 +8,14 @@
 
 namespace tufted {
 
-/// A triangle of a cover, whichever way its faces run.
+/// A triangle of a cover, in any orientation.
 struct TriangleCandidate {
   std::array<int, 3> corners;  ///< ascending
-  int faces;                   ///< how many faces of the cover have these corners: two for each star
-  float radius;                ///< of the circumscribed circle, over the root mean squared side of all
+  int faces;                   ///< number of faces of the cover with these corners: two for each star
+  float radius;                ///< circumradius over the longest side of the cover
 };
 
-/// The distinct triangles with three different corners in a cover, by ascending corners.
+/// The distinct triples of different corners of a cover's faces, ascending.
 /// @param positions of the corners, finite
 std::vector<TriangleCandidate> triangleCandidates(const IntrinsicTriangulation& cover, const Points& positions);
 

@@ -1,4 +1,4 @@
-// The way around a point with the least angle (Xin, Wang 2007), where any number of triangles may meet at an edge.
+// The way of least angle around a point (Xin, Wang 2007), where any number of triangles may meet at an edge.
 #include "algorithms/turn.h"
 
 #include <algorithm>
@@ -15,14 +15,14 @@
 namespace tufted {
 namespace {
 
-/// Angles that miss half a circle by less than this, in radians, are straight.
+/// Angles within this of pi, in radians, count as straight.
 constexpr double straight = 1e-9;
-/// Faces that are looked at per triangle of a piece that is laid through others; two at an edge are usual, three next
-/// to flips.
+/// Maximum number of faces to try per triangle of a piece that is laid through others; usually two meet at an edge,
+/// three next to flips.
 constexpr int most_faces_by_doors = 8;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// An edge at a point. One that leads back to it is there twice, by its ends.
+/// An end of an edge at a point. An edge from the point to itself has two.
 struct EdgeEnd {
   int edge, end;
   friend bool operator==(const EdgeEnd& a, const EdgeEnd& b) { return a.edge == b.edge && a.end == b.end; }
@@ -50,14 +50,14 @@ class Link {
       if (i == 0 || !(sides_[i - 1].edge == sides_[i].edge)) nodes_.push_back({sides_[i].edge, i, infinity, -1, -1});
   }
 
-  /// Lets ways begin at an edge.
+  /// Starts the search at an edge with the given angle.
   void start(const EdgeEnd& edge, double angle) {
     const int node = nodeOf(edge);
     if (node < 0 || !(angle < nodes_[node].angle)) return;
     nodes_[node].angle = angle;
     queue_.push({angle, node});
   }
-  /// Finds the ways to all edges.
+  /// Finds the ways of least angle to all edges (Dijkstra).
   void search() {
     while (!queue_.empty()) {
       const auto [angle, node] = queue_.top();
@@ -80,7 +80,7 @@ class Link {
   }
   struct Side {
     EdgeEnd edge;
-    int slot, side;  ///< of a corner at the point, and of the edge in the same triangle
+    int slot, side;  ///< slots of the corner at the point and of the edge, in the same triangle
     bool operator<(const Side& other) const { return std::pair(edge, side) < std::pair(other.edge, other.side); }
   };
   /// The triangles at an edge.
@@ -88,7 +88,7 @@ class Link {
     const int node = nodeOf(edge);
     return node < 0 ? std::span<const Side>() : sidesOf(node);
   }
-  /// The edges and, between them, the corners of the triangles on the way to an edge.
+  /// The edges on the way to an edge and, between them, the corners of triangles at the point.
   void wayTo(const EdgeEnd& edge, std::vector<EdgeEnd>& edges, std::vector<int>& slots) const {
     for (int node = nodeOf(edge); node >= 0; node = nodes_[node].before) {
       edges.push_back(nodes_[node].edge);
@@ -101,9 +101,9 @@ class Link {
  private:
   struct Node {
     EdgeEnd edge;
-    std::size_t first;  ///< of its sides
+    std::size_t first;  ///< place of its first side
     double angle;
-    int before, slot;  ///< the node before, and the corner of the triangle between
+    int before, slot;  ///< previous node on the way, and the corner between; -1: none
   };
 
   int nodeOf(const EdgeEnd& edge) const {
@@ -123,18 +123,18 @@ class Link {
   std::priority_queue<std::pair<double, int>, std::vector<std::pair<double, int>>, std::greater<>> queue_;
 };
 
-/// The side at a corner that is this edge.
+/// The side of a corner that lies on an edge.
 int sideAt(const MarchFaces& faces, int slot, const EdgeEnd& edge) {
   return edgeEnd(faces, nextSide(slot), slot) == edge ? nextSide(slot) : previousSide(slot);
 }
 
-/// The edge that a piece of a path is, at its corner `slot`.
+/// The edge that a strip without doors runs along, at its corner `slot`.
 EdgeEnd edgeOf(const MarchFaces& faces, const Strip& strip, int slot) {
   return edgeEnd(faces, thirdSlot(strip.start, strip.end), slot);
 }
 
-/// Straightens pieces that meet in one triangle, without the triangles that the first enters and the second goes back
-/// through.
+/// Straightens two pieces that meet in one triangle, without the triangles in which the second returns through the
+/// first.
 std::vector<Segment> straightenTogether(const MarchFaces& faces, const Strip& before, const Strip& after) {
   Strip strip{before.start, after.end, before.doors};
   auto rest = after.doors.begin();
@@ -152,8 +152,8 @@ std::vector<Segment> straightenTogether(const MarchFaces& faces, const Strip& be
   return straighten(faces, strip);
 }
 
-/// Puts the triangles around the point between those of the pieces.
-/// @param goal the edge at the start of the second piece to which the way around the point leads
+/// Inserts the triangles around the point between those of two pieces.
+/// @param goal the edge at the start of the second piece where the way around the point ends
 Strip join(const MarchFaces& faces, const Link& link, const Strip& before, const Strip& after, const EdgeEnd& goal) {
   std::vector<EdgeEnd> edges;
   std::vector<int> slots;
@@ -161,7 +161,7 @@ Strip join(const MarchFaces& faces, const Link& link, const Strip& before, const
   if (!before.isEdge()) slots.insert(slots.begin(), before.end);
   if (!after.isEdge()) slots.push_back(after.start);
   Strip strip{before.start, after.end, before.doors};
-  // The other end of an edge lies opposite the other side at the point.
+  // The far end of an edge lies opposite the other side at the point.
   const auto farEnd = [&](int slot, const EdgeEnd& edge) { return thirdSlot(slot, sideAt(faces, slot, edge)); };
   if (before.isEdge()) strip.start = farEnd(slots.front(), edges.front());
   if (after.isEdge()) strip.end = farEnd(slots.back(), edges.back());
@@ -176,9 +176,9 @@ Strip join(const MarchFaces& faces, const Link& link, const Strip& before, const
   return strip;
 }
 
-/// At a rim triangles that edges were flipped over lie over one another. The second piece, which starts in one of them,
-/// is laid through each of the others to which the angle around the point is less than half a circle.
-/// @returns the shortest way, if it is shorter than both pieces
+/// Triangles that flips led over a rim overlap others. The second piece, which starts in one of them, is laid through
+/// each of the others if the angle around the point is then below pi.
+/// @returns the shortest result, if it is shorter than both pieces together
 std::optional<std::vector<Segment>> shortcutThroughOthers(const MarchFaces& faces, const Link& link,
                                                           const Segment& before, const Segment& after) {
   const Strip& first = before.strip;
@@ -215,7 +215,7 @@ std::optional<std::vector<Segment>> shortcutAt(const MarchFaces& faces, const Se
   if (first.isEdge() && second.isEdge() && edgeOf(faces, first, first.end) == edgeOf(faces, second, second.start))
     return std::vector<Segment>();
   if (!first.isEdge() && !second.isEdge() && first.end == second.start) {
-    // Both in one triangle.
+    // Both pieces lie in one triangle at the point.
     if (!(std::abs(before.at_end[0] - after.at_start[0]) < std::numbers::pi - straight)) return {};
     return straightenTogether(faces, first, second);
   }

@@ -7,9 +7,9 @@
 
 namespace tufted {
 
-/// The way around the point between two pieces of a path, if it has less than half a circle on some side, or would have
-/// with the second piece in other triangles that it runs through as well.
-/// @returns what takes the place of both, without any piece where the path returns by the way it came
+/// Leads a path around the other side of the point between two of its pieces, if the angle there is below pi, or is so
+/// with the second piece in other triangles that overlap its own (docs/algorithm.md, section 18, paths, step 3).
+/// @returns the pieces that replace both, none where the path returned along an edge; nullopt if there is no shortcut
 std::optional<std::vector<Segment>> shortcutAt(const MarchFaces& faces, const Segment& before, const Segment& after);
 
 }  // namespace tufted

@@ -1,4 +1,4 @@
-// Heat that carries scalars and vectors (Sharp, Soliman, Crane: "The vector heat method", 2019, Sections 3 to 6).
+// Heat of scalars and vectors, in rounds (Sharp, Soliman, Crane: "The vector heat method", 2019, Sections 3 to 6).
 #include "algorithms/vector_heat.h"
 
 #include <algorithm>
@@ -16,15 +16,15 @@
 namespace tufted {
 namespace {
 
-/// A mass that is less than this part of its row of L is lost when the two are added.
+/// A mass below this part of the diagonal of L is raised to it, as it would be lost in the sum.
 constexpr double least_mass = 1e-13;
-/// Heat is used down to this part of the largest: by a factor, right relative to itself, half the range of a double, as
-/// squares are taken; by conjugate gradients, whose tolerance is relative to the largest, six digits above it.
+/// Heat is used down to this part of the largest: with a factor half the exponents of a double, as squares are taken;
+/// with conjugate gradients six digits above their tolerance, which is relative to the largest.
 constexpr double front_of_factor = 1e-150, front_of_iterations = 1e-6;
-/// The tolerance of conjugate gradients for heat: near the best that they reach, as heat is used far below its largest
+/// The tolerance of conjugate gradients for heat, near the best that they reach, as heat is used far below its largest
 /// value.
 constexpr double heat_tolerance = 1e-12;
-/// The part of the memory that the factor for scalars may take; that for vectors has four times the entries.
+/// The part of the memory for the factor of scalars; that of vectors has four times as many entries.
 constexpr double scalar_share = 0.2;
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -64,7 +64,7 @@ VectorXd spacingsOf(const SparseMatrix& L, const Points& positions, const Compon
   return spacing;
 }
 
-/// The matrix `sum` + mass, where each point has `width` rows.
+/// A matrix plus mass on its diagonal, where each point has `width` rows.
 // NOLINTNEXTLINE(performance-unnecessary-value-param): changed through iterators
 SparseMatrix withMass(SparseMatrix sum, const VectorXd& mass, int width) {
   for (int i = 0; i < sum.outerSize(); ++i) {
@@ -121,8 +121,7 @@ std::string FieldHeat::whyIgnored(int source) const {
 
 HeatFields FieldHeat::solve(const char* function, HeatFields flow, const std::vector<std::uint8_t>& passed,
                             VectorHeatReport& report, const Progress& progress) const {
-  // Each component at the same size, so that iterations see them alike; scalars by the heat that they are compared
-  // with.
+  // Scales each component to the same size for iterations, scalars by their first column.
   VectorXd top = VectorXd::Zero(components_.count);
   for (const int i : components_.points) top[components_.of[i]] = std::max(top[components_.of[i]], flow.scalars(i, 0));
   for (const int i : components_.points)
@@ -136,7 +135,7 @@ HeatFields FieldHeat::solve(const char* function, HeatFields flow, const std::ve
   }
   const bool starts = report.rounds == 1;
   const auto solveWith = [&](const LinearSystem& system, Eigen::MatrixXd& fields) {
-    // Later rounds have nothing but rounding behind the front, and are measured ahead of it.
+    // In later rounds the solution behind the front is only rounding; checkAhead() measures them ahead of it.
     const Refine refine = starts || report_.iterative ? Refine::where_needed : Refine::never;
     SolveReport solved;
     fields = system.solve(function, fields, &solved, progress, refine);
@@ -184,7 +183,7 @@ void FieldHeat::checkAhead(const char* function, const HeatFields& right, const 
 HeatFields FieldHeat::flowAhead(const HeatFields& heat, const std::vector<std::uint8_t>& passed) const {
   HeatFields flow{Eigen::MatrixXd::Zero(heat.scalars.rows(), heat.scalars.cols()),
                   Eigen::MatrixXd::Zero(heat.vectors.rows(), heat.vectors.cols())};
-  // With chi = 1 ahead and 0 behind, A (chi u) is this: 0 but on both sides of the front.
+  // This is A (chi u) with chi = 1 ahead of the front and 0 behind, which is 0 except on both sides of the front.
   const auto add = [&](const SparseMatrix& A, int width, int row, const Eigen::MatrixXd& u, Eigen::MatrixXd& b) {
     const bool behind = passed[row / width] != 0;
     for (SparseMatrix::InnerIterator entry(A, row); entry; ++entry) {

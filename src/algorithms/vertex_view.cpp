@@ -15,7 +15,7 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// The angle between two sides of a triangle.
+/// The angle between sides a and b of a triangle.
 double angleBetween(double a, double b, double opposite) {
   return std::atan2(4 * triangleArea(opposite, a, b), cotanNumerator(opposite, a, b));
 }
@@ -87,7 +87,7 @@ PlaceInCover VertexView::follow(const Match& match) const {
                                       [](double value, const Sector& sector) { return value < sector.angle; });
   const Sector& sector = *std::prev(after);
   const Vector2d point = polar(match.distance, angle - sector.angle), along = point.normalized();
-  // Whether the point lies no farther than where the line leaves through a side, which may lie on the line.
+  // Whether the point lies before the place where the line leaves the face through a side, which may lie on the line.
   const auto isBefore = [&](const Vector2d& right, const Vector2d& left) {
     const double from_right = std::abs(tufted::cross(along, right)), from_left = std::abs(tufted::cross(along, left));
     const double at_right = along.dot(right), at_left = along.dot(left), across = from_right + from_left;
@@ -138,7 +138,7 @@ double VertexView::nearest(int vertex) const {
   return found == nearest_.end() ? std::numeric_limits<double>::infinity() : found->second;
 }
 
-/// Adds a window unless no side of the triangle leads through it.
+/// Adds a window unless it is too far, a shorter path leads around an end of its side, or it lies in one added before.
 void VertexView::add(Window window) {
   const double on_line = wedge_.on_line;
   const int side = window.door.side;
@@ -169,7 +169,8 @@ void VertexView::add(Window window) {
   windows_.push(window);
 }
 
-/// Goes on behind a window. Where a vertex lies on one of its bounds, lines pass it on both sides.
+/// Continues a window through the two other sides of the face behind it. If a vertex lies on a bound of the window,
+/// lines pass it on both sides.
 void VertexView::cross(const Window& window) {
   const Door& door = window.door;
   const int right_side = nextSide(door.side), left_side = previousSide(door.side);
@@ -190,10 +191,11 @@ void VertexView::cross(const Window& window) {
   }
 }
 
-/// @param side of the face, starts at the first of its corners
-/// @param seen where the point is but for rounding; outside of the face the point is the nearest one on its sides
+/// The place of a point in a face.
+/// @param side of the face, starts at corners[0]
+/// @param seen the point up to rounding; if outside of the face, the nearest point on its sides is used
 PlaceInCover VertexView::placeIn(int side, const std::array<Vector2d, 3>& corners, const Vector2d& seen) const {
-  const auto areaAt = [&](int k) -> double {  // of the part opposite a corner
+  const auto areaAt = [&](int k) -> double {  // twice the area of the part opposite a corner
     return tufted::cross(corners[(k + 1) % 3] - seen, corners[(k + 2) % 3] - seen);
   };
   std::array<double, 3> weights = {areaAt(0), areaAt(1), areaAt(2)};

@@ -14,63 +14,65 @@ namespace tufted {
 
 /// A triangle as seen from the corner that is nearest to a point inside it.
 struct Wedge {
-  /// Corners that are seen from another are those of the triangle if they lie where its lengths put them, up to this
-  /// part of the longer side; the best of several is taken. Mollification moves them by far less.
+  /// Two vertices match the triangle if they lie where its lengths place them, up to this part of the longer side; the
+  /// best match is taken. Mollification moves them by far less.
   static constexpr double same_triangle = 1e-2;
 
-  int corner;                    ///< the one it is seen from
-  std::array<int, 2> others;     ///< the farther one first
-  std::array<double, 2> length;  ///< of the sides to them, in `unit`
-  std::array<double, 2> weight;  ///< of the point at them
-  double angle;                  ///< between the sides
+  int corner;                    ///< the corner nearest to the point
+  std::array<int, 2> others;     ///< the other corners, the farther one first
+  std::array<double, 2> length;  ///< of the sides to `others`, in `unit`
+  std::array<double, 2> weight;  ///< barycentric weights of the point at `others`
+  double angle;                  ///< between these sides, radians
   double unit;                   ///< a power of two near the longer side
-  double on_line;                ///< a vertex that is no farther from a line may lie on it
+  double on_line;                ///< a vertex no farther from a line than this, in `unit`, counts as on it
 
-  /// @param source of three different corners
+  /// @param source with three different corners
   /// @param on_line in parts of the longer side
   static Wedge of(const SurfacePoint& source, double on_line);
 };
 
-/// The surface around a vertex of a cover, as far as a triangle there reaches. The cover may have several such parts
-/// around one vertex, with faces of their own. Directions are angles from the first side, growing to the left.
+/// One fan of faces around a vertex of a cover, and the surface beyond as far as a triangle reaches (docs/algorithm.md,
+/// section 18). Directions are angles from the first side, growing to the left.
 ///
-/// Straight lines are followed through the faces as by Chen and Han (1990): a window is a range of directions that
-/// leave a face through one side. Sides of triangles are straight in space, so no path is shorter, and windows with a
-/// shorter way round are dropped (Xin and Wang 2009).
+/// Straight lines are followed through the faces in windows (Chen and Han 1990): ranges of directions that leave a face
+/// through one side. Sides of triangles are straight in space, so no path is shorter, and windows that a shorter path
+/// leads around are dropped (Xin and Wang 2009).
 class VertexView {
  public:
-  /// How well what is seen fits the triangle, and where the point lies then.
+  /// Two vertices that match the triangle, and the place of the point.
   struct Match {
-    double misfit = std::numeric_limits<double>::infinity();  ///< in the wedge's unit
-    double distance = 0, angle = 0;                           ///< of the point
-    /// Vertices on the line to the point are taken to lie to its left (1) or right (-1): outside of the triangle.
+    double misfit =
+        std::numeric_limits<double>::infinity();  ///< of the vertices from their expected places, in the wedge's unit
+    double distance = 0, angle = 0;               ///< of the point from the vertex
+    /// Vertices on the line to the point count as to its left (1) or right (-1), outside of the triangle.
     int vertices_on_line = 0;
   };
 
-  /// Both arguments are borrowed.
-  /// @param side of the cover, starts at the vertex
+  /// `cover` and `wedge` are borrowed.
+  /// @param side a side of the cover that starts at the vertex
   VertexView(const IntrinsicTriangulation& cover, const Wedge& wedge, int side);
 
-  /// The sides of the cover that start here.
+  /// Visits the sides of this fan that start at the vertex.
   template <class Visit>
   void forSides(const Visit& visit) const {
     for (const Sector& sector : sectors_) visit(sector.side);
   }
-  /// Looks for the corners beyond the faces at the vertex.
+  /// Searches for the corners beyond the faces at the vertex.
   void lookFarther();
+  /// The best match so far.
   /// @param turn 1: the nearer corner lies to the left of the farther one, -1: to the right
   Match match(int turn) const;
-  /// Follows the line to a point.
-  /// @returns the face that it lies in, and where; face -1 where the line does not come to an end
+  /// Follows the straight line to the point of a match.
+  /// @returns its place; face -1 if the line does not end
   PlaceInCover follow(const Match& match) const;
 
  private:
   /// A face at the vertex.
   struct Sector {
-    int side;      ///< runs from the vertex along the right of the face
-    double angle;  ///< of that side
+    int side;      ///< side from the vertex, the right one of the face
+    double angle;  ///< direction of that side
   };
-  /// Where a corner of the triangle is seen.
+  /// Where a corner of the triangle is seen from the vertex.
   struct Image {
     double distance, angle;
   };
@@ -82,9 +84,9 @@ class VertexView {
   /// Directions that lead through a door.
   struct Window {
     double distance;
-    double angle;  ///< of the sector
+    double angle;  ///< direction of the sector's side
     Door door;
-    Eigen::Vector2d low, high;  ///< farthest to the right and to the left
+    Eigen::Vector2d low, high;  ///< rightmost and leftmost direction
 
     friend bool operator<(const Window& a, const Window& b) { return a.distance > b.distance; }
   };
@@ -102,8 +104,8 @@ class VertexView {
   const IntrinsicTriangulation& cover_;
   const Wedge& wedge_;
   std::vector<Sector> sectors_;
-  double total_ = 0;                          ///< the angle around the vertex
-  std::array<std::vector<Image>, 2> images_;  ///< of the two other corners
+  double total_ = 0;                          ///< total angle around the vertex
+  std::array<std::vector<Image>, 2> images_;  ///< of the triangle's two other corners
   std::unordered_map<int, double> nearest_;   ///< upper bounds of the distances of vertices
   std::priority_queue<Window> windows_;
   std::unordered_map<int, std::vector<Window>> seen_;  ///< by side

@@ -23,7 +23,7 @@ constexpr const char* function_name = "boundedBiharmonicWeights";
   throw InvalidInput(std::string(function_name) + ": " + why);
 }
 
-/// Of each active point, which handle it belongs to; -1: none.
+/// The handle of each active point, N; -1: none.
 std::vector<int> handlesOfPoints(const Laplacian& laplacian, const Components& components,
                                  const std::vector<std::vector<int>>& handles) {
   const auto n = static_cast<int>(laplacian.status.size());
@@ -52,7 +52,7 @@ std::vector<int> handlesOfPoints(const Laplacian& laplacian, const Components& c
   return of;
 }
 
-/// Points with a value above that of all neighbours.
+/// Number of free points with a value above that of all neighbours.
 std::int64_t localMaxima(const Laplacian& laplacian, const std::vector<std::uint8_t>& is_free, const VectorXd& u) {
   std::int64_t count = 0;
   for (int i = 0; i < u.size(); ++i) {
@@ -97,7 +97,7 @@ Eigen::MatrixXd boundedBiharmonicWeights(const Laplacian& laplacian, const std::
       return options.solver.progress == nullptr || options.solver.progress("weights", before);
     };
     VectorXd u = VectorXd::Zero(std::ssize(laplacian.status));
-    // Other components than those of the handle are 0, and have nothing to solve.
+    // On components without this handle the weight is 0.
     std::vector<std::uint8_t> takes_part(static_cast<std::size_t>(components.count), 0);
     for (const int i : components.points) {
       if (handle[i] != h) continue;

@@ -18,15 +18,15 @@ namespace {
 using Eigen::Index;
 
 constexpr double epsilon = std::numeric_limits<double>::epsilon();
-/// Part of each diagonal that is added: it makes a semidefinite matrix definite in doubles, and hides no failure that
-/// matters.
+/// Part of each diagonal that is added to it, so that a semidefinite matrix is definite in doubles. It hides no error
+/// of significance.
 constexpr double shift = 1e-12;
 
 bool isActive(const Laplacian& laplacian, Index i) {
   return laplacian.status[i] == PointStatus::active;
 }
 
-/// Whether the stored columns lie one after the other; otherwise they cannot be iterated.
+/// Checks that the columns are stored one after another; otherwise they cannot be iterated.
 void checkColumns(const SparseMatrix& L, Promise& storage) {
   if (!L.isCompressed()) return storage.brokenBy("L is not compressed");
   const int* start = L.outerIndexPtr();
@@ -38,7 +38,7 @@ void checkColumns(const SparseMatrix& L, Promise& storage) {
   if (start[L.cols()] != stored) storage.brokenBy("the columns end at ", start[L.cols()], " of ", stored, " entries");
 }
 
-/// Checks sizes, indices and codes. False if the rest cannot be checked.
+/// Checks sizes, indices and codes. False if nothing else can be checked.
 bool checkShape(const Laplacian& laplacian, std::vector<std::string>& faults) {
   Promise size("size"), storage("storage"), status("status"), boundary("boundary");
   const SparseMatrix& L = laplacian.L;
@@ -79,7 +79,7 @@ bool checkShape(const Laplacian& laplacian, std::vector<std::string>& faults) {
   return faults.empty();
 }
 
-/// Checks entry by entry: signs, and zeros at points that take no part.
+/// Checks each entry: that it is finite, has the right sign, and is 0 at points that are not active.
 void checkEntries(const Laplacian& laplacian, const VectorXd& diagonal, LaplacianCheck& check) {
   const SparseMatrix& L = laplacian.L;
   Promise finite("finite"), sign("off-diagonal sign"), positive("positive diagonal");
@@ -125,12 +125,12 @@ void checkRows(const Laplacian& laplacian, const VectorXd& diagonal, LaplacianCh
       if (down && down.row() == i) below = down.value(), ++down;
       if (across && across.row() == i) beside = across.value(), ++across, ++entries;
       if (i != j) off_diagonal += beside;
-      if (i < j || below == beside) continue;  // each pair once
+      if (i < j || below == beside) continue;  // each pair is compared once
       symmetry.brokenBy("L(", i, ", ", j, ") = ", below, ", L(", j, ", ", i, ") = ", beside);
       raise(check.symmetry_error, std::abs(below - beside) / std::max(diagonal[i], diagonal[j]));
     }
     if (!isActive(laplacian, j)) continue;
-    // The diagonal and this sum add up the same terms, all of one sign, in different orders.
+    // The diagonal is the same sum, of terms of one sign, in another order.
     const double error = std::abs(off_diagonal + diagonal[j]) / diagonal[j];
     if (!(error <= static_cast<double>(entries) * epsilon))
       row_sum.brokenBy("row ", j, " sums to ", off_diagonal + diagonal[j], " beside a diagonal of ", diagonal[j]);
@@ -140,8 +140,8 @@ void checkRows(const Laplacian& laplacian, const VectorXd& diagonal, LaplacianCh
   row_sum.addTo(check.faults);
 }
 
-/// The lower triangle of D^-1/2 L D^-1/2 + shift of the active points, D = diag(L). The scaling alone changes no sign
-/// of a pivot; it keeps tiny and huge weights clear of underflow and overflow.
+/// The lower triangle of D^-1/2 L D^-1/2 + shift of the active points, D = diag(L). The scaling changes no sign of a
+/// pivot and avoids underflow and overflow.
 LongMatrix scaledLower(const Laplacian& laplacian, const VectorXd& diagonal) {
   Selection active(laplacian.status.size());
   for (int i = 0; i < static_cast<int>(laplacian.status.size()); ++i) {
@@ -210,8 +210,8 @@ void checkCover(const Laplacian& laplacian, const Workers& workers, LaplacianChe
   }
 }
 
-/// Checks that equal points name the lowest of them, all others themselves, that frames of active points are
-/// orthonormal, and that active points lie somewhere.
+/// Checks that coincident points name an earlier point and all others themselves, that frames of active points are
+/// orthonormal, and that their positions are finite.
 void checkPoints(const Laplacian& laplacian, LaplacianCheck& check) {
   Promise representative("representative"), frame("frame"), position("position");
   const Frames& frames = laplacian.frames;
@@ -234,7 +234,7 @@ void checkPoints(const Laplacian& laplacian, LaplacianCheck& check) {
   position.addTo(check.faults);
 }
 
-/// Checks what only the report knows, and whether its counts are right.
+/// Checks the failures that only the report holds, and its counts.
 void checkReport(const Laplacian& laplacian, LaplacianCheck& check) {
   const Report& report = laplacian.report;
   Promise failures("failures"), counts("counts");

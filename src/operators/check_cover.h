@@ -6,9 +6,9 @@
 
 namespace tufted {
 
-/// Checks the sizes and corners of a Laplacian's cover, as one that was put together by hand may not fit.
-/// @param function how messages call the function that asks
-/// @throws InvalidInput where it does not fit, or where there is no cover
+/// Checks the sizes and corners of a Laplacian's cover, which a caller may have assembled wrongly.
+/// @param function named in errors
+/// @throws InvalidInput if they do not fit the Laplacian, or there is no cover
 void checkCover(const std::string& function, const Laplacian& laplacian);
 
 }  // namespace tufted

@@ -18,7 +18,7 @@ namespace {
 
 using Eigen::Index;
 
-constexpr double tolerance = 1e-11;  // of a diagonal, an area; all data agree within 6e-15
+constexpr double tolerance = 1e-11;  // relative to a diagonal or an area; all data sets agree within 6e-15
 constexpr double smallest_area = std::numeric_limits<double>::min();
 
 /// An edge of the cover that has no entry in L.
@@ -36,8 +36,8 @@ class Assembly {
     mergeOthers();
   }
 
-  /// Calls visit(i, j, weight, L_ij) for every edge of the cover and every entry of L with i > j. The weight is 0 where
-  /// L alone has an entry.
+  /// Calls visit(i, j, weight, L_ij) for every edge of the cover and every entry of L with i > j. The weight is 0 if
+  /// only L has an entry.
   template <class Visit>
   void forEachEdge(const Visit& visit) const {
     for (int j = 0; j < L_.cols(); ++j) {
@@ -47,9 +47,9 @@ class Assembly {
     for (const Edge& edge : others_) visit(edge.high, edge.low, edge.weight, 0.0);
   }
 
-  /// Areas of the points, in the caller's unit.
+  /// Areas of the points, in the points' unit squared.
   const VectorXd& area() const { return area_; }
-  /// Whether a length at point i has fewer digits than others.
+  /// Whether a face at point i has lengths with fewer digits (UnitFace::isCoarse()); it is then not compared.
   bool isCoarse(Index i) const { return is_coarse_[i] != 0; }
 
  private:
@@ -91,7 +91,7 @@ class Assembly {
   }
 
   const SparseMatrix& L_;
-  std::vector<double> weight_;  ///< by entry of L, used below the diagonal
+  std::vector<double> weight_;  ///< by entry of L, set below the diagonal
   std::vector<Edge> others_;
   VectorXd area_;
   std::vector<std::uint8_t> is_coarse_;
@@ -120,7 +120,7 @@ void compareWeights(const SparseMatrix& L, const Assembly& assembly, SurfaceChec
 }
 
 /// Compares the areas of all points with those expected.
-/// @param expected areas of active points; others have none
+/// @param expected areas of active points; those of others are 0
 /// @returns the greatest relative error
 double compareAreas(const char* name, const char* array, const Laplacian& laplacian, const Assembly& assembly,
                     const VectorXd& found, const VectorXd& expected, std::vector<std::string>& faults) {
@@ -150,7 +150,7 @@ void compareMasses(const Laplacian& laplacian, const Assembly& assembly, Surface
     } else {
       const auto& boundary = laplacian.boundary;
       const auto inside = std::count(boundary.begin(), boundary.end(), Boundary::none);
-      // Files of earlier versions hold areas of stars at points inside as well.
+      // Files of earlier versions contain areas of stars at inner points as well.
       const bool is_old = laplacian.report.star_masses > M.size() - inside;
       for (Index i = 0; i < M.size(); ++i)
         if (is_old || boundary[static_cast<std::size_t>(i)] != Boundary::none) expected[i] = M[i];

@@ -24,7 +24,7 @@ constexpr const char* stage = "restrict";
 /// Faces between two calls of `progress`.
 constexpr std::int64_t faces_per_block = 1 << 16;
 
-/// The faces of a cover whose connected part has a point that stays.
+/// The faces of a cover that are connected to a point that stays, glued as before.
 /// @param workers one thread, for progress
 IntrinsicTriangulation restrictedCover(const IntrinsicTriangulation& cover, const std::vector<std::uint8_t>& stays,
                                        const Workers& workers) {
@@ -53,7 +53,7 @@ IntrinsicTriangulation restrictedCover(const IntrinsicTriangulation& cover, cons
     for (std::int64_t f = begin; f < end; ++f) {
       if (number[f] < 0) continue;
       for (std::int64_t side = 3 * f; side < 3 * f + 3; ++side) {
-        // A side and the one that it is glued to lie in one part.
+        // A side and its mate lie in one part.
         result.glue.push_back(3 * number[cover.glue[side] / 3] + cover.glue[side] % 3);
         result.length.push_back(cover.length[side]);
       }
@@ -62,7 +62,7 @@ IntrinsicTriangulation restrictedCover(const IntrinsicTriangulation& cover, cons
   return result;
 }
 
-/// Counts and measures again what the report says of points and edges.
+/// Recomputes the counts and means of the report for the remaining points and edges.
 void recount(Laplacian& laplacian) {
   Report& report = laplacian.report;
   report.active = report.isolated = report.coincident = 0;

@@ -13,7 +13,8 @@ std::array<int, 3> cornersOf(const IntrinsicTriangulation& cover, std::int64_t f
   return number.empty() ? cover.faces[face] : std::array{number[a], number[b], number[c]};
 }
 
-/// The numbers of the faces, grouped by their smallest corner.
+/// The faces, grouped by their smallest corner.
+/// @param[out] offset vertices + 1; first place of each corner's faces
 std::vector<int> facesByCorner(const IntrinsicTriangulation& cover, const std::vector<int>& number,
                                std::vector<int>& offset) {
   const auto owner = [&](std::int64_t face) {

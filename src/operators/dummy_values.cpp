@@ -25,7 +25,7 @@ void setDummyValues(SparseMatrix& L, VectorXd& M, const std::vector<PointStatus>
   if (entries.empty()) return;
   SparseMatrix diagonal(n, n);
   diagonal.setFromTriplets(entries.begin(), entries.end());
-  L = SparseMatrix(L + diagonal);  // the rows and columns of these points are empty, so the sum adds no two numbers
+  L = SparseMatrix(L + diagonal);  // rows and columns of these points are empty, so no entry changes
 }
 
 double dummyMass(const VectorXd& M) {

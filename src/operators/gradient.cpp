@@ -1,4 +1,4 @@
-// Gradients at points by least squares in tangent planes (DiffusionNet; Sharp et al. 2022, Section 3.4), here with a
+// Gradients at points by least squares in tangent planes (DiffusionNet; Sharp et al. 2022, Section 3.4), with a
 // constant in the fit, and their adjoint.
 #include "tufted/gradient.h"
 
@@ -17,9 +17,10 @@
 namespace tufted {
 namespace {
 
-/// Neighbours of a cloud that DiffusionNet takes as well; fewer err more in noise, more err more on curved surfaces.
+/// Default number of neighbours on clouds, as in DiffusionNet: with fewer, noise causes larger errors; with more,
+/// curvature does.
 constexpr int cloud_neighbors = 30;
-/// Neighbours that may be asked for; with more one point would take as long as a small cloud.
+/// Largest number of neighbours that is accepted; with more, one point would take as long as a small cloud.
 constexpr int most_neighbors = 10'000;
 
 void checkArguments(const Laplacian& laplacian, const PointsRef& points, const Frames& frames,
@@ -46,9 +47,9 @@ void checkArguments(const Laplacian& laplacian, const PointsRef& points, const F
     throw InvalidInput("gradients: threads = " + std::to_string(options.threads) + ", must be >= 0");
 }
 
-/// Rows of both matrices, one after the other.
+/// Rows of both gradient matrices, stored one after another.
 struct Rows {
-  std::vector<int> lengths;  ///< of each row
+  std::vector<int> lengths;  ///< number of entries of each row
   std::vector<int> columns;  ///< ascending in each row
   std::vector<double> x, y;
 
@@ -68,7 +69,7 @@ struct Rows {
   }
 };
 
-/// A matrix whose row i has the values of row sources[i], of which there may be several.
+/// The matrix whose row i has the values of row sources[i].
 SparseMatrix matrixOf(const Rows& rows, const std::vector<int>& sources, const std::vector<double>& values) {
   const auto n = static_cast<int>(sources.size());
   std::vector<std::int64_t> starts(sources.size() + 1, 0);
@@ -87,7 +88,7 @@ SparseMatrix matrixOf(const Rows& rows, const std::vector<int>& sources, const s
   return matrix;
 }
 
-/// @param planes where the caller's frames, `frames`, do not bind: fitted planes
+/// @param planes given: slopes are measured in the planes of `frames`; fitted: in the planes that fit best
 Gradients fitGradients(const Laplacian& laplacian, const PointsRef& points, const Frames& frames, Planes planes,
                        const GradientOptions& options) {
   checkArguments(laplacian, points, frames, options);

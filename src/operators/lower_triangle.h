@@ -11,11 +11,11 @@ namespace tufted {
 /// The matrix type of factorisations. The factor of a large cloud may have more than 2^31 entries.
 using LongMatrix = Eigen::SparseMatrix<double, Eigen::ColMajor, std::int64_t>;
 
-/// Numbers some of the points in the caller's order.
+/// Numbers some of the points, in ascending order.
 struct Selection {
-  /// Marks an entry that has no number.
+  /// The number of points that are not selected.
   static constexpr std::int64_t left_out = -1;
-  std::vector<std::int64_t> number;  ///< N; `left_out` for all others
+  std::vector<std::int64_t> number;  ///< N; `left_out` for points not selected
   std::vector<int> point;            ///< index of the point, by number
 
   explicit Selection(std::size_t size) : number(size, left_out) {}
@@ -26,7 +26,8 @@ struct Selection {
   }
 };
 
-/// The lower triangle of L over the points selected, each entry replaced by value(i, j, L_ij), i and j the caller's.
+/// The lower triangle of L over the selected points, each entry replaced by value(i, j, L_ij), where i and j are
+/// indices in L.
 template <class Value>
 LongMatrix lowerTriangle(const SparseMatrix& L, const Selection& selection, const Value& value) {
   const auto n = static_cast<Eigen::Index>(selection.point.size());
@@ -37,7 +38,7 @@ LongMatrix lowerTriangle(const SparseMatrix& L, const Selection& selection, cons
     lower.startVec(k);
     for (SparseMatrix::InnerIterator entry(L, j); entry; ++entry) {
       const auto i = static_cast<int>(entry.row());
-      // Numbers are in the caller's order, and `left_out` is lower than all of them.
+      // Numbers ascend with indices, and `left_out` is below all of them.
       if (selection.number[i] >= k) lower.insertBack(selection.number[i], k) = value(i, j, entry.value());
     }
   }

@@ -1,4 +1,4 @@
-// Tangent frames of a mesh's vertices.
+// meshFrames(): tangent frames of a mesh's vertices.
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -25,7 +25,7 @@ void checkCorners(const TrianglesRef& triangles, Eigen::Index points) {
                            std::to_string(f) + ", must lie in [0, " + std::to_string(points) + ")");
 }
 
-/// Whether triangles are on one side of the surface: no two run along an edge in one direction.
+/// Whether triangles are consistently oriented: no two have an edge in the same direction.
 /// @param directed edges of all triangles, each from its first to its second corner; overwritten
 bool agree(std::vector<std::uint64_t>& directed) {
   std::sort(directed.begin(), directed.end());
@@ -45,7 +45,7 @@ Frames meshFrames(const PointsRef& points, const TrianglesRef& triangles) {
     const Eigen::RowVector3d u = points.row(triangles(f, 1)) - a, v = points.row(triangles(f, 2)) - a;
     const double size = std::max(u.cwiseAbs().maxCoeff(), v.cwiseAbs().maxCoeff());
     if (!(size > 0) || !std::isfinite(size)) continue;
-    // The unit normal times the area over size, as the area itself may underflow.
+    // The normal, as long as twice the area over `size`, as the area itself may underflow.
     const Eigen::RowVector3d normal = (u / size).cross(v / size) * size;
     const double weight = normal.norm();
     if (!(weight > 0)) continue;

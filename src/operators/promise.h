@@ -8,7 +8,7 @@
 
 namespace tufted {
 
-/// How often a promise is broken, and where first.
+/// Counts how often a promise of validate() is broken, and keeps the text of the first time.
 class Promise {
  public:
   explicit Promise(const char* name) : name_(name) {}
@@ -32,7 +32,7 @@ class Promise {
   std::string first_;
 };
 
-/// Keeps the greatest error; one that is not a number is infinite.
+/// Raises `greatest` to `error`; NaN counts as infinite.
 inline void raise(double& greatest, double error) {
   if (!(error <= greatest)) greatest = std::isnan(error) ? INFINITY : error;
 }

@@ -7,7 +7,7 @@
 
 namespace tufted {
 
-/// The rings of neighbours in L of one point after the other.
+/// The rings of neighbours in L around one point at a time. Reused for many points.
 class Rings {
  public:
   /// @param L borrowed
@@ -35,14 +35,14 @@ class Rings {
     return points_.size() > ring_end;
   }
 
-  /// How many rings have been asked for.
+  /// Number of calls of grow() since start().
   int count() const { return count_; }
-  /// The point itself and its rings.
+  /// The point itself, then its rings in order.
   const std::vector<int>& points() const { return points_; }
 
  private:
   const SparseMatrix& L_;
-  std::vector<std::int64_t> seen_;  ///< number of the last start that has seen the point
+  std::vector<std::int64_t> seen_;  ///< number of the last start() that has reached the point
   std::vector<int> points_;
   std::size_t ring_begin_ = 0;
   std::int64_t start_ = 0;

@@ -10,19 +10,20 @@
 namespace tufted {
 namespace {
 
-/// A spread below this part of the larger one in the tangent plane is 0, and there is no slope across.
+/// If the smaller spread of the points in the tangent plane is below this part of the larger, they lie on a line, and
+/// the slope across it is 0.
 constexpr double flat = 1e-10;
-/// If the smaller spread is below this part of the larger, more neighbours are taken: at the corner of a square L joins
-/// one point only, and a scan line says nothing of the slope across.
+/// If it is below this part of the larger, more neighbours are taken: at the corner of a square L has one neighbour
+/// only, and a scan line does not determine the slope across.
 constexpr double narrow = 1e-4;
-/// How often a narrow neighbourhood is doubled, so that it reaches the next scan line; one of the neighbours in L gets
-/// a ring more each time.
+/// Maximum number of doublings of a narrow neighbourhood, to reach the next scan line; one of the neighbours in L gets
+/// a ring instead.
 constexpr int most_doublings = 3;
-/// The nearest are chosen among this many times their number: rings are not circles.
+/// The nearest points are chosen among at least this many times their number, because rings are not circles.
 constexpr double gathered = 2.5;
 
-/// The sum of outer products, of one column after the other: Eigen's product adds up in an order that depends on where
-/// the result lies in memory.
+/// The sum of outer products of columns in their order. Eigen's product sums in an order that depends on the address of
+/// the result.
 template <int rows>
 Eigen::Matrix<double, rows, rows> secondMoment(const Eigen::Matrix<double, rows, Eigen::Dynamic>& columns) {
   Eigen::Matrix<double, rows, rows> sum = Eigen::Matrix<double, rows, rows>::Zero();
@@ -35,7 +36,7 @@ Eigen::Matrix<double, rows, rows> secondMoment(const Eigen::Matrix<double, rows,
 
 }  // namespace
 
-/// Gathers the neighbourhood. @return whether there are points that it has not taken
+/// Collects the neighbourhood. @return whether more points could be added
 bool SlopeFitter::gather(int p, int doublings) {
   rings_.start(p);
   bool grows = true;
@@ -51,7 +52,7 @@ bool SlopeFitter::gather(int p, int doublings) {
     fit_.points.clear();
     double last = INFINITY;
     if (by_distance_.size() > wanted + 1) {
-      const auto farthest = by_distance_.begin() + static_cast<std::ptrdiff_t>(wanted);  // the point itself is first
+      const auto farthest = by_distance_.begin() + static_cast<std::ptrdiff_t>(wanted);  // the point itself counts
       std::nth_element(by_distance_.begin(), farthest, by_distance_.end());
       last = farthest->first;
     }
@@ -63,13 +64,14 @@ bool SlopeFitter::gather(int p, int doublings) {
   return grows;
 }
 
-/// Finds the edges over a power of two near the largest, so that no square overflows or underflows.
-/// @return this power of two; 0 where all points are at one place
+/// Computes the edges over a power of two near the largest, against overflow of squares.
+/// @return this power of two; 0 if all points are at one place
 double SlopeFitter::findEdges(int p) {
   double extent = 0;
   for (const int q : fit_.points) extent = std::max(extent, (points_.row(q) - points_.row(p)).cwiseAbs().maxCoeff());
   if (!(extent > 0) || !std::isfinite(extent)) return 0;
-  const double scale = std::exp2(std::clamp(std::ilogb(extent), -1021, 1022));  // so that the inverse is normal too
+  const double scale =
+      std::exp2(std::clamp(std::ilogb(extent), -1021, 1022));  // the inverse must be a normal number, too
   edges_.resize(3, std::ssize(fit_.points));
   mean_.setZero();
   for (Eigen::Index k = 0; k < edges_.cols(); ++k) {
@@ -80,7 +82,7 @@ double SlopeFitter::findEdges(int p) {
   return scale;
 }
 
-/// The plane that fits the points best, with a normal on the side of the frame's.
+/// Sets the plane that fits the points best, with a normal on the same side as the frame's, unless planes are given.
 void SlopeFitter::choosePlane(int p) {
   if (options_.planes == Planes::given) return;
   const Eigen::Matrix3Xd centered = edges_.colwise() - mean_;
@@ -88,7 +90,7 @@ void SlopeFitter::choosePlane(int p) {
   const Eigen::Vector3d& spreads = solver.eigenvalues();  // ascending
   const Eigen::Vector3d given = frames_.normals.row(p).transpose(), along = solver.eigenvectors().col(2);
   Eigen::Vector3d normal = solver.eigenvectors().col(0);
-  if (!(spreads[1] > flat * spreads[2])) {  // any plane through the line: the one nearest to the frame's
+  if (!(spreads[1] > flat * spreads[2])) {  // points on a line: the plane through it that is nearest to the frame's
     normal = given - given.dot(along) * along;
     normal = normal.norm() > narrow ? normal.normalized() : tangentOf(along);
   }
@@ -97,6 +99,8 @@ void SlopeFitter::choosePlane(int p) {
   fit_.tangent = tangentOf(normal).transpose();
 }
 
+/// Computes the coefficients of the slopes.
+/// @param scale result of findEdges()
 /// @return whether the points determine the slopes well
 bool SlopeFitter::fitSlopes(int p, double scale) {
   const bool is_regularized = options_.regularization > 0;

@@ -10,32 +10,33 @@
 
 namespace tufted {
 
-/// The plane in which slopes are measured: that of the frame, or the one that fits the neighbourhood best.
+/// The plane in which slopes are measured: that of the frame, or the one that fits the points best.
 enum class Planes { given, fitted };
 
 struct SlopeOptions {
-  int neighbors;          ///< beside the point; 0: those in L
-  double regularization;  ///< as GradientOptions::regularization
+  int neighbors;          ///< number of nearest points besides the point itself; 0: its neighbours in L
+  double regularization;  ///< see GradientOptions::regularization
   Planes planes;
 };
 
-/// The slopes of a linear function that fits a function at a point and around it.
+/// The slopes of the linear function that fits values at a point and around it.
 struct SlopeFit {
-  std::vector<int> points;             ///< ascending, the point itself among them
-  Eigen::Matrix2Xd coefficients;       ///< slopes along the tangent and across, by the values at the points
+  std::vector<int> points;        ///< ascending, the point itself included
+  Eigen::Matrix2Xd coefficients;  ///< slopes along tangent and cross(normal, tangent), per value at each of `points`
   Eigen::RowVector3d normal, tangent;  ///< of the plane
-  bool is_widened = false;             ///< as GradientReport
+  bool is_widened = false;             ///< see GradientReport::widened
   bool is_on_a_line = false;
 };
 
-/// Fits linear functions around one point after the other.
+/// Fits linear functions around one point after the other (docs/algorithm.md, section 15).
 class SlopeFitter {
  public:
-  /// @param L, points and frames borrowed
+  /// L, points and frames are borrowed.
   SlopeFitter(const SparseMatrix& L, const PointsRef& points, const Frames& frames, const SlopeOptions& options)
       : points_(points), frames_(frames), options_(options), rings_(L) {}
 
-  /// @return valid until the next fit
+  /// Fits around point p.
+  /// @return valid until the next call
   const SlopeFit& fit(int p);
 
  private:
@@ -49,8 +50,8 @@ class SlopeFitter {
   SlopeOptions options_;
   Rings rings_;
   std::vector<std::pair<double, int>> by_distance_;
-  Eigen::Matrix3Xd edges_;  ///< from the point to each of fit_.points, about their mean unless the fit is regularized
-  Eigen::Vector3d mean_;    ///< of the edges
+  Eigen::Matrix3Xd edges_;  ///< from the point to each of fit_.points, over findEdges()
+  Eigen::Vector3d mean_;    ///< mean of the edges
   SlopeFit fit_;
 };
 

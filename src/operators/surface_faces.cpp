@@ -10,7 +10,7 @@
 namespace tufted {
 namespace {
 
-/// @returns whether the face has an area
+/// Lays a face out in its plane. False if it has no area.
 bool layOut(const DistinctFace& key, double weight, int exponent, SurfaceFace& face) {
   std::array<double, 3> opposite;
   for (int k = 0; k < 3; ++k) opposite[k] = std::ldexp(key.opposite[k], -exponent);

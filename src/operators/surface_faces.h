@@ -13,16 +13,15 @@
 namespace tufted {
 
 /// A triangle laid out in its own plane: corner 0 at the origin, corner 1 at (base, 0), corner 2 at (foot, height). The
-/// base is the longest side, so the foot of the height lies on it and nothing cancels.
+/// base is the longest side, so that 0 <= foot <= base and no digits cancel.
 struct SurfaceFace {
   std::array<int, 3> corners;
   double base, foot, height;
-  double weight;  ///< how much of the surface this face stands for: copies in the cover times the scale of L
+  double weight;  ///< number of copies in the cover times the scale of L
 };
 
-/// The faces of a cover for gradients and divergences. Faces with the same corners and lengths (front and back, the
-/// copies that clouds find of each triangle) are one, faces without area are left out. The order does not depend on the
-/// number of threads.
+/// The distinct faces of a cover (see distinctFaces()) for gradients and divergences, without those of no area. The
+/// order does not depend on the number of threads.
 struct SurfaceFaces {
   std::vector<SurfaceFace> faces;  ///< sorted by corners
   int exponent = 0;                ///< lengths are in units of 2^exponent of the cover's
@@ -32,20 +31,20 @@ struct SurfaceFaces {
 /// @param scale of L: 1/2 for meshes, 1/6 for clouds
 SurfaceFaces surfaceFaces(const IntrinsicTriangulation& cover, double scale, const Workers& workers);
 
-/// The mean squared side over each of some parts of the surface, in units of 2^(2 exponent); 0 without a face.
-/// @param part of each point, in [0, parts); -1: none
+/// The mean squared side of the faces of each part, in units of 2^(2 exponent); 0 without a face.
+/// @param part number of each point's part, in [0, parts); -1: none
 /// @param by_area whether each face is weighted by its area
 VectorXd meanSquaredSides(const SurfaceFaces& surface, const std::vector<int>& part, int parts, bool by_area);
 
-/// Areas of the N points, a third of each face per corner, in units of 2^(2 exponent).
+/// Areas of `size` points, a third of each face per corner, in units of 2^(2 exponent).
 VectorXd lumpedAreas(const SurfaceFaces& surface, int size);
 
-/// Direction of the gradient of the linear function with these values at the corners; zero where they are equal.
+/// Unit direction of the gradient of the linear function with these values at the corners; 0 if they are equal.
 inline Eigen::Vector2d gradientDirection(const SurfaceFace& face, double v0, double v1, double v2) {
   const double first = v1 - v0, second = v2 - v0;
   const double top = std::max(std::abs(first), std::abs(second));
   if (!(top > 0)) return Eigen::Vector2d::Zero();
-  // Times base and height, which does not turn it.
+  // The gradient times base and height, which has the same direction.
   const Eigen::Vector2d gradient(first / top * face.height, second / top * face.base - first / top * face.foot);
   const double length = gradient.norm();
   return length > 0 ? Eigen::Vector2d(gradient / length) : Eigen::Vector2d::Zero();
