@@ -29,7 +29,8 @@ constexpr double most_share = 0.95;
 
 Buffer<Sighting> takeSightings(const Points& points, int width, int height, const Eigen::Vector3d& origin) {
   Buffer<Sighting> sightings;
-  const std::int64_t stride = std::max<std::int64_t>(1, points.rows() / samples) | 1;  // odd: not always one column
+  // odd, so that samples of an even width do not all lie in one column
+  const std::int64_t stride = std::max<std::int64_t>(1, points.rows() / samples) | 1;
   for (std::int64_t i = 0; i < points.rows(); i += stride) {
     const Eigen::Vector3d ray = points.row(i).transpose() - origin;
     if (!ray.allFinite() || ray.isZero(0)) continue;
@@ -40,7 +41,7 @@ Buffer<Sighting> takeSightings(const Points& points, int width, int height, cons
   return sightings;
 }
 
-/// The camera that sees (x, y, 1) ~ camera ray, by least squares of the linear equations.
+/// The 3 x 3 camera matrix with (x, y, 1) ~ camera * ray, by linear least squares (direct linear transformation).
 Eigen::Matrix3d fitCamera(std::span<const Sighting> sightings) {
   Eigen::Matrix<double, 9, 9> normal = Eigen::Matrix<double, 9, 9>::Zero();
   for (const Sighting& sighting : sightings) {
@@ -65,7 +66,7 @@ std::optional<Eigen::Vector3d> opticalAxis(std::span<const Sighting> sightings, 
   const Eigen::Matrix3d camera = fitCamera(sightings);
   Buffer<double> errors;
   errors.reserve(sightings.size());
-  std::int64_t before = 0;  // points in front of the camera, one way round
+  std::int64_t before = 0;  // points in front of the camera if its matrix has the right sign
   for (const Sighting& sighting : sightings) {
     const Eigen::Vector3d seen = camera * sighting.ray;
     before += seen.z() > 0 ? 1 : 0;
