@@ -26,11 +26,11 @@ void delaunayStarCgal(const Buffer<PlanarPoint>& candidates, int p, StarScratch&
     if (q.u == 0 && q.v == 0) continue;
     const auto before = triangulation.number_of_vertices();
     const auto vertex = triangulation.insert(Kernel::Point_2(q.u, q.v));
-    if (triangulation.number_of_vertices() > before) vertex->info() = &q;  // the first of equal places stays
+    if (triangulation.number_of_vertices() > before) vertex->info() = &q;  // of equal positions the first is kept
   }
 
-  // CGAL cuts cocircular polygons as it likes. So p's star is handed over together with every vertex that is
-  // cocircular across one of its link edges, and our own tie rule decides among them.
+  // CGAL triangulates cocircular polygons arbitrarily. So the link of p and all vertices that are cocircular across its
+  // link edges go to wrapChosen(), whose tie rule decides.
   scratch.chosen.clear();
   const auto circulator = triangulation.incident_vertices(center);
   if (circulator != nullptr) {
