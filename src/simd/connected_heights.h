@@ -6,8 +6,8 @@
 namespace tufted {
 namespace {
 
-/// How far one comes from 0, up and down, over gaps of at most `gap` between the heights. Each round goes as far as one
-/// gap reaches, and two go farther than that: there are few.
+/// Extends the range from 0 up and down over gaps of at most `gap` between heights. Each round reaches as far as one
+/// gap, and two reach farther than that, so there are few rounds.
 void extendRange(const double* heights, int count, double gap, HeightRange& range) {
   double high = 0, low = 0;
   bool goes_up = range.top > gap, goes_down = -range.bottom > gap;
@@ -45,7 +45,7 @@ HeightRange connectedHeights(const Offsets& given, const double* normal, double 
   return range;
 }
 
-/// Eight normals at once, so that no round has to look for the farthest of the eight numbers in a packet.
+/// Handles eight normals at once, one per lane, so that no round reduces a packet to its extreme.
 void connectedHeightsAlong(const Offsets& given, const Normals& given_normals, double gap, double* heights,
                            HeightRange* range) {
   const Offsets offsets = given;  // a copy, which what is written below cannot change

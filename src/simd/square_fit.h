@@ -6,7 +6,8 @@
 namespace tufted {
 namespace {
 
-/// Least squares over {1, i, j, i j, i^2 - m, j^2 - m}, which are orthogonal on the square.
+/// Least squares fit over {1, i, j, i j, i^2 - m, j^2 - m}, which are orthogonal on the square; i and j are steps of
+/// rows and columns, m is the mean of i^2.
 template <int Reach>
 TUFTED_INLINE void fitSquare(const PixelRows& rows, int part, SquareFits& fits) {
   const int side = 2 * Reach + 1, pixels = side * side;
