@@ -7,9 +7,10 @@
 
 namespace tufted {
 
-/// The noise and the steps of ranges about smooth surfaces. From fourth differences of inverse depths of five pixels in
-/// a row, which curved surfaces hardly have, less the largest tenth, which are edges; and from how these grow with the
-/// inverse depth, whether the sensor measures disparities or ranges.
+/// Measures the noise of ranges, or the steps to which they are rounded (step 2 in section 28 of docs/algorithm.md):
+/// from fourth differences of the inverse depths of five pixels in a row, which are nearly 0 on smooth surfaces,
+/// without the largest tenth, which are edges. Their dependence on the inverse depth shows if the sensor measures
+/// disparities or ranges.
 RangeNoise rangeNoise(const PixelGrid& grid, const PointsView& points, const Workers& workers);
 
 }  // namespace tufted
