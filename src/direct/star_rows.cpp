@@ -10,7 +10,6 @@ namespace {
 
 class StarRows {
  public:
-  /// The faces of the cover are dropped unless they are kept.
   StarRows(const GluedStars& glued, bool keep_cover, double scale, const Workers& workers, Report& report)
       : stars_(glued.stars),
         metric_(glued.metric),
@@ -35,8 +34,8 @@ class StarRows {
     return mixed_[p] == 0 ? own : own + summed_rows_.offset[p + 1] - summed_rows_.offset[p];
   }
 
-  /// Calls visit(q, weight) for every edge of p. Where both ends are unmixed, their stars have the same two triangles
-  /// there, and the weight has the same bits from either.
+  /// Calls visit(q, weight) for every edge of p. If neither end is mixed both stars have the same two triangles there,
+  /// and the weight has the same bits from either.
   template <class Visit>
   void forEachInRow(int p, const Visit& visit) const {
     const bool is_mixed = mixed_[p] != 0;
@@ -60,9 +59,9 @@ class StarRows {
   const Stars& stars_;
   const StarMetric& metric_;
   const double scale_;
-  Buffer<std::uint8_t> mixed_;  ///< n, 1 for points whose edges among each other are summed over faces
+  Buffer<std::uint8_t> mixed_;  ///< n, 1 for mixed points; edges between these are summed over faces
   RawBuffer<double> mass_;
-  Rows summed_rows_;  ///< edges between mixed points, from both ends
+  Rows summed_rows_;  ///< edges between mixed points, at both ends
 };
 
 }  // namespace
