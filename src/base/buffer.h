@@ -12,7 +12,7 @@
 
 namespace tufted {
 
-/// Allocator of standard containers that takes its memory from takeBlock().
+/// Allocator of takeBlock() memory for standard containers.
 template <class T>
 class WorkspaceAllocator {
  public:
@@ -45,8 +45,7 @@ class WorkspaceAllocator {
 template <class T>
 using Buffer = std::vector<T, WorkspaceAllocator<T>>;
 
-/// Allocator that leaves new values uninitialised, so that the thread which writes a value is the first to touch its
-/// memory.
+/// Allocator that leaves new values uninitialised, so that each thread is the first to touch the values that it writes.
 template <class T>
 class UninitializedAllocator : public WorkspaceAllocator<T> {
  public:
@@ -73,7 +72,7 @@ class UninitializedAllocator : public WorkspaceAllocator<T> {
 template <class T>
 using RawBuffer = std::vector<T, UninitializedAllocator<T>>;
 
-/// Empties an array and gives its memory back; `values = {}` and clear() would keep the memory.
+/// Empties an array and frees its memory, which `values = {}` and clear() keep.
 template <class Array>
 void release(Array& values) {
   Array().swap(values);

@@ -7,7 +7,7 @@
 
 namespace tufted {
 
-/// The quantile of the values at `share`: element floor(share * size) in ascending order. Reorders `values`.
+/// Element floor(share * size) in ascending order. Reorders `values`.
 /// @param values not empty
 /// @param share in [0, 1)
 inline double quantileOf(Buffer<double>& values, double share) {

@@ -25,8 +25,7 @@
 namespace tufted {
 namespace {
 
-/// handOver() and takeOver() mark that a thread which takes work over sees all that was written before it was handed
-/// over.
+/// A thread that takes work over sees all that was written before it was handed over.
 void handOver([[maybe_unused]] void* work) {
 #if TUFTED_HAS_TSAN
   __tsan_release(work);
@@ -38,8 +37,7 @@ void takeOver([[maybe_unused]] void* work) {
 #endif
 }
 
-/// The number of threads that TBB offers: one per processor that this process may use, or fewer if the program limits
-/// TBB.
+/// One per processor that this process may use, or fewer if the program limits TBB.
 int offeredThreads() {
   return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
 }
@@ -48,7 +46,7 @@ int offeredThreads() {
 /// locks, some locked for ever, so it must not use TBB.
 bool has_lost_threads = false;
 
-/// Upper bound on the number of threads: more do not help, and each needs working memory of its own.
+/// More threads than this do not help, and each needs working memory of its own.
 int mostThreads() {
   return std::max(16, 4 * offeredThreads());
 }

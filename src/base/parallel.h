@@ -36,7 +36,7 @@ class Workers {
   /// @throws Cancelled when the progress callback returns false
   template <class Work>
   void forBlocks(std::string_view stage, std::int64_t size, std::int64_t block, const Work& work) const {
-    // Passed as a function pointer, because a std::function would allocate memory.
+    // A std::function would allocate memory.
     runBlocks(
         stage, size, block,
         [](const void* any, std::int64_t begin, std::int64_t end, int worker) {

@@ -17,7 +17,7 @@ struct Scaling {
   Eigen::Array3d lowest = Eigen::Array3d::Zero();    ///< least coordinates of active points; infinite if there are none
   int exponent = 0;                                  ///< 2^exponent is the least power of two above the median spread
 
-  /// The factor 2^-exponent from the caller's unit to scaled coordinates.
+  /// From the caller's unit to scaled coordinates.
   PowerOfTwo toScaled() const { return PowerOfTwo(-exponent); }
 };
 

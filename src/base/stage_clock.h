@@ -33,7 +33,7 @@ class StageClock {
   void finish(std::string stage, std::size_t bytes) {
     report_.stages.push_back({std::move(stage), watch_.restart(), bytes});
   }
-  /// Returns the seconds since the last call and starts again, for stages that are timed in parts.
+  /// seconds(), then starts again, for stages timed in parts.
   double restart() { return watch_.restart(); }
 
  private:
@@ -42,7 +42,6 @@ class StageClock {
 };
 
 template <class T, class Allocator>
-/// Bytes that a vector has allocated.
 std::size_t bytesOf(const std::vector<T, Allocator>& values) {
   return values.capacity() * sizeof(T);
 }

@@ -17,7 +17,7 @@ thread_local Workspace* current_workspace = nullptr;
 
 /// Header in memory before each block.
 struct alignas(std::max_align_t) Header {
-  std::shared_ptr<Workspace::Store> owner;  ///< the store that the block returns to; null: the heap
+  std::shared_ptr<Workspace::Store> owner;  ///< where the block returns to; null: the heap
   std::size_t bytes;                        ///< size of the block, without the header
   Header* next;                             ///< next unused block of the same size
 };
@@ -97,7 +97,7 @@ class Workspace::Store : public std::enable_shared_from_this<Store> {
     }
   };
 
-  /// Takes a block from the heap. If that fails, gives the unused blocks of all sizes back to the heap and tries again.
+  /// Takes a block from the heap. If there is none, frees all unused blocks and tries again.
   Header* make(std::size_t bytes) {
     Header* block = nullptr;
     try {

@@ -24,8 +24,8 @@ class Workspace {
   /// Gives all unused blocks back to the heap.
   void release();
 
-  /// Gives back to the heap the blocks that were not used since the last call. Without it, builds of changing size
-  /// would collect blocks of sizes that are not asked for again.
+  /// Gives blocks that were not used since the last call back to the heap: builds of changing size leave blocks of
+  /// sizes that are not asked for again.
   void trim();
 
   /// Bytes taken from the heap, in use or not.
@@ -34,7 +34,7 @@ class Workspace {
   /// The workspace of the innermost scope of the calling thread, or null.
   static Workspace* current();
 
-  /// Makes a workspace the current one of the calling thread for the life of the scope; null: the heap.
+  /// Sets the current workspace of the calling thread; null: the heap.
   class Scope {
    public:
     explicit Scope(Workspace* workspace);
@@ -54,8 +54,8 @@ class Workspace {
   const std::shared_ptr<Store> store_;
 };
 
-/// Takes memory from the current workspace, or from the heap if there is none; aligned for pointers. Any thread may
-/// give it back, by giveBlock().
+/// Memory from the current workspace, or else from the heap; aligned for pointers. Any thread may give it back by
+/// giveBlock().
 void* takeBlock(std::size_t bytes);
 void giveBlock(void* memory) noexcept;
 

@@ -13,7 +13,7 @@
 namespace tufted {
 namespace {
 
-/// The weight of each edge of the cover, summed over its copies, by vertex, and the mass of each vertex.
+/// The summed weight of each edge, by vertex, and the mass of each vertex.
 class CoverRows {
  public:
   CoverRows(const IntrinsicTriangulation& cover, double scale, const Workers& workers, Report& report) {
@@ -26,7 +26,7 @@ class CoverRows {
   int mostInRow(int v) const { return lower_.offset[v + 1] - lower_.offset[v] + edges_[v]; }
   double mass(int v) const { return mass_[v]; }
 
-  /// Visits the neighbours of v in ascending order, with the weight of their edge.
+  /// Calls visit(neighbour, weight), in ascending order.
   template <class Visit>
   void forEachInRow(int v, const Visit& visit) const {
     for (int i = lower_.offset[v]; i < lower_.offset[v + 1]; ++i)

@@ -12,8 +12,8 @@ constexpr double weight_rounding = 1e-9;
 
 /// Counts the negative weights that are set to 0 in L.
 struct ClampedWeights {
-  std::int64_t small = 0, large = 0;  ///< number of weights within rounding, and beyond it
-  double largest = 0;                 ///< largest of them, as a share of the larger diagonal
+  std::int64_t small = 0, large = 0;  ///< counts within and beyond rounding
+  double largest = 0;                 ///< largest magnitude over the larger diagonal
 
   void add(double weight, double larger_diagonal) {
     const double share = larger_diagonal > 0 ? -weight / larger_diagonal : INFINITY;

@@ -9,7 +9,7 @@
 
 namespace tufted {
 
-/// Number, summed lengths and summed squared lengths of sides.
+/// Number of sides, and sums of lengths and squares.
 struct SideSums {
   std::int64_t sides = 0;
   double length = 0, square = 0;
@@ -26,8 +26,7 @@ struct SideSums {
   }
 };
 
-/// Mean lengths of the sides of items (faces or points), by component, summed in blocks that do not depend on the
-/// number of threads.
+/// Mean lengths of the sides of items by component, with the same bits for any number of threads.
 /// @param components number of components
 /// @param componentOf componentOf(i): the component of item i; -1: the item is left out
 /// @param addSides addSides(i, sums): adds the sides of item i to `sums`

@@ -17,10 +17,10 @@ namespace tufted {
 
 /// The mate of a side that is not glued yet.
 constexpr int unglued = -1;
-/// Greatest number of triangles: a triangle has 6 sides in the cover, whose numbers must fit an int.
+/// A triangle has 6 sides in the cover, whose numbers must fit an int.
 constexpr std::int64_t most_triangles = INT32_MAX / 6;
 
-/// The arrays of an IntrinsicTriangulation in memory of the workspace, for a cover that is built in parts.
+/// An IntrinsicTriangulation in memory of the workspace.
 struct CoverBuffer {
   int vertices = 0;
   RawBuffer<std::array<int, 3>> faces;
@@ -52,7 +52,7 @@ void resizeCover(IntrinsicTriangulation& cover, int vertices, std::int64_t trian
 constexpr int frontSide(int t, int s) {
   return 6 * t + s;
 }
-/// The side of the back of triangle `t` on the same edge as frontSide(t, s).
+/// The side of the back on the same edge.
 constexpr int backSide(int t, int s) {
   return 6 * t + 5 - s;
 }
@@ -67,7 +67,6 @@ void glueSides(Triangulation& cover, int a, int b) {
 /// The circular order in which the triangles around an edge are glued (Section 5.4).
 struct EdgeOrder {
   FaceOrder order = FaceOrder::angle;
-  /// Seed of FaceOrder::random.
   std::uint64_t seed = 0;
 };
 
@@ -81,7 +80,7 @@ struct EdgeCounts {
 EdgeCounts glueEdges(IntrinsicTriangulation& cover, const PointsView& points, const EdgeOrder& order,
                      const Workers& workers, std::vector<Boundary>* boundary = nullptr);
 
-/// Mean length and mean squared length of the sides of all triangles; 0 without a triangle.
+/// Mean length and mean square of all sides; 0 without a triangle.
 struct MeanLengths {
   double length = 0;
   double square = 0;
@@ -90,8 +89,8 @@ struct MeanLengths {
 /// Sets all sides to Euclidean lengths (MEASUREEDGELENGTHS of Algorithm 3).
 MeanLengths measureLengths(IntrinsicTriangulation& cover, const PointsView& points, const Workers& workers);
 
-/// Gives slack to faces that are flat but for rounding (step 3 in section 10 of docs/algorithm.md): each edge grows by
-/// the radii of its two ends, and only vertices between the two shorter sides of such a face have a radius above 0.
+/// Gives slack to faces that are flat but for rounding (section 10 of docs/algorithm.md, step 3): each edge grows by
+/// the radii of its ends, which are 0 except between the two shorter sides of such a face.
 /// @returns the number of edges that grew
 std::int64_t lengthenAtFlatFaces(IntrinsicTriangulation& cover, const Workers& workers);
 

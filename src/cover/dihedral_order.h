@@ -55,8 +55,7 @@ class KeySort {
   Buffer<std::pair<double, Item>> keyed_, scratch_;
 };
 
-/// Sorts the faces around the edge (low, high) by their dihedral angle. Two faces or fewer stay as they are: all their
-/// circular orders are the same.
+/// Sorts the faces around the edge (low, high) by their dihedral angle. Two have only one circular order.
 /// @param apex apex(item): the third corner of the item's face
 template <class Item, class Apex>
 void sortAroundEdge(const PointsView& points, int low, int high, std::span<Item> items, const Apex& apex,

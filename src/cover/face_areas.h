@@ -31,7 +31,7 @@ inline double finiteCotan(double cotan) {
   return std::isfinite(cotan) ? cotan : 0;
 }
 
-/// The cotangent opposite `side`, with the area of its face from faceAreas(); 0 if the face has none.
+/// The finite cotangent opposite `side`, by faceAreas().
 template <class Triangulation>
 double finiteCotan(const Triangulation& t, const Buffer<double>& areas, int side) {
   return finiteCotan(cotanNumerator(t.length[side], t.length[nextSide(side)], t.length[previousSide(side)]) /

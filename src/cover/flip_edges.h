@@ -20,9 +20,9 @@ namespace tufted {
 /// faces is far smaller.
 constexpr double flip_below = -1e-10;
 
-/// Equation 2, with a tolerance for rounding, which could flip an edge back and forth for ever. An edge with both sides
-/// in one triangle is Delaunay: its two opposite angles sum to less than pi. So is an edge without an obtuse opposite
-/// angle, which is found without square roots.
+/// Equation 2, with a tolerance, because rounding could flip an edge back and forth for ever. An edge with both sides
+/// in one triangle is Delaunay: its two opposite angles sum to less than pi. So is one without an obtuse opposite
+/// angle, a test without roots.
 template <class Triangulation>
 bool isDelaunay(const Triangulation& t, int side, int mate) {
   return side / 3 == mate / 3 || !(isOppositeObtuse(t, side) || isOppositeObtuse(t, mate)) ||
@@ -49,9 +49,8 @@ auto flippedLength(const Triangulation& t, int side, int mate) {
 /// `length`, or up to 1024 last bits less, so that a flipped edge of this length is Delaunay in doubles too. `outer`
 /// are the other sides of its two triangles, the first two and the last two.
 ///
-/// In exact arithmetic an edge that was flipped is Delaunay. But an angle near pi changes fast with the length of the
-/// side opposite: rounding that in the last bit changes the cotangent by about epsilon cot^3. The shorter the edge, the
-/// larger the sum of its cotangents.
+/// In exact arithmetic an edge that was flipped is Delaunay. But near pi rounding the side opposite in its last bit
+/// changes the cotangent by about epsilon cot^3. The shorter the edge, the larger the sum.
 template <class Real>
 Real delaunayLength(Real length, const std::array<Real, 4>& outer) {
   // A flipped edge is shortened by at most this many last bits, 2^-42 of its length.
@@ -127,7 +126,7 @@ class RangeFlipper {
     next_round_.clear();
   }
 
-  /// Queues the edge of a side, or appends the side to `left` if its edge leaves the range.
+  /// Queues the edge of a side, or appends it to `left` if it leaves the range.
   void push(int side) {
     if (!isInside(side)) return left_.push_back(side);
     const int edge = std::min(side, cover_.triangulation().glue[side]);

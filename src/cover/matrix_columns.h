@@ -22,7 +22,7 @@ namespace tufted {
 /// The entries of one column of L, in the order in which they are added.
 class Column {
  public:
-  /// Empties the column and makes room for `most` entries.
+  /// Empties it, with room for `most` entries.
   void start(int most) {
     size_ = 0;
     if (std::ssize(row_) >= most) return;
@@ -126,7 +126,7 @@ class MatrixColumns {
   /// Results of one block of vertices.
   struct Block {
     ClampedWeights clamped;
-    std::int64_t components = 0;                 ///< components of the graph of the edges within the block
+    std::int64_t components = 0;                 ///< of the graph of edges within the block
     Buffer<std::pair<int, int>> edges_to_other;  ///< to vertices of earlier blocks
   };
 

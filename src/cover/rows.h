@@ -16,12 +16,12 @@ struct Entry {
 
 /// Rows of entries, stored one after the other.
 struct Rows {
-  Buffer<int> offset;  ///< start of each row in `entries`, and the end
+  Buffer<int> offset;  ///< starts in `entries`, and the end
   RawBuffer<Entry> entries;
 };
 
-/// Sorts entries by column and merges those of equal columns, summing their weights in the given order. Returns the end
-/// of the merged entries, which are at the front.
+/// Sorts entries by column and merges those of equal columns, summing weights in the given order. Returns the end of
+/// the merged ones, which come first.
 inline Entry* mergeColumns(Entry* first, Entry* last, Buffer<Entry>& scratch) {
   stableSort(first, last, scratch, [](const Entry& a, const Entry& b) { return a.column < b.column; });
   Entry* kept = first;

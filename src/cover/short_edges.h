@@ -14,9 +14,8 @@ namespace tufted {
 /// 1, so that what is computed from lengths does not underflow.
 constexpr double shortest = 0x1p-250;
 
-/// Makes every edge at least `delta` times as long as the longest side of the smaller of its two faces (step 1 in
-/// section 10 of docs/algorithm.md, instead of Section 4.5 of the paper). No triangle inequality breaks, and only faces
-/// with such an edge change.
+/// Makes every edge at least `delta` times as long as the longest side of the smaller of its two faces (section 10 of
+/// docs/algorithm.md, step 1; instead of Section 4.5 of the paper). No triangle inequality breaks.
 /// @param cover with lengths in double or long double
 /// @returns the number of edges that were lengthened
 template <class Triangulation>

@@ -1,6 +1,6 @@
-// Flips of thin faces (step 2 in section 10 of docs/algorithm.md). Rounding a length of 1 to a double makes a height of
-// 1e-8 in a face whose corners lie on a line, and each flip of such a face adds more. So meshes with thin faces are
-// measured and flipped in long double first.
+// Flips of thin faces (section 10 of docs/algorithm.md, step 2). Rounding a length of 1 to a double makes a height of
+// 1e-8 in a face whose corners lie on a line, and each flip adds more. So meshes with thin faces are measured and
+// flipped in long double first.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -20,8 +20,8 @@ constexpr double thin_slack = 0x1p-26;
 /// The length of an edge between coincident vertices while thin faces are flipped, as a share of the longest side: too
 /// short to matter in an area, and far above rounding in long double.
 constexpr double short_enough = 0x1p-40;
-/// A slack below this share of the longest side may be rounding alone: corners on a line are on it only up to the
-/// rounding of their coordinates. Such a face is made exactly flat.
+/// A slack below this share of the longest side may be rounding alone, as corners on a line are on it in doubles only:
+/// such a face is made exactly flat.
 constexpr long double straight_slack = 32 * std::numeric_limits<long double>::epsilon();
 
 /// A cover with lengths in long double that shares faces and glue with another.

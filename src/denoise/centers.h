@@ -10,11 +10,10 @@
 
 namespace tufted {
 
-/// The centres, points around which surfaces are fitted (section 27 of docs/algorithm.md), and one centre for each
-/// point.
+/// The points around which surfaces are fitted (section 27 of docs/algorithm.md).
 struct Centers {
   Buffer<int> rank;     ///< m, ranks of the centres, ascending
-  RawBuffer<int> near;  ///< n, index in `rank` of a centre close to each point
+  RawBuffer<int> near;  ///< n, index in `rank` of a centre near each point
 };
 
 /// The positions of the points with the given ranks.

@@ -26,7 +26,7 @@ constexpr double taken_back = 2;
 /// If the weights of all surfaces sum to less than this, it is rounding, and the point stays.
 constexpr double least_weight = 1e-12;
 
-/// Moves points onto the weighted mean of the surfaces around them (step 6 in section 27 of docs/algorithm.md).
+/// Moves points onto the weighted mean of the surfaces around them.
 class Mover {
  public:
   /// All arguments are borrowed.

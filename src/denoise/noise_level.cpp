@@ -17,7 +17,7 @@ constexpr int least_fits = 9;
 /// A window whose smallest variance exceeds this share of the middle one is narrower than three sigmas of noise, and
 /// its plane is not reliable.
 constexpr double thick = 0.15;
-/// The last size that has a next one and one after that.
+/// The last size whose errors can be compared with those of the next.
 constexpr int widest = sizes - 2;
 /// A thick window holds noise if the thickness of one with four times as many points is less than this share of its
 /// own: 1/4 if noise makes it thick, 1 if shape does. With 0.55 noise of 1.4 spacings on a sphere is missed.
@@ -51,7 +51,7 @@ constexpr double white_error = 1.3;
 constexpr double by_chance = 1;
 constexpr double unknown = std::numeric_limits<double>::infinity();
 
-/// How much the height of the surface over a point changes from the next smaller size to this one.
+/// Change of the height of the surface over a centre from the next smaller size to this one.
 double change(const LocalSurface& surface, int size) {
   const SurfaceFit &wide = surface.fit[size], &narrow = surface.fit[size - 1];
   if (!narrow.isValid()) return 0;
@@ -66,7 +66,7 @@ class Pool {
   /// All arguments are borrowed.
   Pool(const SurfaceFits& fits, int center) : fits_(fits), pool_(fits.poolOf(center)) {}
 
-  /// The mean of value(surface) over all with a valid fit of a size; unknown if these are fewer than `least_fits`.
+  /// The mean of value(surface) over valid fits of a size; unknown if these are fewer than `least_fits`.
   template <class Value>
   double mean(int size, const Value& value) const {
     double sum = 0;
@@ -124,12 +124,12 @@ class Pool {
   std::span<const int> pool_;
 };
 
-/// Errors of predictions around a centre (steps 2 to 4 in section 27 of docs/algorithm.md).
+/// Errors of predictions around a centre (section 27 of docs/algorithm.md, steps 2 to 4).
 struct Predictions {
-  int size = 0;          ///< index of the base size: the smallest whose windows are wider than the noise is thick
-  double error = 0;      ///< mean squared error of fits of that size
-  double median = 0;     ///< median squared error of fits of that size
-  double wider = 0;      ///< mean squared error of fits of the next size
+  int size = 0;          ///< the base size, whose windows are wider than the noise is thick
+  double error = 0;      ///< mean squared error at that size
+  double median = 0;     ///< median squared error at that size
+  double wider = 0;      ///< mean squared error at the next size
   double roughness = 0;  ///< `error` in units of (`rough` spacings)^2
   bool no_surface = false;
 
@@ -156,8 +156,8 @@ struct Predictions {
   }
 };
 
-/// The size with the least expected squared error (step 5): the remaining noise, by its leverage, plus the bias that
-/// errors beyond noise show. -1 if that exceeds the error of the points themselves.
+/// The size with the least expected squared error (step 5): remaining noise plus the bias that errors beyond noise
+/// show. -1 if points without a fit have less.
 int bestSize(const SurfaceFits& fits, int center, int smallest, double variance) {
   const Pool pool(fits, center);
   double least = variance, bias = 0, narrower = 1;

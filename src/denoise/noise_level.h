@@ -14,7 +14,7 @@ struct LocalNoise {
   bool no_surface = false;  ///< whether the points around form a curve or fill a volume
 };
 
-/// How many standard deviations the variance of a fit's residuals exceeds that of the noise by.
+/// By how many standard deviations the variance of a fit's residuals exceeds that of the noise.
 /// @param size index in fit_sizes
 double excessOf(const SurfaceFit& fit, int size, double variance);
 
@@ -24,7 +24,7 @@ double excessOf(const SurfaceFit& fit, int size, double variance);
 /// @returns one for each centre
 RawBuffer<LocalNoise> findNoise(const SurfaceFits& fits, const Workers& workers);
 
-/// A first look at few centres (step 1 in section 27 of docs/algorithm.md): where there may be noise.
+/// A first look (section 27 of docs/algorithm.md, step 1): where there may be noise.
 /// @returns n, 1 where points may be noisy
 Buffer<std::uint8_t> whereNoiseMayBe(const PointsView& points, const NeighborSearch& search, const Workers& workers);
 

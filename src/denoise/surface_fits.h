@@ -19,7 +19,7 @@ constexpr int sizes = static_cast<int>(fit_sizes.size());
 
 /// A surface near a position.
 struct SurfacePlace {
-  double height;           ///< distance of the position from the surface, along `normal`
+  double height;           ///< signed distance of the position from the surface
   Eigen::Vector3d normal;  ///< of the surface there
 };
 
@@ -36,11 +36,10 @@ struct SurfaceFit {
   bool isValid() const { return variance < std::numeric_limits<float>::infinity(); }
   /// The height of the quadratic over the centre, along the normal of the plane.
   double height() const { return double{coefficient[0]} * radius; }
-  /// An estimate of the variance of the noise, if it is independent from point to point: the squared error of the
-  /// prediction of the centre by the same fit without it, over the leverage-dependent factor of that error. E in
-  /// section 27 of docs/algorithm.md.
+  /// The squared error of predicting the centre's height by the same fit without the centre, scaled so that its mean is
+  /// the variance of independent noise (E in section 27 of docs/algorithm.md).
   double squaredError() const { return height() * height() / (1 - leverage); }
-  /// The quadratic near the position at offset d from the centre.
+  /// @param d from the centre to a position
   SurfacePlace at(const Eigen::Vector3d& d) const;
 };
 

@@ -31,7 +31,7 @@ constexpr double spread_at_first = 0.37, spread = 0.62;
 /// The variance of a fourth difference: the sum of the squares of 1, 4, 6, 4 and 1.
 constexpr double sum_of_squares = 70;
 
-// How noise depends on the inverse depth, by groups of rows of five pixels with similar inverse depths.
+// How noise depends on the inverse depth, by groups with similar inverse depths.
 
 /// Rows of five pixels per group at least; the noise of the group is then known to a tenth.
 constexpr std::ptrdiff_t least_in_group = 200;
@@ -161,7 +161,6 @@ Groups groupsOf(const RawBuffer<Five>& fives) {
   return groups;
 }
 
-/// Mean inverse depth, noise and number of rows of a group.
 struct Level {
   double inverse;  ///< mean inverse depth
   double noise;

@@ -7,10 +7,9 @@
 
 namespace tufted {
 
-/// Measures the noise of ranges, or the steps to which they are rounded (step 2 in section 28 of docs/algorithm.md):
-/// from fourth differences of the inverse depths of five pixels in a row, which are nearly 0 on smooth surfaces,
-/// without the largest tenth, which are edges. Their dependence on the inverse depth shows if the sensor measures
-/// disparities or ranges.
+/// The noise of ranges, or the rounding to steps (section 28 of docs/algorithm.md, step 2): from fourth differences of
+/// the inverse depths of five pixels in a row, nearly 0 on smooth surfaces, without the largest tenth, which are edges.
+/// How they depend on the inverse depth shows if the sensor measures disparities or ranges.
 RangeNoise rangeNoise(const PixelGrid& grid, const PointsView& points, const Workers& workers);
 
 }  // namespace tufted

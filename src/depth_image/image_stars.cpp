@@ -220,7 +220,7 @@ class ImageStarBuilder {
   bool is_exact_;                                      ///< whether no point moves
   bool is_stretched_;                                  ///< whether only rows bound the distance of the next ring
   int rings_of_whole_;                                 ///< rings of a whole window whose star is more than ring 1
-  std::array<std::ptrdiff_t, pixels_around> shift_{};  ///< from a pixel to those around, in PixelGrid::rank
+  std::array<std::ptrdiff_t, pixels_around> shift_{};  ///< from a pixel to those around
   Stars& stars_;
   StarSupport& support_;
 };

@@ -15,13 +15,13 @@ namespace {
 constexpr double steepest_slope = 0.25;
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-/// How to look up the joins of a step: a step is one of the steps down (to a later pixel) or the inverse of one. And
-/// over which pixels of the previous ring it may be reached.
+/// A step is one of the steps down (to a later pixel) or the inverse of one. In a window it is reached over some pixels
+/// one ring further in.
 struct Way {
   int down = 0;    ///< index of the step down
   PixelStep from;  ///< the pixel where the step down starts
   int parents = 0;
-  std::array<int, 3> parent{};  ///< indices of the pixels one ring further in, of which a step of ring 1 leads here
+  std::array<int, 3> parent{};  ///< those pixels, as indices of steps
   std::array<int, 3> link_down{};
   std::array<PixelStep, 3> link_from{};  ///< where the step down from or to each parent starts
 };

@@ -42,8 +42,8 @@ class ImageTile {
   static constexpr int rowStep() { return pixels_in_word; }
   /// Only for images that go round.
   const InverseSlope& slopeAt(int row, int column) const { return slope_[at(row, column)]; }
-  /// Mean squared spacings, in inverse depth, between each of eight pixels and those of ring 1 in its window, for the
-  /// row of the last findWindows().
+  /// Mean squared spacings, in inverse depth, between eight pixels and those of ring 1 in their windows, for the row of
+  /// the last findWindows().
   void spacings(int row, int column, double* squared) const;
 
  private:

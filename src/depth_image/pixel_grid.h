@@ -49,7 +49,6 @@ struct PixelGrid {
   int rankAt(int row, int column) const { return rank[std::int64_t{row} * columns + wrapped(column)]; }
   /// Whether a column is outside of the margins.
   bool isHome(int column) const { return column >= margin && column < columns - margin; }
-  /// The column in the image that a column of an image that goes round stands for.
   int wrapped(int column) const {
     if (!goes_round || isHome(column)) return column;
     const int around = columnsInImage(), past = (column - margin) % around;
@@ -74,8 +73,7 @@ PixelGrid pixelGrid(const RankedScan& scan, int around = 0);
 /// How densely the image is filled, see pixelFill() in neighbors/scan/pixel_fill.h.
 double pixelFill(const PixelGrid& grid);
 
-/// A stride over `pixels` that gives about `samples` of them, without a factor in common with the length of a row, so
-/// that they lie in all columns.
+/// The stride of about `samples` of so many pixels, prime to the length of a row, so that samples lie in all columns.
 std::int64_t sampleStride(std::int64_t pixels, std::int64_t samples, std::int64_t row);
 
 /// Sets the axis: z for a scanner, or that of the pinhole camera if one fits. The few points that are not well in front

@@ -14,8 +14,7 @@ struct RingImage {
   int columns = 0;  ///< number of columns of a whole turn; some may be empty
 };
 
-/// Makes the rings of a spinning scanner the rows of an image, with azimuths turned into columns (*Rings* in section 28
-/// of docs/algorithm.md).
+/// Makes rings the rows of an image, and azimuths columns (*Rings* in section 28 of docs/algorithm.md).
 /// @param scan rows are rings, positions azimuths in [0, 2 pi)
 /// @returns nothing if windows of pixels would not do: the rings are too far apart or too few, or the points of a ring
 /// do not follow each other in even steps with few gaps

@@ -14,7 +14,7 @@
 
 namespace tufted {
 
-/// The window of each point of a depth image, by rank (steps 3 and 4 in section 28 of docs/algorithm.md).
+/// The window of each point, by rank (section 28 of docs/algorithm.md, steps 3 and 4).
 struct SurfaceWindows {
   /// n, sets of pixels with points of the surface around p, see WindowPixels: those that are joined with p (JumpTest)
   /// and reached by steps from ring to ring between joined pixels. A missing pixel is stepped over, unless the step to

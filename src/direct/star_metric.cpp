@@ -35,7 +35,7 @@ class StarMeasurer {
   void take(int p, const TriangleFans& fans, int at, BlockSums& sums) const {
     const int begin = stars_.offset[p], end = stars_.offset[p + 1];
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    // cotangents opposite the first spoke, and opposite the current one in the previous triangle
+    // cotangents opposite the first spoke, and opposite spoke i in the previous triangle
     double area = 0, first = nan, before = nan;
     bool is_flat = false;
     for (int i = begin; i < end; ++i, ++at) {

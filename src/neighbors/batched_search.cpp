@@ -16,17 +16,15 @@ constexpr int most_batch = 32;
 /// Diagonal of the box of a batch at most, in radii of a neighbourhood; 3.2 and 4 were no faster. Batches of a fixed
 /// number of points straddle jumps of the curve (1.55 instead of 1.29 us per point).
 constexpr double widest_batch = 2.5;
-/// The squared distance of the k-th neighbour of the previous point, times this, mostly holds the k nearest of a point;
-/// if it does not, the proven bound is used.
+/// The squared k-th distance of the previous point times this mostly holds k points; if not, the bound is used.
 constexpr double likely = 1.08;
-/// The first ball around a batch is larger than the batch by this many radii of a neighbourhood: half as many
-/// candidates as in the proven ball (100,000 points: 70 to 49 ms).
+/// The first ball exceeds the batch by this many radii of a neighbourhood: half as many candidates as in the proven
+/// ball (100,000 points: 70 to 49 ms).
 constexpr double first_around = 1.2;
 /// If the first ball is too small it grows by `next_around`, while it stays below `last_around`; then the proven ball
 /// is searched.
 constexpr double next_around = 1.6, last_around = 4;
-/// The ball searched for one point is larger than needed by this factor, so that it serves the next point of the batch
-/// as well.
+/// A ball for one point is larger than needed by this factor, to serve the next point as well.
 constexpr double spare_around = 1.05;
 constexpr double nowhere = std::numeric_limits<double>::infinity();
 
@@ -37,7 +35,7 @@ void keepSearched(SearchedBatch& batch, BatchScratch& scratch) {
   batch.end = scratch.known.size();
 }
 
-/// The distance from `point` to the surface of the ball: all points within it are candidates.
+/// The distance from `point` to the border of the ball.
 double roomAround(const Eigen::RowVector3d& point, const SearchedBall& ball) {
   return ball.radius - (point - ball.center).norm();
 }
@@ -72,7 +70,6 @@ class BatchCandidates {
   BatchCandidates(const PointsView& points, const Kernels& kernels, BatchScratch& scratch)
       : points_(points), kernels_(kernels), scratch_(scratch) {}
 
-  /// Copies the candidates of a batch and their coordinates to arrays of whole packets.
   void gather(const SearchedBatch& batch) {
     const auto ranks = std::span<const int>(scratch_.known).subspan(batch.begin, batch.end - batch.begin);
     scratch_.gathered = batch.first;
@@ -91,15 +88,14 @@ class BatchCandidates {
     scratch_.index.resize(room + kernel_packet);
   }
 
-  /// Takes the candidates within the squared distance `guess` of p if it is less than `bound` and holds k, else those
-  /// within `bound`. Returns their number.
+  /// Takes the candidates within the squared distance `guess` if that is below `bound` and holds k, else within
+  /// `bound`. Returns their number.
   int takeWithin(int p, int k, double guess, double bound) {
     const int count = guess < bound ? takeWithin(p, guess) : 0;
     return count < k ? takeWithin(p, bound) : count;
   }
 
-  /// takeWithin() with the largest bound for which all points around p are candidates. Returns 0 if fewer than k are
-  /// within it.
+  /// takeWithin() bounded by the border of the ball. Returns 0 if fewer than k are within it.
   int takeWithinBall(int p, int k, double guess, const SearchedBall& ball) {
     const double room = roomAround(points_.row(p), ball), bound = room * room * (1 - distance_rounding);
     if (!(room > 0 && bound > least_square)) return 0;
@@ -107,9 +103,9 @@ class BatchCandidates {
     return count < k ? 0 : count;
   }
 
-  /// Writes the k least of the taken candidates by (distance, index), ascending, to `row`. Up to `count` entries are
-  /// written: those behind the k-th fall on the next row, which is not written yet, or on spare room at the end. Each
-  /// entry's place is the number of smaller distances, as long as no two distances round to the same float.
+  /// Writes the k least of the taken candidates by (distance, index), ascending, to `row`, and others behind them,
+  /// where the next row or spare room is. A candidate's place is the number of smaller distances, if no two are equal
+  /// as floats.
   void takeNearest(int count, int k, Neighbor* row) {
     const int room = toPackets(count);
     std::fill(scratch_.squared.begin() + count, scratch_.squared.begin() + room, nowhere);
@@ -117,13 +113,13 @@ class BatchCandidates {
     scratch_.place.resize(room + 2 * kernel_packet);
     kernels_.rankValues(scratch_.squared.data(), room, scratch_.rounded.data(), scratch_.place.data());
     std::int64_t sum = 0;
-    // those behind the k-th too, because skipping them costs a branch that is hard to predict
+    // those behind the k-th too, which saves an unpredictable branch
     for (int i = 0; i < count; ++i) {
       sum += scratch_.place[i];
       row[scratch_.place[i]] = {scratch_.squared[i], scratch_.index[i]};
     }
     if (sum == static_cast<std::int64_t>(count) * (count - 1) / 2) return;
-    // Entries whose distances round to the same float are placed one behind the other, then sorted by insertion.
+    // Equal floats are placed one behind the other, then sorted.
     scratch_.sorted.resize(static_cast<std::size_t>(count));
     scratch_.taken.assign(static_cast<std::size_t>(count), 0);
     for (int i = 0; i < count; ++i) {
@@ -178,7 +174,7 @@ class BatchSearch {
     return size;
   }
 
-  /// @param radius the distance to the k-th neighbour of a nearby point, or infinity
+  /// @param radius of a neighbourhood nearby, or infinity
   void find(const Ranks& ranks, double radius, Neighbor* found) {
     const int count = static_cast<int>(ranks.size());
     const int done = count > 1 && radius < nowhere ? findAround(ranks, radius, found) : 0;
@@ -223,8 +219,7 @@ class BatchSearch {
     keep(batch);
     for (int i = done; i < count; ++i) {
       const int p = ranks[i];
-      // The ball around p that contains the k nearest of the centre is a bound, and so is the one that contains those
-      // of the previous point.
+      // Balls around p that hold the k nearest of the centre, or those of the previous point.
       double bound = batch.ball.k_radius + (points_.row(p) - batch.ball.center).norm(), guess = nowhere;
       if (i > 0) {
         const double before = radiusOf(rowOf(found, i - 1));

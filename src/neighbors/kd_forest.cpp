@@ -12,8 +12,8 @@ namespace {
 
 using Index = flann::KDTreeSingleIndex<flann::L2_Simple<double>>;
 
-/// Points per tree at least if there are several trees: with smaller trees, searching them costs more than building
-/// them in parallel saves.
+/// Least number of points of one of several trees: searching smaller ones costs more than building them in parallel
+/// saves.
 constexpr int least_points = 8192;
 /// Points in a leaf.
 constexpr int leaf_size = 16;

@@ -32,7 +32,7 @@ class KdForest : public InWorkspace {
   KdForest(const KdForest&) = delete;
   KdForest& operator=(const KdForest&) = delete;
 
-  /// Shows `found` all points nearer to `position` than its worstDist(), which may shrink meanwhile.
+  /// Shows all points nearer to `position` than found.worstDist(), which may shrink meanwhile.
   /// @param position 3 coordinates
   /// @param near_rank a point near `position`, whose tree is searched first, which bounds the search of the others
   void search(const double* position, int near_rank, RankSet& found) const;

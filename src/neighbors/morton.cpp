@@ -45,8 +45,8 @@ struct Key {
 /// Bits of a digit of the radix sort: four passes, whose counters fit the first-level cache.
 constexpr int digit_bits = 11;
 constexpr std::size_t buckets = std::size_t{1} << digit_bits;
-/// The lowest bit of a code that the radix sort uses. Lower bits distinguish so few points that two more passes over
-/// all points would cost more than sorting those by comparison.
+/// The lowest bit that the radix sort uses. Lower bits distinguish so few points that two more passes would cost more
+/// than comparisons.
 constexpr int lowest_bit = 22;
 constexpr std::int64_t least_part = 1 << 16;  // keys per thread at least
 
@@ -75,7 +75,7 @@ void sortByHighBits(RawBuffer<Key>& keys, const Workers& workers) {
   }
 }
 
-/// Sorts each run of keys that have the same bits in sortByHighBits(), by comparison.
+/// Sorts keys that sortByHighBits() left equal, by comparison.
 template <class Less>
 void sortByRest(RawBuffer<Key>& keys, const Workers& workers, const Less& less) {
   const auto high = [&](std::int64_t i) { return keys[i].code >> lowest_bit; };
@@ -144,7 +144,7 @@ RankedCloud rankPoints(const PointsRef& points, std::vector<PointStatus>& status
 
   const PowerOfTwo to_scaled = scaling.toScaled();
   const auto scaled = [&](int i) -> Eigen::Array3d {
-    // turns -0 into 0, so that equal coordinates have equal bits
+    // no -0, so that equal numbers have equal bits
     const auto times = [&](double x) { return to_scaled.times(x) + 0.0; };
     return {times(points(i, 0)), times(points(i, 1)), times(points(i, 2))};
   };

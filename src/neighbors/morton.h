@@ -23,7 +23,7 @@ struct RankedCloud {
 /// Scales points, sorts them along the Morton curve and merges equal ones (section 1 of docs/algorithm.md).
 /// @param points N x 3
 /// @param[out] status N; not_finite, coincident, else active
-/// @param[out] representative N; of a coincident point the index of the one that it equals, else its own
+/// @param[out] representative N, see Laplacian::representative
 RankedCloud rankPoints(const PointsRef& points, std::vector<PointStatus>& status, std::vector<int>& representative,
                        const Workers& workers);
 /// rankPoints() on one thread.

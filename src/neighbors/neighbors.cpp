@@ -43,7 +43,7 @@ class NearestSet : public RankSet {
   double worst_ = 0;
 };
 
-/// A NearestSet that is kept sorted: fastest for few neighbours.
+/// Keeps its points sorted: fastest for few neighbours.
 class AscendingSet final : public NearestSet {
  public:
   using NearestSet::NearestSet;
@@ -60,7 +60,7 @@ class AscendingSet final : public NearestSet {
   }
 };
 
-/// A NearestSet that collects up to 2 k points and then keeps the k nearest: fastest for hundreds of neighbours.
+/// Collects up to 2 k points, then keeps the k nearest: fastest for hundreds.
 class UnorderedSet final : public NearestSet {
  public:
   using NearestSet::NearestSet;
@@ -98,7 +98,6 @@ class NearestTies final : public RankSet {
         std::min(worst_, squared_distance * (1 + distance_rounding) + 16 * std::numeric_limits<double>::denorm_min());
   }
 
-  /// Removes points that were found before the ball shrank.
   void finish() {
     std::size_t kept = 0;
     for (const Neighbor& candidate : found_)
@@ -143,7 +142,7 @@ class ShrinkingBall final : public WholeBall {
   /// @param nearest k squared distances from points to the centre, the largest in front
   ShrinkingBall(double margin, int most, Buffer<double>& nearest, Buffer<int>& found)
       : WholeBall(std::sqrt(nearest.front()) + margin, most, found), margin_(margin), nearest_(nearest) {
-    // only the bound is kept, as the search visits these points again
+    // a bound; these points are found again
     std::fill(nearest_.begin(), nearest_.end(), nearest_.front());
   }
 
@@ -155,7 +154,7 @@ class ShrinkingBall final : public WholeBall {
   }
 
  private:
-  /// Replaces the front of the heap, at half the cost of std::pop_heap and std::push_heap.
+  /// Half the cost of std::pop_heap and std::push_heap.
   void replaceLargest(double squared_distance) {
     std::size_t hole = 0, child = 1;
     for (; child < nearest_.size(); child = 2 * hole + 1) {

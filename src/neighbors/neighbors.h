@@ -13,7 +13,6 @@
 
 namespace tufted {
 
-/// A neighbour of a point; the order is by (distance, rank).
 struct Neighbor {
   double squared_distance;
   int index;  ///< rank
@@ -23,7 +22,7 @@ struct Neighbor {
   }
 };
 
-/// Relative bound on the difference between squared distances of FLANN and those computed here.
+/// Relative difference of squared distances of FLANN and ours at most.
 constexpr double distance_rounding = 1e-12;
 
 /// An upper bound on a squared distance however it was rounded.
@@ -71,11 +70,9 @@ class NeighborSearch : public InWorkspace {
   NeighborSearch(const NeighborSearch&) = delete;
   NeighborSearch& operator=(const NeighborSearch&) = delete;
 
-  /// The min(k, n - 1) points nearest to point p, which is left out by its index: the least by (distance, index). With
-  /// NeighborOrder::any only the last place is fixed, that of the farthest. `found` is overwritten and keeps its
-  /// memory. Safe to call from several threads.
-  /// @param before the previous search of this thread, replaced by this one; null if there is none, then the search
-  /// takes longer
+  /// The min(k, n - 1) points nearest to point p, which is left out by its index: the least by (distance, index), the
+  /// farthest last in either order. `found` is overwritten and keeps its memory. Safe to call from several threads.
+  /// @param before a previous search nearby, overwritten by this one; null: the search takes longer
   void nearest(int p, int k, Buffer<Neighbor>& found, NeighborOrder order = NeighborOrder::ascending,
                SearchBefore* before = nullptr) const;
 
@@ -89,7 +86,7 @@ class NeighborSearch : public InWorkspace {
   /// are then meaningless
   /// @param[out] found ranks
   /// @param bounds scratch
-  /// @param[out] ball the ball around the group in which all points are in `found`
+  /// @param[out] ball all points in it are in `found`
   bool candidates(const PointGroup& group, int k, Buffer<int>& found, Buffer<double>& bounds, SearchedBall& ball) const;
 
   /// All points within the distance `around` of any point of a group, and others near them.

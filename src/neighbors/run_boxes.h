@@ -45,7 +45,6 @@ class RunBoxes {
   static double gapTo(const Box& box, const Eigen::Vector3d& place) {
     return (box.least - place).cwiseMax(place - box.greatest).cwiseMax(0).norm();
   }
-  /// The rank of the first point of a run.
   int first(std::size_t run) const;
 
   const PointsView points_;

@@ -71,7 +71,7 @@ void buildMeshLaplacian(const PointsRef& points, const TrianglesRef& triangles, 
   PointBuffer scaled(n);
   for (int i = 0; i < n; ++i) {
     for (int axis = 0; axis < 3; ++axis)
-      // turns -0 into 0, so that equal coordinates have equal bits
+      // no -0, so that equal numbers have equal bits
       scaled.row(i)[axis] = to_scaled.times(points(i, axis)) + 0.0;
   }
   if (options.weld) {

@@ -9,7 +9,7 @@ namespace {
 using Eigen::Vector2d;
 
 // Keys of corners that have no quality; all qualities are above -3/2.
-constexpr double not_a_number = -2;  // of a corner whose coordinates overflow
+constexpr double not_a_number = -2;  // of a corner whose quality is NaN
 constexpr double clipped = -3;       // of a clipped corner
 
 // From this number of corners on, nearly straight corners count as straight: comparing each with all others on its line

@@ -45,7 +45,7 @@ class EarClipper {
   void clip(int ear);
   /// The quality of a corner if no other lies in its triangle.
   double keyOfEmpty(int corner) const;
-  /// Ends the waiting of a corner and finds its quality anew; what its triangle holds is unknown.
+  /// Ends the waiting of a corner and resets what is known of it.
   void judge(int corner);
   void wait(int corner, int held);
   void stopWaiting(int corner);

@@ -27,7 +27,7 @@ struct Offsets {
   const double *x, *y, *z;
 };
 
-/// Sums over neighbours of their offsets and of products of these.
+/// Sums over neighbours.
 struct OffsetSums {
   double x, y, z, xx, xy, xz, yy, yz, zz;
 };
@@ -50,7 +50,7 @@ struct HeightSolutions {
   alignas(
       64) double coefficient[6][kernel_packet];  ///< of 1, u, v, u^2, u v, v^2: the first is the height over the origin
   alignas(64) double leverage[kernel_packet];    ///< variance of coefficient[0] over that of each point's height
-  alignas(64) double explained[kernel_packet];   ///< part of the sum of squared heights that the fit explains
+  alignas(64) double explained[kernel_packet];   ///< explained part of the sum of squared heights
   alignas(64) double least_pivot[kernel_packet], most_pivot[kernel_packet];
 };
 
@@ -115,7 +115,7 @@ struct PixelsAround {
   alignas(64) double x[pixels_around][kernel_packet], y[pixels_around][kernel_packet], z[pixels_around][kernel_packet];
   /// direction from the sensor
   alignas(64) double sight_x[kernel_packet], sight_y[kernel_packet], sight_z[kernel_packet];
-  /// whether rows are so much farther apart than columns that only the rows of ring 2 bound the distance of ring 3
+  /// whether only the rows of ring 2 bound the distance of ring 3, because rows are far apart
   bool is_stretched = false;
 };
 

@@ -218,8 +218,7 @@ void findSmallest(const Covariances& given, SmallestAxes& axes) {
   const Packet middle = broadcast(0.5) * (rest - root), largest = broadcast(0.5) * (rest + root);
   const Mask is_found = logicalAnd(converged, isLess(broadcast(least_gap) * largest, middle - smallest));
 
-  // The eigenvector is perpendicular to all rows of the matrix minus the eigenvalue: the longest cross product of two
-  // rows.
+  // The eigenvector is the longest cross product of two rows of the matrix minus the eigenvalue.
   const Packet xs = xx - smallest, ys = yy - smallest, zs = zz - smallest;
   const Packet ax = xy * yz - xz * ys, ay = xz * xy - xs * yz, az = xs * ys - xy * xy;  // rows x and y
   const Packet bx = ys * zs - yz * yz, by = yz * xz - xy * zs, bz = xy * yz - ys * xz;  // rows y and z

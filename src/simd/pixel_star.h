@@ -7,8 +7,7 @@
 namespace tufted {
 namespace {
 
-/// If the sine of the angle between the changes of positions with rows and with columns is below this there is no
-/// plane.
+/// There is no plane if the sine between the changes of positions with rows and with columns is below this.
 constexpr double least_sine = 1e-6;
 /// Ring 3 is this many times as far as ring 2, as in isCertain() of image_stars.cpp.
 constexpr double next_ring = 3.0 / 2;
@@ -116,9 +115,8 @@ TUFTED_INLINE InvertedPixels invertPixels(const VectorPart* offset, const PlaneO
   return inverted;
 }
 
-/// The hull of the pixels above, below, left and right, and of the diagonal ones that lie outside of the edges of
-/// these. Returns the lanes in which it is certainly the hull of all points, by the bounds of judge(), and no circle
-/// reaches ring 3.
+/// The hull of the pixels above, below, left and right, and of diagonal ones outside of their edges. Returns the lanes
+/// where it is certainly the hull of all points, as in judge(), and no circle reaches ring 3.
 TUFTED_INLINE PartMask hullOfPixels(const InvertedPixels& pixels, int part, PixelStars& stars) {
   const PlanarPart* const point = pixels.point;
   EdgePart edge[pixels_beside];

@@ -10,7 +10,7 @@
 
 namespace tufted {
 
-/// The stars of one block of points, before they are appended to those of the cloud.
+/// The stars of one block of points.
 struct BlockOfStars {
   Buffer<int> link;
   Buffer<std::uint8_t> triangle;
@@ -39,8 +39,7 @@ class BlocksInOrder {
     built.support.radius.reserve(likely);
   }
 
-  /// Takes the stars of block `number`.
-  /// @param block emptied; keeps its memory if its turn had come
+  /// @param block its stars are taken, mostly not its memory
   void take(std::size_t number, BlockOfStars& block) {
     const std::lock_guard lock(mutex_);
     if (number != next_) {

@@ -56,7 +56,7 @@ class BoundaryFinder {
   BoundaryFinder(const BuiltStars& built, const PointsView& points, const NeighborSource& source)
       : stars_(built.stars), support_(built.support), points_(points), source_(source) {}
 
-  /// Makes find() test gaps in the image seen from `viewpoint` as well.
+  /// find() tests gaps in the image seen from `viewpoint`, too.
   void lookFrom(const Eigen::Vector3d& viewpoint, const Workers& workers) {
     directions_.resize(points_.rows());
     workers.forBlocks("boundary", points_.rows(), usual_block, [&](std::int64_t begin, std::int64_t end, int) {
@@ -92,8 +92,7 @@ class BoundaryFinder {
   }
 
   /// Whether q is too far off the tangent plane of p to lie on the same surface. Along the normal, a surface may bend
-  /// away with distance, so the bound grows with it. In the image of a viewpoint it does not, because a point that is
-  /// seen beside p is near p or on another surface.
+  /// away with distance; what a viewpoint sees beside p is near p or elsewhere.
   bool isElsewhere(int p, int q, View view) const {
     const Eigen::RowVector3d d = points_.row(q) - points_.row(p);
     const double height = std::abs(d.dot(support_.normals.row(p)));

@@ -63,7 +63,7 @@ bool isCutOff(int p, const PlanarPoint& a, const PlanarPoint& b, const PlanarPoi
 double circumradius(const PlanarPoint& a, const PlanarPoint& b) {
   const double cross = a.u * b.v - a.v * b.u;
   if (!(cross > 0)) return std::numeric_limits<double>::infinity();
-  // Roots are taken one by one, because the product of the squares could leave the range of a double.
+  // Root by root: the product of the squares could overflow.
   const double opposite = (a.u - b.u) * (a.u - b.u) + (a.v - b.v) * (a.v - b.v);
   return std::sqrt(squaredNorm(a)) * std::sqrt(squaredNorm(b)) * std::sqrt(opposite) / (2 * cross);
 }

@@ -31,7 +31,7 @@ struct Corner {
   int entry = -1;
   bool sees = false;  ///< whether the far corner is in the link
 
-  /// @param x,y the corners beside v; `far` is the one opposite
+  /// @param x,y beside v; `far` is opposite
   Corner(const Stars& stars, int v, int x, int far, int y) {
     int at_x = -1, at_y = -1, at_far = -1;
     for (int i = stars.offset[v]; i < stars.offset[v + 1]; ++i) {
@@ -149,7 +149,6 @@ class DiagonalSettler {
     return true;
   }
 
-  /// Carries out the recorded changes.
   void rebuild(const Workers& workers) {
     Buffer<int> offset(stars_.offset.size());
     const auto forEachStar = [&](const auto& visit) {
@@ -198,7 +197,7 @@ class DiagonalSettler {
     return p;
   }
 
-  /// Claims the triangles of a quadrilateral and adds it to `found` if its stars disagree and a diagonal is chosen.
+  /// Adds a quadrilateral whose stars disagree to `found` and claims its triangles.
   /// @param sees whether the star of corner 0, the least, must have the far corner in its link
   void judge(const std::array<int, 4>& corner, bool sees, Buffer<Quadrilateral>& found) {
     if (corner[1] == corner[3]) return;

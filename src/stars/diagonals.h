@@ -21,7 +21,6 @@ namespace tufted {
 /// threads.
 ///
 /// @param disagrees see findDisagreement(); all four points of such a quadrilateral disagree
-/// @param[in,out] stars by rank
 /// @returns the number of quadrilaterals that were changed
 std::int64_t settleDiagonals(const PointsView& points, const Buffer<std::uint8_t>& disagrees, const Workers& workers,
                              Stars& stars);

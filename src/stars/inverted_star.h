@@ -11,9 +11,9 @@ namespace tufted {
 /// The star of the origin as a convex hull: the inversion q -> q / |q|^2 turns circles through the origin into lines,
 /// so that the link of the origin in the Delaunay triangulation is the hull of the inverted points.
 ///
-/// Uses doubles with bounds on their rounding, so it finds only closed stars without near-ties between neighbouring
-/// circles (*The fast way* in section 6 of docs/algorithm.md). Then the link is that of delaunayStar(), and the radii
-/// are, up to rounding.
+/// Plain doubles with bounds on their rounding, for closed stars in which no two neighbouring circles nearly coincide
+/// (*The fast way* in section 6 of docs/algorithm.md). There the link is that of delaunayStar(), and radii are up to
+/// rounding.
 /// @param planar candidates by ascending distance in space; the first few decide most stars
 /// @param neighbors their ranks
 /// @param[out] tied for StarKind::tied, all candidates that may be in the link: delaunayStar() of these is that of all

@@ -15,8 +15,7 @@ namespace {
 constexpr int most_growth = 8;
 /// Factor on the expected squared radius of a larger neighbourhood, if points are spread evenly.
 constexpr double more_likely = 1.2;
-/// A neighbourhood with more than this share of its neighbours within half the radius is uneven; on an evenly sampled
-/// surface it is a quarter.
+/// A larger share of the neighbours within half the radius is uneven; an evenly sampled surface has a quarter.
 constexpr double crowd = 0.4;
 constexpr int least_neighbors = 3;  // the least for a plane and a star
 

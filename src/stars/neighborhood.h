@@ -14,8 +14,8 @@
 
 namespace tufted {
 
-/// Numbers of nearest neighbours that planes are fitted to besides all: between two sheets the plane of all stands
-/// across them, that of the nearest few mostly does not. Not varied since the first design.
+/// Planes are also fitted to this many nearest neighbours: between two sheets the plane of all stands across them, that
+/// of the nearest few mostly does not. Not varied since the first design.
 constexpr std::array<int, 2> few_neighbors = {8, 13};
 
 /// The neighbours of one point and the plane through them (sections 3 and 4 of docs/algorithm.md).
@@ -48,8 +48,8 @@ class NeighborhoodFinder {
   NeighborhoodFinder(const PointsView& points, const NeighborSource& source, const CloudOptions& options)
       : points_(points), source_(source), options_(options) {}
 
-  /// Finds the k neighbours of each point of [first, first + count), or takes the caller's lists. More neighbours of
-  /// these points, by refine() or grow() with the same scratch, are then fast to find.
+  /// The k neighbours of each point of [first, first + count), or the caller's lists. More neighbours of these points,
+  /// with the same scratch, are then fast to find.
   void find(int first, int count, NeighborhoodScratch& scratch, Neighborhood* neighborhoods) const;
 
   /// Sets the neighbours of a neighbourhood, by ascending distance.
@@ -75,9 +75,9 @@ class NeighborhoodFinder {
 
  private:
   void take(int k, double radius, Neighborhood& neighborhood) const;
-  /// Searches k neighbours; false if there are no more than before.
+  /// False if there are no more.
   bool query(int p, int k, Neighborhood& neighborhood, OffsetBuffer& offsets, NeighborhoodScratch& scratch) const;
-  /// Not on rings and in small clouds, where other rings and the far side would be taken for sheets.
+  /// Rings, and the far side of a small cloud, would be taken for sheets.
   bool splitsSheets() const;
   bool isUneven(const Neighborhood& neighborhood) const;
 

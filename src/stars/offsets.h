@@ -10,7 +10,7 @@
 
 namespace tufted {
 
-/// The offsets q - p of one neighbourhood, padded to whole packets with 0; its memory is reused.
+/// The offsets q - p of one neighbourhood, padded to whole packets with 0.
 class OffsetBuffer {
  public:
   /// Sets the offsets from p to the neighbours.

@@ -26,7 +26,7 @@ bool isOffPlane(const StarSupport& support, const PointsView& points, int p, int
 }
 
 /// Whether p may be an outlier, judged by its star without a search; nearly all points are not.
-/// @param is_known whether p was tested before, so that only newly isolated points can change the answer
+/// @param is_known p was tested before; only newly isolated points change the answer
 bool isSuspect(const BuiltStars& built, const PointsView& points, int p, bool is_known) {
   const auto& [stars, support] = built;
   const auto begin = stars.link.begin() + stars.offset[p], end = stars.link.begin() + stars.offset[p + 1];

@@ -9,14 +9,13 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-/// Four points whose sum of opposite angles differs from pi by less than this, in rad, count as on one circle: wide
-/// enough for lattices of rounded coordinates, and so narrow that random points hardly ever are.
+/// Four points count as on one circle if opposite angles sum to pi within this, in rad: wide enough for lattices of
+/// rounded coordinates, and so narrow that random points hardly ever do.
 constexpr double tie_angle = 1e-9;
-/// If the sine of the angle at a is below this the four points are nearly collinear: there are no two diagonals to
-/// choose from, and the exact predicate decides.
+/// Four points are nearly collinear if the sine of the angle at a is below this: there are no two diagonals to choose
+/// from, and the exact predicate decides.
 constexpr double flat_sine = 1e-6;
-/// Bound on the rounding of a determinant, relative to the sum of its two products: three roundings of at most half an
-/// ulp each.
+/// Rounding of a determinant over the sum of its two products: three roundings of half an ulp at most.
 constexpr double determinant_rounding = 4e-16;
 /// Products below this may have underflowed.
 constexpr double least_bound = 1e-290;

@@ -14,7 +14,7 @@ constexpr std::array<double, few_neighbors.size()> flatter = {0.1, 0.5};
 /// The smallest variance of such a plane must also be below this share of the second. Not varied since the first
 /// design.
 constexpr double plane_of_few = 0.05;
-/// Greatest number of cuts along the plane of the remaining neighbours. Not varied since the first design.
+/// Cuts along the plane of the rest at most. Not varied since the first design.
 constexpr int most_splits = 3;
 /// Numbers of remaining points, p included: with up to `least_sheet` p is isolated; a plane needs `least_plane`, as
 /// many as a quadratic fit does.
@@ -59,8 +59,7 @@ void takeReached(Neighborhood& neighborhood, OffsetBuffer& offsets, const SheetS
   offsets.takeConnected(offsets.view(), scratch.heights.data(), scratch.range);
 }
 
-/// keepSheet() for the whole neighbourhood; stores all neighbours before the first cut, because they are restored if no
-/// sheet is found.
+/// keepSheet() that stores all neighbours before the first cut, because they are restored if no sheet is found.
 bool keepSheetOfAll(const Eigen::Vector3d& normal, Neighborhood& neighborhood, OffsetBuffer& offsets,
                     SheetScratch& scratch) {
   if (neighborhood.neighbors.empty() || isOneSheet(offsets.view(), normal, neighborhood.fit_radius, scratch))
@@ -73,8 +72,7 @@ bool keepSheetOfAll(const Eigen::Vector3d& normal, Neighborhood& neighborhood, O
   return true;
 }
 
-/// Normals of the planes through p and two of its nearest four neighbours, without pairs nearly collinear with p.
-/// Returns their number.
+/// The planes through p and two of its nearest four neighbours not nearly collinear with p. Returns their number.
 int planesThroughNearest(const Offsets& neighbors, Normals& planes) {
   const auto offset = [&](int i) { return Eigen::Vector3d(neighbors.x[i], neighbors.y[i], neighbors.z[i]); };
   int count = 0;

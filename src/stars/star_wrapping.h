@@ -45,7 +45,7 @@ struct StarMemory {
   std::int64_t open_stars = 0, unusable_triangles = 0;
 };
 
-/// Finds Delaunay stars by the fast way or the method that the options name (section 6 of docs/algorithm.md).
+/// Finds Delaunay stars as the options say (section 6 of docs/algorithm.md).
 class StarWrapping {
  public:
   explicit StarWrapping(Delaunay delaunay);
@@ -66,7 +66,7 @@ class StarWrapping {
 /// Resizes the arrays per point for n points.
 void makeRoom(int n, BuiltStars& built);
 
-/// Appends memory.star to memory.block, with radii times `unit`, and sets `ends` and the size of star p in `stars`.
+/// Appends memory.star to memory.block, with radii times `unit`; sets `ends` and the size of star p.
 /// @param keeps keeps(a, b): whether a triangle with link vertices a and b may stay
 template <class Keeps>
 void storeStar(int p, double unit, const Keeps& keeps, StarMemory& memory, Stars& stars) {

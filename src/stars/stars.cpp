@@ -22,8 +22,8 @@ namespace {
 constexpr int group_size = NeighborhoodFinder::most_planes;  // points whose frames, and then stars, are found together
 /// Mean number of link vertices per star, for the first allocation.
 constexpr std::size_t usual_degree = 7;
-/// How often the neighbours of an open star are doubled: points on rings around a pole have only their own ring among
-/// 60 neighbours (error at anisotropy 20: 1.9e-2 to 7.9e-3).
+/// How often the neighbours of an open star are doubled: points on rings around a pole see only their own ring among 60
+/// (error at anisotropy 20: 1.9e-2 to 7.9e-3).
 constexpr int most_doublings = 2;
 /// A neighbourhood is thick if its smallest variance exceeds this share of the second: 84 % of a cable 8 spacings
 /// around (its area is 0.52 of the true one), 56 % at 9 (0.76), 7 % at 11 (1.08), 78 % of a volume.

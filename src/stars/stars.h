@@ -48,9 +48,8 @@ struct BuiltStars {
   StarSupport support;
 };
 
-/// Finds the neighbourhood, the tangent plane and the Delaunay star of every point (sections 3, 4 and 6 of
-/// docs/algorithm.md). Writes counts of growth, splits and open stars, and the costs of its three stages, to the
-/// report.
+/// Finds neighbourhood, tangent plane and Delaunay star of every point (sections 3, 4 and 6 of docs/algorithm.md).
+/// Reports growth, splits, open stars and the cost of three stages.
 BuiltStars buildStars(const RankedCloud& cloud, const NeighborSource& source, const CloudOptions& options,
                       const Workers& workers, Report& report);
 

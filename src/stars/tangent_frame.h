@@ -37,7 +37,7 @@ void principalAxes(std::span<const Covariance> covariances, std::span<PrincipalA
 PrincipalAxes principalAxes(const Offsets& neighbors);
 PrincipalAxes principalAxes(const PointsView& points, int p, std::span<const Neighbor> neighbors);
 
-/// Whether the points lie on one line, as on one scan line: the second variance is less than a tenth of the largest.
+/// Whether points lie on one line, as on one scan line: the second variance is below a tenth of the largest.
 bool liesOnOneLine(const PrincipalAxes& axes);
 
 /// A unit vector perpendicular to the unit vector `normal`, a function of `normal` only.

@@ -29,7 +29,7 @@ constexpr double most_share = 0.95;
 
 Buffer<Sighting> takeSightings(const Points& points, int width, int height, const Eigen::Vector3d& origin) {
   Buffer<Sighting> sightings;
-  // odd, so that samples of an even width do not all lie in one column
+  // odd, so that not all samples are in one column
   const std::int64_t stride = std::max<std::int64_t>(1, points.rows() / samples) | 1;
   for (std::int64_t i = 0; i < points.rows(); i += stride) {
     const Eigen::Vector3d ray = points.row(i).transpose() - origin;
@@ -41,7 +41,7 @@ Buffer<Sighting> takeSightings(const Points& points, int width, int height, cons
   return sightings;
 }
 
-/// The 3 x 3 camera matrix with (x, y, 1) ~ camera * ray, by linear least squares (direct linear transformation).
+/// The camera matrix with (x, y, 1) ~ camera * ray, by linear least squares.
 Eigen::Matrix3d fitCamera(std::span<const Sighting> sightings) {
   Eigen::Matrix<double, 9, 9> normal = Eigen::Matrix<double, 9, 9>::Zero();
   for (const Sighting& sighting : sightings) {

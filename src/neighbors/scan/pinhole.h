@@ -12,9 +12,9 @@ struct Sighting {
   Eigen::Vector3d ray;    ///< unit length
 };
 
-/// The axis of the pinhole camera that maps these rays to these pixels, of unit length, towards the points. Empty if no
-/// pinhole fits: fewer than 100 sightings, fewer than 8 rows or columns, a median error above 0.5 pixels, or more than
-/// 5 % of the sightings over 2 pixels off or behind the camera.
+/// The axis of the pinhole camera that maps these rays to these pixels, of unit length, towards the points. Empty with
+/// fewer than 100 sightings, 8 rows or 8 columns, a median error above 0.5 pixels, or more than 5 % of errors above 2
+/// pixels or of points behind the camera.
 std::optional<Eigen::Vector3d> opticalAxis(std::span<const Sighting> sightings, int width, int height);
 
 }  // namespace tufted

@@ -10,10 +10,10 @@
 
 namespace tufted {
 
-/// Rows (or rings) and positions of the points of a scan, by rank.
+/// Rows and positions of the points of a scan, by rank.
 struct RankedScan {
-  Buffer<int> row;  ///< n; -1: the point has no place in the scan
-  /// n; the column, or the azimuth in [0, 2 pi).
+  Buffer<int> row;  ///< n; -1: none
+  /// n; columns, or azimuths in [0, 2 pi).
   Buffer<double> position;  ///< n
   Eigen::Vector3d origin;   ///< the sensor, in units of the ranked cloud
   std::int64_t entries;     ///< size of the caller's structure, unusable points included

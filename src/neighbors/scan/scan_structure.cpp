@@ -35,8 +35,8 @@ double elevationOf(const Eigen::Vector3d& ray) {
   return std::atan2(ray.z(), std::hypot(ray.x(), ray.y()));
 }
 
-/// The widest gap of elevations within a ring: gaps between rings are all wider. Sorted from the widest down, gaps fall
-/// by the largest factor there, among the places that leave enough rings with enough points.
+/// The widest gap of elevations within a ring; those between rings are wider. From the widest gap down, gaps fall by
+/// the largest factor there, among the places that leave enough rings of enough points.
 double widestInnerGap(std::vector<double> gaps) {
   std::sort(gaps.begin(), gaps.end(), std::greater<>());
   const std::size_t most_rings = (gaps.size() + 1) / least_per_ring;
