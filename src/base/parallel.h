@@ -60,7 +60,7 @@ class Workers {
   std::unique_ptr<Team> team_;  ///< null if count() is 1
 };
 
-/// All numbers i in [0, size) with test(i), ascending.
+/// All numbers i in [0, size) for which test(i) holds, ascending.
 template <class Test>
 Buffer<int> numbersWhere(std::string_view stage, int size, const Workers& workers, const Test& test) {
   Buffer<Buffer<int>> parts(static_cast<std::size_t>((size + cheap_block - 1) / cheap_block));

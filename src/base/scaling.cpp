@@ -17,10 +17,11 @@ constexpr double farthest_spreads = 1e70;
 /// Largest distance in the caller's unit: an area, its square, must fit a double.
 constexpr double largest_distance = 1e152;
 
-/// Values near whose median that of all lies; one pass then leaves a tenth of all values to choose from.
+/// Number of sampled values, whose median is near that of all; one pass then leaves a tenth of all values to choose
+/// from.
 constexpr std::int64_t samples = 2048;
-/// Sorted samples on either side of their median, four standard deviations of its place; if the median of all is not
-/// between them, all values are looked at.
+/// The median of all is searched between the samples this many places before and after their median, four standard
+/// deviations of its place; if it is not there, all values are searched.
 constexpr std::ptrdiff_t beside = 100;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
@@ -70,8 +71,8 @@ Within valuesWithin(double least, double most, std::int64_t n, const ValueOf& va
   return all;
 }
 
-/// The median of those of n values that are not NaN. Of an even number it is the upper one of the two in the middle,
-/// and of no values it is 0.
+/// The median of n values valueOf(i), without those that are NaN. Of an even number it is the upper one of the two in
+/// the middle, and of no values it is 0.
 template <class ValueOf>
 double medianOfAll(std::int64_t n, const ValueOf& valueOf, const Workers& workers) {
   Buffer<double> some;

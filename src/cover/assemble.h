@@ -14,7 +14,7 @@ namespace tufted {
 /// Sums run in the cover's own numbering, so they do not depend on the caller's. The diagonal is minus the sum of the
 /// other entries. Negative weights are set to 0: those within 1e-9 of the larger diagonal are rounding, others are
 /// counted as failures in the report.
-/// @param[out] result L, M, components and what the report says of them, in units of the cover's length; reuses memory
+/// @param[out] result L, M, components and their part of the report, in units of the cover's length; reuses memory
 /// @param cover vertices in [0, n)
 /// @param input_index n, the caller's index of each vertex
 /// @param size N of the caller

@@ -118,7 +118,7 @@ FlipCounts flipToDelaunay(IntrinsicTriangulation& cover, const Workers& workers)
 
 /// Brings a cover into the caller's numbering and unit.
 /// @param input_index the caller's index of each vertex
-/// @param size how many points the caller has
+/// @param size N, the number of the caller's points
 /// @param exponent the cover's unit is 2^exponent of the caller's
 void toInput(IntrinsicTriangulation& cover, const Buffer<int>& input_index, int size, int exponent);
 

@@ -195,12 +195,12 @@ class RangeFlipper {
 /// `Cover` has
 template <class Cover>
 FlipCounts flipEdges(Cover& cover, const Workers& workers) {
-  // Blocks of one round are joined by so many for the next.
+  // Number of blocks that are joined to one for the next round.
   constexpr std::int64_t growth = 8;
   Buffer<std::array<Buffer<int>, 2>> queues(workers.count());
   Buffer<Buffer<int>> left;
   FlipCounts sum;
-  for (std::int64_t merged = 1;; merged *= growth) {  // blocks in one
+  for (std::int64_t merged = 1;; merged *= growth) {  // blocks that are joined
     const std::int64_t count = (cover.blocks() + merged - 1) / merged;
     const Buffer<Buffer<int>> waiting = std::exchange(left, Buffer<Buffer<int>>(count));
     Buffer<FlipCounts> counts(count);

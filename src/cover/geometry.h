@@ -1,6 +1,6 @@
 #pragma once
 
-// Angles, areas and flips from edge lengths alone (Sections 3.2 and 3.3), in double or long double.
+// Angles and areas from edge lengths only (Sections 3.2 and 3.3), in double or long double.
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -19,7 +19,7 @@
 namespace tufted {
 namespace {
 
-/// A side of a triangle, filed under the smaller of its two vertices.
+/// A side of a triangle, stored at the smaller of its two vertices.
 struct UngluedSide {
   int other;  ///< the larger vertex
   int side;   ///< 3 t + s

@@ -20,7 +20,7 @@ constexpr double thin_slack = 0x1p-26;
 /// The length of an edge between coincident vertices while thin faces are flipped, as a share of the longest side: too
 /// short to matter in an area, and far above rounding in long double.
 constexpr double short_enough = 0x1p-40;
-/// A slack below this share of the longest side may be rounding alone, as corners on a line are on it in doubles only:
+/// A slack below this share of the longest side may be only rounding, as corners on a line are on it in doubles only:
 /// such a face is made exactly flat.
 constexpr long double straight_slack = 32 * std::numeric_limits<long double>::epsilon();
 

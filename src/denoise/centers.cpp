@@ -23,7 +23,7 @@ std::uint64_t hashOf(const PointsView& points, int p) {
   for (int axis = 0; axis < 3; ++axis) {
     int exponent = 0;
     hash ^= std::bit_cast<std::uint64_t>(std::frexp(points(p, axis), &exponent));
-    // The multiplier of splitmix64, and a shift that brings high bits down.
+    // The multiplier of SplitMix64, and a shift that mixes high bits into low ones.
     hash *= 0xbf58476d1ce4e5b9U;
     hash ^= hash >> 31;
   }

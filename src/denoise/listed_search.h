@@ -13,7 +13,7 @@ namespace tufted {
 
 /// Calls visit(p, neighbors) for each listed point, with its min(k, n - 1) nearest, see nearestOfListed().
 /// @param points n x 3, the points that `search` was built from
-/// @param ranks ascending
+/// @param ranks the listed points, ascending
 template <class Visit>
 void forEachListed(const PointsView& points, const NeighborSearch& search, std::span<const int> ranks, int k,
                    const Visit& visit) {

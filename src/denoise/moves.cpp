@@ -23,7 +23,7 @@ constexpr double most_excess = 2;
 /// Noise draws fits inwards by about this times its variance times the mean curvature, by which points are put back.
 /// With 1 eigenvalues of real shapes are off by 3.5e-2, with 2 by 3.3e-2; those of a sphere by 1.9e-3 and 2.6e-3.
 constexpr double taken_back = 2;
-/// If the weights of all surfaces sum to less than this, it is rounding, and the point stays.
+/// A sum of weights below this is rounding, and the point stays.
 constexpr double least_weight = 1e-12;
 
 /// Moves points onto the weighted mean of the surfaces around them.

@@ -8,7 +8,7 @@
 
 namespace tufted {
 
-/// How the points of a cloud move onto the surface.
+/// The moves of the points of a cloud onto the surface.
 struct SurfaceMoves {
   PointBuffer move;  ///< n x 3, exactly 0 where a point stays
   /// n, variance of the noise around each point that moves, in length^2; undefined at others
@@ -16,7 +16,7 @@ struct SurfaceMoves {
   Buffer<std::uint8_t> outlier;  ///< n, 1 at points that stay because they are far off the surface of their neighbours
   std::int64_t no_surface = 0;   ///< points that stay because their neighbours form a curve or fill a volume
 
-  /// How many points move.
+  /// The number of points that move.
   std::int64_t count() const;
 };
 

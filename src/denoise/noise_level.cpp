@@ -10,7 +10,7 @@
 namespace tufted {
 namespace {
 
-/// Noise below this part of the spacing does nothing to L, and the points stay.
+/// Noise below this share of the spacing does nothing to L, and the points stay.
 constexpr double least_noise = 0.01;
 /// If fewer fits of a pool are valid, their mean error is unknown.
 constexpr int least_fits = 9;
@@ -26,22 +26,23 @@ constexpr double thinner = 0.8;
 /// by less than `rough_growth` if they are as large as `rough` spacings, and not at all if `too_rough` times that, as
 /// in trees.
 constexpr double white_growth = 1.3, rough_growth = 2.3, rough = 0.4, too_rough = 2;
-/// The median of the squared errors is at least this part of their mean where there is noise: white noise has 0.45, a
-/// pool beside a crease less. Below 0.2 points of an exact cube move.
+/// Errors are noise only if their median is at least this share of their mean: white noise has 0.45, a pool beside a
+/// crease less. Below 0.2 points of an exact cube move.
 constexpr double least_even = 0.25;
 /// Approximate factor by which errors of detail grow from size to size.
 constexpr double detail_growth = 3;
-/// Noise is at least this part of the errors. With 0.5 the results are the same.
+/// The variance of the noise is at least this share of the mean error. With 0.5 the results are the same.
 constexpr double least_noisy = 0.2;
 /// There is noise at a centre if this share of its pool has white errors. From 0.3 to 0.5 the results are the same.
 constexpr double share = 0.4;
-/// Of the neighbours, the share within half the distance is 1/2 along a curve, 1/4 on a surface, 1/8 in a volume: more
-/// than the first is a curve, less than the second a volume. With 0.155 points beside the faces of volumes moved.
+/// The share of the neighbours within half the distance is 1/2 along a curve, 1/4 on a surface, 1/8 in a volume: above
+/// the first bound it is a curve, below the second a volume. With 0.155 points beside the faces of volumes moved.
 constexpr double curve_share = 0.41, volume_share = 0.185;
-/// In a volume the smallest variance also exceeds this part of the middle one. With 0.45 thin parts of noisy shapes
-/// were taken for volumes.
+/// In a volume the smallest variance must also exceed this share of the middle one. With 0.45 thin parts of noisy
+/// shapes were taken for volumes.
 constexpr double volume_thickness = 0.5;
-/// If more than this share of the pool sees no surface, there is none. With 0.25 two of 1,000 points in a cube move.
+/// If more than this share of the pool has no surface, the points around a centre have none. With 0.25 two of 1,000
+/// points in a cube move.
 constexpr double none_share = 0.2;
 /// Errors above this many times the variance of the noise are bias; white noise reaches it by chance. With 1.2 and 1.5
 /// the results are the same.

@@ -9,7 +9,7 @@ namespace tufted {
 
 /// The noise around a centre, and the size of fit to use there.
 struct LocalNoise {
-  double variance = 0;      ///< along the normal, in length^2
+  double variance = 0;      ///< variance of the noise along the normal, in length^2
   int size = -1;            ///< index in fit_sizes of the least expected error; -1 if points stay
   bool no_surface = false;  ///< whether the points around form a curve or fill a volume
 };
@@ -21,7 +21,7 @@ double excessOf(const SurfaceFit& fit, int size, double variance);
 /// Finds noise by predicting points from their neighbours. White noise makes predictions from 16 and from 32 neighbours
 /// equally wrong, once squaredError() has removed their own variance; detail is predicted worse by a factor of two to
 /// four from wider windows.
-/// @returns one for each centre
+/// @returns the noise around each centre
 RawBuffer<LocalNoise> findNoise(const SurfaceFits& fits, const Workers& workers);
 
 /// A first look (section 27 of docs/algorithm.md, step 1): where there may be noise.

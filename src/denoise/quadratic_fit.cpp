@@ -11,7 +11,7 @@ namespace {
 
 /// Number of coefficients of a quadratic in two variables.
 constexpr int coefficients = 6;
-/// Points that a fit needs: three more than coefficients, or no residual is left to judge it by.
+/// Least number of points of a fit: three more than coefficients, so that residuals can show how good it is.
 constexpr int least_points = 9;
 /// A pivot below this share of the largest is rounding: points on a conic determine no quadratic.
 constexpr double smallest_pivot = 1e-9;

@@ -20,7 +20,7 @@ constexpr int sizes = static_cast<int>(fit_sizes.size());
 /// A surface near a position.
 struct SurfacePlace {
   double height;           ///< signed distance of the position from the surface
-  Eigen::Vector3d normal;  ///< of the surface there
+  Eigen::Vector3d normal;  ///< of the surface there, unit length
 };
 
 /// A quadratic fitted to the heights of a centre and its nearest neighbours over their plane.

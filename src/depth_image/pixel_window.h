@@ -17,7 +17,7 @@ namespace tufted {
 struct DepthImage {
   const PixelGrid& grid;
   PointsView points;  ///< as measured
-  PointsView moved;   ///< on the surface
+  PointsView moved;   ///< as moved onto the surface
   const SurfaceWindows& windows;
   JumpTest test;
 

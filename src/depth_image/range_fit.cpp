@@ -30,9 +30,9 @@ constexpr double most_misfit_of_planes = 4;
 constexpr double further_share = 1.0 / 8;
 /// Share of the variance of the values that a fit to 5 x 5 of them is assumed to leave; a quadratic leaves 0.15.
 constexpr double further_share_nearer = 1.0 / 4;
-/// Pixels that a plane over a part of 7 x 7 needs, its own included: two fifths.
+/// Least number of pixels of a plane over a part of 7 x 7, its own included: two fifths.
 constexpr int least_of_wide = 20;
-/// Pixels that a plane over a part of 5 x 5 needs: half.
+/// Least number of pixels of a plane over a part of 5 x 5: half.
 constexpr int least_of_narrow = 12;
 // A plane at an edge is too steep if its squared change per pixel exceeds `steep_by_noise` variances of the noise,
 // twice what noise makes, and `steep_by_spacing` squared spacings, which is 63 degrees.

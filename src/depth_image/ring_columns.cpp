@@ -90,7 +90,7 @@ class RingShots {
 };
 
 /// The mean step of the azimuth along rings, without gaps; 0 if there is none.
-/// @param shots by azimuth
+/// @param shots sorted by azimuth
 double azimuthStep(const RingShots& shots) {
   Buffer<double> steps;
   const int stride = static_cast<int>(std::max<std::int64_t>(1, shots.size() / step_samples)) | 1;
@@ -153,9 +153,9 @@ struct RingFit {
   int gaps = 0;                    ///< columns missing in gaps
 };
 
-/// Gives the points of a ring their columns. A point goes to the column after the one before it where its own is taken:
-/// so all points keep their order where azimuths lie halfway between two columns, whatever their rounding.
-/// @param shots by azimuth
+/// Gives the points of a ring their columns: that of the azimuth, or the one after the previous point if it is taken,
+/// so that points keep their order if azimuths are halfway between two columns.
+/// @param shots sorted by azimuth
 RingFit placeRing(const RingShots& shots, int ring, double step, RankedScan& scan) {
   RingFit fit;
   int last = -1;

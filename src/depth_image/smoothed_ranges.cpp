@@ -24,13 +24,13 @@ constexpr std::array<int, 4> strides = {3, SmoothedRanges::widest_stride, 5, 2};
 constexpr double harmless = 0.0004;
 /// Number of sampled packets of eight pixels from which the remaining noise is measured; 2,000 give the same.
 constexpr std::int64_t samples = 500;
-/// Quantile of the residual variances that is noise alone, as half of the windows may hold a crease.
+/// Quantile of the residual variances that is only noise, as half of the windows may hold a crease.
 constexpr double quiet = 0.25;
 /// Quantile of the residual variances that shows the steps of a coarse depth, which most windows of a terrace do not
 /// contain. Without it a room in steps of 1/8 has 23 instead of 2 % too much area.
 constexpr double usual = 0.75;
-/// Quantile `usual` exceeds `quiet` by at most this factor if there is noise alone: 1.5 for white noise, 2 to 3 for
-/// real cameras. With 3 a room in steps has 1.7 instead of 0.8 % too much area.
+/// Quantile `usual` exceeds `quiet` by at most this factor if there is only noise: 1.5 for white noise, 2 to 3 for real
+/// cameras. With 3 a room in steps has 1.7 instead of 0.8 % too much area.
 constexpr double most_to_usual = 2;
 /// The first pass expects at most this share of the variance of the noise, and no pass expects more than the one
 /// before.

@@ -16,7 +16,7 @@ namespace tufted {
 /// Smoothed inverse depths by pixel, see PixelGrid::depthOf(). A border as wide as any window reaches surrounds the
 /// image.
 struct SmoothedRanges {
-  /// Pixels between the values of the widest window, that of the second pass.
+  /// Pixels between the values of the widest fit, that of the second pass.
   static constexpr int widest_stride = 9;
   static constexpr int border = WindowPixels::reach * widest_stride;
   /// Greatest slope of a surface that is smoothed further, in spacings along the sight per pixel: 76 degrees.

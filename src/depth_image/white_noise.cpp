@@ -19,8 +19,8 @@ constexpr std::int64_t samples = 32000;
 constexpr double quiet = 0.25;
 /// Variances that differ by less than this factor count as equal: most fits have exactly the variance of the noise.
 constexpr double alike = 1 + 1e-9;
-/// Noise is white if a share of neighbours between these lies on one side of the surface: white noise has 0.46 to 0.50,
-/// real cameras have 0.62 to 0.73, coarse depths 0.74 and more, waves of 10 and 12 pixels 0.61 and 0.57.
+/// Noise is white if the share of pairs of neighbours on one side of the surface is between these: white noise has 0.46
+/// to 0.50, real cameras have 0.62 to 0.73, coarse depths 0.74 and more, waves of 10 and 12 pixels 0.61 and 0.57.
 constexpr double least_on_one_side = 0.45, most_on_one_side = 0.56;
 
 /// The side of the surface on which a pixel lies: 1 behind, -1 in front, 0 if it was not smoothed.

@@ -21,7 +21,7 @@ struct PixelStep {
 /// of them is a word in which bit i stands for step i.
 struct WindowPixels {
   static constexpr int reach = 3;   ///< number of rings: 7 x 7 pixels fit the bits of a word
-  static constexpr int count = 48;  ///< pixels of 7 x 7 without the one in the middle
+  static constexpr int count = 48;  ///< pixels of 7 x 7 without the middle one
 
   static constexpr int side() { return 2 * reach + 1; }
 

@@ -21,7 +21,7 @@ class BlockExchange {
   template <class Receiver>
   void send(std::size_t from, const Buffer<Item>& items, const Receiver& receiver, Buffer<int>& scratch) {
     if (items.empty()) return;
-    Buffer<int>& fill = scratch;  // of each receiver
+    Buffer<int>& fill = scratch;  // by receiver
     fill.assign(parcels_.size() + 1, 0);
     for (const Item& item : items) ++fill[receiver(item) + 1];
     Parcel& parcel = parcels_[from];

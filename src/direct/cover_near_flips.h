@@ -29,7 +29,7 @@ class CoverNearFlips {
   /// All arguments are borrowed for the life of the cover.
   CoverNearFlips(const Stars& stars, const EdgeLengths& length, const RadialCycles& cycles);
 
-  /// Algorithm 2.
+  /// Algorithm 2 (section 11 of docs/algorithm.md).
   FlipCounts flipToDelaunay(const StarMetric& metric, const Workers& workers);
 
   /// The bytes of the faces that are present.
@@ -64,7 +64,7 @@ class CoverNearFlips {
 
  private:
   friend class Flipping;
-  /// Sets the ranges of the blocks.
+  /// Sets the ranges of triangles of the blocks.
   void reserve(const Buffer<Buffer<FlipSeed>>& seeds, const Workers& workers);
   void makeRoom(std::size_t triangles);
   /// Adds a star in the range of its block. If it does not fit, appends it behind all ranges if `may_grow`, else
@@ -82,7 +82,7 @@ class CoverNearFlips {
   int sideNumber(const StarSide& side, bool is_front, const Buffer<int>& first) const;
   bool runsUp(const StarSide& side) const { return tail(stars_, side) < head(stars_, side); }
   /// Writes the star of p into the whole cover as the stars have it; copyStar() as flips have left it.
-  /// @param first the first triangle of each star in the whole
+  /// @param first first triangle of each star in `whole`
   void fillStar(int p, const Buffer<int>& first, IntrinsicTriangulation& whole) const;
   void copyStar(int p, const Buffer<int>& first, const RawBuffer<int>& triangle, IntrinsicTriangulation& whole) const;
 

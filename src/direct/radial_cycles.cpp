@@ -14,7 +14,7 @@
 namespace tufted {
 namespace {
 
-/// Visits the sides of the star of p that are not glued within it.
+/// Calls visit(side) for the sides of the star of p that are not glued within it.
 template <class Visit>
 void forEachOpenSide(const Stars& stars, int p, const Visit& visit) {
   for (int i = stars.offset[p]; i < stars.offset[p + 1]; ++i) {

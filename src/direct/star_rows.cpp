@@ -19,7 +19,7 @@ class StarRows {
     workers.forBlocks("assemble", stars_.size(), cheap_block, [&](std::int64_t begin, std::int64_t end, int) {
       for (int p = static_cast<int>(begin); p < end; ++p) {
         mixed_[p] |= metric_.is_flat[p] | static_cast<std::uint8_t>(glued.cover.isFlipped(p));
-        mass_[p] = mixed_[p] == 0 ? 2 * scale_ * metric_.area[p] : 0;  // front and back, 3 stars, a third
+        mass_[p] = mixed_[p] == 0 ? 2 * scale_ * metric_.area[p] : 0;  // 2 faces x 3 stars x 1/3 of the area
       }
     });
     summed_rows_ = summedRows(glued, mixed_, keep_cover, scale_, mass_, workers, report);
@@ -53,8 +53,8 @@ class StarRows {
   }
 
  private:
-  /// The weight of the spoke to link vertex i of an unmixed star.
-  double spokeWeight(int i) const { return 3 * scale_ * metric_.cotan_sum[i]; }  // front and back, 3 stars, 1/2
+  /// The weight of the spoke to link vertex i of a star that is not mixed.
+  double spokeWeight(int i) const { return 3 * scale_ * metric_.cotan_sum[i]; }  // 2 faces x 3 stars x 1/2
 
   const Stars& stars_;
   const StarMetric& metric_;

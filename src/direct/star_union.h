@@ -29,7 +29,7 @@ namespace tufted {
 /// are called once each, in this order.
 class StarUnion final : public CoverSource {
  public:
-  /// Glues (Algorithm 1).
+  /// Glues the stars (Algorithm 1).
   /// @param disagrees see findDisagreement()
   /// @param size N, the number of the caller's points
   /// @param has_own_areas whether starAreas() will be called
@@ -40,10 +40,10 @@ class StarUnion final : public CoverSource {
   /// @param memory reused
   StarMetric measure(RawBuffer<double> memory, const Workers& workers) const;
 
-  /// Algorithm 2.
+  /// Flips edges until all are Delaunay (Algorithm 2).
   FlipCounts flip(const StarMetric& metric, const Workers& workers);
 
-  /// L and M (Algorithm 3).
+  /// Sets L and M (Algorithm 3).
   /// @param keep_cover whether cover() will be called
   void assemble(const StarMetric& metric, bool keep_cover, const Workers& workers, Laplacian& result);
 

@@ -13,7 +13,7 @@ namespace tufted {
 /// Weights of edges between mixed points, summed over the faces of the cover and stored at both ends; adds to the mass
 /// of each mixed point a third of the area of each face at it (Section 3.3). Sums run in an order that depends only on
 /// ranks.
-/// @param mixed n, 1 for a mixed point
+/// @param mixed n, 1 for a mixed point, see assembleStars()
 /// @param keep_cover if false, faces are dropped once they are read
 /// @param scale see faceScale()
 /// @param[in,out] mass n

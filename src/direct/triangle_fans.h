@@ -55,7 +55,7 @@ class TriangleFanBuffer {
   TriangleFans fans_{};
 };
 
-/// The numbers [first, last); clang 14 cannot read std::views::iota.
+/// The numbers [first, last); clang 14 cannot compile std::views::iota.
 struct Numbers {
   std::int64_t first, last;
 

@@ -11,9 +11,10 @@
 namespace tufted {
 namespace {
 
-/// Points of a batch at most. 48 and 64 were no faster, as each point looks through more candidates, nor were 12 to 24.
+/// Greatest number of points of a batch. 48 and 64 were no faster, as each point tests more candidates, nor were 12 to
+/// 24.
 constexpr int most_batch = 32;
-/// Diagonal of the box of a batch at most, in radii of a neighbourhood; 3.2 and 4 were no faster. Batches of a fixed
+/// Greatest diagonal of the box of a batch, in radii of a neighbourhood; 3.2 and 4 were no faster. Batches of a fixed
 /// number of points straddle jumps of the curve (1.55 instead of 1.29 us per point).
 constexpr double widest_batch = 2.5;
 /// The squared k-th distance of the previous point times this mostly holds k points; if not, the bound is used.

@@ -15,7 +15,7 @@ using Index = flann::KDTreeSingleIndex<flann::L2_Simple<double>>;
 /// Least number of points of one of several trees: searching smaller ones costs more than building them in parallel
 /// saves.
 constexpr int least_points = 8192;
-/// Points in a leaf.
+/// Greatest number of points in a leaf.
 constexpr int leaf_size = 16;
 const flann::SearchParams all_checks{flann::FLANN_CHECKS_UNLIMITED};
 

@@ -15,7 +15,7 @@ namespace {
 /// Bits of a code per axis: three axes fill 63.
 constexpr int axis_bits = 21;
 constexpr double axis_cells = 1 << axis_bits;
-/// Cells per median spread: the grid reaches over 32 spreads, and what lies outside goes to its border.
+/// Cells per median spread: the grid covers 32 spreads, and points outside fall into its border.
 constexpr double cells = 1 << 16;
 
 /// Spreads the low 21 bits of v to every third bit.

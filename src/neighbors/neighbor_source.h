@@ -17,7 +17,7 @@ namespace tufted {
 
 /// Neighbours and normals of each point, by rank (section 2 of docs/algorithm.md).
 struct NeighborSource {
-  int k = 0;                               ///< neighbours per point, at most n - 1
+  int k = 0;                               ///< number of neighbours per point, at most n - 1
   std::unique_ptr<NeighborSearch> search;  ///< null when the caller's lists or the structure of a scan are used
   std::unique_ptr<RingSearch> rings;       ///< null without the rings of a scanner
   Buffer<std::size_t> list_offset;         ///< n + 1, starts in `list`

@@ -37,7 +37,7 @@ enum class NeighborOrder { ascending, any };
 
 /// The result of a previous search, which bounds the search for a point nearby.
 struct SearchBefore {
-  int p = 0, k = 0;   ///< k = 0: there was none
+  int p = 0, k = 0;   ///< k = 0: there was no search
   double radius = 0;  ///< distance from p to its k-th neighbour
 };
 

@@ -10,11 +10,11 @@ enum class CloudBuild {
   whole_cover,  ///< always by the whole cover (src/cover), as for meshes; the reference of tests
 };
 
-/// See pointCloudLaplacian().
+/// Builds the Laplacian of a cloud, see pointCloudLaplacian().
 /// @param[out] result replaced, in memory that it already has; undefined after an exception
 void buildCloudLaplacian(const PointsRef& points, const CloudOptions& options, CloudBuild build, Laplacian& result);
 
-/// See meshLaplacian().
+/// Builds the Laplacian of a mesh, see meshLaplacian().
 /// @param[out] result see buildCloudLaplacian()
 void buildMeshLaplacian(const PointsRef& points, const TrianglesRef& triangles, const MeshOptions& options,
                         Laplacian& result);

@@ -23,7 +23,7 @@ namespace {
 /// surface by chance once in 3e7.
 constexpr double outlier_ratio = 5;
 
-/// The k nearest neighbours of every point, and what they tell.
+/// The k nearest neighbours of every point, with derived values.
 struct NeighborGraph {
   int k = 0;
   Buffer<int> nearest;      ///< n * k ranks

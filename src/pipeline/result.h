@@ -12,6 +12,7 @@ namespace tufted {
 
 // Shared by the builds of clouds and of meshes.
 
+/// Checks the options that all builds have.
 /// @throws InvalidInput, naming `function`, unless mollify is in [0, 1] and threads is at least 0
 void checkBuild(const char* function, double mollify, int threads);
 

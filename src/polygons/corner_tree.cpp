@@ -14,7 +14,7 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr int leaf_size = 16;
 constexpr std::uint64_t none = std::numeric_limits<std::uint64_t>::max();
 
-/// The place of a corner in the random order: hashed bits (the finalizer of MurmurHash3), then the corner itself.
+/// The place of a corner in the random order: hashed bits (the finaliser of MurmurHash3), then its number.
 std::uint64_t placeOf(int corner) {
   auto bits = static_cast<std::uint32_t>(corner);
   bits = (bits ^ bits >> 16) * 0x85ebca6bu;
@@ -40,7 +40,7 @@ double distance(const Vector2d& point, const Capsule& capsule) {
 PlanarTriangle::PlanarTriangle(const Vector2d& a, const Vector2d& b, const Vector2d& c, double area,
                                double squared_edges)
     : corner_{a, b, c} {
-  // Rounding of the orientation of three corners.
+  // Bound on the relative rounding of turn().
   constexpr double rounding = 32 * std::numeric_limits<double>::epsilon();
   // Smaller products may have underflowed.
   constexpr double least = 1e-280;
@@ -71,7 +71,7 @@ bool PlanarTriangle::holdsNoneOf(const Vector2d& low, const Vector2d& high) cons
 }
 
 bool PlanarTriangle::holdsNoneOf(const Capsule& capsule) const {
-  // Rounding of the distance to a box.
+  // Bound on the relative rounding of distances.
   constexpr double rounding = 32 * std::numeric_limits<double>::epsilon();
   if (low_.x() == -infinity) return false;
   for (int i = 0; i < 3; ++i) {

@@ -12,7 +12,7 @@ inline double turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eig
   return (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
 }
 
-/// The part of the plane within `radius` of the segment between two points.
+/// All points of the plane within `radius` of a segment.
 struct Capsule {
   Eigen::Vector2d begin, end;
   double radius;

@@ -15,7 +15,7 @@ constexpr double clipped = -3;       // of a clipped corner
 // From this number of corners on, nearly straight corners count as straight: comparing each with all others on its line
 // would take the square of their number.
 constexpr std::size_t many_corners = 1000;
-/// The quality up to which a corner of such a polygon is straight: rounding of coordinates.
+/// Corners of such a polygon are straight up to this quality, as it may be rounding of coordinates.
 constexpr double straight = 0x1p-40;
 
 double squaredEdges(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
@@ -24,7 +24,7 @@ double squaredEdges(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
 
 /// Projects the polygon along the greatest axis of its Newell normal, which keeps the turn of every corner.
 void project(const Points& points, const std::vector<int>& polygon, std::vector<Vector2d>& planar) {
-  const Eigen::RowVector3d origin = points.row(polygon[0]);  // differences only
+  const Eigen::RowVector3d origin = points.row(polygon[0]);  // to work with differences only
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Eigen::Vector3d a = points.row(polygon[i]) - origin;

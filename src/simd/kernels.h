@@ -237,7 +237,7 @@ struct Kernels {
                      const unsigned char* beside, double* squared);
   /// Which values of a 7 x 7 window differ from the middle by at most the lane's slope times the number of the ring,
   /// plus its tolerance; NaN never does.
-  /// @param values the middles of eight windows
+  /// @param values the middle values of eight windows
   /// @param shift offsets to the pixels of the window
   /// @param wanted lanes whose `within` is needed
   /// @param[out] within for each pixel of the window, the lanes; not set if all pixels of all wanted lanes are within

@@ -13,7 +13,7 @@ static_assert(packet_size == kernel_packet, "arrays are filled up to the packets
 
 int takeWithin(const Candidates& candidates, const double* point, int p, double bound, double* squared_distance,
                int* index) {
-  const Candidates given = candidates;  // a copy, which what is written below cannot change
+  const Candidates given = candidates;  // copied, so that stores below cannot alias it
   const Packet x = broadcast(point[0]), y = broadcast(point[1]), z = broadcast(point[2]), limit = broadcast(bound);
   int found = 0;
   for (int i = 0; i < given.count; i += packet_size) {
@@ -29,7 +29,7 @@ int takeWithin(const Candidates& candidates, const double* point, int p, double 
 
 void rankValues(const double* values, int count, float* rounded, int* rank) {
   for (int i = 0; i < count; i += packet_size) storeFloats(load(values + i), rounded + i);
-  // Each step ranks as many values as fit in registers.
+  // Each call ranks as many values as fit in registers.
   int i = 0;
   for (; i + 2 * float_packet_size < count; i += 3 * float_packet_size)
     rankFloats<3>(rounded + i, rounded, count, rank + i);
@@ -258,14 +258,14 @@ TUFTED_INLINE Part lengthOf(const double* x, const double* y, const double* z) {
   return squareRoot(a * a + b * b + c * c);
 }
 
-/// 4 A cot of the angle opposite a.
+/// 4 A cot(alpha) for the area A and the angle alpha opposite a, as in cover/geometry.h.
 TUFTED_INLINE Part cotanNumerator(Part a, Part b, Part c) {
   const Part shorter = min(b, c), longer = max(b, c);
   return shorter * shorter + (longer - a) * (longer + a);
 }
 
 void measureTriangleFans(const TriangleFans& given) {
-  const TriangleFans fans = given;  // a copy, which what is written below cannot change
+  const TriangleFans fans = given;  // copied, so that stores below cannot alias it
   for (int i = 0; i < fans.count + 1; i += part_size)
     store(lengthOf(fans.spoke_x + i, fans.spoke_y + i, fans.spoke_z + i), fans.spoke + i);
   for (int i = 0; i < fans.count; i += part_size) {

@@ -6,7 +6,7 @@ namespace tufted {
 namespace {
 
 using Packet = __m512d;
-using Mask = __mmask8;  // a bit for each number
+using Mask = __mmask8;  // bit i is that of number i
 using Part = Packet;
 using PartMask = Mask;
 constexpr int part_size = packet_size;
@@ -62,7 +62,6 @@ TUFTED_INLINE Mask logicalOr(Mask a, Mask b) {
 TUFTED_INLINE bool any(Mask mask) {
   return mask != 0;
 }
-/// Bit i is that of number i.
 TUFTED_INLINE unsigned bitsOf(Mask mask) {
   return mask;
 }

@@ -13,7 +13,7 @@ TUFTED_INLINE Part differenceOf(const double* values, int shift, int at) {
 /// See JumpTest in depth_image/surface_windows.h.
 void joinPixels(const PixelPoints& pixels, const PixelSteps& steps, double of_inverse, double of_depth,
                 std::uint64_t* joined) {
-  const PixelPoints given = pixels;  // a copy, which what is written below cannot change
+  const PixelPoints given = pixels;  // copied, so that stores below cannot alias it
   for (int s = 0; s < steps.count; ++s) joined[s] = 0;
   for (int at = 0; at < pixels_in_word; at += part_size) {
     const Part range = loadPart(given.range + at), allowed = broadcastPart(of_inverse) * range;

@@ -11,7 +11,7 @@ namespace {
 template <int Reach>
 TUFTED_INLINE void fitSquare(const PixelRows& rows, int part, SquareFits& fits) {
   const int side = 2 * Reach + 1, pixels = side * side;
-  const double mean_square = Reach * (Reach + 1) / 3.0;  // of i
+  const double mean_square = Reach * (Reach + 1) / 3.0;  // mean of i^2
   const double square = pixels * mean_square;            // sum of i^2
   const double fourth = pixels * mean_square * (3.0 * Reach * (Reach + 1) - 1) / 5;
   const double bowl = fourth - pixels * mean_square * mean_square;  // sum of (i^2 - m)^2

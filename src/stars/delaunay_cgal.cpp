@@ -54,7 +54,7 @@ void delaunayStarCgal(const Buffer<PlanarPoint>& candidates, int p, StarScratch&
       const PlanarPoint& a = *inner->vertex(Triangulation::ccw(edge))->info();
       const PlanarPoint& c = *inner->vertex(Triangulation::cw(edge))->info();
       const int opposite = outer->index(inner);
-      if (outer->vertex(opposite) == center) continue;  // back in the star, through another link edge
+      if (outer->vertex(opposite) == center) continue;  // the star again, through another link edge
       const PlanarPoint& b = *outer->vertex(opposite)->info();
       if (orientation(a, b) <= 0 || orientation(b, c) <= 0 || sideOfCircle(a, b, c) != CircleSide::tie) continue;
       scratch.chosen.push_back(b);

@@ -10,7 +10,7 @@ struct DelaunayStar {
   Buffer<PlanarPoint> link;  ///< counterclockwise; triangle i is (p, link[i], link[i + 1]), cyclically
   bool closed = false;       ///< whether the last link vertex has a triangle with the first; else p is a boundary point
 
-  /// Circumradius of each triangle; infinite where it is too flat for a double.
+  /// Circumradius of each triangle; infinite if it is too flat for a double.
   Buffer<double> radius;
 
   int triangles() const { return static_cast<int>(link.size()) - (closed || link.empty() ? 0 : 1); }
@@ -18,7 +18,7 @@ struct DelaunayStar {
   double largestCircumradius() const;
 };
 
-/// The circumradius of the triangle (origin, a, b), counterclockwise; infinite where it is too flat for a double.
+/// The circumradius of the counterclockwise triangle (origin, a, b); infinite if it is too flat for a double.
 double circumradius(const PlanarPoint& a, const PlanarPoint& b);
 
 /// A planar point with a key that increases with the angle of its direction.

@@ -18,7 +18,7 @@ struct Gap {
   /// share of the gap on either side, which neighbours along its border may reach into
   static constexpr double margin = 0.25;
 
-  double begin = 0;  ///< direction, rad
+  double begin = 0;  ///< direction of its first border, rad
   double angle = 0;  ///< (0, 2 pi]
 
   bool holdsInTheMiddle(double direction) const {

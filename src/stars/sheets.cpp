@@ -25,7 +25,7 @@ constexpr double flat_sheet = 0.1, flat_few = 0.05;
 /// The flatness of an accepted plane must be below this share of the former one; a cut that helps less has cut a curved
 /// surface.
 constexpr double far_flatter = 0.25;
-/// Nearest neighbours whose pairs give planes with p to cut along: six planes, one packet.
+/// Number of nearest neighbours whose pairs give, with p, planes to cut along: six planes, one packet.
 constexpr int most_corners = 4;
 /// Two neighbours whose angle at p has a smaller sine are nearly collinear with p and give no plane.
 constexpr double least_sine = 0.3;

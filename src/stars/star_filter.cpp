@@ -28,7 +28,7 @@ constexpr double doubtful_squared = 4;
 /// clean, nonuniform and scan-line clouds lose nothing.
 constexpr double bridge = 4;
 
-/// Whether the star of `a` contains the triangle (a, b, c), either way round.
+/// Whether the star of `a` contains the triangle (a, b, c) in either orientation.
 bool contains(const Stars& stars, int a, int b, int c) {
   for (int i = stars.offset[a]; i < stars.offset[a + 1]; ++i) {
     const int x = stars.link[i], y = stars.link[stars.after(a, i)];
@@ -43,7 +43,7 @@ int otherVotes(const Stars& stars, int p, int i) {
   return (contains(stars, a, b, p) ? 1 : 0) + (contains(stars, b, p, a) ? 1 : 0);
 }
 
-/// otherVotes() for every triangle of star p, with one look at the star of each link vertex.
+/// otherVotes() for every triangle of star p; reads the star of each link vertex once.
 /// @param[out] votes one per link entry
 void countOtherVotes(const Stars& stars, int p, Buffer<int>& votes) {
   const int first = stars.offset[p], last = stars.offset[p + 1];

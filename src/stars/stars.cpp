@@ -39,7 +39,7 @@ struct WorkerState {
   StarMemory memory;
   std::int64_t grown_neighborhoods = 0, split_neighborhoods = 0, thick = 0, isolated = 0, grown_stars = 0,
                closed_stars = 0;
-  std::array<double, 3> seconds = {};  // neighbours, frames, stars
+  std::array<double, 3> seconds = {};  // of neighbours, frames, stars
 };
 
 class StarBuilder {

@@ -14,17 +14,17 @@
 namespace tufted {
 namespace {
 
-/// Pixels that a camera is fitted to.
+/// Number of sampled pixels that a camera is fitted to.
 constexpr std::int64_t samples = 2000;
-/// Rows and columns of an image at least.
+/// Least number of rows, and of columns, of an image.
 constexpr int least_side = 8;
-/// Pixels that the 8 unknowns of a camera need.
+/// Least number of samples for the 8 unknowns of a camera.
 constexpr int least_samples = 100;
 /// The median error of a camera is at most this, in pixels, as that of the depth images of PCL is.
 constexpr double usual_error = 0.5;
-/// The error, in pixels, that most samples keep: lenses and rounding cause no more.
+/// Most samples have at most this error, in pixels: lenses and rounding cause no more.
 constexpr double most_error = 2;
-/// The share of the samples that keep `most_error`, and that lie in front of the camera.
+/// Least share of the samples with at most `most_error`, and of those in front of the camera.
 constexpr double most_share = 0.95;
 
 Buffer<Sighting> takeSightings(const Points& points, int width, int height, const Eigen::Vector3d& origin) {

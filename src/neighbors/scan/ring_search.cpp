@@ -10,14 +10,14 @@
 namespace tufted {
 namespace {
 
-/// First step of the search for the nearest point of a ring, so long that noise of single points does not stop it.
+/// First step of the search for the foot on a ring, so long that noise of single points does not stop it.
 constexpr int first_stride = 16;
 /// The first 16 points of a ring on either side are all candidates; farther ones, ever more sparsely, serve the plane
 /// and not the star.
 constexpr int dense_steps = 16;
 /// Rings that are searched on each side; farther ones have no part in a star.
 constexpr int most_rings = 2;
-/// Points in a ball of one spacing, half the default k: with k = 30 the ball has 1.4 spacings.
+/// Number of neighbours whose ball has a radius of one spacing, half the default k: with k = 30 it has 1.4 spacings.
 constexpr double neighbors_per_spacing = 15;
 /// The walk along a ring ends after this many consecutive points outside the ball: the surface has ended.
 constexpr int most_misses = 2;
