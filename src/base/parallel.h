@@ -13,7 +13,7 @@ namespace tufted {
 /// few enough to give many threads a block each.
 constexpr std::int64_t costly_block = 256;      ///< each may take 0.1 ms
 constexpr std::int64_t star_block = 1024;       ///< the lists of neighbours of these points fit the second-level cache
-constexpr std::int64_t usual_block = 4096;      ///< loops of neither kind
+constexpr std::int64_t usual_block = 4096;      ///< for work between costly and cheap
 constexpr std::int64_t cheap_block = 8192;      ///< each takes little work
 constexpr std::int64_t cheapest_block = 16384;  ///< each takes a few operations
 

@@ -7,6 +7,7 @@
 
 namespace tufted {
 
+/// Checks that `count` is at most `most`.
 /// @param function the public function that was called
 /// @param what is counted, in the plural
 /// @throws InvalidInput with these words if `count` exceeds `most`

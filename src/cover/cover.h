@@ -52,7 +52,7 @@ void resizeCover(IntrinsicTriangulation& cover, int vertices, std::int64_t trian
 constexpr int frontSide(int t, int s) {
   return 6 * t + s;
 }
-/// The side of the back on the same edge.
+/// The side of the back of triangle `t` on the same edge as frontSide(t, s).
 constexpr int backSide(int t, int s) {
   return 6 * t + 5 - s;
 }

@@ -23,8 +23,8 @@ constexpr int widest = sizes - 2;
 /// own: 1/4 if noise makes it thick, 1 if shape does. With 0.55 noise of 1.4 spacings on a sphere is missed.
 constexpr double thinner = 0.8;
 /// Errors are noise if they grow from one size of fits to the next by less than `white_growth` (detail: 2.6 and more),
-/// by less than `rough_growth` if they are as large as `rough` spacings, and not at all if `too_rough` times that, as
-/// in trees.
+/// by less than `rough_growth` if they are as large as `rough` spacings, and not at all if they are as large as
+/// `too_rough` times that, as in trees.
 constexpr double white_growth = 1.3, rough_growth = 2.3, rough = 0.4, too_rough = 2;
 /// Errors are noise only if their median is at least this share of their mean: white noise has 0.45, a pool beside a
 /// crease less. Below 0.2 points of an exact cube move.
@@ -158,7 +158,7 @@ struct Predictions {
 };
 
 /// The size with the least expected squared error (step 5): remaining noise plus the bias that errors beyond noise
-/// show. -1 if points without a fit have less.
+/// show. -1 if points that stay have less.
 int bestSize(const SurfaceFits& fits, int center, int smallest, double variance) {
   const Pool pool(fits, center);
   double least = variance, bias = 0, narrower = 1;

@@ -128,7 +128,7 @@ double noiseOf(std::span<const Five> fives) {
 /// Rows of five pixels by half octaves of their inverse depth.
 struct Groups {
   RawBuffer<Five> fives;
-  Buffer<std::size_t> begin;  ///< begin of each group, and the end
+  Buffer<std::size_t> begin;  ///< first row of each group, and the end
 
   std::size_t size() const { return begin.size() - 1; }
   std::span<const Five> operator[](std::size_t i) const { return {fives.data() + begin[i], begin[i + 1] - begin[i]}; }

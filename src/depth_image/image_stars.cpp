@@ -183,10 +183,10 @@ class ImageStarBuilder {
     }
   }
 
-  /// The greatest number of rings for a star. In a noisy image windows stay small, because nothing is gained from
-  /// points far away. But along the rim of a body that curves away from the sensor, neighbours in space are many pixels
-  /// apart. Such a surface is seen at a low angle, and its points are farther apart than the noise, which otherwise
-  /// could cause the angle.
+  /// The greatest number of rings for a star. In a noisy image points far away are noisy too, so windows stay within 7
+  /// x 7. But along the rim of a body that curves away from the sensor, neighbours in space are many pixels apart. Such
+  /// a surface is seen at a low angle, and its points are farther apart than the noise, or the angle might be due to
+  /// noise.
   int mostRingsOfStar(int p, const PixelFrame& frame) const {
     if (image_.grid.goes_round) return WindowPixels::reach;
     const Eigen::Vector3d sight = (image_.points.row(p) - image_.grid.origin).transpose();

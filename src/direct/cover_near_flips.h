@@ -96,7 +96,7 @@ class CoverNearFlips {
   Buffer<std::size_t> faces_begin_;  ///< starts of the faces of each block, and the end; empty before flips
   RawBuffer<int> entry_of_;          ///< link entry of each triangle that is present
   RawBuffer<std::uint8_t> state_;    ///< by side, see flipEdges()
-  Buffer<std::uint8_t> moved_;       ///< by triangle
+  Buffer<std::uint8_t> moved_;       ///< by triangle, see isMoved()
   Buffer<std::uint8_t> flipped_;     ///< n
   bool only_moved_ = false;          ///< after keepMovedFaces(): only flipped faces are left
 };

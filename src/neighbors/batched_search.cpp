@@ -114,7 +114,7 @@ class BatchCandidates {
     scratch_.place.resize(room + 2 * kernel_packet);
     kernels_.rankValues(scratch_.squared.data(), room, scratch_.rounded.data(), scratch_.place.data());
     std::int64_t sum = 0;
-    // those behind the k-th too, which saves an unpredictable branch
+    // Those behind the k-th are written too, which saves an unpredictable branch.
     for (int i = 0; i < count; ++i) {
       sum += scratch_.place[i];
       row[scratch_.place[i]] = {scratch_.squared[i], scratch_.index[i]};

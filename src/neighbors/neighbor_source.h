@@ -24,7 +24,7 @@ struct NeighborSource {
   Buffer<int> list;                        ///< neighbours from the caller's lists, as ranks
   PointBuffer normals;  ///< n x 3, the caller's normals, of unit length, 0 if unusable; 0 x 3 without any
 
-  /// Whether the caller's lists are all there is.
+  /// Whether all neighbours come from the caller's lists.
   bool isFixed() const { return search == nullptr && rings == nullptr; }
   /// Whether neighbours get sparser with their distance by design, as on rings.
   bool isGraded() const { return rings != nullptr; }

@@ -219,8 +219,8 @@ struct Kernels {
   void (*measureTriangleFans)(const TriangleFans& fans);
   /// See wrapInverted().
   StarKind (*wrapInverted)(const PlanarOffsets& planar, InvertedStar& star);
-  /// The plane of each of eight points by the pixels around, as frameOf() has it, and its star if that consists of ring
-  /// 1. Each lane is bit for bit independent of the others.
+  /// The plane of each of eight points by the pixels around, as fitFrame() has it, and its star if all link vertices
+  /// are beside it. Each lane is bit for bit independent of the others.
   void (*wrapPixels)(const PixelsAround& around, PixelStars& stars);
   /// Quadratics over 5 x 5 and 7 x 7 pixels.
   void (*fitSquares5)(const PixelRows& rows, SquareFits& fits);

@@ -42,7 +42,7 @@ struct Sides {
   }
   bool has(int q) const { return q == left || q == right; }
   bool areWhole() const { return left >= 0 && right >= 0; }
-  /// In either order, because the sign of normals is arbitrary.
+  /// Whether both have the same neighbours, in either order, because the sign of normals is arbitrary.
   bool areThoseOf(const Sides& other) const {
     return (left == other.left && right == other.right) || (left == other.right && right == other.left);
   }

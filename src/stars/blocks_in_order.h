@@ -39,7 +39,8 @@ class BlocksInOrder {
     built.support.radius.reserve(likely);
   }
 
-  /// @param block its stars are taken, mostly not its memory
+  /// Takes the stars of block `number`.
+  /// @param block emptied; mostly keeps its memory
   void take(std::size_t number, BlockOfStars& block) {
     const std::lock_guard lock(mutex_);
     if (number != next_) {

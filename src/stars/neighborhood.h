@@ -75,9 +75,9 @@ class NeighborhoodFinder {
 
  private:
   void take(int k, double radius, Neighborhood& neighborhood) const;
-  /// False if there are no more.
+  /// Searches k neighbours; false if there are no more than before.
   bool query(int p, int k, Neighborhood& neighborhood, OffsetBuffer& offsets, NeighborhoodScratch& scratch) const;
-  /// Rings, and the far side of a small cloud, would be taken for sheets.
+  /// Not on rings and in small clouds, where other rings and the far side would be taken for sheets.
   bool splitsSheets() const;
   bool isUneven(const Neighborhood& neighborhood) const;
 

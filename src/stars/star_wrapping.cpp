@@ -32,7 +32,7 @@ void StarWrapping::wrap(int p, const Eigen::Vector3d& normal, double unit, const
   });
   if (kind == StarKind::unknown) {
     wrap_(memory.planar, p, memory.scratch, memory.star);
-  } else if (kind != StarKind::closed) {  // tied or open: all candidates are needed, and none of them lies on p
+  } else if (kind != StarKind::closed) {  // tied or open: all of these candidates are needed, and none lies on p
     memory.scratch.chosen.swap(memory.planar);
     wrapChosen(p, memory.scratch, memory.star);
   }

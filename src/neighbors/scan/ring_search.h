@@ -23,7 +23,7 @@ class RingSearch : public InWorkspace {
 
   /// About k points around p, which is left out, ascending by (distance, index); fewer if the scan holds no more. They
   /// get sparser with their distance. `found` is overwritten and keeps its memory. Safe to call from several threads.
-  /// @returns the radius that was searched; `found` lacks some points of the ball
+  /// @returns the radius of the ball that was searched, of which `found` has not all points
   double nearest(int p, int k, Buffer<Neighbor>& found) const;
 
   std::size_t bytes() const;
