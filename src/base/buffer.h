@@ -12,7 +12,7 @@
 
 namespace tufted {
 
-/// Takes memory where takeBlock() does.
+/// Allocator of takeBlock() memory for standard containers.
 template <class T>
 class WorkspaceAllocator {
  public:
@@ -26,7 +26,7 @@ class WorkspaceAllocator {
     if (count > std::numeric_limits<std::size_t>::max() / 2 / sizeof(T)) throw std::bad_array_new_length();
     void* const block = takeBlock(count * sizeof(T) + (is_wide ? alignof(T) : 0));
     if constexpr (!is_wide) return static_cast<T*>(block);
-    // Blocks are aligned for pointers, so that there is room for one in front.
+    // Blocks are aligned for pointers, so the block's address fits in front of the aligned array.
     const auto place = (reinterpret_cast<std::uintptr_t>(block) / alignof(T) + 1) * alignof(T);
     *(reinterpret_cast<void**>(place) - 1) = block;
     return reinterpret_cast<T*>(place);
@@ -45,7 +45,7 @@ class WorkspaceAllocator {
 template <class T>
 using Buffer = std::vector<T, WorkspaceAllocator<T>>;
 
-/// Leaves new values as the memory has them, so that each thread is the first to touch what it writes.
+/// Allocator that leaves new values uninitialised, so that each thread is the first to touch the values that it writes.
 template <class T>
 class UninitializedAllocator : public WorkspaceAllocator<T> {
  public:
@@ -63,7 +63,8 @@ class UninitializedAllocator : public WorkspaceAllocator<T> {
     if constexpr (sizeof...(Arguments) > 0)
       ::new (static_cast<void*>(place)) U(std::forward<Arguments>(arguments)...);
     else if constexpr (!std::is_aggregate_v<U> || !std::is_trivially_destructible_v<U>)
-      ::new (static_cast<void*>(place)) U;  // aggregates begin to live by themselves, without the values of members
+      // the lifetime of an aggregate starts by itself, with its members uninitialised
+      ::new (static_cast<void*>(place)) U;
   }
 };
 
@@ -71,7 +72,7 @@ class UninitializedAllocator : public WorkspaceAllocator<T> {
 template <class T>
 using RawBuffer = std::vector<T, UninitializedAllocator<T>>;
 
-/// Gives the memory back, which `values = {}` and clear() keep.
+/// Empties an array and frees its memory, which `values = {}` and clear() keep.
 template <class Array>
 void release(Array& values) {
   Array().swap(values);

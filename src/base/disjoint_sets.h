@@ -12,7 +12,7 @@ namespace tufted {
 /// of the unions.
 class DisjointSets {
  public:
-  /// {0}, {1}, ..., {size - 1}
+  /// The sets {0}, {1}, ..., {size - 1}.
   explicit DisjointSets(std::int64_t size) : parent_(static_cast<std::size_t>(size)) {
     std::iota(parent_.begin(), parent_.end(), 0);
   }
@@ -22,7 +22,7 @@ class DisjointSets {
     return element;
   }
 
-  /// True if a and b were in different sets.
+  /// Joins two sets; returns whether they were different.
   bool unite(int a, int b) {
     a = root(a), b = root(b);
     if (a == b) return false;

@@ -7,9 +7,9 @@
 
 namespace tufted {
 
-/// The value that so large a share of the others comes before. Changes their order.
+/// Element floor(share * size) in ascending order. Reorders `values`.
 /// @param values not empty
-/// @param share below 1
+/// @param share in [0, 1)
 inline double quantileOf(Buffer<double>& values, double share) {
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(share * static_cast<double>(values.size()));
   std::nth_element(values.begin(), at, values.end());

@@ -5,7 +5,7 @@
 
 namespace tufted {
 
-/// A number as messages show it: std::to_string makes 0.000000 of a tolerance.
+/// A number with 6 digits, for messages; std::to_string would print a small tolerance as 0.000000.
 inline std::string numberText(double value) {
   char text[32];
   std::snprintf(text, sizeof text, "%.6g", value);

@@ -12,7 +12,7 @@
 #include "base/workspace.h"
 #include "tufted/errors.h"
 
-// ThreadSanitizer is told how work goes from thread to thread: TBB, which is not compiled for it, does not say so.
+// Tells ThreadSanitizer how work passes between threads, which it cannot see in TBB, a library not compiled for it.
 #ifdef __has_feature
 #define TUFTED_HAS_TSAN __has_feature(thread_sanitizer)
 #else
@@ -25,7 +25,7 @@
 namespace tufted {
 namespace {
 
-/// Whoever takes over sees what was written before it was handed over.
+/// A thread that takes work over sees all that was written before it was handed over.
 void handOver([[maybe_unused]] void* work) {
 #if TUFTED_HAS_TSAN
   __tsan_release(work);
@@ -37,16 +37,16 @@ void takeOver([[maybe_unused]] void* work) {
 #endif
 }
 
-/// One per processor that this process may use, or fewer where the program has limited TBB.
+/// One per processor that this process may use, or fewer if the program limits TBB.
 int offeredThreads() {
   return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
 }
 
-/// Whether this process was forked after TBB had threads. It has none of them, but their locks as they were, some held
-/// for ever, so it does not use TBB.
+/// Whether this process was forked after TBB had started threads. A fork inherits no threads but the state of their
+/// locks, some locked for ever, so it must not use TBB.
 bool has_lost_threads = false;
 
-/// More than this never help, and each has working memory of its own.
+/// More threads than this do not help, and each needs working memory of its own.
 int mostThreads() {
   return std::max(16, 4 * offeredThreads());
 }
@@ -58,11 +58,11 @@ int countFor(int threads) {
 
 }  // namespace
 
-/// The threads of a build. TBB's sleep where there is nothing to do, and where other programs leave them no processor
-/// the caller's thread does the work of all; OpenMP's would wait for each other, awake. Between two loops they stay
-/// with the team for a while: with a team for each loop it takes a tenth of a millisecond until they have come.
+/// The threads of a build. Idle threads of TBB sleep, and if other programs leave them no processor the calling thread
+/// does all the work; those of OpenMP would spin while they wait for each other. The threads stay in the arena for a
+/// while between two loops: with a new arena for each loop it takes 0.1 ms until they have come.
 struct Workers::Team : InWorkspace {
-  explicit Team(int count) : arena(std::min(count, offeredThreads())) {  // TBB warns on stderr of more
+  explicit Team(int count) : arena(std::min(count, offeredThreads())) {  // TBB would warn on stderr about more
     static const int watched = pthread_atfork(nullptr, nullptr, [] { has_lost_threads = true; });
     static_cast<void>(watched);
   }
@@ -114,7 +114,7 @@ void Workers::runBlocks(std::string_view stage, std::int64_t size, std::int64_t 
     try {
       for (std::int64_t b = next++; b < blocks && !stop; b = next++) {
         run_block(work, b * block, std::min(size, (b + 1) * block), worker);
-        // Only the caller's own thread talks to the caller.
+        // Only worker 0, which is the calling thread, reports progress.
         if (worker == 0)
           report(stage, static_cast<double>(std::min(next.load(), blocks)) / static_cast<double>(blocks));
       }
@@ -128,7 +128,7 @@ void Workers::runBlocks(std::string_view stage, std::int64_t size, std::int64_t 
     team_->run(team, run);
   }
   if (error) std::rethrow_exception(error);
-  report(stage, 1);  // other workers may have done it all before the caller's thread had a turn
+  report(stage, 1);  // worker 0 may not have run any block
 }
 
 }  // namespace tufted

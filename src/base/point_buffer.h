@@ -5,7 +5,7 @@
 
 namespace tufted {
 
-/// n x 3 like Points, in a Buffer: with a capacity that outlasts a change of n.
+/// An n x 3 array like Points, stored in a Buffer, which keeps its capacity when n changes.
 class PointBuffer {
  public:
   PointBuffer() = default;
@@ -32,13 +32,13 @@ class PointBuffer {
 
  private:
   struct Row {
-    Row() {}  // NOLINT: to be left uninitialised
+    Row() {}  // NOLINT: leaves the coordinates uninitialised
     double coordinate[3];
   };
   Buffer<Row> rows_;
 };
 
-/// Points of either kind, n x 3, borrowed.
+/// A borrowed n x 3 view of a Points or a PointBuffer.
 class PointsView : public Eigen::Map<const Points> {
  public:
   PointsView(const Points& points) : Map(points.data(), points.rows(), 3) {}       // NOLINT: a view of both

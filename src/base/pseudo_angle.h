@@ -4,7 +4,8 @@
 
 namespace tufted {
 
-/// A number in [0, 4] that grows with the angle of (x, y) from the x axis, within a few 1e-16; 0 for the null vector.
+/// A number in [0, 4] that increases with the angle of (x, y) from the x axis, up to a few 1e-16; 0 for the null
+/// vector.
 inline double pseudoAngle(double x, double y) {
   const double sum = std::abs(x) + std::abs(y);
   if (sum == 0) return 0;

@@ -17,16 +17,17 @@ constexpr double farthest_spreads = 1e70;
 /// Largest distance in the caller's unit: an area, its square, must fit a double.
 constexpr double largest_distance = 1e152;
 
-/// Values near whose median that of all lies; one pass then leaves a tenth of all values to choose from.
+/// Number of sampled values, whose median is near that of all; one pass then leaves a tenth of all values to choose
+/// from.
 constexpr std::int64_t samples = 2048;
-/// Sorted samples on either side of their median, four standard deviations of its place; if the median of all is not
-/// between them, all values are looked at.
+/// The median of all is searched between the samples this many places before and after their median, four standard
+/// deviations of its place; if it is not there, all values are searched.
 constexpr std::ptrdiff_t beside = 100;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double no_value = std::numeric_limits<double>::quiet_NaN();
 
 struct Extent {
-  double largest = 0;  ///< coordinate, without its sign
+  double largest = 0;  ///< largest |coordinate|
   Eigen::Array3d lowest = Eigen::Array3d::Constant(infinity);
 
   void widen(const Eigen::Array3d& point) {
@@ -39,7 +40,7 @@ struct Extent {
   }
 };
 
-/// The values within some bounds, and how many others are below and above.
+/// The values within two bounds, and the number of values below and above them.
 struct Within {
   Buffer<double> values;
   std::size_t below = 0, above = 0;
@@ -70,8 +71,8 @@ Within valuesWithin(double least, double most, std::int64_t n, const ValueOf& va
   return all;
 }
 
-/// The median of those of n values that are not NaN. Of an even number it is the upper one of the two in the middle,
-/// and of no values it is 0.
+/// The median of n values valueOf(i), without those that are NaN. Of an even number it is the upper one of the two in
+/// the middle, and of no values it is 0.
 template <class ValueOf>
 double medianOfAll(std::int64_t n, const ValueOf& valueOf, const Workers& workers) {
   Buffer<double> some;
@@ -83,7 +84,7 @@ double medianOfAll(std::int64_t n, const ValueOf& valueOf, const Workers& worker
   Within found = valuesWithin(has_bounds ? middle[-beside] : -infinity, has_bounds ? middle[beside] : infinity, n,
                               valueOf, workers);
   const std::size_t rank = (found.below + found.values.size() + found.above) / 2;
-  // Where the samples are not like the others.
+  // The samples misjudged the bounds, so all values are searched.
   if (rank < found.below || rank >= found.below + found.values.size())
     found = valuesWithin(-infinity, infinity, n, valueOf, workers);
   if (found.values.empty()) return 0;
@@ -112,7 +113,7 @@ Scaling measureScaling(const PointsRef& points, std::vector<PointStatus>& status
   const auto deviation = [&](Eigen::Index i) {
     return (points.row(i) - scaling.center.transpose()).cwiseAbs().maxCoeff();
   };
-  // Points at the centre itself say nothing about the spread; many copies of one point must not make it 0.
+  // Points at the centre are left out of the spread, so that many copies of one point do not make it 0.
   const auto deviationOfOther = [&](std::int64_t i) {
     const double distance = isUsable(i) ? deviation(i) : 0;
     return distance > 0 ? distance : no_value;
@@ -122,7 +123,7 @@ Scaling measureScaling(const PointsRef& points, std::vector<PointStatus>& status
   const PowerOfTwo to_spreads(-scaling.exponent);
   Buffer<Extent> extent_of(workers.count());
   forBlocks([&](std::int64_t begin, std::int64_t end, int worker) {
-    Extent here;  // of its own, as workers would write to one line of the cache in turn
+    Extent here;  // local, because workers would share a cache line in extent_of
     for (std::int64_t i = begin; i < end; ++i) {
       if (!isUsable(i)) continue;
       // Relative to 2^exponent, so that the bound itself cannot overflow.
@@ -138,7 +139,7 @@ Scaling measureScaling(const PointsRef& points, std::vector<PointStatus>& status
   for (const Extent& part : extent_of) extent.widen(part);
   scaling.lowest = extent.lowest;
   const double largest = extent.largest;
-  // A tiny cloud very far away: its scaled coordinates must stay finite.
+  // The scaled coordinates of a tiny cloud that is very far away must stay finite.
   if (largest > 0) scaling.exponent = std::max(scaling.exponent, std::ilogb(largest) - 1000);
   return scaling;
 }

@@ -9,19 +9,21 @@
 
 namespace tufted {
 
-/// Where most of a point set lies and how wide it is, by medians, so that no sentinel or outlier can flatten it.
-/// Computed from differences only: moving the points by an exact offset moves `center` and changes nothing else.
+/// Centre and size of a point set (step 1 of docs/algorithm.md), by medians, so that a far outlier does not shrink the
+/// rest to a point. Computed from differences only: moving the points by an exact offset moves `center` and changes
+/// nothing else.
 struct Scaling {
   Eigen::Vector3d center = Eigen::Vector3d::Zero();  ///< median of each coordinate
-  Eigen::Array3d lowest = Eigen::Array3d::Zero();    ///< of each coordinate of active points; infinite without any
-  int exponent = 0;                                  ///< 2^exponent is just above the median spread
+  Eigen::Array3d lowest = Eigen::Array3d::Zero();    ///< least coordinates of active points; infinite if there are none
+  int exponent = 0;                                  ///< 2^exponent is the least power of two above the median spread
 
-  /// Multiplies by 2^-exponent.
+  /// From the caller's unit to scaled coordinates.
   PowerOfTwo toScaled() const { return PowerOfTwo(-exponent); }
 };
 
-/// Scaling of the finite rows. Rows that are not finite, or more than 1e70 median spreads or 1e152 from the centre,
-/// get PointStatus::not_finite in `status` (resized to N; all others active).
+/// The scaling of the points (N x 3).
+/// @param[out] status N; not_finite for rows that are not finite, or more than 1e70 median spreads or 1e152 from the
+/// centre; active for all others
 Scaling measureScaling(const PointsRef& points, std::vector<PointStatus>& status, const Workers& workers);
 
 }  // namespace tufted

@@ -7,11 +7,11 @@
 
 namespace tufted {
 
-/// std::stable_sort() of [first, last), without memory of its own.
-/// @param scratch overwritten where there are more than 32 values
+/// Sorts [first, last) as std::stable_sort() does, but allocates nothing itself.
+/// @param scratch memory for the merges, overwritten if there are more than 32 values
 template <class T, class Less>
 void stableSort(T* first, T* last, Buffer<T>& scratch, const Less& less) {
-  constexpr std::ptrdiff_t run = 32;  // numbers that are sorted by insertion
+  constexpr std::ptrdiff_t run = 32;  // length of the runs that are sorted by insertion
   const std::ptrdiff_t size = last - first;
   for (std::ptrdiff_t begin = 0; begin < size; begin += run) {
     T* const start = first + begin;

@@ -14,7 +14,7 @@ namespace tufted {
 class Stopwatch {
  public:
   double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
-  /// Seconds so far, then starts again.
+  /// Returns seconds() and starts again from 0.
   double restart() {
     const auto now = Clock::now();
     return std::chrono::duration<double>(now - std::exchange(start_, now)).count();
@@ -25,15 +25,15 @@ class Stopwatch {
   Clock::time_point start_ = Clock::now();
 };
 
-/// Writes the cost of one stage after the other into a report.
+/// Records the seconds and bytes of each stage of a build in a report.
 class StageClock {
  public:
   explicit StageClock(Report& report) : report_(report) {}
-  /// Books the time since the last call under `stage`, with the bytes that the stage leaves behind.
+  /// Appends `stage` to Report::stages with the time since the last call and the bytes of its results.
   void finish(std::string stage, std::size_t bytes) {
     report_.stages.push_back({std::move(stage), watch_.restart(), bytes});
   }
-  /// Time since the last call, for stages that are booked in parts.
+  /// seconds(), then starts again, for stages timed in parts.
   double restart() { return watch_.restart(); }
 
  private:

@@ -15,11 +15,11 @@ namespace {
 
 thread_local Workspace* current_workspace = nullptr;
 
-/// Stands in front of every block, whose bytes follow.
+/// Header in memory before each block.
 struct alignas(std::max_align_t) Header {
-  std::shared_ptr<Workspace::Store> owner;  ///< null: the heap
-  std::size_t bytes;                        ///< of the block, without the header
-  Header* next;                             ///< the next of its size that waits
+  std::shared_ptr<Workspace::Store> owner;  ///< where the block returns to; null: the heap
+  std::size_t bytes;                        ///< size of the block, without the header
+  Header* next;                             ///< next unused block of the same size
 };
 
 Header* fromHeap(std::size_t bytes, std::shared_ptr<Workspace::Store> owner) {
@@ -32,7 +32,7 @@ void toHeap(Header* header) {
   ::operator delete(header);
 }
 
-/// Sizes within a quarter of a power of two are one, so that the next build, which needs about as much, finds blocks.
+/// Rounds a size up to one of four per power of two, so that the next build, which needs about as much, finds a block.
 std::size_t roundedUp(std::size_t bytes) {
   const std::size_t step = std::max<std::size_t>(64, std::bit_floor(bytes) / 4);
   return (bytes + step - 1) / step * step;
@@ -40,7 +40,7 @@ std::size_t roundedUp(std::size_t bytes) {
 
 }  // namespace
 
-/// The blocks that wait, by their bytes. Lives as long as the workspace or any block of it.
+/// The unused blocks of a workspace, by size. Lives as long as the workspace or any block taken from it.
 class Workspace::Store : public std::enable_shared_from_this<Store> {
  public:
   Header* take(std::size_t bytes) {
@@ -51,7 +51,7 @@ class Workspace::Store : public std::enable_shared_from_this<Store> {
   }
 
   void give(Header* block) {
-    const std::shared_ptr<Store> last = block->owner;  // until the lock is free again
+    const std::shared_ptr<Store> last = block->owner;  // keeps the store alive until the lock is released
     const std::lock_guard lock(mutex_);
     waiting_.find(block->bytes)->second.give(block);
     if (is_abandoned_) releaseAll();
@@ -82,10 +82,10 @@ class Workspace::Store : public std::enable_shared_from_this<Store> {
   }
 
  private:
-  /// Blocks of one size.
+  /// The unused blocks of one size.
   struct Waiting {
     Header* first = nullptr;
-    std::size_t count = 0, least = 0;  ///< now, and at any time since the last trim
+    std::size_t count = 0, least = 0;  ///< number now, and its minimum since the last trim()
 
     Header* take() {
       least = std::min(least, --count);
@@ -97,7 +97,7 @@ class Workspace::Store : public std::enable_shared_from_this<Store> {
     }
   };
 
-  /// Before there is no memory left, what waits for requests of other sizes is given back.
+  /// Takes a block from the heap. If there is none, frees all unused blocks and tries again.
   Header* make(std::size_t bytes) {
     Header* block = nullptr;
     try {
@@ -157,7 +157,7 @@ Workspace::Scope::~Scope() {
 
 void* takeBlock(std::size_t bytes) {
   Workspace* const workspace = current_workspace;
-  // What could not be rounded up is no request that could succeed, and the heap says so.
+  // A size too large to round up goes to the heap, which throws.
   const bool is_huge = bytes > std::numeric_limits<std::size_t>::max() / 2;
   return (workspace != nullptr && !is_huge ? workspace->store_->take(bytes) : fromHeap(bytes, nullptr)) + 1;
 }

@@ -5,15 +5,15 @@
 
 namespace tufted {
 
-/// Memory that one build gives back and the next one takes again.
+/// A pool of memory that one build gives back and the next one takes again.
 ///
-/// While a Scope lasts, arrays that its thread makes (see Buffer) take their memory from the workspace; without one
-/// they take it from the heap. A block knows where it came from, so arrays may outlive the scope, and the workspace
-/// too, and may be destroyed in any thread.
+/// While a Scope lasts, arrays that its thread makes (see Buffer) take their memory from the workspace; otherwise from
+/// the heap. A block knows where it came from, so arrays may outlive the scope and the workspace, and may be destroyed
+/// in any thread.
 ///
-/// Sizes are rounded up to one of four per power of two, and a block that waits serves requests of its own size alone.
-/// So a build that asks for what the one before asked for, in whatever order, finds all of it: for each size as many
-/// blocks are held as one build had in use at one time.
+/// Sizes are rounded up to one of four per power of two, and an unused block serves requests of its own size only. So a
+/// build that makes the same requests as the one before, in any order, takes nothing from the heap: of each size the
+/// workspace holds as many blocks as a build had in use at once.
 class Workspace {
  public:
   Workspace();
@@ -21,11 +21,11 @@ class Workspace {
   Workspace(const Workspace&) = delete;
   Workspace& operator=(const Workspace&) = delete;
 
-  /// Gives the blocks that nobody uses back to the heap.
+  /// Gives all unused blocks back to the heap.
   void release();
 
-  /// Gives back to the heap the blocks that nobody has used since the last call. Builds of changing size leave blocks
-  /// of sizes that none asks for again.
+  /// Gives blocks that were not used since the last call back to the heap: builds of changing size leave blocks of
+  /// sizes that are not asked for again.
   void trim();
 
   /// Bytes taken from the heap, in use or not.
@@ -34,7 +34,7 @@ class Workspace {
   /// The workspace of the innermost scope of the calling thread, or null.
   static Workspace* current();
 
-  /// Makes a workspace that of the calling thread, or none if null.
+  /// Sets the current workspace of the calling thread; null: the heap.
   class Scope {
    public:
     explicit Scope(Workspace* workspace);
@@ -54,11 +54,12 @@ class Workspace {
   const std::shared_ptr<Store> store_;
 };
 
-/// Memory from the current workspace, or else from the heap; aligned for pointers. Any thread may give it back.
+/// Memory from the current workspace, or else from the heap; aligned for pointers. Any thread may give it back by
+/// giveBlock().
 void* takeBlock(std::size_t bytes);
 void giveBlock(void* memory) noexcept;
 
-/// Base of classes whose objects are such blocks.
+/// Base of classes whose objects are allocated by takeBlock().
 struct InWorkspace {
   static void* operator new(std::size_t bytes) { return takeBlock(bytes); }
   static void operator delete(void* memory) noexcept { giveBlock(memory); }

@@ -13,7 +13,7 @@
 namespace tufted {
 namespace {
 
-/// The summed weights of the edges of each vertex, and its mass.
+/// The summed weight of each edge, by vertex, and the mass of each vertex.
 class CoverRows {
  public:
   CoverRows(const IntrinsicTriangulation& cover, double scale, const Workers& workers, Report& report) {
@@ -26,7 +26,7 @@ class CoverRows {
   int mostInRow(int v) const { return lower_.offset[v + 1] - lower_.offset[v] + edges_[v]; }
   double mass(int v) const { return mass_[v]; }
 
-  /// Visits the neighbours in ascending order.
+  /// Calls visit(neighbour, weight), in ascending order.
   template <class Visit>
   void forEachInRow(int v, const Visit& visit) const {
     for (int i = lower_.offset[v]; i < lower_.offset[v + 1]; ++i)
@@ -35,10 +35,10 @@ class CoverRows {
   }
 
  private:
-  /// Edges from a vertex to itself are left out.
+  /// Sums the weights of all edges but those from a vertex to itself.
   void sumWeights(const IntrinsicTriangulation& cover, const Buffer<double>& areas, double scale,
                   const Workers& workers) {
-    // In the order of the faces, which are neighbours in memory if they are on the surface.
+    // In the order of the faces, whose vertices are close in memory.
     const auto forEachEdge = [&](const auto& visit) {
       for (int f = 0; f < static_cast<int>(cover.size()); ++f) {
         const auto& corner = cover.faces[f];
@@ -48,7 +48,7 @@ class CoverRows {
         }
       }
     };
-    // First in the row of the lower vertex alone, where an edge of the front and one of the back become one.
+    // Each edge is stored at its lower vertex first, where copies of it, as on front and back, are merged.
     upper_.offset.assign(static_cast<std::size_t>(cover.vertices) + 1, 0);
     forEachEdge([&](int low, int, int, int) { ++upper_.offset[low + 1]; });
     std::partial_sum(upper_.offset.begin(), upper_.offset.end(), upper_.offset.begin());
@@ -65,7 +65,7 @@ class CoverRows {
     setLowerRows();
   }
 
-  /// Of the edges above each vertex, the other ends.
+  /// Fills lower_: each edge of upper_, stored at its higher vertex.
   void setLowerRows() {
     const int n = size();
     lower_.offset.assign(upper_.offset.size(), 0);
@@ -83,7 +83,7 @@ class CoverRows {
     for (int i = 0; i < edges_[v]; ++i) visit(row[i].column, row[i].weight);
   }
 
-  /// A third of each face's area to each corner (Section 3.3), summed in the order of the faces.
+  /// Adds a third of each face's area to each corner (Section 3.3), in the order of the faces.
   void lumpAreas(const IntrinsicTriangulation& cover, const Buffer<double>& areas, double scale, Report& report) {
     mass_.assign(static_cast<std::size_t>(cover.vertices), 0);
     for (int f = 0; f < cover.size(); ++f) {
@@ -92,8 +92,8 @@ class CoverRows {
     }
   }
 
-  Rows upper_, lower_;  ///< the edges to vertices above and below
-  Buffer<int> edges_;   ///< in each row of upper_
+  Rows upper_, lower_;  ///< the edges of each vertex to higher and to lower vertices
+  Buffer<int> edges_;   ///< number of edges in each row of upper_
   Buffer<double> mass_;
 };
 

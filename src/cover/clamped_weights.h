@@ -10,10 +10,10 @@ namespace tufted {
 /// cannot have more.
 constexpr double weight_rounding = 1e-9;
 
-/// Counts the negative weights that are left out of L.
+/// Counts the negative weights that are set to 0 in L.
 struct ClampedWeights {
-  std::int64_t small = 0, large = 0;  ///< within rounding, beyond
-  double largest = 0;                 ///< share of the larger diagonal
+  std::int64_t small = 0, large = 0;  ///< counts within and beyond rounding
+  double largest = 0;                 ///< largest magnitude over the larger diagonal
 
   void add(double weight, double larger_diagonal) {
     const double share = larger_diagonal > 0 ? -weight / larger_diagonal : INFINITY;

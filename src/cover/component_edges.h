@@ -9,7 +9,7 @@
 
 namespace tufted {
 
-/// Sums of sides, which become means.
+/// Number of sides, and sums of lengths and squares.
 struct SideSums {
   std::int64_t sides = 0;
   double length = 0, square = 0;
@@ -26,14 +26,14 @@ struct SideSums {
   }
 };
 
-/// Sums up the sides of items by component, in blocks that do not depend on the number of threads.
-/// @param components how many there are
-/// @param componentOf(i) the component of item i; -1: it does not count
-/// @param addSides(i, sums) adds the sides of item i
+/// Mean lengths of the sides of items by component, with the same bits for any number of threads.
+/// @param components number of components
+/// @param componentOf componentOf(i): the component of item i; -1: the item is left out
+/// @param addSides addSides(i, sums): adds the sides of item i to `sums`
 template <class ComponentOf, class AddSides>
 Buffer<ComponentEdges> edgesByComponent(std::int64_t items, std::int64_t components, const Workers& workers,
                                         const ComponentOf& componentOf, const AddSides& addSides) {
-  // Neighbours in the order of the items mostly have one component: a block has few runs of them.
+  // Consecutive items mostly belong to one component, so a block has few runs.
   using Runs = Buffer<std::pair<int, SideSums>>;
   Buffer<Runs> blocks((items + cheap_block - 1) / cheap_block);
   workers.forBlocks("lengths", items, cheap_block, [&](std::int64_t begin, std::int64_t end, int) {

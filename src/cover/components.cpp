@@ -9,7 +9,7 @@
 namespace tufted {
 namespace {
 
-/// The sets that entries of L join, one of its own for each row.
+/// Connected sets of the rows of L; a row without entries is a set by itself.
 DisjointSets joinedSets(const SparseMatrix& L) {
   DisjointSets sets(L.cols());
   for (int j = 0; j < L.cols(); ++j)
@@ -30,7 +30,7 @@ struct Set {
 
 void numberComponents(std::vector<int>& set) {
   Buffer<Set> sets;
-  Buffer<int> place(set.size(), -1);  // in `sets`
+  Buffer<int> place(set.size(), -1);  // position of a set in `sets`
   for (int i = 0; i < static_cast<int>(set.size()); ++i) {
     if (set[i] < 0) continue;
     int& number = place[set[i]];

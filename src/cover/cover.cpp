@@ -1,4 +1,4 @@
-// The cover itself (Section 4.1), and MEASUREEDGELENGTHS of Algorithm 3.
+// The arrays of a cover (Section 4.1), and MEASUREEDGELENGTHS of Algorithm 3.
 #include "cover/cover.h"
 
 #include "base/buffer.h"
@@ -17,7 +17,7 @@ void resizeCover(IntrinsicTriangulation& cover, int vertices, std::int64_t trian
 MeanLengths measureLengths(IntrinsicTriangulation& cover, const PointsView& points, const Workers& workers) {
   const std::int64_t triangles = cover.size() / 2;
   const EdgeLengths lengthOf{points};
-  // Per block, so that the means have the same bits always.
+  // Summed per block, for the same bits on any number of threads.
   Buffer<MeanLengths> sums((triangles + cheap_block - 1) / cheap_block);
   workers.forBlocks("lengths", triangles, cheap_block, [&](std::int64_t begin, std::int64_t end, int) {
     MeanLengths& sum = sums[begin / cheap_block];

@@ -13,8 +13,8 @@
 
 namespace tufted {
 
-/// The dihedral angle of faces about an edge, which orders them circularly. The basis depends on the edge alone, so
-/// copies of one triangle have equal keys.
+/// The dihedral angle of faces around an edge, by which they are ordered circularly. The basis depends on the edge
+/// only, so copies of a triangle have equal keys.
 class DihedralOrder {
  public:
   DihedralOrder(const PointsView& points, int low, int high) : points_(points), low_(low) {
@@ -25,7 +25,7 @@ class DihedralOrder {
     y_ = axis.stableNormalized().cross(x_);
   }
 
-  /// Grows with the angle of the face whose third corner is `apex`.
+  /// A number that increases with the angle of the face whose third corner is `apex`.
   double key(int apex) const {
     const Eigen::Vector3d d = points_.row(apex) - points_.row(low_);
     return pseudoAngle(d.dot(x_), d.dot(y_));
@@ -41,7 +41,7 @@ class DihedralOrder {
 template <class Item>
 class KeySort {
  public:
-  /// @param key a number for each item
+  /// @param key key(item): a number
   template <class Key>
   void sort(std::span<Item> items, const Key& key) {
     keyed_.clear();
@@ -55,8 +55,8 @@ class KeySort {
   Buffer<std::pair<double, Item>> keyed_, scratch_;
 };
 
-/// Sorts the faces around the edge (low, high) by their dihedral angle. Any order of two is the same one.
-/// @param apex the third corner of the face of an item
+/// Sorts the faces around the edge (low, high) by their dihedral angle. Two have only one circular order.
+/// @param apex apex(item): the third corner of the item's face
 template <class Item, class Apex>
 void sortAroundEdge(const PointsView& points, int low, int high, std::span<Item> items, const Apex& apex,
                     KeySort<Item>& key_sort) {

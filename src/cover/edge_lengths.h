@@ -8,7 +8,7 @@
 
 namespace tufted {
 
-/// Lengths of edges between points.
+/// Euclidean lengths of edges between points.
 struct EdgeLengths {
   PointsView points;  ///< by vertex
 
@@ -17,7 +17,7 @@ struct EdgeLengths {
     return std::sqrt(x * x + y * y + z * z);
   }
 
-  /// From b to a; the other way round the same bits but for the sign.
+  /// The vector from b to a; offset(b, a) is the same with all signs changed, bit for bit.
   std::array<double, 3> offset(int a, int b) const {
     const double *p = points.data() + 3 * std::ptrdiff_t{a}, *q = points.data() + 3 * std::ptrdiff_t{b};
     return {p[0] - q[0], p[1] - q[1], p[2] - q[2]};

@@ -26,12 +26,12 @@ Buffer<double> faceAreas(const Triangulation& t, const Workers& workers) {
   return areas;
 }
 
-/// A face of no area has no cotangents and adds nothing.
+/// The cotangent, or 0 if it is infinite or NaN: a face without area adds nothing to L.
 inline double finiteCotan(double cotan) {
   return std::isfinite(cotan) ? cotan : 0;
 }
 
-/// The cotangent opposite `side`, from the areas of the faces.
+/// The finite cotangent opposite `side`, by faceAreas().
 template <class Triangulation>
 double finiteCotan(const Triangulation& t, const Buffer<double>& areas, int side) {
   return finiteCotan(cotanNumerator(t.length[side], t.length[nextSide(side)], t.length[previousSide(side)]) /

@@ -20,17 +20,17 @@ namespace tufted {
 /// faces is far smaller.
 constexpr double flip_below = -1e-10;
 
-/// Equation 2, but for rounding, which could flip an edge there and back for ever. An edge with both sides in one
-/// triangle is Delaunay: its two opposite angles sum to less than pi. So is one without an obtuse angle, which takes no
-/// roots to see.
+/// Equation 2, with a tolerance, because rounding could flip an edge back and forth for ever. An edge with both sides
+/// in one triangle is Delaunay: its two opposite angles sum to less than pi. So is one without an obtuse opposite
+/// angle, a test without roots.
 template <class Triangulation>
 bool isDelaunay(const Triangulation& t, int side, int mate) {
   return side / 3 == mate / 3 || !(isOppositeObtuse(t, side) || isOppositeObtuse(t, mate)) ||
          !isBelowRounding(oppositeCotan(t, side), oppositeCotan(t, mate), -flip_below);
 }
 
-/// Length of the other diagonal, from a layout of both triangles in the plane with the common edge on the x axis
-/// (Fisher et al. 2007): it stays accurate where the law of cosines cancels.
+/// Length of the other diagonal of the two faces of an edge, from a layout of both in the plane with the common edge on
+/// the x axis (Fisher et al. 2007): accurate where the law of cosines cancels digits.
 template <class Triangulation>
 auto flippedLength(const Triangulation& t, int side, int mate) {
   const auto base = t.length[side];
@@ -46,14 +46,14 @@ auto flippedLength(const Triangulation& t, int side, int mate) {
   return std::hypot(above[0] - below[0], above[1] + below[1]);
 }
 
-/// `length` or up to 1024 roundings of it less, so that an edge with this length is Delaunay in two triangles whose
-/// other sides are `outer`, the first two and the last two.
+/// `length`, or up to 1024 last bits less, so that a flipped edge of this length is Delaunay in doubles too. `outer`
+/// are the other sides of its two triangles, the first two and the last two.
 ///
-/// In exact arithmetic an edge that was flipped is Delaunay. But an angle near pi turns fast with the length opposite:
-/// rounding that in the last bit changes its cotangent by about epsilon cot^3. The shorter the edge, the more Delaunay.
+/// In exact arithmetic an edge that was flipped is Delaunay. But near pi rounding the side opposite in its last bit
+/// changes the cotangent by about epsilon cot^3. The shorter the edge, the larger the sum.
 template <class Real>
 Real delaunayLength(Real length, const std::array<Real, 4>& outer) {
-  // A flipped edge is shortened by at most so many last bits, 2^-42 of its length.
+  // A flipped edge is shortened by at most this many last bits, 2^-42 of its length.
   constexpr int most_ulps = 1024;
   const auto isFine = [&outer](Real l) {
     return !(cotanNumerator(l, outer[0], outer[1]) < 0 || cotanNumerator(l, outer[2], outer[3]) < 0) ||
@@ -105,7 +105,7 @@ void flip(Triangulation& t, int side, int mate) {
   t.length[side] = t.length[mate] = flipped;
 }
 
-/// Numbers of sides, [begin, end).
+/// The sides with numbers in [begin, end).
 struct SideRange {
   int begin = 0, end = std::numeric_limits<int>::max();
 
@@ -113,19 +113,20 @@ struct SideRange {
   bool contains(int side) const { return begin <= side && side < end; }
 };
 
-/// Algorithm 2 within a range of sides: no face that is glued to one outside of it is flipped. `Cover` as for
-/// flipEdges().
+/// Algorithm 2 within a range of sides: a face that is glued to one outside of the range is not flipped. For `Cover`
+/// see flipEdges().
 template <class Cover>
 class RangeFlipper {
  public:
   /// @param queues scratch
-  /// @param left what has to be looked at in a wider range is added here
+  /// @param left sides that must be tested in a wider range are appended here
   RangeFlipper(Cover& cover, SideRange range, std::array<Buffer<int>, 2>& queues, Buffer<int>& left)
       : cover_(cover), range_(range), round_(queues[0]), next_round_(queues[1]), left_(left) {
     round_.clear();
     next_round_.clear();
   }
 
+  /// Queues the edge of a side, or appends it to `left` if it leaves the range.
   void push(int side) {
     if (!isInside(side)) return left_.push_back(side);
     const int edge = std::min(side, cover_.triangulation().glue[side]);
@@ -135,8 +136,9 @@ class RangeFlipper {
     next_round_.push_back(edge);
   }
 
-  /// First in, first out: last in, first out takes thousands of flips at a place of a long thin bar.
-  /// @param report called with the share that is done, now and then
+  /// Flips queued edges, first in, first out: last in, first out takes thousands of flips of one edge on a long thin
+  /// bar.
+  /// @param report called now and then with the share of the edges that is done
   template <class Report>
   FlipCounts run(const Report& report) {
     FlipCounts counts;
@@ -155,8 +157,8 @@ class RangeFlipper {
   }
 
  private:
-  // In exact arithmetic flips end; this ends what rounding might make go in circles. A place is flipped at most once
-  // in a round, and 300 times in all on the longest fans that were tried.
+  // In exact arithmetic flips end; this ends what rounding might make go in circles. An edge is flipped at most once in
+  // a round, and 300 times in all on the longest fans that were tried.
   static constexpr int most_rounds = 1 << 16;
   static constexpr std::int64_t report_every = 1 << 16;  // flips
 
@@ -177,7 +179,7 @@ class RangeFlipper {
     for (const int o : outer) push(o);
   }
 
-  /// Whether the side, which is, is glued to one that is; only such may move.
+  /// Whether the side's mate, too, is in the range; only such edges may be flipped.
   bool isInside(int side) const {
     return cover_.resolve(side, range_) && range_.contains(cover_.triangulation().glue[side]);
   }
@@ -188,24 +190,17 @@ class RangeFlipper {
   Buffer<int>& left_;
 };
 
-/// Algorithm 2. Blocks of the cover are flipped each by itself, in parallel; then, in ever larger blocks, what had to
-/// wait since it goes across. The blocks do not depend on the number of threads. `Cover` has
-///   triangulation()                         a reference to an IntrinsicTriangulation or CoverBuffer
-///   blocks()                                their number
-///   sidesOf(first, last)                    the SideRange of blocks [first, last)
-///   start(block, push)                      calls push(side) for the sides to begin with
-///   resolve(int side, const SideRange&)     sees to it that the side is glued; may add faces, but within the range
-///                                           alone, else false
-///   state(int side)                         a reference to a byte, 0 at first and at the end
-///   flipped(int side, int mate)             hears of each flip
+/// Algorithm 2 (section 11 of docs/algorithm.md). Blocks of the cover are flipped separately, in parallel; edges across
+/// their borders wait for the next round, whose blocks are larger. Blocks do not depend on the number of threads.
+/// `Cover` has
 template <class Cover>
 FlipCounts flipEdges(Cover& cover, const Workers& workers) {
-  // Blocks of one round are joined by so many for the next.
+  // Number of blocks that are joined to one for the next round.
   constexpr std::int64_t growth = 8;
   Buffer<std::array<Buffer<int>, 2>> queues(workers.count());
   Buffer<Buffer<int>> left;
   FlipCounts sum;
-  for (std::int64_t merged = 1;; merged *= growth) {  // blocks in one
+  for (std::int64_t merged = 1;; merged *= growth) {  // blocks that are joined
     const std::int64_t count = (cover.blocks() + merged - 1) / merged;
     const Buffer<Buffer<int>> waiting = std::exchange(left, Buffer<Buffer<int>>(count));
     Buffer<FlipCounts> counts(count);

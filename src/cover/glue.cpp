@@ -19,7 +19,7 @@
 namespace tufted {
 namespace {
 
-/// A side of a triangle, filed under the smaller of its two vertices.
+/// A side of a triangle, stored at the smaller of its two vertices.
 struct UngluedSide {
   int other;  ///< the larger vertex
   int side;   ///< 3 t + s
@@ -33,7 +33,7 @@ std::uint64_t mix(std::uint64_t seed, std::uint64_t value) {
   return z ^ (z >> 31);
 }
 
-/// The faces at one edge, in the order in which they are glued.
+/// Orders the triangles around an edge for gluing.
 class EdgeCycle {
  public:
   EdgeCycle(const IntrinsicTriangulation& cover, const PointsView& points, const EdgeOrder& order)
@@ -58,7 +58,7 @@ class EdgeCycle {
  private:
   const std::array<int, 3>& cornersOf(const UngluedSide& s) const { return cover_.faces[2 * (s.side / 3)]; }
 
-  double areaOf(const UngluedSide& s) const {  // twice
+  double areaOf(const UngluedSide& s) const {  // twice the area
     const auto& corner = cornersOf(s);
     const Eigen::Vector3d u = points_.row(corner[1]) - points_.row(corner[0]);
     const Eigen::Vector3d v = points_.row(corner[2]) - points_.row(corner[0]);
@@ -71,8 +71,9 @@ class EdgeCycle {
   KeySort<UngluedSide> sort_;
 };
 
-/// Front to back around the edge: the side that runs from the smaller to the larger vertex ("plus") faces the next
-/// triangle of the circular order, so it is glued to the minus side of that one. A single face is glued to itself.
+/// Glues front to back around the edge: of each triangle, the side that runs from the smaller to the larger vertex
+/// ("plus") faces the next triangle of the circular order and is glued to the minus side of that one. A single triangle
+/// is glued to itself.
 void glueAround(IntrinsicTriangulation& cover, std::span<const UngluedSide> sides) {
   const auto plusAndMinus = [&](int side) {
     const int t = side / 3, s = side % 3;
@@ -89,7 +90,7 @@ void glueAround(IntrinsicTriangulation& cover, std::span<const UngluedSide> side
 
 EdgeCounts glueEdges(IntrinsicTriangulation& cover, const PointsView& points, const EdgeOrder& order,
                      const Workers& workers, std::vector<Boundary>* boundary) {
-  // All sides that are still open, grouped by their smaller vertex: count, prefix sum, fill.
+  // All sides that are not glued yet, grouped by their smaller vertex: count, prefix sum, fill.
   const int sides = static_cast<int>(3 * (cover.size() / 2));
   const auto isOpen = [&](int side) { return cover.glue[frontSide(side / 3, side % 3)] == unglued; };
   const auto ends = [&](int side) {
@@ -123,7 +124,7 @@ EdgeCounts glueEdges(IntrinsicTriangulation& cover, const PointsView& points, co
       while (at != last) {
         UngluedSide* const stop = std::find_if(at, last, [&](const UngluedSide& s) { return s.other != at->other; });
         const std::span around(at, stop);
-        if (around.size() > 2) cycle.sort(low, at->other, around);  // any order of two is the same one
+        if (around.size() > 2) cycle.sort(low, at->other, around);  // all circular orders of two are the same
         glueAround(cover, around);
         ++count[std::min<std::size_t>(around.size(), 3) - 1];
         at = stop;

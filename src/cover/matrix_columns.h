@@ -19,10 +19,10 @@
 
 namespace tufted {
 
-/// One column of L, in the order that its entries come in.
+/// The entries of one column of L, in the order in which they are added.
 class Column {
  public:
-  /// Empties it and makes room.
+  /// Empties it, with room for `most` entries.
   void start(int most) {
     size_ = 0;
     if (std::ssize(row_) >= most) return;
@@ -46,7 +46,7 @@ class Column {
   }
 
  private:
-  /// Puts each entry where the number of smaller rows says: faster than sorting, whose branches cannot be predicted.
+  /// Puts each entry at the number of smaller rows: faster than sorting, whose branches are hard to predict.
   template <int most>
   void place(int* row, double* value) const {
     std::array<int, most> rows, before{};
@@ -77,10 +77,9 @@ class Column {
 
 /// Writes the columns of L in the caller's numbering, each sorted, and M. The diagonal is minus the sum of the other
 /// entries, in the order of the row. A vertex without positive weights has no row and no mass.
-/// @tparam WeightRows the weights of the edges of each vertex p, as
-///         size(), how many vertices;
-///         forEachInRow(p, visit), which calls visit(q, weight) for each edge, with the same weight from both ends;
-///         mostInRow(p), at least the number of its edges; mass(p)
+/// @tparam WeightRows the weights of the edges of each vertex p, by size(), the number of vertices; forEachInRow(p,
+/// visit), which calls visit(q, weight) for each edge, with the same weight from both ends; mostInRow(p), at least the
+/// number of its edges; and mass(p)
 template <class WeightRows>
 class MatrixColumns {
  public:
@@ -94,13 +93,13 @@ class MatrixColumns {
         component_(result.component),
         report_(result.report) {}
 
-  /// @param size of the caller's numbering
-  /// @param function to be named in errors
+  /// @param size N, the number of the caller's points
+  /// @param function the public function that was called, for messages
   void write(int size, const char* function) {
     setSizes(size, function);
     M_.setZero(size);
     Buffer<Block> blocks((rows_.size() + cheap_block - 1) / cheap_block);
-    DisjointSets sets(rows_.size());  // those of one block are united by one thread
+    DisjointSets sets(rows_.size());  // vertices of one block are united by one thread
     workers_.forBlocks("assemble", rows_.size(), cheap_block, [&](std::int64_t begin, std::int64_t end, int) {
       writeBlock(static_cast<int>(begin), static_cast<int>(end), blocks[begin / cheap_block], sets);
     });
@@ -121,17 +120,17 @@ class MatrixColumns {
   }
 
  private:
-  /// Columns that are fetched before their turn (matrices of a million points: 0.5 to 0.4 s).
+  /// How many columns ahead memory is prefetched (matrices of a million points: 0.5 to 0.4 s).
   static constexpr int ahead = 16;
 
-  /// What is found in one block of vertices.
+  /// Results of one block of vertices.
   struct Block {
     ClampedWeights clamped;
-    std::int64_t components = 0;                 ///< of the edges within the block
+    std::int64_t components = 0;                 ///< of the graph of edges within the block
     Buffer<std::pair<int, int>> edges_to_other;  ///< to vertices of earlier blocks
   };
 
-  /// The number of entries of each column.
+  /// Sets the number of entries of each column.
   void setSizes(int size, const char* function) {
     Buffer<int> count(static_cast<std::size_t>(size));
     workers_.forBlocks("assemble", rows_.size(), cheap_block, [&](std::int64_t begin, std::int64_t end, int) {
@@ -144,7 +143,7 @@ class MatrixColumns {
     const std::int64_t entries = std::accumulate(count.begin(), count.end(), std::int64_t{0});
     requireAtMost(INT32_MAX, entries, function, "entries of L");
     L_.resize(size, size);
-    // In a workspace with some to spare, since the next frame may have a few more.
+    // With room to spare in a workspace, because the next frame may have a few more entries.
     L_.data().resize(entries, Workspace::current() != nullptr ? 0.125 : 0);
     L_.outerIndexPtr()[0] = 0;
     std::partial_sum(count.begin(), count.end(), L_.outerIndexPtr() + 1);
@@ -178,15 +177,15 @@ class MatrixColumns {
     }
   }
 
-  /// The sum of all weights of p, the negative ones too.
+  /// The sum of all weights of p, negative ones included.
   double diagonal(int p) const {
     double sum = 0;
     rows_.forEachInRow(p, [&sum](int, double weight) { sum += weight; });
     return sum;
   }
 
-  /// Columns in the caller's order lie anywhere in memory, so they are fetched before their turn: first where they are.
-  /// GCC takes a function that only fetches ahead for one without effect, and leaves calls of it out.
+  /// Columns in the caller's order lie anywhere in memory, so they are prefetched: first their offsets, then their
+  /// entries. Always inlined, because GCC removes calls of a function that only prefetches as having no effect.
   [[gnu::always_inline]] void prefetch(int soon, int next) {
     __builtin_prefetch(L_.outerIndexPtr() + soon);
     const int place = L_.outerIndexPtr()[next];

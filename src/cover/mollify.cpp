@@ -1,6 +1,6 @@
-// Intrinsic mollification, which Section 4.5 of the paper does with one length for all edges. One length that a single
-// flat triangle needs ruins a thin mesh: of slack e it makes a height of about sqrt(e l). So only edges and vertices
-// whose faces need it are lengthened here, and only by what they need.
+// Intrinsic mollification (section 10 of docs/algorithm.md). Section 4.5 of the paper adds one length to all edges.
+// What a single flat triangle needs would ruin a thin mesh: a slack of e makes a height of about sqrt(e l). So only
+// edges at faces that need slack are lengthened here, and only by as much as these need.
 #include <algorithm>
 
 #include "base/buffer.h"
@@ -10,14 +10,14 @@
 namespace tufted {
 namespace {
 
-/// A flat face gets this slack, in its longest side: twice that of a flat one, so that rounding cannot make it flat
-/// again.
+/// The slack that a flat face gets, as a share of its longest side: twice `flat_slack`, so that rounding cannot make it
+/// flat again.
 constexpr double enough_slack = 2 * flat_slack;
 
 }  // namespace
 
 std::int64_t lengthenAtFlatFaces(IntrinsicTriangulation& cover, const Workers& workers) {
-  const auto missingAt = [&cover](int side) {  // slack at the corner opposite `side`
+  const auto missingAt = [&cover](int side) {  // slack that the face needs at the corner opposite `side`
     const double across = cover.length[side], a = cover.length[nextSide(side)], b = cover.length[previousSide(side)];
     const double longer = std::max(a, b), longest = std::max(across, longer);
     const double slack = std::min(a, b) - (across - longer);

@@ -14,13 +14,14 @@ struct Entry {
   double weight;
 };
 
-/// Rows of entries, one after the other.
+/// Rows of entries, stored one after the other.
 struct Rows {
-  Buffer<int> offset;  ///< one more than rows
+  Buffer<int> offset;  ///< starts in `entries`, and the end
   RawBuffer<Entry> entries;
 };
 
-/// Sorts entries by column and sums those of equal columns, in the order given, to the front. Returns where they end.
+/// Sorts entries by column and merges those of equal columns, summing weights in the given order. Returns the end of
+/// the merged ones, which come first.
 inline Entry* mergeColumns(Entry* first, Entry* last, Buffer<Entry>& scratch) {
   stableSort(first, last, scratch, [](const Entry& a, const Entry& b) { return a.column < b.column; });
   Entry* kept = first;
@@ -33,7 +34,7 @@ inline Entry* mergeColumns(Entry* first, Entry* last, Buffer<Entry>& scratch) {
   return kept;
 }
 
-/// mergeColumns() in every row. Returns the sizes of the rows, which still begin where they began.
+/// mergeColumns() in every row. Returns the new sizes of the rows; their starts do not change.
 inline Buffer<int> mergeRows(Rows& rows, const Workers& workers) {
   Buffer<int> size(rows.offset.size() - 1);
   workers.forBlocks("assemble", std::ssize(size), cheap_block, [&](std::int64_t begin, std::int64_t end, int) {

@@ -1,6 +1,6 @@
-// Flips of thin faces. What a double rounds off a length of 1 is a height of 1e-8 in a face whose corners lie on a
-// line, and each flip of such a face adds its own. So meshes with thin faces are measured and flipped in long double
-// first.
+// Flips of thin faces (section 10 of docs/algorithm.md, step 2). Rounding a length of 1 to a double makes a height of
+// 1e-8 in a face whose corners lie on a line, and each flip adds more. So meshes with thin faces are measured and
+// flipped in long double first.
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -14,17 +14,17 @@
 namespace tufted {
 namespace {
 
-/// A face with less slack than this part of its longest side is thin, and is flipped in long double; with more,
-/// rounding of lengths in double is at most 1e-8 of the area.
+/// A face whose slack is less than this share of its longest side is thin and is flipped in long double; with more
+/// slack, rounding of lengths in double is at most 1e-8 of the area.
 constexpr double thin_slack = 0x1p-26;
-/// The length of an edge between vertices that coincide while thin faces are flipped, in the longest side: without
-/// weight in an area, and far above rounding in long double.
+/// The length of an edge between coincident vertices while thin faces are flipped, as a share of the longest side: too
+/// short to matter in an area, and far above rounding in long double.
 constexpr double short_enough = 0x1p-40;
-/// The slack, in the longest side, of which rounding may be all: corners on a line are on it in doubles only, so such a
-/// face is made exactly flat.
+/// A slack below this share of the longest side may be only rounding, as corners on a line are on it in doubles only:
+/// such a face is made exactly flat.
 constexpr long double straight_slack = 32 * std::numeric_limits<long double>::epsilon();
 
-/// A cover with lengths in long double, whose faces and glue are those of another.
+/// A cover with lengths in long double that shares faces and glue with another.
 struct PreciseCover {
   std::vector<std::array<int, 3>>& faces;
   std::vector<int>& glue;
@@ -47,7 +47,7 @@ auto longestOf(const Triangulation& cover, std::int64_t f) {
 void straightenFlatFaces(PreciseCover& cover, const Workers& workers) {
   Buffer<int> flat = numbersWhere("lengths", static_cast<int>(cover.size()), workers,
                                   [&](int f) { return slackOf(cover, f) < straight_slack * longestOf(cover, f); });
-  // The shorter ones first, as longer ones may consist of them.
+  // By ascending length, because a long face may contain the edges of shorter ones.
   std::stable_sort(flat.begin(), flat.end(), [&](int f, int g) { return longestOf(cover, f) < longestOf(cover, g); });
   for (const int f : flat) {
     int side = 3 * f;
@@ -76,12 +76,12 @@ FlipCounts flipThinFaces(IntrinsicTriangulation& cover, const EdgeLengths& lengt
     }
   });
   straightenFlatFaces(precise, workers);
-  // Angles beside an edge of length 0 are not defined. How long it is in the end follows from its faces after flips.
+  // Angles beside an edge of length 0 are undefined. Its final length follows from its faces after the flips.
   if (delta > 0) lengthened += lengthenShortEdges(precise, short_enough, workers);
   WholeCover whole(precise, workers);
   const FlipCounts counts = flipEdges(whole, workers);
   std::copy(precise.length.begin(), precise.length.end(), cover.length.begin());
-  return {counts.flips, 0};  // flips in double follow, which count what is not Delaunay
+  return {counts.flips, 0};  // the flips in double that follow count the failures
 }
 
 }  // namespace tufted

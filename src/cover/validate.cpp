@@ -9,8 +9,8 @@
 namespace tufted {
 namespace {
 
-/// Equation 2 for the cotangents opposite an edge. Where their sum is no number a face has no area, and there is no
-/// telling. Other sums are as far below 0 as the tolerance and the rounding that flips leave.
+/// Equation 2 for the cotangents opposite an edge, up to the tolerance and the rounding that flips leave. A sum that is
+/// not a number, at a face without area, counts as Delaunay.
 bool isDelaunay(double here, double there, double tolerance) {
   const double sum = here + there;
   if (std::isinf(sum)) return sum > 0;
@@ -45,7 +45,7 @@ CoverCheck validate(const IntrinsicTriangulation& cover, double delaunay_toleran
   }
   for (int side = 0; side < sides; side += 3) {
     const double a = cover.length[side], b = cover.length[side + 1], c = cover.length[side + 2];
-    // Lengths are rounded, so a face flat to the last bits may miss by as much.
+    // The lengths of a flat face may violate the inequality by their rounding.
     const double rounding = 4e-16 * (a + b + c) + 4 * std::numeric_limits<double>::denorm_min();
     if (!(triangleSlack(a, b, c) >= -rounding)) ++check.triangle_inequality;
   }

@@ -9,7 +9,7 @@
 
 namespace tufted {
 
-/// A cover that is all there, for flipEdges().
+/// A complete cover as flipEdges() takes it.
 template <class Triangulation>
 class WholeCover {
  public:
@@ -47,8 +47,8 @@ class WholeCover {
 
   Triangulation& cover_;
   const std::int64_t triangles_;
-  Buffer<std::uint8_t> state_;  ///< of each side
-  Buffer<Buffer<int>> seeds_;   ///< of each block
+  Buffer<std::uint8_t> state_;  ///< by side
+  Buffer<Buffer<int>> seeds_;   ///< by block
 };
 
 }  // namespace tufted

@@ -10,22 +10,22 @@
 
 namespace tufted {
 
-/// The points of a cloud that surfaces are fitted around, and which of them stands for each point.
+/// The points around which surfaces are fitted (section 27 of docs/algorithm.md).
 struct Centers {
-  Buffer<int> rank;     ///< m, ascending
-  RawBuffer<int> near;  ///< n, the number of a centre close to each point
+  Buffer<int> rank;     ///< m, ranks of the centres, ascending
+  RawBuffer<int> near;  ///< n, index in `rank` of a centre near each point
 };
 
-/// Where the points of some ranks are.
+/// The positions of the points with the given ranks.
 PointBuffer placesOf(const PointsView& points, std::span<const int> ranks);
 
-/// One point in 32, by its place alone, and the nearest of them for each point.
+/// One point in 32, by a hash of its coordinates, and for each point the nearest of them.
 Centers fewCenters(const PointsView& points, const Workers& workers);
 
-/// One point in three: those that come before their nearest two in the order of how much nearer the first of these is
-/// than the second, which has no pattern and turns with the cloud. For each point the one that is reached by going to
-/// the neighbour that comes first.
-/// @param inside n, which points may be chosen; the others have none
+/// About one point in three: those that come before their nearest two in the order of d1 / d2, the distances to these,
+/// which has no pattern and does not change if the cloud is turned. The centre of another point is found by going to
+/// the first of its nearest two, again and again.
+/// @param inside n, 1 for points that may be centres; the others get no centre
 Centers manyCenters(const PointsView& points, const NeighborSearch& search, const Buffer<std::uint8_t>& inside,
                     const Workers& workers);
 

@@ -31,9 +31,9 @@ void check(const PointsRef& points, const DenoiseOptions& options) {
     throw InvalidInput(std::string(function_name) + ": structure has rings, must be that of a depth image");
 }
 
-/// Moves the points of `denoised`, which are the caller's.
-/// @param moves n x 3, or 0 x 3 where none moves
-/// @param deviation(p) standard deviation around a point that moves
+/// Moves the points of `denoised`, which are the caller's, and reports it.
+/// @param moves n x 3, or 0 x 3 if no point moves
+/// @param deviation deviation(p): standard deviation of the noise around a point that moves
 template <class Deviation>
 void apply(const PointBuffer& moves, const Deviation& deviation, const RankedCloud& cloud, DenoisedPoints& denoised) {
   const PowerOfTwo unit(cloud.exponent);

@@ -11,14 +11,13 @@
 
 namespace tufted {
 
-/// Calls visit(p, neighbors) for each listed point, with its min(k, n - 1) nearest as by NeighborSearch::nearest.
-/// Points that follow each other in the list are searched for together.
-/// @param points what `search` was built from
-/// @param ranks ascending
+/// Calls visit(p, neighbors) for each listed point, with its min(k, n - 1) nearest, see nearestOfListed().
+/// @param points n x 3, the points that `search` was built from
+/// @param ranks the listed points, ascending
 template <class Visit>
 void forEachListed(const PointsView& points, const NeighborSearch& search, std::span<const int> ranks, int k,
                    const Visit& visit) {
-  // Points that are searched for at once: their neighbours stay in cache.
+  // Points per search: their neighbours stay in cache.
   constexpr std::size_t together = 32;
   BatchScratch scratch;
   Buffer<Neighbor> found;
@@ -29,7 +28,7 @@ void forEachListed(const PointsView& points, const NeighborSearch& search, std::
     nearestOfListed(search, points, group, k, kernels(), scratch, found, radius);
     for (std::size_t i = 0; i < group.size(); ++i)
       visit(group[i], std::span<const Neighbor>(found).subspan(i * row, row));
-    // About as far as this search had to look, which was near by.
+    // An estimate for the next points, which are close.
     if (row > 0) radius = std::sqrt(found[row - 1].squared_distance);
   }
 }

@@ -11,28 +11,29 @@
 namespace tufted {
 namespace {
 
-/// An outlier lies so many sigmas and spacings off the surface of its neighbours. Of normal noise one point in a
-/// million is that many sigmas off; nearer ones than a spacing do little harm.
+/// An outlier is more than this many sigmas, and spacings, off the surface of its neighbours. Of normal noise one point
+/// in a million is that many sigmas off; points nearer than a spacing do little harm.
 constexpr double outlier_sigmas = 5, outlier_spacings = 1;
 /// A fit moves points up to this many squared radii from its centre, so that fits of the faces reach a crease. With
 /// 0.75, 0.9, 1.1 and 1.4 real shapes keep 0.158, 0.157, 0.156 and 0.156 of noise of 0.3 spacings.
 constexpr double reach_squared = 1.2;
-/// The weight of a fit falls by e for so much excess, see excessOf(). With 1, 1.5 and 3 the results are the same.
+/// The weight of a fit falls by a factor of e for this excess, see excessOf(). With 1, 1.5 and 3 the results are the
+/// same.
 constexpr double most_excess = 2;
-/// Noise draws fits inwards by about this times its variance times the mean curvature, and points are put back by it.
+/// Noise draws fits inwards by about this times its variance times the mean curvature, by which points are put back.
 /// With 1 eigenvalues of real shapes are off by 3.5e-2, with 2 by 3.3e-2; those of a sphere by 1.9e-3 and 2.6e-3.
 constexpr double taken_back = 2;
-/// If the weights of all surfaces sum to less than this, it is rounding, and the point stays.
+/// A sum of weights below this is rounding, and the point stays.
 constexpr double least_weight = 1e-12;
 
-/// Moves points onto the mean of the surfaces of fits around them.
+/// Moves points onto the weighted mean of the surfaces around them.
 class Mover {
  public:
   /// All arguments are borrowed.
   Mover(const PointsView& points, const SurfaceFits& fits, const RawBuffer<LocalNoise>& noise)
       : points_(points), fits_(fits), noise_(noise) {}
 
-  /// @param[out] move 0 where the point stays
+  /// @param[out] move 0 if the point stays
   /// @returns whether p is an outlier
   bool move(int p, Eigen::Vector3d& move) const {
     const int near = fits_.centers.near[p];

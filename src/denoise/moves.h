@@ -8,19 +8,20 @@
 
 namespace tufted {
 
-/// How the points of a cloud move onto the surface.
+/// The moves of the points of a cloud onto the surface.
 struct SurfaceMoves {
-  PointBuffer move;              ///< n x 3, exactly 0 where a point stays
-  RawBuffer<double> variance;    ///< n, of the noise around each point that moves, in length^2; else of no meaning
-  Buffer<std::uint8_t> outlier;  ///< n, 1 at points that stay because they lie far off the surface of their neighbours
-  std::int64_t no_surface = 0;   ///< points that stay because those around them are a curve or fill a volume
+  PointBuffer move;  ///< n x 3, exactly 0 where a point stays
+  /// n, variance of the noise around each point that moves, in length^2; undefined at others
+  RawBuffer<double> variance;
+  Buffer<std::uint8_t> outlier;  ///< n, 1 at points that stay because they are far off the surface of their neighbours
+  std::int64_t no_surface = 0;   ///< points that stay because their neighbours form a curve or fill a volume
 
-  /// How many points move.
+  /// The number of points that move.
   std::int64_t count() const;
 };
 
-/// Finds the surface within the noise, and how each point gets onto it.
-/// @param search among the points
+/// Finds the surface within the noise and the move of each point onto it (section 27 of docs/algorithm.md).
+/// @param points n x 3, those of `search`
 SurfaceMoves surfaceMoves(const PointsView& points, const NeighborSearch& search, const Workers& workers);
 
 }  // namespace tufted

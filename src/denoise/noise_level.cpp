@@ -10,47 +10,49 @@
 namespace tufted {
 namespace {
 
-/// Noise below this part of the spacing does nothing to L, and the points stay.
+/// Noise below this share of the spacing does nothing to L, and the points stay.
 constexpr double least_noise = 0.01;
 /// If fewer fits of a pool are valid, their mean error is unknown.
 constexpr int least_fits = 9;
-/// Where the smallest variance of a window exceeds this part of the middle one, it is narrower than three sigmas of
-/// noise, and its plane is not reliable.
+/// A window whose smallest variance exceeds this share of the middle one is narrower than three sigmas of noise, and
+/// its plane is not reliable.
 constexpr double thick = 0.15;
-/// The last of the sizes whose errors are compared with those of the next.
+/// The last size whose errors can be compared with those of the next.
 constexpr int widest = sizes - 2;
-/// A thick window holds noise if one with four times as many points has less than this of its thickness: 1/4 where
-/// noise makes it thick, 1 where shape does. With 0.55 noise of 1.4 spacings on a sphere is missed.
+/// A thick window holds noise if the thickness of one with four times as many points is less than this share of its
+/// own: 1/4 if noise makes it thick, 1 if shape does. With 0.55 noise of 1.4 spacings on a sphere is missed.
 constexpr double thinner = 0.8;
-/// Errors are noise if they grow by less than `white_growth` from one size of fits to the next (detail: 2.6 and more),
-/// by less than `rough_growth` where they are `rough` spacings, not at all at `too_rough` times that, as in trees.
+/// Errors are noise if they grow from one size of fits to the next by less than `white_growth` (detail: 2.6 and more),
+/// by less than `rough_growth` if they are as large as `rough` spacings, and not at all if they are as large as
+/// `too_rough` times that, as in trees.
 constexpr double white_growth = 1.3, rough_growth = 2.3, rough = 0.4, too_rough = 2;
-/// The median of the squared errors is at least this part of their mean where there is noise: white noise has 0.45, a
-/// pool beside a crease less. Below 0.2 points of an exact cube move.
+/// Errors are noise only if their median is at least this share of their mean: white noise has 0.45, a pool beside a
+/// crease less. Below 0.2 points of an exact cube move.
 constexpr double least_even = 0.25;
-/// Factor by which errors grow where there is no noise, about.
+/// Approximate factor by which errors of detail grow from size to size.
 constexpr double detail_growth = 3;
-/// Noise is at least this part of the errors. With 0.5 the results are the same.
+/// The variance of the noise is at least this share of the mean error. With 0.5 the results are the same.
 constexpr double least_noisy = 0.2;
 /// There is noise at a centre if this share of its pool has white errors. From 0.3 to 0.5 the results are the same.
 constexpr double share = 0.4;
-/// Of the neighbours, the share within half the distance is 1/2 along a curve, 1/4 on a surface, 1/8 in a volume: more
-/// than the first is a curve, less than the second a volume. With 0.155 points beside the faces of volumes moved.
+/// The share of the neighbours within half the distance is 1/2 along a curve, 1/4 on a surface, 1/8 in a volume: above
+/// the first bound it is a curve, below the second a volume. With 0.155 points beside the faces of volumes moved.
 constexpr double curve_share = 0.41, volume_share = 0.185;
-/// In a volume the smallest variance also exceeds this part of the middle one. With 0.45 thin parts of noisy shapes
-/// were taken for volumes.
+/// In a volume the smallest variance must also exceed this share of the middle one. With 0.45 thin parts of noisy
+/// shapes were taken for volumes.
 constexpr double volume_thickness = 0.5;
-/// If more than this share of the pool sees no surface, there is none. With 0.25 two of 1,000 points in a cube move.
+/// If more than this share of the pool has no surface, the points around a centre have none. With 0.25 two of 1,000
+/// points in a cube move.
 constexpr double none_share = 0.2;
-/// Errors above this many times the variance of the noise are bias; chance makes as much of white noise. With 1.2 and
-/// 1.5 the results are the same.
+/// Errors above this many times the variance of the noise are bias; white noise reaches it by chance. With 1.2 and 1.5
+/// the results are the same.
 constexpr double white_error = 1.3;
-/// Residuals that exceed the noise by more than so many standard deviations show a crease, and a smaller fit is taken.
-/// With 2 a cube with 1 % noise has errors of 1.4e-2 instead of 1.2e-2.
+/// If residuals exceed the noise by more than this many standard deviations there is a crease, and a smaller fit is
+/// taken. With 2 a cube with 1 % noise has errors of 1.4e-2 instead of 1.2e-2.
 constexpr double by_chance = 1;
 constexpr double unknown = std::numeric_limits<double>::infinity();
 
-/// By how much the surface over a point changes from the next smaller size.
+/// Change of the height of the surface over a centre from the next smaller size to this one.
 double change(const LocalSurface& surface, int size) {
   const SurfaceFit &wide = surface.fit[size], &narrow = surface.fit[size - 1];
   if (!narrow.isValid()) return 0;
@@ -65,7 +67,7 @@ class Pool {
   /// All arguments are borrowed.
   Pool(const SurfaceFits& fits, int center) : fits_(fits), pool_(fits.poolOf(center)) {}
 
-  /// The mean of a value over all that have a fit of a size, unknown where few have.
+  /// The mean of value(surface) over valid fits of a size; unknown if these are fewer than `least_fits`.
   template <class Value>
   double mean(int size, const Value& value) const {
     double sum = 0;
@@ -103,7 +105,7 @@ class Pool {
     for (const int c : pool_) sum += fits_.surface[c].inner_share;
     return sum / static_cast<double>(pool_.size());
   }
-  /// The median of the values that are not negative, -1 where fewer than `least` are.
+  /// The median of the values that are not negative; -1 if there are fewer than `least`.
   template <class Value>
   double median(const Value& value, double least = 0) const {
     std::array<double, SurfaceFits::most_pooled> values;
@@ -123,13 +125,13 @@ class Pool {
   std::span<const int> pool_;
 };
 
-/// What predictions around a centre say.
+/// Errors of predictions around a centre (section 27 of docs/algorithm.md, steps 2 to 4).
 struct Predictions {
-  int size = 0;          ///< the smallest whose windows are wider than the noise is thick
-  double error = 0;      ///< by fits of that size
-  double median = 0;     ///< of what `error` is the mean of
-  double wider = 0;      ///< by the next
-  double roughness = 0;  ///< the first in (`rough` spacings)^2
+  int size = 0;          ///< the base size, whose windows are wider than the noise is thick
+  double error = 0;      ///< mean squared error at that size
+  double median = 0;     ///< median squared error at that size
+  double wider = 0;      ///< mean squared error at the next size
+  double roughness = 0;  ///< `error` in units of (`rough` spacings)^2
   bool no_surface = false;
 
   Predictions(const SurfaceFits& fits, int center) {
@@ -145,7 +147,7 @@ struct Predictions {
     roughness = error / (rough * rough * spacing * spacing);
   }
 
-  /// The variance of the noise where errors are white, else -1.
+  /// The variance of the noise if errors are white, else -1.
   double whiteVariance() const {
     const double rough_share = std::min(1.0, roughness * roughness);
     const double growth =
@@ -155,8 +157,8 @@ struct Predictions {
   }
 };
 
-/// The size of the fit with the least expected squared error: noise that is left by its leverage, and the bias that
-/// errors beyond noise show. -1 where a point itself has less.
+/// The size with the least expected squared error (step 5): remaining noise plus the bias that errors beyond noise
+/// show. -1 if points that stay have less.
 int bestSize(const SurfaceFits& fits, int center, int smallest, double variance) {
   const Pool pool(fits, center);
   double least = variance, bias = 0, narrower = 1;
@@ -185,7 +187,6 @@ double leastVariance(const SurfaceFits& fits, int center) {
   return least * least;
 }
 
-/// Calls visit(c) for each centre.
 template <class Visit>
 void forEachCenter(const SurfaceFits& fits, const Workers& workers, const Visit& visit) {
   workers.forBlocks("noise", fits.count(), star_block, [&](std::int64_t begin, std::int64_t end, int) {

@@ -7,24 +7,25 @@
 
 namespace tufted {
 
-/// The noise around a centre, and which fit says best where the surface is.
+/// The noise around a centre, and the size of fit to use there.
 struct LocalNoise {
-  double variance = 0;      ///< along the normal, in length^2
-  int size = -1;            ///< of fit_sizes, that of the fit with the least expected error; -1 where points stay
-  bool no_surface = false;  ///< the points around are a curve or fill a volume
+  double variance = 0;      ///< variance of the noise along the normal, in length^2
+  int size = -1;            ///< index in fit_sizes of the least expected error; -1 if points stay
+  bool no_surface = false;  ///< whether the points around form a curve or fill a volume
 };
 
-/// By how much the residuals of a fit vary more than noise of a variance explains, in standard deviations of chance.
+/// By how many standard deviations the variance of a fit's residuals exceeds that of the noise.
+/// @param size index in fit_sizes
 double excessOf(const SurfaceFit& fit, int size, double variance);
 
 /// Finds noise by predicting points from their neighbours. White noise makes predictions from 16 and from 32 neighbours
-/// equally wrong, but for the predictions' own variance, which squaredError() takes away; from wider windows detail is
-/// predicted worse by a factor of two to four.
-/// @returns one for each centre
+/// equally wrong, once squaredError() has removed their own variance; detail is predicted worse by a factor of two to
+/// four from wider windows.
+/// @returns the noise around each centre
 RawBuffer<LocalNoise> findNoise(const SurfaceFits& fits, const Workers& workers);
 
-/// A first look, for next to nothing: where there may be noise.
-/// @returns n, 1 there
+/// A first look (section 27 of docs/algorithm.md, step 1): where there may be noise.
+/// @returns n, 1 where points may be noisy
 Buffer<std::uint8_t> whereNoiseMayBe(const PointsView& points, const NeighborSearch& search, const Workers& workers);
 
 }  // namespace tufted

@@ -9,11 +9,11 @@
 namespace tufted {
 namespace {
 
-/// Coefficients of a quadratic in two variables.
+/// Number of coefficients of a quadratic in two variables.
 constexpr int coefficients = 6;
-/// Points that a fit needs: three more than coefficients, or no residual is left to judge it by.
+/// Least number of points of a fit: three more than coefficients, so that residuals can show how good it is.
 constexpr int least_points = 9;
-/// A pivot below this part of the largest is rounding: points on a conic determine no quadratic.
+/// A pivot below this share of the largest is rounding: points on a conic determine no quadratic.
 constexpr double smallest_pivot = 1e-9;
 
 /// Writes the sums into one lane of the systems.
@@ -48,7 +48,6 @@ void fitHeights(std::span<const HeightMoments> moments, std::span<HeightFit> fit
     for (std::size_t i = 0; i < part.size(); ++i) {
       const auto& [sums, count, fit_radius] = part[i];
       HeightFit& fit = fits[first + i] = {};
-      // Points on a conic, or next to one, leave a pivot of nothing but rounding.
       if (count < least_points || !(fit_radius > 0)) continue;
       if (!(solutions.least_pivot[i] > smallest_pivot * solutions.most_pivot[i])) continue;
       for (int j = 0; j < coefficients; ++j) fit.coefficient[j] = solutions.coefficient[j][i];

@@ -16,21 +16,22 @@
 namespace tufted {
 namespace {
 
-/// A fit with more leverage than this passes through its point and says nothing about it. Inside a surface a fit to 16
+/// A fit with more leverage than this passes through its point and tells nothing about it. Inside a surface a fit to 16
 /// points has 0.3.
 constexpr double most_leverage = 0.9;
-/// Heights farther apart than this part of the radius belong to two sheets. With 0.25 and 0.5 the results are the same.
+/// Heights farther apart than this share of the radius belong to two sheets. With 0.25 and 0.5 the results are the
+/// same.
 constexpr double gap = 0.35;
-/// Neighbours that give the spacing and tell a curve or a volume from a surface. Of 128 some belong to other strands of
-/// a knot.
+/// Number of neighbours from which the spacing and the share of inner ones are measured. Of 128 some belong to other
+/// strands of a knot.
 constexpr int measured = 64;
 
-/// Makes fits around one point after the other; memory of one worker.
+/// Fits surfaces around one point at a time; memory of one worker.
 class SurfaceFitter {
  public:
   explicit SurfaceFitter(const PointsView& points) : points_(points) {}
 
-  /// @param neighbors ascending, as many as the widest fit has, or all there are
+  /// @param neighbors by ascending distance, as many as the widest fit needs, or all
   void fit(int p, std::span<const Neighbor> neighbors, LocalSurface& surface) {
     const auto fitted = static_cast<std::size_t>(
         std::ranges::count_if(fit_sizes, [&](int size) { return size <= std::ssize(neighbors); }));
@@ -94,7 +95,7 @@ class SurfaceFitter {
 }  // namespace
 
 SurfacePlace SurfaceFit::at(const Eigen::Vector3d& d) const {
-  // Floats are no unit vectors to the last bit: what follows holds for any length.
+  // A normal of floats is not exactly a unit vector; what follows holds for any length.
   const Eigen::Vector3d up(normal[0], normal[1], normal[2]), first = tangentOf(up), second = up.cross(first);
   const auto& c = coefficient;
   const double u = d.dot(first) / radius, v = d.dot(second) / radius;

@@ -13,52 +13,51 @@
 
 namespace tufted {
 
-/// Neighbours that quadratics are fitted to, whole packets.
+/// Numbers of neighbours that quadratics are fitted to, whole packets.
 constexpr std::array<int, 5> fit_sizes = {16, 32, 64, 128, 256};
 constexpr int sizes = static_cast<int>(fit_sizes.size());
 
-/// A surface at one position.
+/// A surface near a position.
 struct SurfacePlace {
-  double height;           ///< of the position over it
-  Eigen::Vector3d normal;  ///< of the surface there
+  double height;           ///< signed distance of the position from the surface
+  Eigen::Vector3d normal;  ///< of the surface there, unit length
 };
 
-/// A quadratic through the heights of a point and so many of its neighbours over their plane.
+/// A quadratic fitted to the heights of a centre and its nearest neighbours over their plane.
 struct SurfaceFit {
   std::array<float, 6> coefficient{};  ///< of 1, u, v, u^2, u v, v^2, in units of `radius`
-  std::array<float, 3> normal{};       ///< of the plane, unit length
+  std::array<float, 3> normal{};       ///< normal of the plane, unit length
   float radius = 0;                    ///< distance to the last neighbour
-  float leverage = 1;                  ///< variance of the height over the point by that of each point's
-  /// The variance of the residuals: their sum of squares by the number of points less 6. It is infinite where there is
-  /// no fit.
+  float leverage = 1;                  ///< variance of height() over that of the noise of each point
+  /// Variance of the residuals: their sum of squares over m - 6, for m points. Infinite without a fit.
   float variance = std::numeric_limits<float>::infinity();
-  float thickness = 1;  ///< smallest by middle variance of the points
+  float thickness = 1;  ///< smallest variance of the points over the middle one
 
   bool isValid() const { return variance < std::numeric_limits<float>::infinity(); }
-  /// The height of the quadratic over the point, along the normal of the plane.
+  /// The height of the quadratic over the centre, along the normal of the plane.
   double height() const { return double{coefficient[0]} * radius; }
-  /// The square of what the other points, by the same fit without the point, predict its height wrong by, divided by
-  /// what it would be on average by the variance of noise that is independent from point to point.
+  /// The squared error of predicting the centre's height by the same fit without the centre, scaled so that its mean is
+  /// the variance of independent noise (E in section 27 of docs/algorithm.md).
   double squaredError() const { return height() * height() / (1 - leverage); }
-  /// @param d from the point to a position
+  /// @param d from the centre to a position
   SurfacePlace at(const Eigen::Vector3d& d) const;
 };
 
-/// What is known of the surface around one point.
+/// The fits of all sizes around one centre.
 struct LocalSurface {
   std::array<SurfaceFit, sizes> fit;
-  float spacing;      ///< of points that are spread evenly over a disk with `measured` neighbours
-  float inner_share;  ///< of these neighbours but the farthest, those within half of its distance
+  float spacing;      ///< spacing of points spread evenly over the disk of `measured` neighbours
+  float inner_share;  ///< share of these neighbours, without the farthest, within half of its distance
 };
 
-/// Surfaces around the centres.
+/// Surfaces around all centres, and their pools.
 struct SurfaceFits {
-  /// Centres in a pool, which is about 100 points; their mean error is uncertain by a quarter.
+  /// Greatest number of centres in a pool, for about 100 points; their mean error is uncertain by a quarter.
   static constexpr int most_pooled = 32;
 
   Centers centers;
   RawBuffer<LocalSurface> surface;  ///< m
-  RawBuffer<int> pool;              ///< m x pool_size: numbers of the centres nearest to each, itself first
+  RawBuffer<int> pool;              ///< m x pool_size: the centres nearest to each, itself first
   int pool_size = 0;                ///< at most `most_pooled`
 
   int count() const { return static_cast<int>(surface.size()); }
@@ -67,8 +66,8 @@ struct SurfaceFits {
   }
 };
 
-/// Fits quadratics around every centre. Neighbours of other sheets, beyond a gap of heights, are left out.
-/// @param search among the points
+/// Fits quadratics around every centre, without neighbours beyond a gap of heights, which are on other sheets.
+/// @param points n x 3, those of `search`
 SurfaceFits fitSurfaces(const PointsView& points, const NeighborSearch& search, Centers centers,
                         const Workers& workers);
 

@@ -16,12 +16,12 @@
 namespace tufted {
 namespace {
 
-/// Pixels of the image that noise is measured at; more take time and give the same.
+/// Number of pixels at which noise is measured; more give the same result.
 constexpr std::int64_t samples = 20000;
-/// A change of the depth between two pixels by more than this part of it is a jump, and tells nothing of noise.
+/// A relative change of the inverse depth between two pixels above this is a jump, which tells nothing about noise.
 constexpr double jump = 0.04;
-/// A change of the inverse depth below so many standard deviations of the noise is no jump in any case: far walls have
-/// noise of 5 %.
+/// A change of the inverse depth below this many standard deviations of the noise is no jump in any case: far walls
+/// have noise of 5 %.
 constexpr double likely_jump = 6;
 /// The first estimate takes the smallest 3/4 of all fourth differences, as fewer than 1/4 are at edges, the second the
 /// smallest 9/10 of those without a jump; with 0.75 coarse depths would be taken for exact.
@@ -31,35 +31,35 @@ constexpr double spread_at_first = 0.37, spread = 0.62;
 /// The variance of a fourth difference: the sum of the squares of 1, 4, 6, 4 and 1.
 constexpr double sum_of_squares = 70;
 
-// How noise grows from far to near, by groups of rows of alike inverse depths.
+// How noise depends on the inverse depth, by groups with similar inverse depths.
 
-/// Rows of five pixels that a group has at least; its noise is then known to a tenth.
+/// Rows of five pixels per group at least; the noise of the group is then known to a tenth.
 constexpr std::ptrdiff_t least_in_group = 200;
 /// With fewer groups no law is fitted: two agree with any.
 constexpr std::size_t least_groups = 3;
-/// If noise grows with a lower power of the inverse depth, it does not depend on it. Disparities have 0, real cameras
-/// up to 0.4, relative noise 1, timed light 2.
+/// If noise grows with a lower power of the inverse depth, it counts as constant. The power is 0 for disparities, up to
+/// 0.4 for real cameras, 1 for relative noise, 2 for timed light.
 constexpr double least_power = 0.6;
-/// A law that misses the groups by more, relative to their noise, is not used: right ones have less than 0.03, coarse
-/// depths 0.35 and more. A wall in steps, taken for timed light, has 18 % too much area.
+/// If the fitted law misses the noise of the groups by more than this, relatively, it is not used: right ones miss it
+/// by less than 0.03, coarse depths by 0.35 and more. A wall in steps, taken for timed light, has 18 % too much area.
 constexpr double most_misfit = 0.2;
 
-// A coarse depth whose steps are farther apart than five pixels.
+// Coarse depths with steps farther than five pixels apart.
 
-/// Of a row of five pixels around a step the other changes differ by at most this part of the step; at a crease by
+/// In a row of five pixels around a step the other changes differ by at most this share of the step; at a crease by
 /// more.
 constexpr double alike = 0.3;
-/// Only rounding lies between steps where the other changes of a row of five pixels differ by at most this part of its
-/// step: rays 0.01 radian apart make 0.019.
+/// The values between steps are exact but for rounding if the other changes differ by at most this share of the step:
+/// rays 0.01 rad apart make 0.019.
 constexpr double same = 0.02;
-/// Depths count as rounded to steps if at least this share of the rows with a step keeps `same`; slats of a centimetre,
-/// seen with noise of 0.2 mm, have 0.15.
+/// Depths count as rounded to steps if at least this share of the rows with a step stays below `same`; slats of a
+/// centimetre, seen with noise of 0.2 mm, have 0.15.
 constexpr double least_same = 0.7;
 /// Depths count as rounded to steps if this share of all rows of five pixels has a step: coarse walls and floors have
 /// 0.05 to 0.06, real images 0.002 to 0.006.
 constexpr double least_steps = 0.01;
-/// Steps are of one size if their middle half differs by at most this part of their median; those of coarse depths
-/// differ by 0.08.
+/// Steps are of one size if their interquartile range is at most this share of their median; for coarse depths it is
+/// 0.08.
 constexpr double most_spread = 0.25;
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -67,7 +67,8 @@ constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 /// Inverse depths of five pixels in a row.
 using Five = std::array<double, 5>;
 
-/// Inverse depths along the row and the column of some pixels. The first of five is NaN where a pixel has no point.
+/// Five inverse depths along the row, and five along the column, of sampled pixels. The first of five is NaN if a pixel
+/// has no point.
 RawBuffer<Five> takeFives(const PixelGrid& grid, const PointsView& points, const Workers& workers) {
   const auto inverseDepth = [&](std::int64_t pixel) {
     const int p = grid.rank[pixel];
@@ -76,7 +77,7 @@ RawBuffer<Five> takeFives(const PixelGrid& grid, const PointsView& points, const
   const std::int64_t pixels = std::ssize(grid.rank), stride = sampleStride(pixels, samples, grid.columns);
   const std::int64_t first = 2 * std::int64_t{grid.columns},
                      count = std::max<std::int64_t>(0, (pixels - 2 * first + stride - 1) / stride);
-  // The rings of a scanner do not fire at the same azimuths, so that a column leads from side to side.
+  // On rings only rows are used, because points of a column differ in azimuth.
   const auto isTold = [&grid](std::int64_t pixel, int direction) {
     if (!grid.goes_round) return true;
     return direction == 0 && grid.isHome(static_cast<int>(pixel % grid.columns));
@@ -97,8 +98,10 @@ RawBuffer<Five> takeFives(const PixelGrid& grid, const PointsView& points, const
   return fives;
 }
 
-/// The standard deviation by the smallest fourth differences of those without a jump.
-/// @param least step of inverse depths that may be a jump
+/// The standard deviation of the noise by the smallest fourth differences of rows without a jump.
+/// @param least smaller changes of the inverse depth are no jumps
+/// @param share of the differences that is used
+/// @param mean_square of the smallest `share` of normal numbers
 double noiseOf(std::span<const Five> fives, double least, double share, double mean_square) {
   Buffer<double> squares;
   squares.reserve(fives.size());
@@ -116,7 +119,7 @@ double noiseOf(std::span<const Five> fives, double least, double share, double m
   return std::sqrt(sum / static_cast<double>(count) / mean_square / sum_of_squares);
 }
 
-/// The same, first with all steps that no jump is likely to make, then less those that the noise found does not make.
+/// noiseOf() of all rows first, then of those without changes that the noise found does not explain.
 double noiseOf(std::span<const Five> fives) {
   const double at_first = noiseOf(fives, std::numeric_limits<double>::infinity(), kept_at_first, spread_at_first);
   return noiseOf(fives, likely_jump * at_first, kept, spread);
@@ -125,7 +128,7 @@ double noiseOf(std::span<const Five> fives) {
 /// Rows of five pixels by half octaves of their inverse depth.
 struct Groups {
   RawBuffer<Five> fives;
-  Buffer<std::size_t> begin;  ///< of each group, in order, and the end
+  Buffer<std::size_t> begin;  ///< first row of each group, and the end
 
   std::size_t size() const { return begin.size() - 1; }
   std::span<const Five> operator[](std::size_t i) const { return {fives.data() + begin[i], begin[i + 1] - begin[i]}; }
@@ -158,9 +161,8 @@ Groups groupsOf(const RawBuffer<Five>& fives) {
   return groups;
 }
 
-/// What noise a group has.
 struct Level {
-  double inverse;  ///< depth, in the mean
+  double inverse;  ///< mean inverse depth
   double noise;
   double weight;
 };
@@ -172,7 +174,7 @@ Level levelOf(std::span<const Five> group) {
   return {sum / count, noiseOf(group), count};
 }
 
-/// The slope of the logarithm of the noise over that of the inverse depth.
+/// The power of the inverse depth with which noise grows: the slope of a line through their logarithms.
 double powerOf(const Buffer<Level>& levels) {
   double all = 0, x = 0, y = 0, xx = 0, xy = 0;
   for (const Level& level : levels) {
@@ -186,7 +188,7 @@ double powerOf(const Buffer<Level>& levels) {
   return (all * xy - x * y) / (all * xx - x * x);
 }
 
-/// The sum of both laws that fits the levels best, by relative errors; nothing where it does not fit them.
+/// The sum of both laws that fits the levels best, by relative errors; nothing if it misses them.
 std::optional<RangeNoise> fitOf(const Buffer<Level>& levels) {
   double aa = 0, ab = 0, bb = 0, a = 0, b = 0;
   for (const Level& level : levels) {
@@ -209,10 +211,10 @@ std::optional<RangeNoise> fitOf(const Buffer<Level>& levels) {
   return noise;
 }
 
-/// The step that a row of five pixels takes in the middle.
+/// The step in the middle of a row of five pixels.
 struct MiddleStep {
   double size;
-  double unlike;  ///< how much the others differ from each other: small but at creases, and noise where that is small
+  double unlike;  ///< how much the other changes differ: small except at creases, and where noise is not small
 };
 
 MiddleStep middleStep(const Five& w) {
@@ -221,8 +223,8 @@ MiddleStep middleStep(const Five& w) {
   return {std::max(a, b), std::max(std::abs(before - after), std::min(a, b))};
 }
 
-/// The standard deviation of the rounding to steps of one size, if there are such steps; 0 if not. Steps that are far
-/// apart are too few for noiseOf(): the smallest differences lie all between them.
+/// The standard deviation of rounding to steps of one size; 0 if there are no such steps. noiseOf() misses steps that
+/// are far apart, because the smallest differences all lie between them.
 double roundingOf(std::span<const Five> fives, double noise) {
   Buffer<double> steps;
   double count = 0, same_count = 0;
@@ -250,7 +252,7 @@ RangeNoise rangeNoise(const PixelGrid& grid, const PointsView& points, const Wor
   const Groups groups = groupsOf(fives);
   double of_inverse = 0;
   Buffer<Level> levels(groups.size(), Level{});
-  // First the noise of all, which takes as long as those of the groups together.
+  // The noise of all rows first, because it takes as long as all groups together.
   workers.forBlocks("windows", std::ssize(levels) + 1, 1, [&](std::int64_t begin, std::int64_t end, int) {
     for (std::int64_t i = begin; i < end; ++i) {
       if (i == 0) {

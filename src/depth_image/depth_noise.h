@@ -7,9 +7,9 @@
 
 namespace tufted {
 
-/// The noise and the steps of ranges about smooth surfaces. From fourth differences of inverse depths of five pixels in
-/// a row, which curved surfaces hardly have, less the largest tenth, which are edges; and from how these grow with the
-/// inverse depth, whether the sensor measures disparities or ranges.
+/// The noise of ranges, or the rounding to steps (section 28 of docs/algorithm.md, step 2): from fourth differences of
+/// the inverse depths of five pixels in a row, nearly 0 on smooth surfaces, without the largest tenth, which are edges.
+/// How they depend on the inverse depth shows if the sensor measures disparities or ranges.
 RangeNoise rangeNoise(const PixelGrid& grid, const PointsView& points, const Workers& workers);
 
 }  // namespace tufted

@@ -8,13 +8,14 @@
 namespace tufted {
 namespace {
 
-/// Pixels farther than this many times the longest edge, in pixels, do not bound a gap, as in stars/boundary.cpp.
+/// Pixels farther away than this many longest edges of the star, in pixels, do not count as beyond a gap, as in
+/// stars/boundary.cpp.
 constexpr double farthest = 2;
-constexpr int least_reach = 3;  // pixels that are looked through at least, as a window reaches
-/// Pixels that are looked through at most, as the largest star of an exact image reaches.
+constexpr int least_reach = 3;  // least reach of the search for pixels in gaps: that of a window
+/// Greatest reach: that of the largest star of an exact image.
 constexpr int most_reach = 12;
 
-/// Looks through the gaps between a point's triangles.
+/// Classifies what lies in the gaps of a star.
 class ImageBoundaryFinder {
  public:
   ImageBoundaryFinder(const Stars& stars, const DepthImage& image) : stars_(stars), image_(image) {}
@@ -69,7 +70,7 @@ class ImageBoundaryFinder {
     return longest;
   }
 
-  /// Calls visit(step to a, step to b) for the link vertices of every triangle of p.
+  /// Calls visit(step to a, step to b) for every triangle (p, a, b).
   template <class Visit>
   void forEachPairOfSteps(int p, const Visit& visit) const {
     forEachTriangle(stars_, p, [&](int a, int b) { visit(stepTo(p, a), stepTo(p, b)); });

@@ -15,19 +15,20 @@
 namespace tufted {
 namespace {
 
-/// Link vertices of a star on average, for the first memory.
+/// Mean number of link vertices per star, for the first allocation.
 constexpr std::size_t usual_degree = 7;
-/// Rings of the window that the plane is fitted to and the star is looked for in: 24 pixels settle most stars.
+/// Rings of the first window for the plane and the star: its 24 pixels decide most stars.
 constexpr int first_rings = 2;
 /// A window with fewer points than this, half of 5 x 5, is widened.
 constexpr int enough = 12;
-/// Rings of the widest window: 2,401 pixels hold `enough` points where one in 200 is there.
+/// Rings of the widest window: 2,401 pixels hold `enough` points if one in 200 has a point.
 constexpr int most_rings = 24;
-/// Rings up to which the window of a star grows in an exact image where a circle asks for it. Around moved points this
-/// would take up to 80 % longer.
+/// Rings up to which a window grows in an exact image if a circle reaches beyond it. Around moved points this would
+/// take up to 80 % longer.
 constexpr int most_certain_rings = 12;
-/// Where the cosine between sight and normal is below this, windows grow to `most_rings`: an exact ball then misses
-/// 0.4 % of its area instead of 4.2 %. With 0.1 it misses 3.7 %, with 0.2 five people take 0.2 us more per point.
+/// If the cosine of the angle between sight and normal is below this, windows grow to `most_rings`: an exact ball then
+/// misses 0.4 % of its area instead of 4.2 %. With 0.1 it misses 3.7 %, with 0.2 five people take 0.2 us more per
+/// point.
 constexpr double low_angle = 0.15;
 
 constexpr std::uint64_t first_window = WindowPixels::rings(first_rings);
@@ -67,8 +68,8 @@ class ImageStarBuilder {
   }
 
  private:
-  /// Stars of at most a packet. Where windows are whole, planes and stars are found for all lanes at once; the few
-  /// stars that reach beyond the eight pixels beside p are looked for one by one, as are all others.
+  /// Builds the stars of at most a packet of points. If windows are whole, planes and stars are found for all lanes at
+  /// once; stars that reach beyond the eight pixels beside p, and all others, are built one by one.
   void buildSome(int begin, int end, WorkerState& state) const {
     const PixelStars& found = state.pixel_stars;
     const unsigned is_whole = by_packets_ ? wrapWhole(begin, end, state) : 0;
@@ -86,7 +87,7 @@ class ImageStarBuilder {
     }
   }
 
-  /// Returns which lanes have a whole window.
+  /// Finds the stars with a whole window; returns their lanes.
   unsigned wrapWhole(int begin, int end, WorkerState& state) const {
     PixelsAround& around = state.around;
     around.is_stretched = is_stretched_;
@@ -129,7 +130,7 @@ class ImageStarBuilder {
       star.radius.push_back(found.radius[i][lane]);
     }
     if ((found.is_mirrored >> lane & 1U) == 0) return;
-    // Each circle belongs to a vertex and the next.
+    // radius[i] belongs to link vertices i and i + 1.
     std::reverse(star.link.begin(), star.link.end());
     std::reverse(star.radius.begin(), star.radius.end() - 1);
   }
@@ -138,13 +139,13 @@ class ImageStarBuilder {
     state.memory.star.link.clear();
     state.memory.star.radius.clear();
     state.memory.star.closed = false;
-    // A power of two near the size of the window, so that the predicates meet numbers near 1.
+    // A power of two near the size of the window, so that the predicates get numbers near 1.
     const double unit = frame ? 1 / magnitudeOf(frame->radius) : 1;
     if (frame) findStar(p, *frame, unit, state);
     store(p, frame.value_or(PixelFrame{Eigen::Vector3d::UnitZ()}), unit, state.memory);
   }
 
-  /// Fills the window, wider where it holds few points, and fits the plane to it.
+  /// Takes the window, widened if it has few points, and fits the plane to it.
   std::optional<PixelFrame> findFrame(int p, WorkerState& state) const {
     if (image_.grid.pixel[p] < 0) return std::nullopt;
     PixelWindow& window = state.window;
@@ -170,7 +171,7 @@ class ImageStarBuilder {
     }
   }
 
-  /// The star among the points of the window, and of wider ones until no point beyond can change it.
+  /// Finds the star in the window, widened until no point beyond can change it.
   void findStar(int p, const PixelFrame& frame, double unit, WorkerState& state) const {
     PixelWindow& window = state.window;
     const DelaunayStar& star = state.memory.star;
@@ -182,10 +183,10 @@ class ImageStarBuilder {
     }
   }
 
-  /// Where the ranges of an image are noise, so are points far away, and the window of SurfaceWindows is the widest.
-  /// But along the rim of a body that curves away from the sensor neighbours in space are many pixels apart. Such a
-  /// surface is seen at a low angle, so that noise lies along it; and its points are farther from each other than noise
-  /// goes, or the angle would be one of noise.
+  /// The greatest number of rings for a star. In a noisy image points far away are noisy too, so windows stay within 7
+  /// x 7. But along the rim of a body that curves away from the sensor, neighbours in space are many pixels apart. Such
+  /// a surface is seen at a low angle, and its points are farther apart than the noise, or the angle might be due to
+  /// noise.
   int mostRingsOfStar(int p, const PixelFrame& frame) const {
     if (image_.grid.goes_round) return WindowPixels::reach;
     const Eigen::Vector3d sight = (image_.points.row(p) - image_.grid.origin).transpose();
@@ -195,9 +196,9 @@ class ImageStarBuilder {
     return is_exact_ ? most_certain_rings : WindowPixels::reach;
   }
 
-  /// Whether no pixel beyond the window lies in a circle of the star: on a smooth surface the next ring is one step
-  /// farther away. Where rows are far apart and exact, the points of a row are beside each other on a line, of which no
-  /// circle holds more than lies between two of them: so only what lies beyond the last row is looked at.
+  /// Whether no pixel beyond the window can lie in a circle of the star, if the next ring is one step farther away.
+  /// Points of an exact ring lie close together on a line, so that a circle reaches only between two of them: then only
+  /// the next rows count.
   bool isCertain(const DelaunayStar& star, const PixelWindow& window, double unit) const {
     const double nearest = is_stretched_ ? window.nearestInLastRows() : window.nearestInLastRing();
     const double rings = window.rings(), next = (rings + 1) / rings * std::sqrt(nearest) * unit;
@@ -215,11 +216,11 @@ class ImageStarBuilder {
   const DepthImage& image_;
   const PointBuffer& normals_;
   StarWrapping wrapping_;
-  bool by_packets_;                                    ///< whole windows, eight at once
-  bool is_exact_;                                      ///< no point moves
-  bool is_stretched_;                                  ///< rows alone tell how far the next ring is
-  int rings_of_whole_;                                 ///< of the window of a star that is more than the pixels beside
-  std::array<std::ptrdiff_t, pixels_around> shift_{};  ///< in the image
+  bool by_packets_;                                    ///< whether whole windows are handled eight at once
+  bool is_exact_;                                      ///< whether no point moves
+  bool is_stretched_;                                  ///< whether only rows bound the distance of the next ring
+  int rings_of_whole_;                                 ///< rings of a whole window whose star is more than ring 1
+  std::array<std::ptrdiff_t, pixels_around> shift_{};  ///< from a pixel to those around
   Stars& stars_;
   StarSupport& support_;
 };

@@ -13,14 +13,14 @@
 
 namespace tufted {
 
-/// A depth image whose surface is known pixel by pixel.
+/// A depth image with the surface around each pixel.
 struct SurfaceImage {
   PixelGrid grid;
   SurfaceWindows windows;
   RangeNoise noise;           ///< see rangeNoise()
   std::int64_t unplaced = 0;  ///< points without a pixel
 
-  /// Standard deviation of the noise of a point that has a pixel, along its ray.
+  /// Standard deviation of the noise along the ray of a point that has a pixel.
   double noiseOf(int p, const PointsView& points) const {
     return noise.atRange(windows.range[p], grid.depthOf(points.row(p)));
   }
@@ -34,13 +34,13 @@ struct SurfaceImage {
   }
 };
 
-/// Finds the surface in the windows of all pixels.
-/// @param smooths whether points are moved onto it
+/// Finds axis, noise and windows of an image (steps 2 to 4 in section 28 of docs/algorithm.md).
+/// @param smooths whether points are moved onto the surface
 SurfaceImage surfaceImage(PixelGrid grid, const PointsView& points, bool smooths, const Workers& workers);
 
-/// The Delaunay stars of all points among the points in the windows of their pixels. Counts grown,
-/// open and dropped ones; the caller books the cost.
-/// @param normals the caller's, by rank, zero where unusable; 0 x 3: none
+/// The Delaunay stars of all points among the points in their windows (steps 5 and 6). Counts grown, open and dropped
+/// ones; the caller records the cost.
+/// @param normals the caller's, by rank, zero if unusable; 0 x 3 without any
 BuiltStars buildImageStars(const DepthImage& image, const PointBuffer& normals, const CloudOptions& options,
                            const Workers& workers, Report& report);
 

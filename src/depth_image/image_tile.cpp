@@ -10,19 +10,20 @@
 namespace tufted {
 namespace {
 
-/// A change of the inverse depth by more than this part of it per pixel is no surface; a road seen at 1.7 degrees by
+/// A slope is ignored if the inverse range changes by more than this share per pixel; a road seen at 1.7 degrees by
 /// rings 0.4 degrees apart has it.
 constexpr double steepest_slope = 0.25;
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-/// How a step is reached: whether by a step down or by its inverse, and over which pixels one ring further in.
+/// A step is one of the steps down (to a later pixel) or the inverse of one. In a window it is reached over some pixels
+/// one ring further in.
 struct Way {
-  int down = 0;    ///< number of the step down
-  PixelStep from;  ///< to the pixel that the step down starts at
+  int down = 0;    ///< index of the step down
+  PixelStep from;  ///< the pixel where the step down starts
   int parents = 0;
-  std::array<int, 3> parent{};  ///< numbers of steps
+  std::array<int, 3> parent{};  ///< those pixels, as indices of steps
   std::array<int, 3> link_down{};
-  std::array<PixelStep, 3> link_from{};  ///< of the step from each parent on
+  std::array<PixelStep, 3> link_from{};  ///< where the step down from or to each parent starts
 };
 
 struct Ways {
@@ -71,7 +72,7 @@ struct Ways {
 
 constexpr Ways ways;
 
-/// The set of pixels from which a step of so many columns leads into the given one.
+/// The pixels of a row from which a step of `columns` leads into `pixels`.
 std::uint64_t stepped(std::uint64_t pixels, int columns) {
   return columns >= 0 ? pixels >> columns : pixels << -columns;
 }

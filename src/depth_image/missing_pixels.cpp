@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::array<PixelStep, 4> directions = {{{0, 1}, {1, 0}, {1, 1}, {1, -1}}};
 
-/// The mean of the values on either side, in all directions in which these may be of one surface; 0 if there are none.
+/// The mean over all directions in which the values on both sides may be of one surface; 0 if there is none.
 double meanAround(const PixelGrid& grid, const SmoothedRanges& smoothed, const RangeNoise& noise, int row, int column) {
   const std::int64_t pixel = std::int64_t{row} * grid.columns + column;
   const std::ptrdiff_t at = smoothed.at(row, column);
@@ -19,7 +19,7 @@ double meanAround(const PixelGrid& grid, const SmoothedRanges& smoothed, const R
   int count = 0;
   for (const PixelStep& step : directions) {
     const std::int64_t pixels = std::int64_t{step.row} * grid.columns + step.column;
-    // Only pixels with points are read, as others are being written.
+    // Only pixels with points are read, because other threads write the others.
     if (grid.rank[pixel - pixels] < 0 || grid.rank[pixel + pixels] < 0) continue;
     const std::ptrdiff_t values = step.row * smoothed.row_step + step.column;
     const std::ptrdiff_t before = at - values, after = at + values;

@@ -6,10 +6,10 @@
 
 namespace tufted {
 
-/// Sets the inverse depth of pixels without a point that lie between two of one surface: to the mean of those. No point
-/// moves by this, but the windows around are whole. Where one pixel in twenty is missing at random, one window in
-/// twelve would be whole otherwise, too few to tell what noise is left and to fit quadratics. Rings are left as they
-/// are, as the next one is far away.
+/// Sets the inverse depth of missing pixels between two pixels of one surface to their mean (step 4 in section 28 of
+/// docs/algorithm.md). This moves no point, but makes windows whole: with one pixel in twenty missing at random only
+/// one window in twelve would be, too few to measure the remaining noise and to fit quadratics. Does nothing on rings,
+/// which are too far apart.
 void fillMissingPixels(const PixelGrid& grid, const RangeNoise& noise, const Workers& workers,
                        SmoothedRanges& smoothed);
 

@@ -22,18 +22,18 @@ std::optional<PixelFrame> fitFrame(const DepthImage& image, const PixelWindow& w
     rows_columns += row * column;
     columns_columns += column * column;
   }
-  // About the means; p is one of the points.
+  // Moments about the means, with p as one of the points.
   const double share = 1.0 / (count + 1);
   rows_rows -= rows * rows * share;
   rows_columns -= rows * columns * share;
   columns_columns -= columns * columns * share;
   const double determinant = rows_rows * columns_columns - rows_columns * rows_columns;
-  if (!(determinant > 0.01)) return std::nullopt;  // a fraction of whole numbers, and 0 but for rounding on a line
+  if (!(determinant > 0.01)) return std::nullopt;  // a ratio of whole numbers; 0 but for rounding if all are on a line
   by_row -= rows * share * sum;
   by_column -= columns * share * sum;
   const Eigen::Vector3d along_rows = columns_columns * by_row - rows_columns * by_column;
   const Eigen::Vector3d along_columns = rows_rows * by_column - rows_columns * by_row;
-  // Scaled first: products of tiny steps may leave the range of a double.
+  // Normalised first, because products of tiny vectors may leave the range of a double.
   Eigen::Vector3d normal = along_rows.stableNormalized().cross(along_columns.stableNormalized()).stableNormalized();
   if (!(normal.squaredNorm() > 0.5)) return std::nullopt;
   if (normal.dot(image.points.row(p) - image.grid.origin) > 0) normal = -normal;

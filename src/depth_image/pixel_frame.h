@@ -7,18 +7,18 @@
 
 namespace tufted {
 
-/// The tangent plane of a point, from how positions change from pixel to pixel.
+/// The tangent plane of a point (step 5 in section 28 of docs/algorithm.md).
 struct PixelFrame {
   Eigen::Vector3d normal;  ///< unit length, from the surface to the sensor
-  double radius = 0;       ///< that of a disk with the mean squared distance of the points used
+  double radius = 0;       ///< radius of a disk with the same mean squared distance as the window's points
 };
 
-/// The plane along which positions change with rows and columns, by least squares over the points of the window. Noise
-/// along the line of sight, however large, does not turn it by its mean, as it turns principal axes.
-/// @returns nothing where the pixels are on one line
+/// The plane spanned by the changes of positions with rows and with columns, by least squares over the window. Noise
+/// along the line of sight, however strong, turns it only by its mean, unlike principal axes.
+/// @returns nothing if the pixels are on one line
 std::optional<PixelFrame> fitFrame(const DepthImage& image, const PixelWindow& window, int p);
 
-/// The frame that a given normal makes, with the size of the window.
+/// The frame with a given normal and the radius of the window.
 PixelFrame frameOf(const Eigen::Vector3d& normal, const PixelWindow& window);
 
 }  // namespace tufted

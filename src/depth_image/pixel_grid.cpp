@@ -14,21 +14,19 @@
 namespace tufted {
 namespace {
 
-/// An image may have so many pixels however few points it holds.
+/// An image may have this many pixels however few points it holds.
 constexpr std::int64_t most_pixels = 1 << 24;
-/// A larger one must hold a point in so many pixels, so that rows and columns that are no image are refused before
+/// A larger one must have an entry per this many pixels, so that rows and columns that are no image are refused before
 /// memory is taken.
 constexpr std::int64_t pixels_per_point = 64;
-/// Rays, which have no noise, that the axis of the camera is found by.
+/// Number of rays that the camera is fitted to; rays have no noise.
 constexpr std::int64_t axis_samples = 2000;
-/// If more than this share of the points lies elsewhere than in front of the camera, there is none; as many may be off
-/// its rays.
+/// If more than this share of the points is not in front of the camera, there is none; as many may be off its rays.
 constexpr double most_aside = 0.05;
-/// Depth over range that a ray has at least, 78 degrees aside: beyond, the depths of all points would be nearly the
-/// same.
+/// Least ratio of depth and range, 78 degrees off the axis; with less, the depths of all points would be nearly equal.
 constexpr double least_depth = 0.2;
 
-/// The rows or the columns of an image that hold points, numbered without the empty ones.
+/// Numbers the rows, or the columns, of an image that hold points, without the empty ones.
 class Lines {
  public:
   void widen(std::int64_t line) {
@@ -39,14 +37,14 @@ class Lines {
 
   void reserve() { number_.assign(static_cast<std::size_t>(extent()), 0); }
   void hold(std::int64_t line) { number_[line - first_] = 1; }
-  /// Returns how many lines hold points.
+  /// Numbers the lines that hold points and returns how many there are.
   int count() {
     int held = 0;
     for (int& line : number_) line = line == 0 ? -1 : held++;
     return held;
   }
   int numberOf(std::int64_t line) const { return number_[line - first_]; }
-  /// The lines that hold points, ascending, as the caller numbers them.
+  /// The caller's numbers of the lines that hold points, ascending.
   Buffer<std::int64_t> held() const {
     Buffer<std::int64_t> lines;
     for (std::int64_t i = 0; i < std::ssize(number_); ++i)
@@ -107,7 +105,7 @@ PixelGrid pixelGrid(const RankedScan& scan, int around) {
     columns.widen(0);
     columns.widen(around - 1);
   }
-  // By what the caller gave: how many of the points are usable must not decide.
+  // The bound is on the caller's entries, so that it does not depend on how many points are usable.
   if (rows.extent() * columns.extent() > std::max(most_pixels, pixels_per_point * scan.entries)) {
     throw InvalidInput(std::string(scan.function) + ": structure has points in " + std::to_string(rows.extent()) +
                        " rows of " + std::to_string(columns.extent()) +
@@ -135,7 +133,7 @@ PixelGrid pixelGrid(const RankedScan& scan, int around) {
   forEachPlace([&](int p, std::int64_t row, std::int64_t column) {
     const std::int64_t pixel = std::int64_t{rows.numberOf(row) + PixelGrid::margin} * grid.columns +
                                columns.numberOf(column) + PixelGrid::margin;
-    if (grid.rank[pixel] >= 0) return;  // ranks ascend: the first one stays
+    if (grid.rank[pixel] >= 0) return;  // the smallest rank keeps the pixel
     grid.rank[pixel] = p;
     grid.pixel[p] = pixel;
   });

@@ -13,11 +13,11 @@
 
 namespace tufted {
 
-/// A depth image and what was found in it. Borrowed.
+/// A depth image, its surface windows, and its points as measured and as moved. Borrowed.
 struct DepthImage {
   const PixelGrid& grid;
   PointsView points;  ///< as measured
-  PointsView moved;   ///< on the surface
+  PointsView moved;   ///< as moved onto the surface
   const SurfaceWindows& windows;
   JumpTest test;
 
@@ -40,24 +40,24 @@ struct DepthImage {
   }
 };
 
-/// The points of the surface around one point, ring by ring of its window.
+/// The points of the window around one point, ring by ring.
 class PixelWindow {
  public:
-  /// Takes the points of the first rings of SurfaceWindows.
+  /// Takes the points of the first rings of SurfaceWindows::around.
   void take(const DepthImage& image, int p, int rings);
-  /// Takes those of a larger window, found by the same rule.
+  /// Takes the points of a larger window, found by the same rule.
   void widen(const DepthImage& image, int p, int rings);
 
   int rings() const { return rings_; }
   int count() const { return static_cast<int>(neighbors_.size()); }
-  /// Ring by ring; distances between places that points have been moved to.
+  /// Ring by ring, not by distance; distances are between moved points.
   const Buffer<Neighbor>& neighbors() const { return neighbors_; }
   const PixelStep& step(int i) const { return steps_[i]; }
-  /// From p to the points, where they have been moved to.
+  /// Offsets from p to the points, between moved points.
   Offsets offsets() const { return offsets_.view(); }
-  /// Squared distance of the nearest point of the last ring; infinite where it holds none.
+  /// Squared distance of the nearest point of the last ring; infinite if that is empty.
   double nearestInLastRing() const;
-  /// Squared distance of the nearest point in the last rows, above and below; infinite where they hold none.
+  /// Squared distance of the nearest point in the first and last row; infinite if these are empty.
   double nearestInLastRows() const;
 
  private:
@@ -65,7 +65,7 @@ class PixelWindow {
 
   Buffer<Neighbor> neighbors_;
   Buffer<PixelStep> steps_;
-  int rings_ = 0, last_ring_ = 0;  ///< how many rings, and where the last one begins
+  int rings_ = 0, last_ring_ = 0;  ///< number of rings, and index where the last one begins
   OffsetBuffer offsets_;
   Buffer<std::uint8_t> reached_;
 };

@@ -2,8 +2,8 @@
 
 namespace tufted {
 
-/// The standard deviation of the noise of a depth image. Cameras that measure disparities have the same everywhere in
-/// inverse depths, sensors that time light about the same in depths; what lies between is a sum of both.
+/// The standard deviation of the noise of a depth image, as the sum of a part that is constant in inverse depths, as
+/// for cameras that measure disparities, and one that is constant in depths, as for sensors that time light.
 struct RangeNoise {
   double of_inverse = 0;  ///< in the inverse unit of the cloud
   double of_depth = 0;    ///< in the unit of the cloud, see PixelGrid::depthOf()

@@ -13,34 +13,37 @@
 namespace tufted {
 namespace {
 
-/// With fewer rings the image is hardly more than its margins, and is not used.
+/// Least number of rings; with fewer the image is hardly more than its margins.
 constexpr int least_rings = 16;
-/// Largest number of a ring; no scanner has so many.
+/// Bound on the numbers of rings; no scanner has as many.
 constexpr int most_rows = 4096;
-/// Pixels per point at most: rings of a sixteenth of a turn would leave the rest of the image empty.
+/// Greatest number of pixels per point: rings that cover less than a sixteenth of a turn would leave the rest of the
+/// image empty.
 constexpr int most_pixels = 16;
-/// Columns at least: the widest window has 49, and none may meet itself.
+/// Least number of columns: the widest window has 49 and must not meet itself.
 constexpr int least_columns = 64;
-/// Angle between rings at most, in radians: wider windows reach around the corners of a room. With noise of 2 cm
-/// normals at 0.69 degrees are better than by search, at 0.84 not.
+/// Greatest angle between rings, in rad: wider windows reach around the corners of a room. With noise of 2 cm normals
+/// at 0.69 degrees are better than by search, at 0.84 not.
 constexpr double most_ring_step = 0.75 * std::numbers::pi / 180;
-/// Angle between rings over that between the points of a ring, at most: 64 rings at 0.1 degrees, with 4.25, still gain.
+/// Greatest ratio of the angle between rings to that between points of a ring: 64 rings at 0.1 degrees, with 4.25,
+/// still gain.
 constexpr double most_stretch = 4.5;
-/// Steps that the median and the mean are taken of.
+/// Number of sampled steps along rings.
 constexpr std::int64_t step_samples = 20000;
-/// Points of a ring whose median elevation is taken for its own.
+/// Number of points of a ring whose median elevation is that of the ring.
 constexpr int elevation_samples = 16;
-/// Steps that differ from the median by more than this part of it are gaps or jitter.
+/// Steps that differ from the median by more than this share of it are gaps or jitter.
 constexpr double same_step = 0.25;
-/// Half of the steps must differ from those of the points around z by less than this part of a step; more is a scan
-/// that was moved or turned.
+/// Half of the steps must agree with those of the points around z within this share of a step; otherwise the scan was
+/// moved or turned.
 constexpr double most_step_error = 0.5;
-/// Columns that a point may be moved from its azimuth, the reach of a window; a speed that varies by 0.5 % stays below.
+/// Greatest number of columns that a point may be moved from its azimuth: the reach of a window; a speed that varies by
+/// 0.5 % stays below.
 constexpr int most_shift = 3;
-/// Columns of a gap that may lie within a surface; longer ones are sky or doors.
+/// Longest gap, in columns, within a surface; longer ones are sky or doors.
 constexpr int longest_gap = 8;
-/// Share of the columns in such gaps at most. With 9 % of the points left out at random the area of 64 exact rings
-/// grows by 1.3 %, with 30 % by more than 8 %.
+/// Greatest share of columns in such gaps. With 9 % of the points left out at random the area of 64 exact rings grows
+/// by 1.3 %, with 30 % by more than 8 %.
 constexpr double most_gaps = 0.1;
 
 /// A point of a ring.
@@ -83,11 +86,11 @@ class RingShots {
 
  private:
   RawBuffer<Shot> shots_;
-  Buffer<int> begin_;  ///< of each ring that holds points, and the number of points
+  Buffer<int> begin_;  ///< first point of each ring that has any, and the number of points
 };
 
-/// The mean step from point to point around a ring, of those that are no gap; 0 without any.
-/// @param shots by azimuth
+/// The mean step of the azimuth along rings, without gaps; 0 if there is none.
+/// @param shots sorted by azimuth
 double azimuthStep(const RingShots& shots) {
   Buffer<double> steps;
   const int stride = static_cast<int>(std::max<std::int64_t>(1, shots.size() / step_samples)) | 1;
@@ -105,8 +108,8 @@ double azimuthStep(const RingShots& shots) {
   return count > 0 ? sum / static_cast<double>(count) : 0;
 }
 
-/// Whether azimuths are those of the points around z, but for where they begin and which way they turn. A scan that
-/// has been moved or turned since has no image around this axis.
+/// Whether azimuths are those of the points around z, up to their zero and direction. If not, the scan was moved or
+/// turned and has no image around this axis.
 bool areSeen(const RankedScan& scan, const PointsView& points, const RingShots& shots) {
   const auto seenAt = [&](int i) {
     const Eigen::RowVector3d ray = points.row(shots[i].rank) - scan.origin.transpose();
@@ -125,7 +128,7 @@ bool areSeen(const RankedScan& scan, const PointsView& points, const RingShots& 
   return 2 * std::max(same_way, other_way) >= steps;
 }
 
-/// The median angle between two rings that follow each other.
+/// The median angle between consecutive rings.
 double ringStep(const RankedScan& scan, const PointsView& points, const RingShots& shots) {
   Buffer<double> steps;
   double before = 0;
@@ -143,16 +146,16 @@ double ringStep(const RankedScan& scan, const PointsView& points, const RingShot
   return medianOf(std::move(steps));
 }
 
-/// What becomes of the points of a ring in an image.
+/// The columns that the points of a ring have got.
 struct RingFit {
-  int first = INT32_MAX, end = 0;  ///< columns with points
-  int shift = 0;                   ///< the largest, in columns
-  int gaps = 0;                    ///< columns that are missing between points
+  int first = INT32_MAX, end = 0;  ///< range of columns with points
+  int shift = 0;                   ///< greatest shift from an azimuth, in columns
+  int gaps = 0;                    ///< columns missing in gaps
 };
 
-/// Gives the points of a ring their columns. A point goes to the column after the one before it where its own is taken:
-/// so all points keep their order where azimuths lie halfway between two columns, whatever their rounding.
-/// @param shots by azimuth
+/// Gives the points of a ring their columns: that of the azimuth, or the one after the previous point if it is taken,
+/// so that points keep their order if azimuths are halfway between two columns.
+/// @param shots sorted by azimuth
 RingFit placeRing(const RingShots& shots, int ring, double step, RankedScan& scan) {
   RingFit fit;
   int last = -1;
@@ -193,7 +196,7 @@ std::optional<RingImage> columnsOfRings(RankedScan scan, const PointsView& point
     all = {std::min(all.first, fit.first), std::max(all.end, fit.end), std::max(all.shift, fit.shift),
            all.gaps + fit.gaps};
   if (all.shift > most_shift || all.gaps > most_gaps * (shots.size() + all.gaps)) return std::nullopt;
-  // Counted from the first one that holds a point, so that none is empty beside the seam where azimuths begin late.
+  // Columns are counted from the first one with a point, so that none is empty beside the seam if azimuths begin late.
   for (int i = 0; i < shots.size(); ++i) scan.position[shots[i].rank] -= all.first;
   return RingImage{std::move(scan), std::max(all.end - all.first, static_cast<int>(std::lround(columns)))};
 }

@@ -15,37 +15,39 @@
 namespace tufted {
 namespace {
 
-/// Pixels between the values of a fit, pass by pass: 19 and 55 pixels wide, as a wall 8 m away has noise of 12
+/// Pixels between the values of a fit, pass by pass: fits are 19 and 55 pixels wide, as a wall 8 m away has noise of 12
 /// spacings, then 31 and 13. With 3, 9, 4 an office has 79.9 instead of 82.1 % of triangles from all corners.
 constexpr std::array<int, 4> strides = {3, SmoothedRanges::widest_stride, 5, 2};
-/// Values stay if their variance is below this part of the squared spacing, noise of 1/50 of it. With 1/20 normals are
-/// off by 0.17 instead of 0.07 degrees, with 1/100 a wall behind a ball by 0.64 instead of 0.53 mm.
+/// Values are not smoothed further if their variance is below this share of the squared spacing, noise of 1/50 of it.
+/// With 1/20 normals are off by 0.17 instead of 0.07 degrees, with 1/100 a wall behind a ball by 0.64 instead of 0.53
+/// mm.
 constexpr double harmless = 0.0004;
-/// Packets of eight pixels that tell what noise smoothed values have; 2,000 tell the same.
+/// Number of sampled packets of eight pixels from which the remaining noise is measured; 2,000 give the same.
 constexpr std::int64_t samples = 500;
-/// The quantile of what fits leave over that is noise alone, as half of the windows may hold a crease.
+/// Quantile of the residual variances that is only noise, as half of the windows may hold a crease.
 constexpr double quiet = 0.25;
-/// The quantile that holds the steps of a coarse depth, which most windows of a terrace have not. Without it a room in
-/// steps of 1/8 has 23 instead of 2 % too much area.
+/// Quantile of the residual variances that shows the steps of a coarse depth, which most windows of a terrace do not
+/// contain. Without it a room in steps of 1/8 has 23 instead of 2 % too much area.
 constexpr double usual = 0.75;
-/// The most that quantile `usual` may exceed `quiet` by, as a factor, where there is noise alone: white noise has 1.5,
-/// real cameras 2 to 3. With 3 a room in steps has 1.7 instead of 0.8 % too much area.
+/// Quantile `usual` exceeds `quiet` by at most this factor if there is only noise: 1.5 for white noise, 2 to 3 for real
+/// cameras. With 3 a room in steps has 1.7 instead of 0.8 % too much area.
 constexpr double most_to_usual = 2;
-/// The first pass expects at most this part of the variance of the noise, and none expects more than the one before.
+/// The first pass expects at most this share of the variance of the noise, and no pass expects more than the one
+/// before.
 constexpr double left_at_first = 1;
-/// White noise leaves at least this part of its variance in the quiet windows after one smoothing (0.016 to 0.018), the
-/// steps of a coarse depth on a ball leave less (0.008).
+/// White noise leaves at least this share of its variance in the quiet windows after one smoothing (0.016 to 0.018);
+/// the steps of a coarse depth on a ball leave less (0.008).
 constexpr double least_of_white = 0.012;
-// White noise is known and not estimated: half of what fits leave of it bounds shapes more closely.
+// For white noise the remaining share is known and not measured: a bound of half of it excludes shape better.
 
-/// Part of the variance of the noise that a pass expects fits to leave at most, half of what the first leaves: with
-/// more, rims are cut off.
+/// Greatest share of the variance of the noise that a pass expects fits to leave, half of what the first one leaves:
+/// with more, rims are cut off.
 constexpr double left_of_white = 0.03;
-/// Part of the variance of the smoothed value that it expects, half of the 0.8 that each pass leaves. With 0.8 a room
-/// has 35 instead of 22 edges across jumps, with 0.3 it has 4.5 instead of 3.7 % of its area off.
+/// Share of the variance of the smoothed value that a pass expects, half of the 0.8 that each pass leaves. With 0.8 a
+/// room has 35 instead of 22 edges across jumps, with 0.3 it has 4.5 instead of 3.7 % of its area off.
 constexpr double share_of_white = 0.4;
 
-/// Calls work(row, worker) for all rows, those of the border too.
+/// Calls work(row, worker) for all rows, including the border.
 template <class Work>
 void forEachRow(const SmoothedRanges& image, const Workers& workers, const Work& work) {
   const std::int64_t rows = image.rows + 2 * SmoothedRanges::border;
@@ -55,7 +57,7 @@ void forEachRow(const SmoothedRanges& image, const Workers& workers, const Work&
   });
 }
 
-/// Fills what lies left and right of an image that goes round, as far as windows reach.
+/// Fills the border left and right of an image that goes round.
 void repeatBeyondSeam(SmoothedRanges& image, const Workers& workers) {
   const int first = PixelGrid::margin, around = image.columns - 2 * PixelGrid::margin;
   forEachRow(image, workers, [&](int row, int) {
@@ -68,20 +70,20 @@ void repeatBeyondSeam(SmoothedRanges& image, const Workers& workers) {
   });
 }
 
-/// The variance that fits to values around a pixel are expected to leave where these are of one surface.
+/// The variance that fits to values around a pixel are expected to leave if these are of one surface.
 struct VarianceLeft {
   double least = 0, most = 0;  ///< in variances of the noise
-  double share = 0;            ///< of the variance that the value of the pixel has
+  double share = 0;            ///< share of the variance of the pixel's value
 
-  /// A pixel that no pass has smoothed yet has neighbours that none has smoothed either. At edges the value of a pixel
-  /// has more variance than those of its neighbours, so that there is a bound.
+  /// @param variance of the value of the pixel. A pixel that was never smoothed has neighbours that were not either. At
+  /// edges its value has more variance than theirs, hence the bounds.
   double at(double variance, double noise_squared) const {
     return std::max(least * noise_squared, std::min(most * noise_squared, share * variance));
   }
 };
 
-/// Smooths an image again by values that are some pixels apart: those around a pixel that differ from its own by no
-/// more than a slope and noise explain may be of one surface with it.
+/// One pass: smooths an image by values some pixels apart, namely those that differ from the value of a pixel by no
+/// more than a slope and noise explain.
 class RangeSmoother {
  public:
   /// @param[out] after inverse depths
@@ -93,9 +95,9 @@ class RangeSmoother {
     }
   }
 
-  /// Finds by fits all over the image what noise leaves, which is no more than before. Noise of real cameras is alike
-  /// in neighbouring pixels and survives smoothing, white noise does not. Steps of a coarse depth are in some windows
-  /// and not in others.
+  /// Measures by fits all over the image what noise leaves, at most what it left before. Noise of real cameras is
+  /// similar in neighbouring pixels and survives smoothing, unlike white noise. The steps of a coarse depth are in some
+  /// windows only.
   void find(VarianceLeft& left) const {
     Samples samples = takeSamples();
     if (!samples.left.empty()) {
@@ -103,17 +105,16 @@ class RangeSmoother {
       left.least = std::min(left.least, std::max(quietly_left, quantileOf(samples.left, usual) / most_to_usual));
       left.share = left.least / quantileOf(samples.before, 0.5);
     }
-    if (left.most == 0) left.most = left.least;  // that of the first pass
+    if (left.most == 0) left.most = left.least;  // set by the first pass
   }
 
-  /// Whether fits to pixels a stride of 1 apart leave at least what white noise has them leave: smoothing has made its
-  /// values alike over 7 x 7 pixels, so that this is a 60th of it. Shape leaves more.
+  /// Whether fits with a stride of 1 leave at least what white noise leaves, a 60th of it, as smoothing has made values
+  /// similar over 7 x 7 pixels. Shape leaves more.
   bool leavesNoise() const {
     Samples samples = takeSamples();
     return !samples.left.empty() && quantileOf(samples.left, quiet) >= least_of_white;
   }
 
-  /// @param left of windows around each pixel
   void smoothRow(int row, const VarianceLeft& left) const {
     const std::ptrdiff_t begin = smoothed_.at(row, -SmoothedRanges::border), end = begin + smoothed_.row_step;
     std::copy(smoothed_.inverse.begin() + begin, smoothed_.inverse.begin() + end, after_.begin() + begin);
@@ -123,9 +124,9 @@ class RangeSmoother {
   }
 
  private:
-  /// In variances of the noise, of whole windows all over the image.
+  /// Samples of whole windows all over the image, in variances of the noise.
   struct Samples {
-    Buffer<double> left;    ///< what fits leave
+    Buffer<double> left;    ///< variance of the residuals
     Buffer<double> before;  ///< variance of the value in the middle
   };
 
@@ -244,7 +245,7 @@ void smoothFurther(const RangeNoise& noise, bool changes_sides, const Workers& w
   if (is_white) left = {.most = left_of_white, .share = share_of_white};
   for (const int stride : strides) {
     if (smoothed.goes_round) {
-      // The rings of a scanner are few rows: 55 of them are most of the image, and no longer one surface.
+      // A scanner has few rings: 55 of them are most of the image, and no longer one surface.
       if (stride == SmoothedRanges::widest_stride) continue;
       repeatBeyondSeam(smoothed, workers);
     }

@@ -14,7 +14,7 @@ namespace {
 
 class WindowFinder {
  public:
-  /// @param smoothed null: nothing moves
+  /// @param smoothed null: nothing is smoothed
   WindowFinder(const PixelGrid& grid, const PointsView& points, const RangeNoise& noise, SurfaceWindows& windows,
                SmoothedRanges* smoothed)
       : grid_(grid),
@@ -51,7 +51,7 @@ class WindowFinder {
 
  private:
   /// Smooths a packet of pixels.
-  /// @param at where they are in SmoothedRanges
+  /// @param at index of the first one in SmoothedRanges
   void smoothSome(const ImageTile& tile, int row, int column, const std::uint64_t* around, std::ptrdiff_t at) const {
     std::array<double, kernel_packet> spacing_squared, noise;
     tile.spacings(row, column, spacing_squared.data());

@@ -12,26 +12,25 @@
 namespace tufted {
 namespace {
 
-/// Pixels, of which a quarter or more is looked at: the share of pairs is then off by 0.006.
+/// Number of sampled pixels, of which at least a quarter is tested: the share of pairs is then off by 0.006.
 constexpr std::int64_t samples = 32000;
-/// Only this share of the pixels is looked at, where fits left the least variance. Where shape left more, neighbours
+/// Only this share of the pixels is tested, those with the least residual variance. Where shape left more, neighbours
 /// lie on one side of the surface: of a relief of squares 20 pixels wide and 4 sigma high all pixels have 0.54.
 constexpr double quiet = 0.25;
-/// Variances that differ by less than this factor are equal: most fits leave no more than the noise, and are taken for
-/// that.
+/// Variances that differ by less than this factor count as equal: most fits have exactly the variance of the noise.
 constexpr double alike = 1 + 1e-9;
-/// Noise is white if a share of neighbours between these lies on one side of the surface: white noise has 0.46 to 0.50,
-/// real cameras have 0.62 to 0.73, coarse depths 0.74 and more, waves of 10 and 12 pixels 0.61 and 0.57.
+/// Noise is white if the share of pairs of neighbours on one side of the surface is between these: white noise has 0.46
+/// to 0.50, real cameras have 0.62 to 0.73, coarse depths 0.74 and more, waves of 10 and 12 pixels 0.61 and 0.57.
 constexpr double least_on_one_side = 0.45, most_on_one_side = 0.56;
 
-/// The side of the surface on which a pixel lies: 1 behind it, -1 in front of it, 0 where nothing was smoothed.
+/// The side of the surface on which a pixel lies: 1 behind, -1 in front, 0 if it was not smoothed.
 int sideOf(const PixelGrid& grid, const PointsView& points, const SmoothedRanges& smoothed, std::int64_t pixel) {
   const std::ptrdiff_t at = smoothed.atPixel(grid, pixel);
   if (smoothed.variance[at] == 0) return 0;
   return 1 / grid.depthOf(points.row(grid.rank[pixel])) < smoothed.inverse[at] ? 1 : -1;
 }
 
-/// Samples and their neighbours, along the row and along the column.
+/// Counts of pairs of neighbours, along rows and along columns.
 struct Pairs {
   std::array<std::int64_t, 2> all{}, on_one_side{};
 
@@ -56,7 +55,8 @@ bool changesSidesFreely(const PixelGrid& grid, const PointsView& points, const S
                         const RangeNoise& noise, const Workers& workers) {
   const std::int64_t end = std::ssize(grid.rank) - grid.columns;
   const std::int64_t stride = sampleStride(end, samples, grid.columns);
-  RawBuffer<double> variance(static_cast<std::size_t>((end + stride - 1) / stride));  // of each sample
+  // relative variance of each sample
+  RawBuffer<double> variance(static_cast<std::size_t>((end + stride - 1) / stride));
   const auto forSamples = [&](const auto& visit) {
     workers.forBlocks("windows", std::ssize(variance), usual_block, visit);
   };

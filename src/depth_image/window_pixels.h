@@ -10,25 +10,25 @@ namespace tufted {
 struct PixelStep {
   int row = 0, column = 0;
 
-  /// The ring of the window that the step ends on.
+  /// The number of the ring around the first pixel that the second is on.
   constexpr int ring() const {
     const int rows = row < 0 ? -row : row, columns = column < 0 ? -column : column;
     return rows > columns ? rows : columns;
   }
 };
 
-/// The pixels of a window around a pixel, itself left out, from the nearest in the image to the farthest: rings of 8,
-/// 16 and 24. A set of them is a word in which bit i stands for step i.
+/// The 48 pixels around one in a 7 x 7 window as steps, ring by ring and in each ring by distance in the image. A set
+/// of them is a word in which bit i stands for step i.
 struct WindowPixels {
-  static constexpr int reach = 3;   ///< rings: the pixels of 7 x 7 are fewer than the bits of a word
-  static constexpr int count = 48;  ///< pixels of 7 x 7 without the one in the middle
+  static constexpr int reach = 3;   ///< number of rings: 7 x 7 pixels fit the bits of a word
+  static constexpr int count = 48;  ///< pixels of 7 x 7 without the middle one
 
   static constexpr int side() { return 2 * reach + 1; }
 
   std::array<PixelStep, count> step{};
 
   static constexpr int inRings(int rings) { return (2 * rings + 1) * (2 * rings + 1) - 1; }
-  /// The set of all pixels of the first so many rings.
+  /// The set of all pixels of the first `number` rings.
   static constexpr std::uint64_t rings(int number) { return (std::uint64_t{1} << inRings(number)) - 1; }
 
   constexpr WindowPixels() {
@@ -45,7 +45,7 @@ struct WindowPixels {
     }
   }
 
-  /// The number of a step, which must be in the window.
+  /// The index of a step, which must be in the window.
   constexpr int numberOf(const PixelStep& wanted) const {
     int i = 0;
     while (step[i].row != wanted.row || step[i].column != wanted.column) ++i;

@@ -8,20 +8,20 @@
 
 namespace tufted {
 
-/// What blocks of points have to tell each other: each sends in its own thread, and when all have, each receives. What
-/// it receives is in the order of the blocks that it comes from, so it does not depend on the threads.
+/// Passes items between blocks of points: each block sends in its own thread, and when all have sent, each receives.
+/// Items arrive in the order of the sending blocks, so results do not depend on the threads.
 template <class Item>
 class BlockExchange {
  public:
   explicit BlockExchange(std::size_t blocks) : parcels_(blocks), begin_(blocks + 1) {}
 
-  /// @param items of block `from`, in no order of receivers
+  /// @param items from block `from`, in any order
   /// @param receiver receiver(item) is the number of the block that the item is for
   /// @param scratch overwritten
   template <class Receiver>
   void send(std::size_t from, const Buffer<Item>& items, const Receiver& receiver, Buffer<int>& scratch) {
     if (items.empty()) return;
-    Buffer<int>& fill = scratch;  // of each receiver
+    Buffer<int>& fill = scratch;  // by receiver
     fill.assign(parcels_.size() + 1, 0);
     for (const Item& item : items) ++fill[receiver(item) + 1];
     Parcel& parcel = parcels_[from];
@@ -32,7 +32,7 @@ class BlockExchange {
     for (const Item& item : items) parcel.items[fill[receiver(item)]++] = item;
   }
 
-  /// To be called by one thread when all is sent.
+  /// Called by one thread after all blocks have sent.
   void deliver() {
     for (const Parcel& parcel : parcels_)
       for (const Share& share : parcel.shares) ++begin_[share.block + 1];
@@ -43,7 +43,7 @@ class BlockExchange {
       for (const Share& share : parcels_[from].shares) shares_[fill[share.block]++] = {from, share.begin, share.end};
   }
 
-  /// Calls visit(item) for all that was sent to a block.
+  /// Calls visit(item) for all items sent to a block.
   template <class Visit>
   void receive(std::size_t to, const Visit& visit) const {
     for (int i = begin_[to]; i < begin_[to + 1]; ++i)
@@ -51,7 +51,7 @@ class BlockExchange {
   }
 
  private:
-  /// Items for one block or from one block.
+  /// Range of the items for, or from, one block.
   struct Share {
     std::size_t block;
     int begin, end;
@@ -61,8 +61,8 @@ class BlockExchange {
     Buffer<Share> shares;
   };
 
-  Buffer<Parcel> parcels_;  ///< of each block
-  Buffer<int> begin_;       ///< of each receiver in `shares_`
+  Buffer<Parcel> parcels_;  ///< by sender
+  Buffer<int> begin_;       ///< start of each receiver in `shares_`
   Buffer<Share> shares_;    ///< by receiver, then by sender
 };
 

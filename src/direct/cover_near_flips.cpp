@@ -14,13 +14,13 @@
 namespace tufted {
 namespace {
 
-/// Room for stars that are added without being known beforehand: one for so many that are known.
+/// Triangles for which there is room besides those expected: one per this many.
 constexpr std::size_t spare = 8;
 
-/// Calls visit(i, a, b, lengths of the sides p a, a b, b p) for each triangle (p, a, b), with the link entry of a.
+/// Calls visit(i, a, b, {|pa|, |ab|, |bp|}) for each triangle (p, a, b); i is the link entry of a.
 template <class Visit>
 void forEachTriangle(const Stars& stars, const EdgeLengths& length, int p, const Visit& visit) {
-  int measured = -1;  // link entry of a spoke, and its length
+  int measured = -1;  // link entry of the last measured spoke, and its length
   double spoke = 0;
   for (int i = stars.offset[p]; i < stars.offset[p + 1]; ++i) {
     if (!stars.hasTriangle(i)) continue;
@@ -32,7 +32,7 @@ void forEachTriangle(const Stars& stars, const EdgeLengths& length, int p, const
   }
 }
 
-/// @param side_length of the sides 0, 1 and 2 of the front
+/// @param side_length lengths of the sides 0, 1 and 2 of the front
 template <class Triangulation>
 void setLengths(Triangulation& cover, int t, const std::array<double, 3>& side_length) {
   for (int s = 0; s < 3; ++s) cover.length[frontSide(t, s)] = cover.length[backSide(t, s)] = side_length[s];
@@ -40,7 +40,7 @@ void setLengths(Triangulation& cover, int t, const std::array<double, 3>& side_l
 
 }  // namespace
 
-/// What flipEdges() works on.
+/// A CoverNearFlips as flipEdges() takes it.
 class Flipping {
  public:
   Flipping(CoverNearFlips& cover, Buffer<Buffer<FlipSeed>> seeds) : cover_(cover), seeds_(std::move(seeds)) {}
@@ -53,7 +53,7 @@ class Flipping {
   template <class Push>
   void start(std::int64_t block, const Push& push) {
     for (const FlipSeed& seed : seeds_[block])
-      if (!cover_.isPresent(seed.side.star)) cover_.add(seed.side.star, false);  // while there is room for them
+      if (!cover_.isPresent(seed.side.star)) cover_.add(seed.side.star, false);  // before others take their room
     for (const FlipSeed& seed : seeds_[block]) {
       const bool up = cover_.runsUp(seed.side);
       if (seed.is_plus) push(cover_.sideNumber(seed.side, up, cover_.first_));
@@ -112,7 +112,7 @@ bool CoverNearFlips::add(int p, bool may_grow) {
 
 StarSide CoverNearFlips::starSide(int side) const {
   const int t = side / 6, s = side % 6;
-  // A side that is not glued yet has not moved, nor has its face been flipped: its first corner is the star's centre.
+  // A side that is not glued yet is where it was, and its face was not flipped: its first corner is the star's centre.
   return {cover_.faces[side / 3][0], entry_of_[t], s < 3 ? s : 5 - s};
 }
 
@@ -128,7 +128,7 @@ int CoverNearFlips::sideNumber(const StarSide& side, bool is_front, const Buffer
 bool CoverNearFlips::resolve(int side, const SideRange& range) {
   if (cover_.glue[side] != unglued) return true;
   const StarSide here = starSide(side);
-  // The plus copy is the front where the front runs up.
+  // The plus copy is the front if the front runs from the smaller to the larger vertex.
   const bool is_plus = runsUp(here) == (side % 6 < 3);
   const StarSide there = mateOf(here, is_plus);
   if (!range.contains(6 * block_begin_[there.star / block_size])) return false;
@@ -138,11 +138,11 @@ bool CoverNearFlips::resolve(int side, const SideRange& range) {
 }
 
 void CoverNearFlips::reserve(const Buffer<Buffer<FlipSeed>>& seeds, const Workers& workers) {
-  // Flips stay near the points that disagree. What is reserved but not used costs next to no memory; growing would.
+  // Flips stay near points that disagree. Unused room costs next to no memory; growing would.
   block_begin_.assign(seeds.size() + 1, 0);
   workers.forBlocks("flips", stars_.size(), block_size, [&](std::int64_t begin, std::int64_t end, int) {
     const auto degree = [this](std::int64_t p) { return std::int64_t{stars_.offset[p + 1]} - stars_.offset[p]; };
-    std::int64_t room = 1;  // by which blocks are told apart
+    std::int64_t room = 1;  // at least 1, so that blocks have different ranges
     for (const FlipSeed& seed : seeds[begin / block_size]) room += degree(seed.side.star);
     for (std::int64_t p = begin; p < end; ++p) room += cycles_.disagrees(static_cast<int>(p)) ? 2 * degree(p) : 0;
     const std::int64_t all = std::int64_t{stars_.offset[end]} - stars_.offset[begin] + 1;
@@ -161,7 +161,7 @@ void CoverNearFlips::findFlippedPoints() {
     int t = first_[p];
     for (int i = stars_.offset[p]; i < stars_.offset[p + 1]; ++i) {
       if (!stars_.hasTriangle(i) || !isMoved(t++)) continue;
-      // Corners that a face has later were corners of one that was flipped before.
+      // All corners that a flipped face ever had are corners of flipped triangles.
       flipped_[p] = flipped_[stars_.link[i]] = flipped_[stars_.link[stars_.after(p, i)]] = 1;
     }
   }
@@ -183,7 +183,7 @@ std::size_t CoverNearFlips::bytes() const {
   constexpr std::size_t of_triangle = 2 * sizeof(cover_.faces[0]) + 6 * sizeof(cover_.glue[0]) +
                                       6 * sizeof(cover_.length[0]) + sizeof(entry_of_[0]) + 6 * sizeof(state_[0]);
   if (next_.empty()) return 0;
-  std::size_t triangles = entry_of_.size() - block_begin_.back();  // behind the ranges
+  std::size_t triangles = entry_of_.size() - block_begin_.back();  // those behind the ranges
   for (std::size_t b = 0; b < next_.size(); ++b) triangles += next_[b] - block_begin_[b];
   return of_triangle * triangles;
 }
@@ -204,7 +204,7 @@ void CoverNearFlips::keepMovedFaces() {
   cover_.faces.resize(kept);
   cover_.length.resize(3 * kept);
   only_moved_ = true;
-  if (Workspace::current() != nullptr) return;  // which keeps the memory anyway
+  if (Workspace::current() != nullptr) return;  // the workspace keeps the memory anyway
   cover_.faces.shrink_to_fit();
   cover_.length.shrink_to_fit();
 }
@@ -222,10 +222,10 @@ void CoverNearFlips::fillStar(int p, const Buffer<int>& first, IntrinsicTriangul
     for (int s = 0; s < 3; ++s) {
       const StarSide side{p, i, s};
       const int neighbor = s == 0 ? before(stars_, p, i) : stars_.after(p, i);
-      if (s != 1 && stars_.hasTriangle(neighbor)) continue;  // a spoke between two triangles
+      if (s != 1 && stars_.hasTriangle(neighbor)) continue;  // glued by glueSpokes()
       const bool is_up = runsUp(side);
       const StarSide at_front = mateOf(side, is_up);
-      const StarSide at_back = cycles_.isInCycle(side) ? mateOf(side, !is_up) : at_front;  // of two faces
+      const StarSide at_back = cycles_.isInCycle(side) ? mateOf(side, !is_up) : at_front;  // an edge of two triangles
       whole.glue[frontSide(t, s)] = sideNumber(at_front, runsUp(at_front) != is_up, first);
       whole.glue[backSide(t, s)] = sideNumber(at_back, runsUp(at_back) == is_up, first);
     }
@@ -240,7 +240,7 @@ void CoverNearFlips::copyStar(int p, const Buffer<int>& first, const RawBuffer<i
   for (int s = 0; s < 6 * (first[p + 1] - first[p]); ++s) {
     whole.length[to + s] = cover_.length[from + s];
     if (s % 3 == 0) whole.faces[(to + s) / 3] = cover_.faces[(from + s) / 3];
-    // What is not glued here has not moved and is glued as fillStar() said.
+    // Sides that are not glued here did not change and are glued by fillStar().
     const int mate = cover_.glue[from + s];
     if (mate != unglued) whole.glue[to + s] = 6 * triangle[mate / 6] + mate % 6;
   }
@@ -266,7 +266,7 @@ void CoverNearFlips::appendFaces(int p, std::vector<std::array<int, 3>>& faces, 
 IntrinsicTriangulation CoverNearFlips::complete(const Workers& workers) const {
   const int n = stars_.size();
   const Buffer<int> first = firstTriangles(stars_);
-  RawBuffer<int> triangle(entry_of_.size());  // number in the whole of each that is present
+  RawBuffer<int> triangle(entry_of_.size());  // of each present triangle, its number in `whole`
   for (int p = 0; p < n; ++p) {
     if (isPresent(p))
       std::iota(triangle.begin() + first_[p], triangle.begin() + first_[p] + first[p + 1] - first[p], first[p]);

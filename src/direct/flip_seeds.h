@@ -10,14 +10,14 @@
 
 namespace tufted {
 
-/// A side that is glued to another along an edge that is not Delaunay, or within rounding of that: its plus copy, its
-/// minus copy or both. The plus copy runs from the smaller to the larger vertex.
+/// A side at an edge that is not Delaunay, possibly within rounding: its plus copy, its minus copy or both. The plus
+/// copy runs from the smaller to the larger vertex.
 struct FlipSeed {
   StarSide side;
   bool is_plus, is_minus;
 };
 
-/// The edges with which Algorithm 2 begins on a union of stars, by blocks of stars that the sides belong to.
+/// The edges with which Algorithm 2 begins on a union of stars, by blocks of stars (section 11 of docs/algorithm.md).
 Buffer<Buffer<FlipSeed>> findFlipSeeds(const Stars& stars, const EdgeLengths& length, const RadialCycles& cycles,
                                        const StarMetric& metric, std::int64_t block_size, const Workers& workers);
 

@@ -14,7 +14,7 @@
 namespace tufted {
 namespace {
 
-/// Visits the sides of the star of p that are not glued within it.
+/// Calls visit(side) for the sides of the star of p that are not glued within it.
 template <class Visit>
 void forEachOpenSide(const Stars& stars, int p, const Visit& visit) {
   for (int i = stars.offset[p]; i < stars.offset[p + 1]; ++i) {
@@ -36,7 +36,7 @@ RadialCycles::RadialCycles(const Stars& stars, const Buffer<std::uint8_t>& disag
 
 void RadialCycles::collect(const Workers& workers) {
   const int n = stars_.size();
-  const Buffer<int> near = numbersWhere("glue", n, workers, [this](int p) {  // the others have no side in a cycle
+  const Buffer<int> near = numbersWhere("glue", n, workers, [this](int p) {  // other stars have no side in a cycle
     const auto first = stars_.link.begin() + stars_.offset[p], last = stars_.link.begin() + stars_.offset[p + 1];
     return std::any_of(first, last, [this](int q) { return disagrees(q); });
   });
@@ -60,7 +60,7 @@ void RadialCycles::sort(const PointsView& points, const Workers& workers) {
     Buffer<CycleSide> sides;
     KeySort<CycleSide> key_sort;
     for (int low = static_cast<int>(begin); low < end; ++low) {
-      // They came in the order of stars and entries, which decides ties.
+      // Stable: ties keep the order of stars and entries.
       stableSort(sides_.data() + offset_[low], sides_.data() + offset_[low + 1], sides,
                  [](const CycleSide& a, const CycleSide& b) { return a.high < b.high; });
       for (int i = offset_[low], stop = 0; i < offset_[low + 1]; i = stop) {

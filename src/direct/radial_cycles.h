@@ -25,16 +25,16 @@ inline int tail(const Stars& stars, const StarSide& s) {
 inline int head(const Stars& stars, const StarSide& s) {
   return s.side == 2 ? s.star : stars.link[s.side == 0 ? s.entry : stars.after(s.star, s.entry)];
 }
-/// The corner that is not on the side.
+/// The corner opposite the side.
 inline int apex(const Stars& stars, const StarSide& s) {
   return s.side == 1 ? s.star : stars.link[s.side == 2 ? s.entry : stars.after(s.star, s.entry)];
 }
 
-/// The circular order of the faces around each edge of the union of stars with Gluing::star and FaceOrder::angle: link
-/// sides, and spokes where a star ends. (All other spokes are glued within their star.)
+/// The circular order of the triangles around each edge of the union of stars with Gluing::star and FaceOrder::angle,
+/// as sides: those in links, and spokes where a star ends. All other spokes are glued within their star.
 ///
-/// Only edges between points that both disagree need a cycle; any other has two faces, which the link of its agreeing
-/// end names.
+/// Only edges between two points that disagree need a cycle; all others have two triangles, which the link of an end
+/// that agrees names.
 class RadialCycles {
  public:
   /// @param stars borrowed
@@ -44,11 +44,11 @@ class RadialCycles {
 
   bool disagrees(int p) const { return disagrees_[p] != 0; }
 
-  /// The sides after and before this one around its edge; itself where there is no other.
+  /// The sides after and before this one around its edge; itself if it is the only one.
   StarSide next(const StarSide& side) const { return neighbor(side, 1); }
   StarSide previous(const StarSide& side) const { return neighbor(side, -1); }
 
-  /// Gives the memory back. Nothing may be asked afterwards.
+  /// Frees the memory; ends the use of the object.
   void drop() {
     release(offset_);
     release(sides_);
@@ -57,7 +57,7 @@ class RadialCycles {
   /// Whether the side lies in a cycle.
   bool isInCycle(const StarSide& side) const { return disagrees(tail(stars_, side)) && disagrees(head(stars_, side)); }
 
-  /// Calls visit(sides) for each cycle whose smaller vertex lies in [begin, end), its sides in order.
+  /// Calls visit(sides) for each cycle whose smaller vertex is in [begin, end).
   template <class Visit>
   void forEachCycle(int begin, int end, const Visit& visit) const {
     for (int i = offset_[begin]; i < offset_[end];) {

@@ -10,7 +10,7 @@
 namespace tufted {
 namespace {
 
-/// What belongs to p in the triangle (p, a, b): the part nearest to p, or half or a quarter of an obtuse triangle.
+/// The part of the triangle (p, a, b) that is nearest to p, or half or a quarter of it if it is obtuse.
 double mixedArea(double pa, double ab, double bp) {
   const double area = triangleArea(pa, ab, bp);
   if (!(area > 0)) return 0;

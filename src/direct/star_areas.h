@@ -7,8 +7,8 @@
 
 namespace tufted {
 
-/// The mixed area (Meyer et al. 2003, Section 3.3) of each point in its own star where the surface ends at the point;
-/// never negative, never more than the star's triangles. 0 elsewhere.
+/// The mixed area (Meyer et al. 2003, Section 3.3) in its own star of each point where the surface ends; between 0 and
+/// the area of the star. 0 at other points.
 /// @param points n x 3, by rank
 /// @returns n areas in units of `points` squared
 RawBuffer<double> ownAreas(const Stars& stars, const PointsView& points, const Workers& workers);

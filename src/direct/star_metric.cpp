@@ -35,7 +35,8 @@ class StarMeasurer {
   void take(int p, const TriangleFans& fans, int at, BlockSums& sums) const {
     const int begin = stars_.offset[p], end = stars_.offset[p + 1];
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    double area = 0, first = nan, before = nan;  // cotangents opposite spokes, in the first and the last triangle
+    // cotangents opposite the first spoke, and opposite spoke i in the previous triangle
+    double area = 0, first = nan, before = nan;
     bool is_flat = false;
     for (int i = begin; i < end; ++i, ++at) {
       if (!stars_.hasTriangle(i)) {

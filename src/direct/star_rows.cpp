@@ -10,7 +10,6 @@ namespace {
 
 class StarRows {
  public:
-  /// The faces of the cover are dropped unless they are kept.
   StarRows(const GluedStars& glued, bool keep_cover, double scale, const Workers& workers, Report& report)
       : stars_(glued.stars),
         metric_(glued.metric),
@@ -20,7 +19,7 @@ class StarRows {
     workers.forBlocks("assemble", stars_.size(), cheap_block, [&](std::int64_t begin, std::int64_t end, int) {
       for (int p = static_cast<int>(begin); p < end; ++p) {
         mixed_[p] |= metric_.is_flat[p] | static_cast<std::uint8_t>(glued.cover.isFlipped(p));
-        mass_[p] = mixed_[p] == 0 ? 2 * scale_ * metric_.area[p] : 0;  // front and back, 3 stars, a third
+        mass_[p] = mixed_[p] == 0 ? 2 * scale_ * metric_.area[p] : 0;  // 2 faces x 3 stars x 1/3 of the area
       }
     });
     summed_rows_ = summedRows(glued, mixed_, keep_cover, scale_, mass_, workers, report);
@@ -35,8 +34,8 @@ class StarRows {
     return mixed_[p] == 0 ? own : own + summed_rows_.offset[p + 1] - summed_rows_.offset[p];
   }
 
-  /// Calls visit(q, weight) for every edge of p. Where both ends are unmixed, their stars have the same two triangles
-  /// there, and the weight has the same bits from either.
+  /// Calls visit(q, weight) for every edge of p. If neither end is mixed both stars have the same two triangles there,
+  /// and the weight has the same bits from either.
   template <class Visit>
   void forEachInRow(int p, const Visit& visit) const {
     const bool is_mixed = mixed_[p] != 0;
@@ -54,15 +53,15 @@ class StarRows {
   }
 
  private:
-  /// The weight of the spoke to link vertex i of an unmixed star.
-  double spokeWeight(int i) const { return 3 * scale_ * metric_.cotan_sum[i]; }  // front and back, 3 stars, 1/2
+  /// The weight of the spoke to link vertex i of a star that is not mixed.
+  double spokeWeight(int i) const { return 3 * scale_ * metric_.cotan_sum[i]; }  // 2 faces x 3 stars x 1/2
 
   const Stars& stars_;
   const StarMetric& metric_;
   const double scale_;
-  Buffer<std::uint8_t> mixed_;  ///< n, 1 for points whose edges among each other are summed over faces
+  Buffer<std::uint8_t> mixed_;  ///< n, 1 for mixed points; edges between these are summed over faces
   RawBuffer<double> mass_;
-  Rows summed_rows_;  ///< edges between mixed points, from both ends
+  Rows summed_rows_;  ///< edges between mixed points, at both ends
 };
 
 }  // namespace

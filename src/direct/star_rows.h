@@ -9,12 +9,13 @@
 
 namespace tufted {
 
-/// assembleLaplacian() for glued stars: the same up to rounding.
+/// assembleLaplacian() for glued stars, with the same result up to rounding.
 ///
-/// An edge with an agreeing end that no flip came near has the same two angles opposite it in all its six copies, so
-/// that its weight is read off one star. Only edges between two other points are summed over the faces of the cover.
-/// @param keep_cover whether the cover is needed afterwards
-/// @param scale of one face, see faceScale()
+/// An edge with an end that agrees and that no flip came near has the same two opposite angles in all its six copies,
+/// so that its weight is read off one star. Only edges between other points, the mixed ones, are summed over faces of
+/// the cover.
+/// @param keep_cover whether the faces of the cover are needed later
+/// @param scale see faceScale()
 void assembleStars(const GluedStars& glued, bool keep_cover, const Buffer<int>& input_index, int size, double scale,
                    const Workers& workers, Laplacian& result);
 

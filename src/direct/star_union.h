@@ -19,44 +19,44 @@
 #include "stars/stars.h"
 #include "tufted/laplacian.h"
 
-// Read this file of the folder first. src/cover is the reference: Algorithms 1 to 3 of the paper on a whole cover. Here
-// the same L and M are made straight from the stars, which halves time and memory, because nearly all stars agree:
-// around them the cover is as the stars say, no edge flips, and weights can be read off. Only where stars disagree or
-// edges flip do parts of the cover exist. Whoever changes one of the two folders must change the other: CloudBuild.* in
+// Start here in this folder. src/cover is the reference: Algorithms 1 to 3 of the paper on a whole cover. Here the same
+// L and M are made straight from the stars (section 13 of docs/algorithm.md), which halves time and memory: nearly all
+// stars agree, so no edge flips around them and weights can be read off. Parts of a cover exist only where stars
+// disagree or edges flip. A change of one folder needs the same change of the other: CloudBuild.* in
 // tests/pipeline/cloud_build_test.cpp builds clouds both ways and compares L, M and the cover.
 namespace tufted {
 
-/// The union of the stars of a cloud, glued with Gluing::star and FaceOrder::angle, and all that was found out about
-/// it. The functions are called in this order, each once.
+/// The union of the stars of a cloud, glued with Gluing::star and FaceOrder::angle. measure(), flip() and assemble()
+/// are called once each, in this order.
 class StarUnion final : public CoverSource {
  public:
-  /// Glues (Algorithm 1).
+  /// Glues the stars (Algorithm 1).
   /// @param disagrees see findDisagreement()
-  /// @param size how many points the caller has
-  /// @param has_own_areas whether starAreas() will be asked for
+  /// @param size N, the number of the caller's points
+  /// @param has_own_areas whether starAreas() will be called
   StarUnion(Stars stars, Buffer<std::uint8_t> disagrees, RankedCloud cloud, int size, bool has_own_areas,
             const Workers& workers);
 
-  /// Lengths, and the cotangents and areas that follow.
-  /// @param memory is used again
+  /// Measures lengths, cotangents and areas.
+  /// @param memory reused
   StarMetric measure(RawBuffer<double> memory, const Workers& workers) const;
 
-  /// Algorithm 2.
+  /// Flips edges until all are Delaunay (Algorithm 2).
   FlipCounts flip(const StarMetric& metric, const Workers& workers);
 
-  /// L and M (Algorithm 3).
-  /// @param keep_cover whether cover() will be asked for
+  /// Sets L and M (Algorithm 3).
+  /// @param keep_cover whether cover() will be called
   void assemble(const StarMetric& metric, bool keep_cover, const Workers& workers, Laplacian& result);
 
-  /// The whole cover, which is made when it is first asked for.
+  /// The whole cover, made at the first call.
   const IntrinsicTriangulation& cover() const override;
   VectorXd starAreas() const override;
   bool appendFacesNear(const std::vector<Ball>& balls, std::vector<std::array<int, 3>>& faces,
                        std::vector<double>& length) const override;
 
-  /// The sides of the stars' triangles by component, in units of the ranked points.
-  /// @param component as Laplacian::component
-  /// @param components how many there are
+  /// Mean lengths of the sides of all triangles by component, in units of the ranked points.
+  /// @param component see Laplacian::component
+  /// @param components number of components
   Buffer<ComponentEdges> componentEdges(const std::vector<int>& component, std::int64_t components,
                                         const Workers& workers) const;
 
@@ -74,7 +74,7 @@ class StarUnion final : public CoverSource {
   mutable std::once_flag once_;
   mutable IntrinsicTriangulation whole_;
   mutable std::once_flag boxes_once_;
-  mutable std::optional<RunBoxes> boxes_;  ///< made when faces near something are first asked for
+  mutable std::optional<RunBoxes> boxes_;  ///< made at the first call of appendFacesNear()
 };
 
 }  // namespace tufted

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int block_size = CoverNearFlips::block_size;
 
-/// Part of the weight of an edge, or of the mass of a point where `low` and `high` are the same.
+/// A part of the weight of an edge, or of the mass of a point if `low` equals `high`.
 struct Term {
   int low, high;
   double value;
@@ -31,8 +31,8 @@ struct SumScratch {
   Buffer<Entry> sorted;
 };
 
-/// Sorts terms of edges by their ends and sums those of one edge in the order given.
-/// @param begin no less than this is `low`
+/// Sorts terms of edges by their ends and sums those of each edge, in the given order.
+/// @param begin first point of the block; every `low` is in the block
 void sumTerms(Buffer<Term>& terms, int begin, SumScratch& scratch) {
   Buffer<int>& fill = scratch.fill;
   fill.assign(block_size + 1, 0);
@@ -42,7 +42,7 @@ void sumTerms(Buffer<Term>& terms, int begin, SumScratch& scratch) {
   for (const Term& term : terms) scratch.entries[fill[term.low - begin]++] = {term.high, term.value};
   terms.clear();
   Entry* first = scratch.entries.data();
-  for (int i = 0; i < block_size; ++i) {  // by now each row begins where the one before was filled to
+  for (int i = 0; i < block_size; ++i) {  // fill[i] is now the end of row i
     Entry* const last = scratch.entries.data() + fill[i];
     const Entry* const end = mergeColumns(first, last, scratch.sorted);
     for (; first != end; ++first) terms.push_back({begin + i, first->column, first->weight});
@@ -52,8 +52,8 @@ void sumTerms(Buffer<Term>& terms, int begin, SumScratch& scratch) {
 
 /// Memory of one worker.
 struct WorkerState {
-  Buffer<int> numbers;   ///< of the mixed points of a block
-  Buffer<double> count;  ///< how often each triangle of a star counts, by entry
+  Buffer<int> numbers;   ///< the mixed points of a block
+  Buffer<double> count;  ///< weight of each triangle of a star, by entry
   TriangleFanBuffer fans;
   Buffer<Term> own, others;
   Buffer<int> fill;
@@ -61,13 +61,13 @@ struct WorkerState {
   std::int64_t degenerate_faces = 0;
 };
 
-/// Reads the terms of one block of points.
+/// Collects the terms of one block of points.
 ///
-/// Faces come in two kinds: front and back of a triangle that no flip has touched have the same lengths and are read
-/// off the stars of mixed points, twice; the others are in the cover.
+/// Front and back of a triangle that no flip has touched have equal lengths and are read off the stars of mixed points;
+/// all other faces are in the cover.
 class TermReader {
  public:
-  /// @param mass by rank; that of points of the block is added to
+  /// @param mass by rank; masses of the block's points are added to
   TermReader(const GluedStars& glued, const Buffer<std::uint8_t>& mixed, double scale, std::size_t block,
              RawBuffer<double>& mass, WorkerState& state)
       : stars_(glued.stars),
@@ -79,7 +79,7 @@ class TermReader {
         mass_(mass),
         state_(state) {}
 
-  /// Leaves the terms of the block's own edges and masses and those of others.
+  /// Collects the terms of edges and masses of the block in `own` and of other blocks in `others`.
   void read() {
     state_.own.clear();
     state_.others.clear();
@@ -93,8 +93,8 @@ class TermReader {
   }
 
  private:
-  /// How often each triangle of the star counts: not at all where a flip has touched it. Each of its three corners has
-  /// a copy, but only the stars of mixed points are read, so these copies count for those of the others.
+  /// Sets the weight of each triangle of the star: 0 if a flip has touched it, else 3 over the number of mixed corners,
+  /// because each of three corners has a copy but only the stars of mixed points are read.
   void weighTriangles(int p) {
     const int begin = stars_.offset[p], end = stars_.offset[p + 1];
     state_.count.resize(end - begin);
@@ -142,7 +142,7 @@ class TermReader {
     }
   }
 
-  /// @param cotans the sum over front and back, halved (Section 3.3)
+  /// @param cotans sum over front and back, halved (Section 3.3)
   void put(int a, int b, double cotans) {
     const Term term{std::min(a, b), std::max(a, b), scale_ * cotans};
     (blockOf(term.low) == block_ ? state_.own : state_.others).push_back(term);
@@ -168,11 +168,11 @@ class TermReader {
   WorkerState& state_;
 };
 
-/// Files edges under both ends.
-/// @param edges of each block, under the smaller end
-/// @param reversed the edges to points of other blocks
+/// Stores edges at both ends.
+/// @param edges by block, at the smaller end
+/// @param reversed edges to points of other blocks
 Rows fileEdges(int n, const Buffer<Buffer<Term>>& edges, const BlockExchange<Term>& reversed, const Workers& workers) {
-  const auto forEachEntry = [&](std::size_t block, const auto& visit) {  // of the block's rows
+  const auto forEachEntry = [&](std::size_t block, const auto& visit) {
     for (const Term& edge : edges[block]) {
       visit(edge.low, edge.high, edge.value);
       if (blockOf(edge.high) == block) visit(edge.high, edge.low, edge.value);
@@ -200,7 +200,7 @@ Rows summedRows(const GluedStars& glued, const Buffer<std::uint8_t>& mixed, bool
   const int n = glued.stars.size();
   const std::size_t blocks = blockOf(n + block_size - 1);
   Buffer<WorkerState> states(workers.count());
-  Buffer<Buffer<Term>> edges(blocks);  // each under its smaller end
+  Buffer<Buffer<Term>> edges(blocks);  // each at its smaller end
   BlockExchange<Term> terms(blocks), reversed(blocks);
 
   workers.forBlocks("assemble", std::ssize(edges), 1, [&](std::int64_t block, std::int64_t, int worker) {

@@ -11,14 +11,14 @@
 
 namespace tufted {
 
-/// The arrays of TriangleFans.
+/// Owns the arrays of TriangleFans.
 class TriangleFanBuffer {
  public:
   void clear() { fans_.count = 0; }
   int count() const { return fans_.count; }
   const TriangleFans& fans() const { return fans_; }
 
-  /// The triangles of star p, then the first spoke once more, which begins a triangle that nobody reads.
+  /// Appends the triangles of star p, then its first spoke again, which starts a triangle that is not read.
   void add(const Stars& stars, const EdgeLengths& length, int p) {
     const int begin = stars.offset[p], end = stars.offset[p + 1];
     if (begin == end) return;
@@ -55,7 +55,7 @@ class TriangleFanBuffer {
   TriangleFans fans_{};
 };
 
-/// The numbers [first, last); clang 14 cannot read std::views::iota.
+/// The numbers [first, last); clang 14 cannot compile std::views::iota.
 struct Numbers {
   std::int64_t first, last;
 
@@ -63,12 +63,11 @@ struct Numbers {
   int operator[](std::int64_t i) const { return static_cast<int>(first + i); }
 };
 
-/// Calls visit(p, fans, at) for each star in `numbers`, a sequence of numbers: its triangles are measured, the first is
-/// number `at`.
+/// Calls visit(p, fans, at) for each star p in `numbers`, with its triangles measured; the first is number `at`.
 template <class Sequence, class Visit>
 void forEachTriangleFan(const Stars& stars, const EdgeLengths& length, const Sequence& numbers,
                         TriangleFanBuffer& buffer, const Visit& visit) {
-  constexpr int batch = 128;  // triangles that are measured together, from the first-level cache
+  constexpr int batch = 128;  // triangles measured at once, in the first-level cache
   const Kernels& kernel = kernels();
   const auto size = std::ssize(numbers);
   for (std::int64_t i = 0; i < size;) {

@@ -11,31 +11,32 @@
 namespace tufted {
 namespace {
 
-/// Points of a batch at most. 48 and 64 were no faster, as each point looks through more candidates, nor were 12 to 24.
+/// Greatest number of points of a batch. 48 and 64 were no faster, as each point tests more candidates, nor were 12 to
+/// 24.
 constexpr int most_batch = 32;
-/// Diagonal of the box of a batch at most, in radii of a neighbourhood; 3.2 and 4 were no faster. Batches of a fixed
+/// Greatest diagonal of the box of a batch, in radii of a neighbourhood; 3.2 and 4 were no faster. Batches of a fixed
 /// number of points straddle jumps of the curve (1.55 instead of 1.29 us per point).
 constexpr double widest_batch = 2.5;
-/// The squared radius of the point before, times this, holds the k nearest most often; where not, the bound is used.
+/// The squared k-th distance of the previous point times this mostly holds k points; if not, the bound is used.
 constexpr double likely = 1.08;
-/// Radii of a neighbourhood that are searched around a batch at first: half as many candidates as the proven ball holds
-/// (100,000 points: 70 to 49 ms).
+/// The first ball exceeds the batch by this many radii of a neighbourhood: half as many candidates as in the proven
+/// ball (100,000 points: 70 to 49 ms).
 constexpr double first_around = 1.2;
-/// Where that is not enough the ball grows by the first factor, up to the second in all; then the proven ball is
-/// searched.
+/// If the first ball is too small it grows by `next_around`, while it stays below `last_around`; then the proven ball
+/// is searched.
 constexpr double next_around = 1.6, last_around = 4;
-/// A ball for one point is larger by this, so that the next point of the batch is served as well.
+/// A ball for one point is larger than needed by this factor, to serve the next point as well.
 constexpr double spare_around = 1.05;
 constexpr double nowhere = std::numeric_limits<double>::infinity();
 
-/// Puts what was searched last to the candidates that are known, for this batch.
+/// Appends the result of the last search to the known candidates, as those of `batch`.
 void keepSearched(SearchedBatch& batch, BatchScratch& scratch) {
   batch.begin = scratch.known.size();
   scratch.known.insert(scratch.known.end(), scratch.searched.begin(), scratch.searched.end());
   batch.end = scratch.known.size();
 }
 
-/// How far from `point` everything is in the ball.
+/// The distance from `point` to the border of the ball.
 double roomAround(const Eigen::RowVector3d& point, const SearchedBall& ball) {
   return ball.radius - (point - ball.center).norm();
 }
@@ -54,7 +55,7 @@ PointGroup groupOf(const PointsView& points, const Ranks& ranks) {
   return {ranks[0], ranks[count / 2], center, std::sqrt(farthest)};
 }
 
-/// All points from `first` on.
+/// A range of consecutive ranks.
 struct Consecutive {
   int first;
   std::size_t count;
@@ -88,14 +89,14 @@ class BatchCandidates {
     scratch_.index.resize(room + kernel_packet);
   }
 
-  /// Takes those within `guess` where that is less than `bound` and holds k, else those within `bound`. Returns how
-  /// many.
+  /// Takes the candidates within the squared distance `guess` if that is below `bound` and holds k, else within
+  /// `bound`. Returns their number.
   int takeWithin(int p, int k, double guess, double bound) {
     const int count = guess < bound ? takeWithin(p, guess) : 0;
     return count < k ? takeWithin(p, bound) : count;
   }
 
-  /// As takeWithin(), bounded by how far around p the ball reaches. Returns 0 where there are not k.
+  /// takeWithin() bounded by the border of the ball. Returns 0 if fewer than k are within it.
   int takeWithinBall(int p, int k, double guess, const SearchedBall& ball) {
     const double room = roomAround(points_.row(p), ball), bound = room * room * (1 - distance_rounding);
     if (!(room > 0 && bound > least_square)) return 0;
@@ -103,9 +104,9 @@ class BatchCandidates {
     return count < k ? 0 : count;
   }
 
-  /// The k least by (distance, index) of what was taken, in order, and anything behind them, where the next row will be
-  /// or the end's spare room is. Where no two distances are one float, each goes to the place that says how many are
-  /// less.
+  /// Writes the k least of the taken candidates by (distance, index), ascending, to `row`, and others behind them,
+  /// where the next row or spare room is. A candidate's place is the number of smaller distances, if no two are equal
+  /// as floats.
   void takeNearest(int count, int k, Neighbor* row) {
     const int room = toPackets(count);
     std::fill(scratch_.squared.begin() + count, scratch_.squared.begin() + room, nowhere);
@@ -113,12 +114,13 @@ class BatchCandidates {
     scratch_.place.resize(room + 2 * kernel_packet);
     kernels_.rankValues(scratch_.squared.data(), room, scratch_.rounded.data(), scratch_.place.data());
     std::int64_t sum = 0;
-    for (int i = 0; i < count; ++i) {  // those behind the k-th as well: which they are cannot be foreseen
+    // Those behind the k-th are written too, which saves an unpredictable branch.
+    for (int i = 0; i < count; ++i) {
       sum += scratch_.place[i];
       row[scratch_.place[i]] = {scratch_.squared[i], scratch_.index[i]};
     }
     if (sum == static_cast<std::int64_t>(count) * (count - 1) / 2) return;
-    // Those of one float stand behind each other first, and then change places among themselves.
+    // Equal floats are placed one behind the other, then sorted.
     scratch_.sorted.resize(static_cast<std::size_t>(count));
     scratch_.taken.assign(static_cast<std::size_t>(count), 0);
     for (int i = 0; i < count; ++i) {
@@ -144,11 +146,11 @@ class BatchCandidates {
   BatchScratch& scratch_;
 };
 
-/// Finds the k nearest of each point of a batch, in one of three ways:
-/// - among what lies around the batch a little farther than the radius of a neighbourhood nearby, or twice as far: this
-///   holds nearly always, and is certain for each point whose k nearest lie within the ball that was searched;
-/// - among all that can be among the k nearest of any point of the batch, by the k nearest of its centre;
-/// - where these are too many, in halves, and at last for one point alone.
+/// Finds the k nearest neighbours of each point of a batch, in one of three ways:
+/// - among the points up to 1.2 radii of a nearby neighbourhood around the batch, or a few times as far: nearly always
+/// enough, and certain for each point whose k nearest lie within the ball that was searched;
+/// - among all points that can be among the k nearest of any point of the batch, by the k nearest of its centre;
+/// - if these are too many, in halves of the batch, and at last for one point by itself.
 /// @tparam Ranks the points of a batch, ascending: Consecutive, or a span
 template <class Ranks>
 class BatchSearch {
@@ -160,7 +162,7 @@ class BatchSearch {
     scratch_.known.clear();
   }
 
-  /// How many points from the first on lie close enough together.
+  /// How many of the first points lie close enough together for one batch.
   int batchAt(const Ranks& ranks, double radius) const {
     Eigen::RowVector3d lowest = points_.row(ranks[0]), highest = lowest;
     const int most = std::min(static_cast<int>(ranks.size()), most_batch);
@@ -184,12 +186,12 @@ class BatchSearch {
   double radiusOf(const Neighbor* row) const { return std::sqrt(row[k_ - 1].squared_distance); }
 
  private:
-  /// The first way. Returns how many points of the batch, from the first on, are done.
+  /// The first way. Returns how many points of the batch, counted from the first, have their neighbours.
   int findAround(const Ranks& ranks, double radius, Neighbor* found) {
     const int count = static_cast<int>(ranks.size());
     const PointGroup group = groupOf(points_, ranks);
     int done = 0;
-    // NOLINTNEXTLINE(clang-analyzer-security.FloatLoopCounter): it grows by a factor, and need not end exactly
+    // grows by a factor and need not end exactly
     for (double around = first_around; around < last_around; around *= next_around) {
       SearchedBatch batch = batchOf(ranks);
       if (!search_.candidatesWithin(group, k_, around * radius, scratch_.searched, batch.ball)) break;
@@ -206,7 +208,7 @@ class BatchSearch {
     return done;
   }
 
-  /// The second way, for the points of the batch from `done` on, or else the third.
+  /// The second way, for the points of the batch from `done` on, or the third.
   void findByCentre(const Ranks& ranks, int done, Neighbor* found) {
     const int count = static_cast<int>(ranks.size());
     SearchedBatch batch = batchOf(ranks);
@@ -218,7 +220,7 @@ class BatchSearch {
     keep(batch);
     for (int i = done; i < count; ++i) {
       const int p = ranks[i];
-      // Around p lie the k nearest of the centre, and most often nearer those of the point before.
+      // Balls around p that hold the k nearest of the centre, or those of the previous point.
       double bound = batch.ball.k_radius + (points_.row(p) - batch.ball.center).norm(), guess = nowhere;
       if (i > 0) {
         const double before = radiusOf(rowOf(found, i - 1));
@@ -228,7 +230,7 @@ class BatchSearch {
       const int taken = candidates_.takeWithin(p, k_, guess, widened(bound * bound));
       if (taken >= k_)
         candidates_.takeNearest(taken, k_, rowOf(found, i));
-      else  // the squares of its distances underflow, and no bound on them holds
+      else  // squared distances underflow, so that no bound on them holds
         findAlone(p, rowOf(found, i));
     }
   }
@@ -242,7 +244,7 @@ class BatchSearch {
     std::copy(scratch_.sorted.begin(), scratch_.sorted.end(), row);
   }
 
-  /// Makes what was searched last the candidates of the batch.
+  /// Makes the result of the last search the candidates of the batch.
   void keep(SearchedBatch& batch) {
     keepSearched(batch, scratch_);
     scratch_.batches.push_back(batch);

@@ -12,9 +12,10 @@ namespace {
 
 using Index = flann::KDTreeSingleIndex<flann::L2_Simple<double>>;
 
-/// Points of a tree where there are several: searching more trees costs more than building them saves.
+/// Least number of points of one of several trees: searching smaller ones costs more than building them in parallel
+/// saves.
 constexpr int least_points = 8192;
-/// Points in a leaf.
+/// Greatest number of points in a leaf.
 constexpr int leaf_size = 16;
 const flann::SearchParams all_checks{flann::FLANN_CHECKS_UNLIMITED};
 
@@ -74,7 +75,7 @@ void KdForest::search(const Tree& tree, const double* position, RankSet& found) 
 }
 
 std::size_t KdForest::bytes() const {
-  // Tree nodes by FLANN's own count, then a pointer and an index per point.
+  // FLANN counts the nodes; it also holds a pointer and an index per point.
   std::size_t sum = static_cast<std::size_t>(size_) * (sizeof(double*) + sizeof(int));
   for (const Tree& tree : trees_) sum += static_cast<std::size_t>(tree.index->usedMemory());
   return sum;

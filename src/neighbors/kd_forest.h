@@ -10,10 +10,10 @@
 
 namespace tufted {
 
-/// What collects the points that a KdForest finds: all that are nearer than worstDist(), and others.
+/// Collects the points that a KdForest finds: all that are nearer than worstDist(), and possibly others.
 class RankSet : public flann::ResultSet<double> {
  protected:
-  /// @param index as shown to addPoint()
+  /// @param index the argument of addPoint()
   int rankOf(std::size_t index) const { return first_ + static_cast<int>(index); }
 
  private:
@@ -21,9 +21,9 @@ class RankSet : public flann::ResultSet<double> {
   int first_ = 0;
 };
 
-/// FLANN's KDTreeSingleIndex in double over consecutive points, a tree for each thread that may build one.
+/// FLANN's KDTreeSingleIndex in double over consecutive points: one tree, or several built by as many threads.
 ///
-/// The order in which points are found depends on the number of trees, and which are found beyond the last worstDist().
+/// The number of trees changes the order in which points are found, and which points beyond the last worstDist() are.
 class KdForest : public InWorkspace {
  public:
   /// @param points n x 3, n > 0; borrowed for the life of the forest
@@ -32,8 +32,9 @@ class KdForest : public InWorkspace {
   KdForest(const KdForest&) = delete;
   KdForest& operator=(const KdForest&) = delete;
 
+  /// Shows all points nearer to `position` than found.worstDist(), which may shrink meanwhile.
   /// @param position 3 coordinates
-  /// @param near_rank the tree of this point is searched first, which bounds the search of the others
+  /// @param near_rank a point near `position`, whose tree is searched first, which bounds the search of the others
   void search(const double* position, int near_rank, RankSet& found) const;
 
   std::size_t bytes() const;

@@ -15,7 +15,7 @@ namespace {
 /// Bits of a code per axis: three axes fill 63.
 constexpr int axis_bits = 21;
 constexpr double axis_cells = 1 << axis_bits;
-/// Cells per median spread: the grid reaches over 32 spreads, and what lies outside goes to its border.
+/// Cells per median spread: the grid covers 32 spreads, and points outside fall into its border.
 constexpr double cells = 1 << 16;
 
 /// Spreads the low 21 bits of v to every third bit.
@@ -31,7 +31,7 @@ std::uint64_t mortonCode(const Eigen::Array3d& from_corner) {
   std::uint64_t code = 0;
   for (int axis = 0; axis < 3; ++axis) {
     const double cell = from_corner[axis] * cells;
-    const double clamped = std::clamp(cell, 0.0, axis_cells - 1);  // outliers go to the border
+    const double clamped = std::clamp(cell, 0.0, axis_cells - 1);  // outliers fall into the cells of the border
     code |= spreadBits(static_cast<std::uint64_t>(clamped)) << axis;
   }
   return code;
@@ -45,12 +45,12 @@ struct Key {
 /// Bits of a digit of the radix sort: four passes, whose counters fit the first-level cache.
 constexpr int digit_bits = 11;
 constexpr std::size_t buckets = std::size_t{1} << digit_bits;
-/// The lowest bit that is sorted by. Lower ones tell few points apart, fewer than two more passes over all points are
-/// worth.
+/// The lowest bit that the radix sort uses. Lower bits distinguish so few points that two more passes would cost more
+/// than comparisons.
 constexpr int lowest_bit = 22;
-constexpr std::int64_t least_part = 1 << 16;  // keys that a thread sorts at least
+constexpr std::int64_t least_part = 1 << 16;  // keys per thread at least
 
-/// Sorts by the code from lowest_bit on, those where it is the same as they come, digit by digit from the last.
+/// Stable parallel radix sort of the keys by the bits of their codes from lowest_bit on, least significant digit first.
 void sortByHighBits(RawBuffer<Key>& keys, const Workers& workers) {
   const std::int64_t size = std::ssize(keys);
   const std::int64_t part = std::max(least_part, (size + workers.count() - 1) / workers.count());
@@ -75,12 +75,12 @@ void sortByHighBits(RawBuffer<Key>& keys, const Workers& workers) {
   }
 }
 
-/// Sorts what sortByHighBits() could not tell apart.
+/// Sorts keys that sortByHighBits() left equal, by comparison.
 template <class Less>
 void sortByRest(RawBuffer<Key>& keys, const Workers& workers, const Less& less) {
   const auto high = [&](std::int64_t i) { return keys[i].code >> lowest_bit; };
   const std::int64_t size = std::ssize(keys);
-  Buffer<std::int64_t> start;  // of parts, each of whole runs
+  Buffer<std::int64_t> start;  // starts of parts that consist of whole runs
   for (std::int64_t i = 0; i < size; i += least_part) {
     while (i > 0 && i < size && high(i) == high(i - 1)) ++i;
     start.push_back(i);
@@ -96,7 +96,7 @@ void sortByRest(RawBuffer<Key>& keys, const Workers& workers, const Less& less) 
   });
 }
 
-/// Takes out points that equal the one before, which is their representative.
+/// Removes points that equal the previous one, which becomes their representative.
 void mergeCoincident(RankedCloud& cloud, std::vector<PointStatus>& status, std::vector<int>& representative,
                      const Workers& workers) {
   const Buffer<int> repeated = numbersWhere("order", cloud.size(), workers, [&](int rank) {
@@ -144,10 +144,11 @@ RankedCloud rankPoints(const PointsRef& points, std::vector<PointStatus>& status
 
   const PowerOfTwo to_scaled = scaling.toScaled();
   const auto scaled = [&](int i) -> Eigen::Array3d {
-    const auto times = [&](double x) { return to_scaled.times(x) + 0.0; };  // no -0: equal have equal bits
+    // no -0, so that equal numbers have equal bits
+    const auto times = [&](double x) { return to_scaled.times(x) + 0.0; };
     return {times(points(i, 0)), times(points(i, 1)), times(points(i, 2))};
   };
-  // The grid starts at a corner of the data, but not further than 16 spreads from its middle.
+  // The grid starts at the least corner of the data, but at most 16 spreads from the centre.
   Eigen::Array3d corner;
   for (int axis = 0; axis < 3; ++axis)
     corner[axis] = std::max(to_scaled.times(scaling.center[axis]) - 16, to_scaled.times(scaling.lowest[axis]));
@@ -157,7 +158,7 @@ RankedCloud rankPoints(const PointsRef& points, std::vector<PointStatus>& status
     const int index = cloud.input_index[i];
     keys[i] = {mortonCode(scaled(index) - corner), index};
   });
-  // Keys differ, so any way of sorting gives the same order.
+  // No two keys are equal, so the order does not depend on how they are sorted.
   sortByHighBits(keys, workers);
   sortByRest(keys, workers, [&](const Key& a, const Key& b) {
     if (a.code != b.code) return a.code < b.code;

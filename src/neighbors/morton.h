@@ -12,15 +12,18 @@ namespace tufted {
 /// The distinct finite points of a cloud along a Morton curve. The position in this order is the point's rank;
 /// every tie rule of the pipeline compares ranks, so a permuted cloud gives the permuted result.
 struct RankedCloud {
-  PointBuffer points;  ///< n x 3, in units of 2^exponent
-  PointBuffer move;    ///< n x 3, how points were moved out of noise from where the caller has them; 0 x 3: none was
-  Buffer<int> input_index;  ///< n, the caller's index of each rank (of coincident points, the lowest)
+  PointBuffer points;       ///< n x 3, in units of 2^exponent
+  PointBuffer move;         ///< n x 3, how far denoising moved each point; 0 x 3: nothing moved
+  Buffer<int> input_index;  ///< n, the caller's index of each rank (the lowest one of coincident points)
   int exponent = 0;
 
   int size() const { return static_cast<int>(input_index.size()); }
 };
 
-/// Scales, sorts and merges. Fills `status` (not_finite, coincident, else active) and `representative` (N each).
+/// Scales points, sorts them along the Morton curve and merges equal ones (section 1 of docs/algorithm.md).
+/// @param points N x 3
+/// @param[out] status N; not_finite, coincident, else active
+/// @param[out] representative N, see Laplacian::representative
 RankedCloud rankPoints(const PointsRef& points, std::vector<PointStatus>& status, std::vector<int>& representative,
                        const Workers& workers);
 /// rankPoints() on one thread.

@@ -45,15 +45,15 @@ void takeNeighborhoods(const Neighborhoods& lists, const RankedCloud& cloud, con
   }
 }
 
-/// Whether the azimuths of a scan lead to the points nearby, as those of other points, or all the same, do not: most
-/// points of a sample must find the nearest point of their ring and of those beside it, or one at most twice as far,
-/// unless it lies beyond the ball that is searched. Rounded azimuths do, as long as few points share one.
+/// Whether the azimuths of a scan lead to nearby points, as those of another scan, or equal ones, do not: at least half
+/// of a sample of points must find the nearest point of their ring and of the two rings beside it, or one at most twice
+/// as far, unless that lies beyond the ball that is searched. Rounded azimuths pass as long as few points share one.
 bool azimuthsFit(const RankedScan& scan, const RankedCloud& cloud, const RingSearch& search, int k) {
-  // Points by which azimuths are tested; for each all others of three rings are looked at.
+  // Number of sampled points; each is compared with all points of three rings.
   constexpr int samples = 128;
-  // Points of a ring at one azimuth at most, in the mean: the search of a ring takes so many on each side.
+  // Mean number of points of a ring with the same azimuth at most: the search of a ring takes that many on each side.
   constexpr std::size_t most_at_once = 16;
-  // By ring; rings without points are left out.
+  // The points of each ring that has any.
   std::map<int, Buffer<int>> rings;
   for (int p = 0; p < cloud.size(); ++p)
     if (scan.row[p] >= 0) rings[scan.row[p]].push_back(p);

@@ -11,19 +11,18 @@
 namespace tufted {
 namespace {
 
-/// Up to so many neighbours are kept in order as they are found, more are sorted at last: keeping 512 in order took a
-/// third of the time of denoise() on a noisy cube.
+/// Up to this many neighbours are kept sorted while they are found; more are sorted at the end. Keeping 512 sorted took
+/// a third of the time of denoise() on a noisy cube.
 constexpr int most_inserted = 64;
 
 /// The k smallest candidates by (distance, index), without the query point itself.
 ///
-/// FLANN's own sets keep whichever of two equally distant points comes first in the tree, and its pruning sums
-/// rounded terms. So the bound shown to FLANN is a little wider than the k-th distance, which is all the slack its
-/// rounding needs, and ties are decided here. L2_Simple adds the squared differences in the order x, y, z, so its
-/// distances are the same bits for any tree.
+/// FLANN's own sets keep whichever of two equally distant points comes first in the tree, and its pruning sums rounded
+/// terms. So the bound for FLANN is wider than the k-th distance by as much as its rounding needs, and ties are decided
+/// here. L2_Simple adds the squared differences in the order x, y, z, so its distances are the same bits for any tree.
 class NearestSet : public RankSet {
  public:
-  /// @param radius of a ball that holds k points beside the query point, or infinity
+  /// @param radius of a ball that holds k points other than the query point, or infinity
   NearestSet(int self, int k, double radius, Buffer<Neighbor>& found)
       : found_(found), k_(static_cast<std::size_t>(k)), self_(self) {
     found_.clear();
@@ -44,7 +43,7 @@ class NearestSet : public RankSet {
   double worst_ = 0;
 };
 
-/// Keeps them in order, which takes least for a few.
+/// Keeps its points sorted: fastest for few neighbours.
 class AscendingSet final : public NearestSet {
  public:
   using NearestSet::NearestSet;
@@ -61,7 +60,7 @@ class AscendingSet final : public NearestSet {
   }
 };
 
-/// Chooses them among twice as many now and then, which takes least for hundreds.
+/// Collects up to 2 k points, then keeps the k nearest: fastest for hundreds.
 class UnorderedSet final : public NearestSet {
  public:
   using NearestSet::NearestSet;
@@ -75,7 +74,7 @@ class UnorderedSet final : public NearestSet {
     setWorst(found_.back().squared_distance);
   }
 
-  /// Keeps the k nearest; the largest comes last.
+  /// Keeps the k nearest; the farthest comes last.
   void choose() {
     if (found_.size() < k_) return;
     std::nth_element(found_.begin(), found_.begin() + static_cast<std::ptrdiff_t>(k_ - 1), found_.end());
@@ -83,8 +82,8 @@ class UnorderedSet final : public NearestSet {
   }
 };
 
-/// All points in a ball that shrinks to reach as far as the nearest and a little beyond: the roundings of squares,
-/// which lose digits where they underflow.
+/// All points that may be the nearest: the ball shrinks to the nearest distance plus the rounding of squares, including
+/// that of subnormal ones.
 class NearestTies final : public RankSet {
  public:
   explicit NearestTies(Buffer<Neighbor>& found) : found_(found) { found_.clear(); }
@@ -111,7 +110,7 @@ class NearestTies final : public RankSet {
   double worst_ = std::numeric_limits<double>::infinity();
 };
 
-/// All points in a ball, up to one more than `most`.
+/// All points in a ball; stops once there are more than `most`.
 class WholeBall : public RankSet {
  public:
   WholeBall(double radius, int most, Buffer<int>& found) : most_(static_cast<std::size_t>(most)), found_(found) {
@@ -125,7 +124,7 @@ class WholeBall : public RankSet {
 
   void addPoint(double, size_t index) override {
     found_.push_back(rankOf(index));
-    if (isTooFull()) worst_ = -1;  // nothing is nearer: the search ends
+    if (isTooFull()) worst_ = -1;  // no distance is smaller, so the search ends
   }
 
  protected:
@@ -137,13 +136,14 @@ class WholeBall : public RankSet {
   double worst_ = 0;
 };
 
-/// Collects points in a ball whose radius shrinks to that of the k nearest of the centre plus a margin.
+/// Collects points in a ball whose radius shrinks to the k-th distance from the centre plus a margin.
 class ShrinkingBall final : public WholeBall {
  public:
-  /// @param nearest k squared distances of points from the centre, a heap with the largest in front
+  /// @param nearest k squared distances from points to the centre, the largest in front
   ShrinkingBall(double margin, int most, Buffer<double>& nearest, Buffer<int>& found)
       : WholeBall(std::sqrt(nearest.front()) + margin, most, found), margin_(margin), nearest_(nearest) {
-    std::fill(nearest_.begin(), nearest_.end(), nearest_.front());  // a bound; the points come again
+    // a bound; these points are found again
+    std::fill(nearest_.begin(), nearest_.end(), nearest_.front());
   }
 
   void addPoint(double squared_distance, size_t index) override {
@@ -154,7 +154,7 @@ class ShrinkingBall final : public WholeBall {
   }
 
  private:
-  /// Half of what taking one from the heap and adding one costs.
+  /// Half the cost of std::pop_heap and std::push_heap.
   void replaceLargest(double squared_distance) {
     std::size_t hole = 0, child = 1;
     for (; child < nearest_.size(); child = 2 * hole + 1) {
@@ -200,7 +200,7 @@ void NeighborSearch::nearest(int p, int k, Buffer<Neighbor>& found, NeighborOrde
   double radius = std::numeric_limits<double>::infinity();
   if (before != nullptr && before->k >= k) radius = before->radius + (points_.row(p) - points_.row(before->p)).norm();
   search(radius);
-  if (std::ssize(found) < k) search(std::numeric_limits<double>::infinity());  // the bound was lost in rounding
+  if (std::ssize(found) < k) search(std::numeric_limits<double>::infinity());  // rounding made the bound too small
   if (before != nullptr) *before = {p, k, std::sqrt(found.back().squared_distance)};
 }
 
@@ -219,8 +219,8 @@ bool NeighborSearch::candidates(const PointGroup& group, int k, Buffer<int>& fou
   const int n = static_cast<int>(points_.rows());
   ball.center = group.center;
 
-  // A point of the group is not its own neighbour, so k + 1 nearest of the centre hold k neighbours of it. Points near
-  // on the curve bound their distance to begin with.
+  // A point of the group is not its own neighbour, so k + 1 nearest of the centre hold k neighbours of it. The nearest
+  // of the points around it on the curve give a first bound.
   const int wanted = std::min(k, n - 1) + 1;
   const int begin = std::max(0, std::min(group.middle - wanted, n - 2 * wanted));
   const int end = std::min(n, begin + 2 * wanted);

@@ -5,7 +5,7 @@
 namespace tufted {
 namespace {
 
-/// Points of a run. A million points have 3,907 runs, of which a ball of 1,000 points meets some 20.
+/// Points per run. A million points have 3,907 runs, of which a ball of 1,000 points meets about 20.
 constexpr std::int64_t run_size = 256;
 
 }  // namespace

@@ -12,10 +12,11 @@
 
 namespace tufted {
 
-/// Bounding boxes of runs of points along the Morton curve: who asks for the points in balls looks at few of them.
+/// Bounding boxes of runs of points along the Morton curve, so that a search for the points in a few balls visits few
+/// runs.
 class RunBoxes {
  public:
-  /// @param points n x 3, which must outlive this
+  /// @param points n x 3, borrowed for the life of this object
   RunBoxes(const PointsView& points, const Workers& workers);
 
   /// Calls visit(p) for the points in any of the balls, each once, ascending.
@@ -41,7 +42,7 @@ class RunBoxes {
     Eigen::Vector3d least, greatest;
   };
 
-  /// How far a place lies outside of a box.
+  /// The distance from a position to a box; 0 within it.
   static double gapTo(const Box& box, const Eigen::Vector3d& place) {
     return (box.least - place).cwiseMax(place - box.greatest).cwiseMax(0).norm();
   }

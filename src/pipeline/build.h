@@ -6,16 +6,16 @@ namespace tufted {
 
 /// How L and M are made from the stars.
 enum class CloudBuild {
-  automatic,  ///< from the stars themselves where they agree, with Gluing::star and FaceOrder::angle; else by the cover
-  whole_cover,  ///< the plain way: the whole cover first, as for meshes. What tests compare with
+  automatic,  ///< straight from the stars (src/direct) with Gluing::star and FaceOrder::angle, else by the whole cover
+  whole_cover,  ///< always by the whole cover (src/cover), as for meshes; the reference of tests
 };
 
-/// See pointCloudLaplacian().
-/// @param[out] result of no use after an exception; what it was before does not matter, but its memory is used again
+/// Builds the Laplacian of a cloud, see pointCloudLaplacian().
+/// @param[out] result replaced, in memory that it already has; undefined after an exception
 void buildCloudLaplacian(const PointsRef& points, const CloudOptions& options, CloudBuild build, Laplacian& result);
 
-/// See meshLaplacian().
-/// @param[out] result as above
+/// Builds the Laplacian of a mesh, see meshLaplacian().
+/// @param[out] result see buildCloudLaplacian()
 void buildMeshLaplacian(const PointsRef& points, const TrianglesRef& triangles, const MeshOptions& options,
                         Laplacian& result);
 

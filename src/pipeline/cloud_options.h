@@ -5,7 +5,8 @@
 
 namespace tufted {
 
-/// @throws InvalidInput in the name of `function` for options out of range, or arrays that do not fit the points
+/// Checks the options of a build of a cloud.
+/// @throws InvalidInput, naming `function`, for options out of range and arrays that do not fit the points
 void checkCloudOptions(const char* function, const PointsRef& points, const CloudOptions& options);
 
 }  // namespace tufted

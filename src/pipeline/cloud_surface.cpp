@@ -18,9 +18,9 @@
 namespace tufted {
 namespace {
 
-/// The noise around each point that moves, n values with 0 at the others, or 0 values if none moves. Reports it too.
-/// @param moves n x 3, or 0 x 3
-/// @param deviation(p) standard deviation around a point that moves
+/// The noise around each point, see CloudSurface::noise; reports how many points move, and the median.
+/// @param moves n x 3, or 0 x 3 if no point moves
+/// @param deviation deviation(p): standard deviation around a point that moves
 template <class Deviation>
 RawBuffer<double> noiseOfMoved(const PointBuffer& moves, const Deviation& deviation, int exponent, Report& report) {
   RawBuffer<double> noise(static_cast<std::size_t>(moves.rows()));
@@ -35,7 +35,7 @@ RawBuffer<double> noiseOfMoved(const PointBuffer& moves, const Deviation& deviat
   return noise;
 }
 
-/// Finds the stars of the points as they are, and moves these along their rays then.
+/// Finds the stars of a depth image, then moves the points along their rays.
 CloudSurface imageSurface(PixelGrid grid, RankedCloud& cloud, const CloudOptions& options, const Workers& workers,
                           StageClock& clock, Report& report) {
   const PointBuffer normals = rankedNormals(options.normals, cloud, report);
@@ -50,7 +50,7 @@ CloudSurface imageSurface(PixelGrid grid, RankedCloud& cloud, const CloudOptions
   BuiltStars built = buildImageStars(image, normals, options, workers, report);
   clock.finish("stars", built.stars.bytes() + built.support.bytes());
   const bool is_whole_cloud = cloud.size() <= WindowPixels::count + 1;
-  // Triangles are as large as they are between points on the surface.
+  // Triangles are filtered by their size between moved points.
   CloudSurface result{
       filteredStars(std::move(built), is_whole_cloud, image.moved, options, workers, report), {}, std::move(noise)};
   clock.restart();
@@ -62,7 +62,7 @@ CloudSurface imageSurface(PixelGrid grid, RankedCloud& cloud, const CloudOptions
   return result;
 }
 
-/// Moves the points of the cloud onto the surface within its noise, and searches among them from then on.
+/// Moves the points of the cloud onto the surface and builds their search anew.
 /// @returns see CloudSurface::noise
 RawBuffer<double> moveOntoSurface(RankedCloud& cloud, NeighborSource& source, const Workers& workers, Report& report) {
   if (source.search == nullptr || source.isWholeCloud(cloud.size())) return {};

@@ -19,15 +19,15 @@
 namespace tufted {
 namespace {
 
-/// A point counts as far off in `tufted info` if its nearest is so many times as far as usual; on a random surface by
-/// chance once in 3e7.
+/// `tufted info` counts a point as an outlier if its nearest neighbour is this many times as far as usual; on a random
+/// surface by chance once in 3e7.
 constexpr double outlier_ratio = 5;
 
-/// The k nearest of every point, and what is seen on the way.
+/// The k nearest neighbours of every point, with derived values.
 struct NeighborGraph {
   int k = 0;
   Buffer<int> nearest;      ///< n * k ranks
-  Buffer<double> distance;  ///< n, to the nearest
+  Buffer<double> distance;  ///< n, distance to the nearest
   Buffer<std::uint8_t> on_line;
 };
 
@@ -60,7 +60,7 @@ double quantile(Buffer<double> values, double q) {
   return *at;
 }
 
-/// Points far from all others, measured by how far their neighbours are from theirs.
+/// Counts points whose nearest neighbour is much farther away than those of its neighbours.
 std::int64_t countOutliers(const NeighborGraph& graph, const Workers& workers) {
   Buffer<std::int64_t> counts(workers.count());
   workers.forBlocks("outliers", static_cast<std::int64_t>(graph.distance.size()), usual_block,
@@ -86,7 +86,7 @@ std::int64_t countComponents(const NeighborGraph& graph) {
   return components;
 }
 
-/// Distance of the float nearest to |x| from the next larger one; infinite where floats end before.
+/// Distance from the float nearest to |x| to the next larger one; infinite if there is none.
 double floatStep(double x) {
   if (std::abs(x) >= std::numeric_limits<float>::max()) return std::numeric_limits<double>::infinity();
   const float value = std::abs(static_cast<float>(x));

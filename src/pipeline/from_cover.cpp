@@ -18,10 +18,10 @@
 namespace tufted {
 namespace {
 
-/// Mean edge lengths that are added to all edges where flips do not end otherwise: only random coordinates of all
+/// Length, in mean edge lengths, that is added to all edges if flips do not end: only random coordinates of all
 /// magnitudes needed it.
 constexpr double all_edges = 1e-5;
-/// Rounds of lengthening and flips; one is usual where any is needed.
+/// Greatest number of rounds of lengthening and flips; mostly one suffices.
 constexpr int most_rounds = 8;
 
 /// The sum of value(f) for f in [0, size), with the same bits for any number of threads.
@@ -36,7 +36,7 @@ double sumOfBlocks(std::int64_t size, const Workers& workers, const Value& value
   return std::accumulate(sums.begin(), sums.end(), 0.0);
 }
 
-/// The area of all faces by the positions of their corners, which is right for thin triangles too.
+/// The area of all faces by the positions of their corners, which is accurate for thin triangles too.
 double trianglesArea(const IntrinsicTriangulation& cover, const EdgeLengths& length, const Workers& workers) {
   return sumOfBlocks(cover.size(), workers, [&](int f) {
     const auto [ux, uy, uz] = length.offset(cover.faces[f][1], cover.faces[f][0]);
@@ -45,7 +45,7 @@ double trianglesArea(const IntrinsicTriangulation& cover, const EdgeLengths& len
   });
 }
 
-/// The sums over the three sides of each triangle, before they are lengthened and flipped.
+/// Sums over the sides of each triangle, before lengthening and flips.
 Buffer<SideSums> sidesOfTriangles(const IntrinsicTriangulation& cover, const Workers& workers) {
   Buffer<SideSums> sides(cover.size() / 2);
   workers.forBlocks("lengths", std::ssize(sides), cheap_block, [&](std::int64_t begin, std::int64_t end, int) {
@@ -67,7 +67,7 @@ void finishFromCover(IntrinsicTriangulation cover, const CoverVertices& vertices
   const double area = trianglesArea(cover, lengths, workers);
   clock.finish("lengths", 0);
 
-  // Most flat faces of a thin mesh are flipped away; only what is flat after that is lengthened, and flipped again.
+  // Flips remove most flat faces of a thin mesh; only those that remain are lengthened, then flipped again.
   figures.flips = flipThinFaces(cover, lengths, delta, figures.lengthened_edges, workers);
   for (int round = 0; round < most_rounds; ++round) {
     const std::int64_t lengthened =
@@ -77,8 +77,8 @@ void finishFromCover(IntrinsicTriangulation cover, const CoverVertices& vertices
     const FlipCounts counts = flipToDelaunay(cover, workers);
     figures.flips = {figures.flips.flips + counts.flips, counts.failures};
   }
-  // Lengths that rounding cannot tell apart may keep flips going in circles. The paper's one length for all edges ends
-  // that, at the cost of area, which is warned of.
+  // If lengths are equal but for rounding, flips may go in circles. The paper's one length for all edges ends that, at
+  // the cost of area, of which the report warns.
   if (delta > 0 && figures.flips.failures > 0) {
     for (double& length : cover.length) length += all_edges * figures.mean.length;
     figures.lengthened_edges = std::ssize(cover.length) / 2;
@@ -91,7 +91,7 @@ void finishFromCover(IntrinsicTriangulation cover, const CoverVertices& vertices
   const int size = static_cast<int>(result.status.size());
   assembleLaplacian(cover, vertices.input_index, size, scale, workers, result);
   if (result.report.components > 1) {
-    // Flips have moved the triangles, but each within its component. A corner may be on none.
+    // Flips move triangles only within their component. A corner may have none.
     const auto componentOf = [&](int t) {
       int component = -1;
       for (const int corner : cover.faces[2 * t])

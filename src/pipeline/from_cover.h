@@ -18,9 +18,9 @@ struct CoverVertices {
   int exponent;
 };
 
-/// Algorithm 3 of the paper from the glued cover on: lengths, mollification (Section 4.5), flips (Algorithm 2), L and
-/// M.
-/// @param delta of Section 4.5, in mean edge lengths
+/// Algorithm 3 of the paper from the glued cover on: lengths and mollification (step 10 of docs/algorithm.md), flips
+/// (Algorithm 2), L and M.
+/// @param delta least length of an edge, relative to the longest side of the smaller of its two faces
 /// @param keep_cover whether the result keeps the cover, in the caller's numbering and unit
 void finishFromCover(IntrinsicTriangulation cover, const CoverVertices& vertices, double delta, bool keep_cover,
                      const Workers& workers, StageClock& clock, Laplacian& result);

@@ -30,7 +30,7 @@ bool finishFromStars(SurfaceStars built, RankedCloud cloud, const CloudOptions& 
   if (figures.flips.failures > 0 && options.mollify > 0) return false;
 
   stars_and_cover->assemble(metric, options.keep_cover, workers, result);
-  if (result.report.degenerate_faces > 0 && options.mollify > 0) return false;  // flips have made some flat
+  if (result.report.degenerate_faces > 0 && options.mollify > 0) return false;  // flips made some faces flat
   if (result.report.components > 1)
     figures.by_component = stars_and_cover->componentEdges(result.component, result.report.components, workers);
   finishResult(figures, exponent, result);

@@ -10,9 +10,9 @@
 namespace tufted {
 
 /// Algorithms 1 to 3 straight from the stars, see direct/star_union.h: the same result as finishFromCover() up to
-/// rounding, in half the time. The result keeps what the cover is made of, if the options say so.
-/// @returns false, with nothing of use, where a triangle is flat, or flips make one flat or do not end, and edges may
-/// be lengthened: only finishFromCover() does that
+/// rounding, in half the time. The result keeps the stars for its cover if the options say so.
+/// @returns false, with a meaningless result, if edges may be lengthened and a triangle is flat, or flips make one flat
+/// or do not end: finishFromCover() handles these
 bool finishFromStars(SurfaceStars built, RankedCloud cloud, const CloudOptions& options, const Workers& workers,
                      StageClock& clock, Laplacian& result);
 

@@ -25,7 +25,7 @@ struct LaplacianBuilder::State {
 
   void forget() {
     result = {};
-    SparseMatrix().swap(result.L);  // assigning an empty one keeps the memory
+    SparseMatrix().swap(result.L);  // assignment would keep the memory
   }
 };
 

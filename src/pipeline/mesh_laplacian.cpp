@@ -21,7 +21,7 @@ namespace {
 
 constexpr const char* function_name = "meshLaplacian";
 
-/// Indices of the triangles that can be used; the others are counted.
+/// Indices of the usable triangles; counts the others.
 Buffer<int> usableTriangles(const TrianglesRef& triangles, const std::vector<PointStatus>& status,
                             const std::vector<int>& representative, Report& report) {
   Buffer<int> usable;
@@ -71,7 +71,8 @@ void buildMeshLaplacian(const PointsRef& points, const TrianglesRef& triangles, 
   PointBuffer scaled(n);
   for (int i = 0; i < n; ++i) {
     for (int axis = 0; axis < 3; ++axis)
-      scaled.row(i)[axis] = to_scaled.times(points(i, axis)) + 0.0;  // no -0: equal have equal bits
+      // no -0, so that equal numbers have equal bits
+      scaled.row(i)[axis] = to_scaled.times(points(i, axis)) + 0.0;
   }
   if (options.weld) {
     rankPoints(points, result.status, result.representative, workers);

@@ -24,8 +24,8 @@ namespace {
 
 constexpr const char* function_name = "pointCloudLaplacian";
 
-/// The most link entries that all stars may have: somewhat fewer than triangles can have numbers, since flips keep some
-/// in reserve.
+/// Greatest number of link entries of all stars: somewhat less than the greatest number of triangles, since flips
+/// reserve some.
 constexpr std::int64_t most_entries = most_triangles - most_triangles / 64;
 
 [[noreturn]] void tooMany(std::int64_t points, std::int64_t entries) {
@@ -62,7 +62,7 @@ void buildCloudLaplacian(const PointsRef& points, const CloudOptions& options, C
   restart(result, Kind::cloud, points.rows(), workers);
   StageClock clock(result.report);
 
-  // Equal points become one, the rest is scaled to a box around 0 and ordered along a curve, so that near is near.
+  // Equal points become one, the others are scaled and sorted along a curve, so that near points are close in memory.
   RankedCloud cloud = rankPoints(points, result.status, result.representative, workers);
   if (cloud.size() > most_entries / 6) tooMany(cloud.size(), 6 * static_cast<std::int64_t>(cloud.size()));
   clock.finish("order", static_cast<std::size_t>(cloud.size()) * (3 * sizeof(double) + sizeof(int)));
@@ -75,7 +75,7 @@ void buildCloudLaplacian(const PointsRef& points, const CloudOptions& options, C
   SurfaceStars built = std::move(surface.built);
   if (std::ssize(built.stars.link) > most_entries) tooMany(cloud.size(), std::ssize(built.stars.link));
 
-  // Which way it faces, and where lengths are measured.
+  // Normals, their orientation, and the positions between which lengths are measured.
   setBoundaryAndNormals(surface.boundary, built.support.normals, cloud, workers, result);
   release(surface.boundary);
   setPositions(points, cloud, workers, result);
@@ -102,8 +102,7 @@ void buildCloudLaplacian(const PointsRef& points, const CloudOptions& options, C
   if (options.paper.gluing == Gluing::star && options.paper.order == FaceOrder::angle &&
       build == CloudBuild::automatic) {
     result.cover_source.reset();
-    // Flat triangles and flips without an end are so rare that starting anew costs less than what it would take to keep
-    // the stars.
+    // Flat triangles and endless flips are so rare that starting again costs less than keeping the stars.
     if (!finishFromStars(std::move(built), std::move(cloud), options, workers, clock, result))
       return buildCloudLaplacian(points, options, CloudBuild::whole_cover, result);
   } else {

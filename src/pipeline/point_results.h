@@ -8,29 +8,29 @@
 
 namespace tufted {
 
-// What a cloud's result says of each point beside L and M, in the caller's order.
+// Sets what the result of a cloud has per point besides L and M, in the caller's order.
 
-/// Sets the boundary tags and the normals; coincident points take the normal of their representative.
+/// Sets boundary and normals; coincident points take the normal of their representative.
 /// @param boundary by rank
 /// @param normals n x 3, by rank
 void setBoundaryAndNormals(const Buffer<Boundary>& boundary, const PointsView& normals, const RankedCloud& cloud,
                            const Workers& workers, Laplacian& result);
 
-/// Sets where lengths are measured: the caller's points, of which noisy ones have moved.
+/// Sets Laplacian::positions: the caller's points, or where they were moved.
 void setPositions(const PointsRef& points, const RankedCloud& cloud, const Workers& workers, Laplacian& result);
 
-/// Sets the noise around the points that were moved out of it.
+/// Sets the noise around moved points.
 /// @param noise by rank, see CloudSurface::noise
 void setNoise(const RawBuffer<double>& noise, const RankedCloud& cloud, Laplacian& result);
 
 /// Turns normals towards the viewpoint.
 void faceViewpoint(const Eigen::Vector3d& viewpoint, const Workers& workers, Laplacian& result);
 
-/// Sets the tangents, which are zero where the normal is.
+/// Sets the tangents; zero where the normal is zero.
 void setTangents(const Workers& workers, Laplacian& result);
 
-/// Makes the stars' own areas M where they are positive and the point has a row.
-/// @param own by rank, in units of 2^(2 exponent) of the caller's; may be empty
+/// Replaces M by the own areas where these are positive and the point has a row.
+/// @param own by rank, in units of 4^exponent of the caller's; may be empty
 /// @param input_index the caller's index of each rank
 void setOwnAreas(const RawBuffer<double>& own, const Buffer<int>& input_index, int exponent, Laplacian& result);
 

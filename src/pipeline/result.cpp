@@ -44,15 +44,15 @@ void restart(Laplacian& result, Kind kind, std::int64_t points, const Workers& w
 IntrinsicTriangulation takeCover(Laplacian& result) {
   const auto source = std::const_pointer_cast<CoverSource>(std::exchange(result.cover_source, nullptr));
   const auto stored = std::dynamic_pointer_cast<StoredCover>(source);
-  if (stored == nullptr || source.use_count() != 2) return {};  // the two here are ours
-  std::atomic_thread_fence(std::memory_order_acquire);          // after all that the last other owner did with it
+  if (stored == nullptr || source.use_count() != 2) return {};  // these two are ours
+  std::atomic_thread_fence(std::memory_order_acquire);          // synchronises with the last other owner
   return std::move(stored->triangulation);
 }
 
 void finishResult(const BuildFigures& figures, int exponent, Laplacian& result) {
   Report& report = result.report;
 
-  // Back from units of 2^exponent, which is exact.
+  // Exact conversion from units of 2^exponent.
   const PowerOfTwo area_unit(2 * exponent);
   for (double& mass : result.M) mass = area_unit.times(mass);
   result.cover_areas = result.M;
@@ -61,7 +61,7 @@ void finishResult(const BuildFigures& figures, int exponent, Laplacian& result) 
   for (std::size_t i = 0; i < result.status.size(); ++i) {
     const bool has_row = result.L.outerIndexPtr()[i] != result.L.outerIndexPtr()[i + 1];
     if (result.status[i] == PointStatus::active && !has_row) result.status[i] = PointStatus::isolated;
-    // Surfaces end at points of surfaces; a representative comes before the points it stands for.
+    // A representative comes before its coincident points, so its values are final.
     if (result.status[i] == PointStatus::coincident) {
       result.boundary[i] = result.boundary[result.representative[i]];
       result.component[i] = result.component[result.representative[i]];

@@ -10,28 +10,29 @@
 
 namespace tufted {
 
-// What the builds of clouds and of meshes do to their results.
+// Shared by the builds of clouds and of meshes.
 
-/// @throws InvalidInput in the name of `function` unless mollify lies in [0, 1] and threads is at least 0
+/// Checks the options that all builds have.
+/// @throws InvalidInput, naming `function`, unless mollify is in [0, 1] and threads is at least 0
 void checkBuild(const char* function, double mollify, int threads);
 
-/// Empties the result of an earlier build, but for the memory of its arrays and of a stored cover.
+/// Empties a result but keeps the memory of its arrays and of a stored cover.
 void restart(Laplacian& result, Kind kind, std::int64_t points, const Workers& workers);
 
-/// The cover of an earlier build, if nobody else has it, for the sake of its memory; otherwise a new one.
+/// The cover of an earlier build for its memory, if nobody else holds it; otherwise a new one.
 IntrinsicTriangulation takeCover(Laplacian& result);
 
-/// What a build knows beside L and M, in units of the points that it worked on.
+/// Figures of a build besides L and M, in units of the ranked points.
 struct BuildFigures {
   MeanLengths mean = {};
   std::int64_t lengthened_edges = 0;
   double area_added = 0;
-  Buffer<ComponentEdges> by_component = {};  ///< empty: there is one component at most
+  Buffer<ComponentEdges> by_component = {};  ///< empty if there is at most one component
   FlipCounts flips = {};
   std::int64_t triangles = 0;
 };
 
-/// Completes a result that has L and M: masses in the caller's unit, status and boundary of all points, the report.
+/// Completes a result with L and M: masses in the caller's unit, status and boundary of all points, the report.
 /// @param exponent the build's unit is 2^exponent of the caller's
 void finishResult(const BuildFigures& figures, int exponent, Laplacian& result);
 

@@ -7,8 +7,8 @@
 
 namespace tufted {
 
-/// The union of all stars, front and back of every copy of a triangle. With `Gluing::star` the two faces of a star that
-/// share a spoke are glued to each other here, front to front and back to back.
+/// Makes the union of all stars, front and back of every copy of a triangle. With `Gluing::star` glues the two faces of
+/// a star at a spoke, front to front and back to back.
 void addStars(const Stars& stars, Gluing gluing, IntrinsicTriangulation& cover, const Workers& workers);
 
 }  // namespace tufted

@@ -13,7 +13,7 @@ namespace {
 /// If more than this share of the active points has a thick neighbourhood, a warning says so: 27 real clouds have at
 /// most 0.19, cables 9 spacings around 0.56.
 constexpr double many_thick = 0.25;
-/// If lengths have added more than this share of the area, a warning says so; less is not seen in a plot.
+/// If lengthened edges add more than this share of the area, a warning says so; less is invisible in a plot.
 constexpr double much_area = 1e-3;
 
 std::string percent(double share) {
@@ -22,7 +22,7 @@ std::string percent(double share) {
   return text;
 }
 
-/// Adds the warning of a depth image most of whose pixels are missing.
+/// Warns of a depth image with too many missing pixels.
 void addSparseImage(double fill, std::vector<std::string>& all) {
   if (fill == 0 || fill >= least_pixel_fill) return;
   all.push_back("only " + percent(fill) +

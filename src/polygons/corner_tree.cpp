@@ -10,11 +10,11 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-/// Corners in a leaf.
+/// Greatest number of corners in a leaf.
 constexpr int leaf_size = 16;
 constexpr std::uint64_t none = std::numeric_limits<std::uint64_t>::max();
 
-/// The place of a corner in the random order: hashed bits (the finalizer of MurmurHash3), then the corner itself.
+/// The place of a corner in the random order: hashed bits (the finaliser of MurmurHash3), then its number.
 std::uint64_t placeOf(int corner) {
   auto bits = static_cast<std::uint32_t>(corner);
   bits = (bits ^ bits >> 16) * 0x85ebca6bu;
@@ -32,14 +32,15 @@ double distance(const Vector2d& point, const Capsule& capsule) {
 
 }  // namespace
 
-/// By rounding `holds` takes points beside the triangle, too. Its turns are wrong by less than 5 u |edge| |distance|
-/// with u = 2^-53. From a point that is g outside of the corners' box, in x or y, one of the three true turns is at
-/// most -area g / (2 s) with s^2 = squared_edges, and no corner is farther than sqrt(2) (g + s). So g < 32 u s^3 / area
-/// if area > 64 u s^2, and twice that is the margin. Thinner triangles, and those whose products underflow, get no box.
+/// Because of rounding, holds() accepts points beside the triangle, too. Its turns are wrong by less than 5 u |edge|
+/// |distance| with u = 2^-53. From a point that is g outside of the corners' box, in x or y, one of the three true
+/// turns is at most -area g / (2 s) with s^2 = squared_edges, and no corner is farther than sqrt(2) (g + s). So g < 32
+/// u s^3 / area if area > 64 u s^2, and twice that is the margin. Thinner triangles, and those whose products
+/// underflow, get no box.
 PlanarTriangle::PlanarTriangle(const Vector2d& a, const Vector2d& b, const Vector2d& c, double area,
                                double squared_edges)
     : corner_{a, b, c} {
-  // Rounding of the orientation of three corners.
+  // Bound on the relative rounding of turn().
   constexpr double rounding = 32 * std::numeric_limits<double>::epsilon();
   // Smaller products may have underflowed.
   constexpr double least = 1e-280;
@@ -58,9 +59,10 @@ bool PlanarTriangle::holds(const Vector2d& point) const {
 
 bool PlanarTriangle::holdsNoneOf(const Vector2d& low, const Vector2d& high) const {
   if ((high.array() < low_.array()).any() || (low.array() > high_.array()).any()) return true;
-  if (low == high && isCorner(low)) return true;  // the same position many times
+  if (low == high && isCorner(low)) return true;  // copies of one position
   for (int i = 0; i < 3; ++i) {
-    // The corner of the box that is farthest on the left. Each operation of turn() is monotone, and so is its rounding.
+    // The corner of the box that is farthest to the left of the edge. Each operation of turn() is monotone, and so is
+    // its rounding.
     const Vector2d &from = corner_[i], &to = corner_[(i + 1) % 3];
     const Vector2d farthest(to.y() >= from.y() ? low.x() : high.x(), to.x() >= from.x() ? high.y() : low.y());
     if (turn(from, to, farthest) < 0) return true;
@@ -69,7 +71,7 @@ bool PlanarTriangle::holdsNoneOf(const Vector2d& low, const Vector2d& high) cons
 }
 
 bool PlanarTriangle::holdsNoneOf(const Capsule& capsule) const {
-  // Rounding of the distance to a box.
+  // Bound on the relative rounding of distances.
   constexpr double rounding = 32 * std::numeric_limits<double>::epsilon();
   if (low_.x() == -infinity) return false;
   for (int i = 0; i < 3; ++i) {

@@ -12,13 +12,13 @@ inline double turn(const Eigen::Vector2d& a, const Eigen::Vector2d& b, const Eig
   return (b - a).x() * (c - a).y() - (b - a).y() * (c - a).x();
 }
 
-/// The part of the plane within `radius` of the segment between two points.
+/// All points of the plane within `radius` of a segment.
 struct Capsule {
   Eigen::Vector2d begin, end;
   double radius;
 };
 
-/// A triangle that turns left. It holds all points that lie to the right of no edge, except those equal to a corner.
+/// A counterclockwise triangle. It holds all points that are to the right of none of its edges, but not its corners.
 class PlanarTriangle {
  public:
   /// @param area turn(a, b, c) > 0
@@ -40,15 +40,15 @@ class PlanarTriangle {
   Eigen::Vector2d low_, high_;  ///< a box around all points that the triangle holds
 };
 
-/// The corners of a polygon in a k-d tree that forgets those that are clipped.
+/// A k-d tree of the corners of a polygon, from which clipped corners are removed.
 class CornerTree {
  public:
-  /// Takes the points that are finite; all are borrowed.
+  /// Builds the tree of the finite points, which are borrowed.
   void build(const std::vector<Eigen::Vector2d>& points);
   void remove(int corner);
 
-  /// The first remaining corner, in a fixed random order, that the triangle holds; -1 if there is none. It changes
-  /// H_n < 1 + ln n times on average until all n are removed, whatever order they are removed in.
+  /// The first remaining corner, in a fixed random order, that the triangle holds; -1 if there is none. For one
+  /// triangle, until all n corners are removed in any order, the answer changes H_n < 1 + ln n times on average.
   int firstIn(const PlanarTriangle& triangle) const;
 
  private:
@@ -56,7 +56,7 @@ class CornerTree {
     Eigen::Vector2d low, high;  ///< box around the remaining corners
     std::uint64_t first;        ///< the least place of a remaining corner in the random order
   };
-  /// A node and the slots below it.
+  /// A node and its range of slots.
   struct Range {
     std::size_t node;
     int begin, end;
@@ -74,11 +74,11 @@ class CornerTree {
   void search(const Range& range, const PlanarTriangle& triangle, std::uint64_t& first) const;
 
   const std::vector<Eigen::Vector2d>* points_ = nullptr;
-  std::vector<int> corner_;  ///< slot by slot, those of a leaf side by side; -1 once it is removed
+  std::vector<int> corner_;  ///< by slot, those of a leaf consecutive; -1 once removed
   std::vector<int> slot_;    ///< slot of each corner; -1 if it is not finite
   std::vector<Node> nodes_;  ///< the children of node i are 2 i + 1 and 2 i + 2
-  /// Bounds around the corners of each node that is not a leaf. A row of corners may be oblique, where boxes overlap
-  /// thin triangles along it that hold none of them.
+  /// A capsule around the corners of each inner node: boxes of an oblique row of corners overlap thin triangles along
+  /// it that hold none of them.
   std::vector<Capsule> capsules_;
 };
 

@@ -9,22 +9,22 @@ namespace {
 using Eigen::Vector2d;
 
 // Keys of corners that have no quality; all qualities are above -3/2.
-constexpr double not_a_number = -2;  // of a corner that waits for others
-constexpr double clipped = -3;       // of a corner that is gone
+constexpr double not_a_number = -2;  // of a corner whose quality is NaN
+constexpr double clipped = -3;       // of a clipped corner
 
-// In polygons of so many corners nearly straight corners count as straight: comparing each with all others on its line
+// From this number of corners on, nearly straight corners count as straight: comparing each with all others on its line
 // would take the square of their number.
 constexpr std::size_t many_corners = 1000;
-/// The quality up to which a corner of such a polygon is straight: rounding of coordinates.
+/// Corners of such a polygon are straight up to this quality, as it may be rounding of coordinates.
 constexpr double straight = 0x1p-40;
 
 double squaredEdges(const Vector2d& a, const Vector2d& b, const Vector2d& c) {
   return (b - a).squaredNorm() + (c - b).squaredNorm() + (a - c).squaredNorm();
 }
 
-/// The polygon along the greatest axis of its Newell normal, which keeps the turn of every corner.
+/// Projects the polygon along the greatest axis of its Newell normal, which keeps the turn of every corner.
 void project(const Points& points, const std::vector<int>& polygon, std::vector<Vector2d>& planar) {
-  const Eigen::RowVector3d origin = points.row(polygon[0]);  // differences only
+  const Eigen::RowVector3d origin = points.row(polygon[0]);  // to work with differences only
   Eigen::Vector3d normal = Eigen::Vector3d::Zero();
   for (std::size_t i = 0; i < polygon.size(); ++i) {
     const Eigen::Vector3d a = points.row(polygon[i]) - origin;
@@ -140,7 +140,7 @@ void EarClipper::setKey(int corner, double key) {
   for (int node = (static_cast<int>(key_.size()) + corner) / 2; node > 0; node /= 2) {
     const int before = winner_[node];
     findWinner(node);
-    if (winner_[node] == before && before != corner) return;  // what lies above does not change either
+    if (winner_[node] == before && before != corner) return;  // the nodes above do not change either
   }
 }
 

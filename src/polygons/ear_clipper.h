@@ -18,16 +18,16 @@ namespace tufted {
 /// straight. Where thousands of corners lie on one line but for rounding, such triangles reach along all of them, and
 /// each corner would have to be tested.
 ///
-/// The choice does not depend on how it is found. Nothing comes into a triangle while corners are clipped, so one that
-/// is empty stays so, and a corner whose triangle holds another waits until that is clipped. On average it waits for
-/// 1 + ln n others, see CornerTree::firstIn. So there are O(n log n) searches. Most take O(log n) steps; those of long
-/// needles that reach between thousands of scattered corners take O(sqrt(n)).
+/// Clipping adds nothing to a triangle, so one that is empty stays empty, and a corner whose triangle holds another
+/// waits until that is clipped. On average it waits for 1 + ln n others, see CornerTree::firstIn(). So there are O(n
+/// log n) searches. Most take O(log n) steps; those of long needles between thousands of scattered corners take
+/// O(sqrt(n)).
 class EarClipper {
  public:
-  /// Begins with a polygon of at least three corners. The memory of the former one is used again.
+  /// Starts a polygon of at least three corners; reuses memory.
   void begin(const Points& points, const std::vector<int>& polygon);
 
-  /// The corners of the next triangle, counted along the polygon. To be called n - 2 times.
+  /// The corners of the next triangle, as indices along the polygon. Called n - 2 times.
   std::array<int, 3> next();
 
  private:
@@ -38,14 +38,14 @@ class EarClipper {
     int first_waiting = none;      ///< first corner that waits for this one
     int last = none, next = none;  ///< neighbours in the list that this corner is in
   };
-  /// Marks: no corner, not looked at yet, and looked at with nothing found.
+  /// No corner; not searched yet; searched, and nothing found.
   static constexpr int none = -1, unknown = -1, nothing = -2;
 
   int bestEar();
   void clip(int ear);
   /// The quality of a corner if no other lies in its triangle.
   double keyOfEmpty(int corner) const;
-  /// Lets a corner wait no longer; what its triangle holds is unknown.
+  /// Ends the waiting of a corner and resets what is known of it.
   void judge(int corner);
   void wait(int corner, int held);
   void stopWaiting(int corner);
@@ -57,9 +57,9 @@ class EarClipper {
   std::vector<Eigen::Vector2d> planar_;
   std::vector<Corner> corners_;
   CornerTree tree_;
-  std::vector<double> key_;   ///< the quality, as far as it is known; never too small
+  std::vector<double> key_;   ///< upper bound on the quality of each corner
   std::vector<int> winner_;   ///< the best corner below node i of a binary tree, whose children are 2 i and 2 i + 1
-  int first_ = 0, left_ = 0;  ///< the first corner that is left, and how many are
+  int first_ = 0, left_ = 0;  ///< the first remaining corner, and the number of these
 };
 
 }  // namespace tufted

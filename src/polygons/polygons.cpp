@@ -11,9 +11,9 @@
 namespace tufted {
 namespace {
 
-constexpr std::size_t most_corners = std::size_t{1} << 30;  // two trees count them by int
+constexpr std::size_t most_corners = std::size_t{1} << 30;  // two trees number them by int
 
-/// The number of triangles.
+/// Checks the polygons; returns the number of triangles.
 Eigen::Index checkedTriangles(const Points& points, const Polygons& polygons) {
   Eigen::Index triangles = 0;
   for (std::size_t p = 0; p < polygons.size(); ++p) {
@@ -32,7 +32,7 @@ Eigen::Index checkedTriangles(const Points& points, const Polygons& polygons) {
 }  // namespace
 
 Triangles triangulate(const Points& points, const Polygons& polygons, const Progress& progress) {
-  // Faces from one report of progress to the next.
+  // Triangles from one report of progress to the next.
   constexpr Eigen::Index report_every = 4096;
   const Workers workers(1, progress);
   Triangles triangles(checkedTriangles(points, polygons), 3);

@@ -6,8 +6,8 @@
 namespace tufted {
 namespace {
 
-/// How far one comes from 0, up and down, over gaps of at most `gap` between the heights. Each round goes as far as one
-/// gap reaches, and two go farther than that: there are few.
+/// Extends the range from 0 up and down over gaps of at most `gap` between heights. Each round reaches as far as one
+/// gap, and two reach farther than that, so there are few rounds.
 void extendRange(const double* heights, int count, double gap, HeightRange& range) {
   double high = 0, low = 0;
   bool goes_up = range.top > gap, goes_down = -range.bottom > gap;
@@ -31,7 +31,7 @@ void extendRange(const double* heights, int count, double gap, HeightRange& rang
 }
 
 HeightRange connectedHeights(const Offsets& given, const double* normal, double gap, double* heights) {
-  const Offsets offsets = given;  // a copy, which what is written below cannot change
+  const Offsets offsets = given;  // copied, so that stores below cannot alias it
   const Packet x = broadcast(normal[0]), y = broadcast(normal[1]), z = broadcast(normal[2]);
   Packet top = broadcast(0), bottom = broadcast(0);
   for (int i = 0; i < offsets.count; i += packet_size) {
@@ -45,10 +45,10 @@ HeightRange connectedHeights(const Offsets& given, const double* normal, double 
   return range;
 }
 
-/// Eight normals at once, so that no round has to look for the farthest of the eight numbers in a packet.
+/// Handles eight normals at once, one per lane, so that no round reduces a packet to its extreme.
 void connectedHeightsAlong(const Offsets& given, const Normals& given_normals, double gap, double* heights,
                            HeightRange* range) {
-  const Offsets offsets = given;  // a copy, which what is written below cannot change
+  const Offsets offsets = given;  // copied, so that stores below cannot alias it
   const Packet x = load(given_normals.x), y = load(given_normals.y), z = load(given_normals.z);
   Packet top = broadcast(0), bottom = broadcast(0);
   for (int i = 0; i < offsets.count; ++i) {
@@ -84,7 +84,7 @@ void connectedHeightsAlong(const Offsets& given, const Normals& given_normals, d
 
 int keepConnected(const Offsets& given, const double* heights, const HeightRange& given_range, double* x, double* y,
                   double* z) {
-  const Offsets offsets = given;  // copies, which what is written below cannot change
+  const Offsets offsets = given;  // copied, so that stores below cannot alias them
   const Packet lowest = broadcast(given_range.lowest), highest = broadcast(given_range.highest);
   int kept = 0;
   for (int i = 0; i < offsets.count; i += packet_size) {

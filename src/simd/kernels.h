@@ -1,27 +1,27 @@
 #pragma once
 
-// Plain arrays and no functions of others: see kernels_source.h.
+// Plain arrays, and no functions of other headers, see packet.h.
 #include <cstddef>
 #include <cstdint>
 
 namespace tufted {
 
-/// Numbers are worked on in groups of so many.
+/// Numbers are processed in packets of this size.
 constexpr int kernel_packet = 8;
 
-/// `count` filled up to whole packets.
+/// `count` rounded up to whole packets.
 static constexpr int toPackets(int count) {
   return (count + kernel_packet - 1) / kernel_packet * kernel_packet;
 }
 
-/// Points by coordinate, filled up to whole packets with points that are nowhere near. Borrowed.
+/// Points by coordinate, padded to whole packets with points at infinity. Borrowed.
 struct Candidates {
   int count;
   const int* index;  ///< ranks
   const double *x, *y, *z;
 };
 
-/// The neighbours of a point relative to it, or some of them, filled up to whole packets with zeros. Borrowed.
+/// Offsets from a point to neighbours, padded to whole packets with zeros. Borrowed.
 struct Offsets {
   int count;
   const double *x, *y, *z;
@@ -31,9 +31,9 @@ struct Offsets {
 struct OffsetSums {
   double x, y, z, xx, xy, xz, yy, yz, zz;
 };
-constexpr int most_sets = 3;  // of neighbours that are summed at once
+constexpr int most_sets = 3;  // nested sets of neighbours that are summed at once
 
-/// Sums over neighbours with the coordinates u, v in a plane and the height h over it.
+/// Sums of monomials over neighbours with the coordinates u, v in a plane and the height h over it.
 struct HeightSums {
   double u, v, uu, uv, vv, uuu, uuv, uvv, vvv, uuuu, uuuv, uuvv, uvvv, vvvv, h, hu, hv, huu, huv, hvv, hh;
 };
@@ -42,15 +42,15 @@ struct HeightSums {
 struct HeightSystems {
   static constexpr int numbers = sizeof(HeightSums) / sizeof(double);
   alignas(64) double sums[numbers][kernel_packet];  ///< in the order of HeightSums
-  alignas(64) double count[kernel_packet];          ///< points, that of height 0 at the origin included
+  alignas(64) double count[kernel_packet];          ///< number of points, including one of height 0 at the origin
 };
 
 /// The solutions of HeightSystems.
 struct HeightSolutions {
   alignas(
       64) double coefficient[6][kernel_packet];  ///< of 1, u, v, u^2, u v, v^2: the first is the height over the origin
-  alignas(64) double leverage[kernel_packet];    ///< variance of that height by the variance of each point's
-  alignas(64) double explained[kernel_packet];   ///< of the sum of squared heights
+  alignas(64) double leverage[kernel_packet];    ///< variance of coefficient[0] over that of each point's height
+  alignas(64) double explained[kernel_packet];   ///< explained part of the sum of squared heights
   alignas(64) double least_pivot[kernel_packet], most_pivot[kernel_packet];
 };
 
@@ -59,7 +59,7 @@ struct Normals {
   alignas(64) double x[kernel_packet], y[kernel_packet], z[kernel_packet];
 };
 
-/// The range of heights that are connected with 0: from one to the next no gap is wider than a bound. And the extremes
+/// The range [lowest, highest] of heights that are reached from 0 over gaps of at most a given size, and the extremes
 /// of all heights.
 struct HeightRange {
   double lowest, highest;
@@ -76,181 +76,184 @@ struct Covariances {
 struct SmallestAxes {
   alignas(64) double x[kernel_packet], y[kernel_packet], z[kernel_packet];
   alignas(64) double smallest[kernel_packet], middle[kernel_packet], largest[kernel_packet];
-  alignas(64) double is_found[kernel_packet];  ///< 1; 0 where two eigenvalues lie too close for a closed form
+  alignas(64) double is_found[kernel_packet];  ///< 1; 0 if two eigenvalues are too close for the closed form
 };
 
-/// Neighbours in the tangent plane of a point, which lies at the origin; anything behind them.
+/// Neighbours projected to the tangent plane of a point, which is at the origin. Values behind `count` are arbitrary.
 struct PlanarOffsets {
-  /// Neighbours that are projected at once; those of a grown neighbourhood come in parts.
+  /// Greatest number of neighbours; those of a grown neighbourhood come in parts.
   static constexpr int most = 64;
   int count = 0;
   alignas(64) double u[most], v[most];
 };
 
-/// What is certain of a star: that it is closed, and its link; which few neighbours are in the link, but for ties among
-/// them; or nothing, be it that it looks open.
+/// What is certain of a star: closed, its link is known; tied, all neighbours that may be in its link are known;
+/// gaping, it looks open; or unknown.
 enum class StarKind { closed, tied, gaping, unknown };
 
-/// A closed star: numbers of neighbours counterclockwise, and the circumradius of each and the next. A tied one:
-/// numbers of all that may be in the link, first the corners of a hull counterclockwise, then others in ascending
-/// order.
+/// Of a closed star the link, as numbers of neighbours counterclockwise, and the circumradius of each with the next. Of
+/// a tied one all neighbours that may be in the link: first the corners of a hull counterclockwise, then others,
+/// ascending.
 struct InvertedStar {
-  /// Vertices of a hull; larger ones go the careful way.
+  /// Greatest number of vertices; larger hulls are left to delaunayStar().
   static constexpr int most = 24;
   int size = 0;
   int link[most];
   double radius[most];
 };
 
-/// The pixels around one in an image, 5 x 5 without itself, by steps of rows and columns: first ring 1 by direction,
-/// from where rows grow to where columns grow, then ring 2.
+/// The 24 pixels around one in a 5 x 5 square, as steps of rows and columns: ring 1 in the order of directions, from
+/// growing rows towards growing columns, then ring 2.
 constexpr int pixels_around = 24, pixels_beside = 8;
 constexpr int around_row[pixels_around] = {1, 1,  0,  -1, -1, -1, 0,  1,  2, 2, 2, 1,
                                            0, -1, -2, -2, -2, -2, -2, -1, 0, 1, 2, 2};
 constexpr int around_column[pixels_around] = {0, 1, 1, 1, 0, -1, -1, -1, 0,  1,  2,  2,
                                               2, 2, 2, 1, 0, -1, -2, -2, -2, -2, -2, -1};
 
-/// The points in the pixels around each of eight points, relative to it. Lanes that stand for no point may
-/// hold any numbers.
+/// The offsets of the points in the pixels around each of eight points. Lanes without a point may hold any numbers.
 struct PixelsAround {
   alignas(64) double x[pixels_around][kernel_packet], y[pixels_around][kernel_packet], z[pixels_around][kernel_packet];
-  alignas(64) double sight_x[kernel_packet], sight_y[kernel_packet], sight_z[kernel_packet];  ///< from the sensor
-  bool is_stretched = false;  ///< rows are farther apart than columns: how far ring 3 is is told by its rows alone
+  /// direction from the sensor
+  alignas(64) double sight_x[kernel_packet], sight_y[kernel_packet], sight_z[kernel_packet];
+  /// whether only the rows of ring 2 bound the distance of ring 3, because rows are far apart
+  bool is_stretched = false;
 };
 
-/// Frames and stars of eight points of an image among PixelsAround; sets of lanes are bits.
+/// Frames and stars of the eight points of PixelsAround; sets of lanes are bits.
 struct PixelStars {
-  alignas(64) double normal_x[kernel_packet], normal_y[kernel_packet], normal_z[kernel_packet];  ///< to the sensor
-  alignas(64) double fit_radius[kernel_packet];  ///< of a disk with the mean squared distance of all points around
-  /// Circumradii of the triangles: radius[2 c] is that of the triangle whose rim starts at number 2 c of PixelsAround,
-  /// radius[2 c + 1] that of the one whose rim ends at number 2 c + 2. Both are the same triangle where the corner,
-  /// number 2 c + 1, is not in the link.
+  alignas(64) double normal_x[kernel_packet], normal_y[kernel_packet], normal_z[kernel_packet];  ///< towards the sensor
+  /// radius of a disk with the same mean squared distance as the points around
+  alignas(64) double fit_radius[kernel_packet];
+  /// Circumradii of the triangles: radius[2 c] is that of the triangle at the edge from number 2 c of PixelsAround on,
+  /// radius[2 c + 1] that of the one at the edge to number 2 c + 2. Both are the same triangle if the corner, number 2
+  /// c + 1, is not in the link.
   alignas(64) double radius[pixels_beside][kernel_packet];
-  unsigned has_corner[pixels_beside / 2];  ///< number 2 c + 1 is in the link
-  unsigned is_found;                       ///< there is a plane
-  unsigned is_mirrored;                    ///< the numbers of ring 1 run clockwise around the normal
-  unsigned is_certain;  ///< the star is closed, beyond doubt that among the points around, and no circle reaches ring 3
+  unsigned has_corner[pixels_beside / 2];  ///< lanes whose link contains number 2 c + 1
+  unsigned is_found;                       ///< lanes with a plane
+  unsigned is_mirrored;                    ///< lanes where ring 1 runs clockwise around the normal
+  /// lanes whose star is certainly closed and that of the points around, with no circle that reaches ring 3
+  unsigned is_certain;
 };
 
-/// Values of an image around each of eight: what is `row` rows and `column` columns on from lane l is
-/// at[l + row * row_step + column * column_step]. Borrowed.
+/// Values of an image around eight pixels: the value `row` rows and `column` columns from the pixel of lane l is at[l +
+/// row * row_step + column * column_step]. Borrowed.
 struct PixelRows {
   const double* at;
   std::ptrdiff_t row_step, column_step;
 };
 
-/// The pixels of 7 x 7 around one, see depth_image/window_pixels.h: first those of ring 1, then ring 2 and 3.
+/// The other pixels of a 7 x 7 square: ring 1, ring 2, ring 3, see depth_image/window_pixels.h.
 constexpr int pixels_of_window = 48;
 
-/// A row of an image: where its first pixel is in arrays that hold the image row by row, relative to the sensor; a
-/// pixel without a point may hold any numbers. Borrowed.
+/// Points of a row of an image relative to the sensor: pointers to its first pixel in arrays that hold the image row by
+/// row. Pixels without a point may hold any numbers. Borrowed.
 struct PixelPoints {
   const double *x, *y, *z, *range;
 };
-/// Pixels of a row whose set is a word.
+/// Pixels of a row whose subsets are the bits of a word.
 constexpr int pixels_in_word = 64;
 
 /// Steps from a pixel to others of the image.
 struct PixelSteps {
   int count;
-  const int* shift;    ///< in the arrays of the image
-  const double* most;  ///< squared tangents, see JumpTest::steepestOf()
+  const int* shift;    ///< offset of the other pixel in the arrays of the image
+  const double* most;  ///< squared tangent of the steepest step, see JumpTest::steepestOf()
 };
 
-/// Quadratics by least squares over the square of pixels around each of eight.
+/// Least squares fits of quadratics over the squares of pixels around each of eight.
 struct SquareFits {
-  alignas(64) double value[kernel_packet];     ///< in the middle
+  alignas(64) double value[kernel_packet];     ///< of the fit at the middle
   alignas(64) double variance[kernel_packet];  ///< of the residuals
 };
 
 /// Triangles side by side: number i has the spokes i and i + 1, which start at one point, and the rim between their
-/// ends. Borrowed arrays of `count` numbers and room for whole packets; those of the spokes have one packet more.
+/// ends. Borrowed arrays of `count` numbers with room for whole packets; those of spokes have one packet more.
 struct TriangleFans {
   int count;
   const double *spoke_x, *spoke_y, *spoke_z, *rim_x, *rim_y, *rim_z;  ///< vectors
   double *spoke, *rim;                                                ///< lengths
-  double *area, *slack;                                               ///< of the triangle inequality
-  double *cotan_at_next, *cotan_at_own;                               ///< opposite spoke i, opposite spoke i + 1
+  double *area, *slack;                                               ///< area, and slack of the triangle inequality
+  double *cotan_at_next, *cotan_at_own;                               ///< cotangents opposite spoke i and spoke i + 1
 };
 
-/// The loops that a build spends its time in. They are compiled for every processor, for AVX2 and for AVX-512; the
-/// operations are the same, and so are the bits.
+/// The loops in which a build spends its time, compiled for all processors, for AVX2 and for AVX-512. All three do the
+/// same operations, so results have the same bits.
 struct Kernels {
   // NOLINTBEGIN(readability-identifier-naming): they are called as functions
-  /// The candidates within the squared distance `bound` of a point, but for number p: squared distances, with the bits
-  /// of FLANN's L2_Simple, and ranks. Both arrays have room for all candidates and one packet.
-  /// @returns how many
+  /// Selects the candidates within the squared distance `bound` of a point, except number p: their ranks, and squared
+  /// distances with the bits of FLANN's L2_Simple. Both arrays have room for all candidates and one packet.
+  /// @returns their number
   int (*takeWithin)(const Candidates& candidates, const double* point, int p, double bound, double* squared_distance,
                     int* index);
-  /// How many of the values, rounded to floats, are less than each.
-  /// @param count a multiple of the packet
-  /// @param rounded scratch; this and `rank` have room for two packets more
+  /// For each value, how many of all values are less, compared as floats.
+  /// @param count a multiple of kernel_packet
+  /// @param rounded scratch; it and `rank` have room for two packets more
   void (*rankValues)(const double* values, int count, float* rounded, int* rank);
   /// The largest absolute coordinate.
   double (*extent)(const Offsets& offsets);
   /// Sums over the first ends[0], ends[1], ... offsets times `unit`.
   /// @param ends ascending, at most most_sets
   void (*sumOffsets)(const Offsets& offsets, double unit, const int* ends, int sets, OffsetSums* sums);
-  /// Sums over the offsets in the coordinates u, v and h, whose axes are given one after the other.
+  /// Sums over the offsets in the coordinates u, v and h along three axes, 3 x 3 numbers row by row.
   void (*sumHeights)(const Offsets& offsets, const double* axes, HeightSums& sums);
-  /// Solves each system with the same bits as if it were alone.
+  /// Solves each system, bit for bit independently of the others.
   void (*solveHeights)(const HeightSystems& systems, HeightSolutions& solutions);
-  /// Heights along `normal`, and the range of those connected with 0 by gaps of at most `gap`.
+  /// Heights along `normal`, and the range reached from 0 over gaps of at most `gap`.
   /// @param[out] heights room for whole packets
   HeightRange (*connectedHeights)(const Offsets& offsets, const double* normal, double gap, double* heights);
-  /// Heights along each of the normals, and their ranges, as connectedHeights() gives them for one normal.
+  /// connectedHeights() for eight normals.
   /// @param[out] heights one packet per offset, with a height for each normal
   /// @param[out] range one packet
   void (*connectedHeightsAlong)(const Offsets& offsets, const Normals& normals, double gap, double* heights,
                                 HeightRange* range);
-  /// Puts the offsets within the range to the front, filled up to whole packets with zeros.
-  /// @param[out] x, y, z room for whole packets; may be what is given
-  /// @returns how many
+  /// Moves the offsets with heights in the range to the front, padded to whole packets with zeros.
+  /// @param[out] x, y, z room for whole packets; may be the given arrays
+  /// @returns their number
   int (*keepConnected)(const Offsets& offsets, const double* heights, const HeightRange& range, double* x, double* y,
                        double* z);
-  /// The smallest eigenvalue and its axis of each matrix, with the same bits as if it were alone.
+  /// The eigenvalues and the axis of the smallest, of each matrix, bit for bit independently of the others.
   void (*findSmallest)(const Covariances& covariances, SmallestAxes& axes);
-  /// The offsets, at most PlanarOffsets::most, times `unit` along the axes x and y.
+  /// Projects offsets, at most PlanarOffsets::most, times `unit`, to the axes x and y.
   void (*project)(const Offsets& offsets, double unit, const double* x, const double* y, PlanarOffsets& planar);
-  /// The triangles of the fans, by the formulas of cover/geometry.h.
+  /// Measures the triangles of the fans by the formulas of cover/geometry.h.
   void (*measureTriangleFans)(const TriangleFans& fans);
   /// See wrapInverted().
   StarKind (*wrapInverted)(const PlanarOffsets& planar, InvertedStar& star);
-  /// The plane through the points around each pixel, as fitFrame() has it, and the star where it is made of ring 1.
-  /// Each lane has the same bits as if it were alone.
+  /// The plane of each of eight points by the pixels around, as fitFrame() has it, and its star if all link vertices
+  /// are beside it. Each lane is bit for bit independent of the others.
   void (*wrapPixels)(const PixelsAround& around, PixelStars& stars);
-  /// Over 5 x 5 and 7 x 7 pixels.
+  /// Quadratics over 5 x 5 and 7 x 7 pixels.
   void (*fitSquares5)(const PixelRows& rows, SquareFits& fits);
   void (*fitSquares7)(const PixelRows& rows, SquareFits& fits);
-  /// For each step whether JumpTest joins each pixel of a row with the one that the step leads to: bits of 64 pixels.
-  /// @param of_inverse,of_depth its tolerance
+  /// For each step, whether JumpTest joins each of 64 pixels of a row with the one that the step leads to, as bits.
+  /// @param of_inverse,of_depth tolerances of JumpTest
   void (*joinPixels)(const PixelPoints& pixels, const PixelSteps& steps, double of_inverse, double of_depth,
                      std::uint64_t* joined);
-  /// The mean squared spacing, in inverse depth, between each of eight pixels and those beside it that are chosen; 0
-  /// where none is.
-  /// @param shift of the pixels of ring 1
-  /// @param beside of each of them, for which lanes it is chosen
+  /// The mean squared spacing, in inverse depth, between each of eight pixels and the chosen ones of ring 1; 0 if none
+  /// is chosen.
+  /// @param shift offsets to the pixels of ring 1
+  /// @param beside for each of these, the lanes for which it is chosen
   void (*spacingsOf)(const PixelPoints& pixels, const double* inverse_depth, const int* shift,
                      const unsigned char* beside, double* squared);
-  /// Which values of a 7 x 7 window differ from the middle by at most the lane's slope times the ring, plus its
-  /// tolerance; what is no number differs.
-  /// @param values in the middle of each of eight windows
-  /// @param shift to each pixel of the window
-  /// @param wanted lanes
-  /// @param[out] within for each pixel of the window, the lanes; not set where those wanted are within as a whole
-  /// @returns the lanes of which all are within
+  /// Which values of a 7 x 7 window differ from the middle by at most the lane's slope times the number of the ring,
+  /// plus its tolerance; NaN never does.
+  /// @param values the middle values of eight windows
+  /// @param shift offsets to the pixels of the window
+  /// @param wanted lanes whose `within` is needed
+  /// @param[out] within for each pixel of the window, the lanes; not set if all pixels of all wanted lanes are within
+  /// @returns the lanes with all pixels within
   unsigned (*squaresWithin)(const double* values, const std::ptrdiff_t* shift, const double* slope,
                             const double* tolerance, unsigned wanted, unsigned char* within);
   // NOLINTEND(readability-identifier-naming)
 };
 
-/// What every processor runs.
+/// The kernels that every processor runs.
 const Kernels& portableKernels();
 
-/// What this processor runs fastest, or what was chosen below.
+/// The fastest kernels for this processor, or those set by chooseKernels().
 const Kernels& kernels();
 
-/// Builds that begin after this use the given ones; for tests and benchmarks. Null: the fastest.
+/// Sets the kernels of builds that begin later, for tests and benchmarks. Null: the fastest.
 void chooseKernels(const Kernels* chosen);
 
 }  // namespace tufted

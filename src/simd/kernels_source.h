@@ -13,7 +13,7 @@ static_assert(packet_size == kernel_packet, "arrays are filled up to the packets
 
 int takeWithin(const Candidates& candidates, const double* point, int p, double bound, double* squared_distance,
                int* index) {
-  const Candidates given = candidates;  // a copy, which what is written below cannot change
+  const Candidates given = candidates;  // copied, so that stores below cannot alias it
   const Packet x = broadcast(point[0]), y = broadcast(point[1]), z = broadcast(point[2]), limit = broadcast(bound);
   int found = 0;
   for (int i = 0; i < given.count; i += packet_size) {
@@ -29,7 +29,7 @@ int takeWithin(const Candidates& candidates, const double* point, int p, double 
 
 void rankValues(const double* values, int count, float* rounded, int* rank) {
   for (int i = 0; i < count; i += packet_size) storeFloats(load(values + i), rounded + i);
-  // Each step ranks as many values as fit in registers.
+  // Each call ranks as many values as fit in registers.
   int i = 0;
   for (; i + 2 * float_packet_size < count; i += 3 * float_packet_size)
     rankFloats<3>(rounded + i, rounded, count, rank + i);
@@ -45,7 +45,7 @@ double extent(const Offsets& offsets) {
   return reduceMax(largest);
 }
 
-/// The sum of the numbers in each packet, added in the same order on any processor.
+/// Sums the numbers of each packet, in the same order on any processor.
 TUFTED_INLINE void addAcross(const double* packets, int count, double* totals) {
   int n = 0;
 #ifdef TUFTED_WIDE_PACKETS
@@ -68,7 +68,7 @@ TUFTED_INLINE void addAcross(const double* packets, int count, double* totals) {
   }
 }
 
-/// Stores the parts one after the other, each a packet behind the one before.
+/// Stores the parts, each one packet behind the previous one.
 template <class... Parts>
 TUFTED_INLINE void putInTurn(double* to, const Parts&... parts) {
   (..., (store(parts, to), to += packet_size));
@@ -106,7 +106,7 @@ void sumOffsets(const Offsets& offsets, double unit, const int* ends, int sets, 
   for (int set = 0; set < sets; ++set) addAcross(packets[set], numbers, &totals[set].x);
 }
 
-/// HeightSums of eight neighbours at a time, each in a register as far as there are any.
+/// HeightSums of eight neighbours at a time, in registers if there are enough.
 struct HeightParts {
   Part u, v, uu, uv, vv, uuu, uuv, uvv, vvv, uuuu, uuuv, uuvv, uvvv, vvvv, h, hu, hv, huu, huv, hvv, hh;
 };
@@ -137,10 +137,10 @@ void sumHeights(const Offsets& offsets, const double* axes, HeightSums& total) {
   addAcross(packets, numbers, &total.u);
 }
 
-/// Solves by the decomposition L D L^T of the lower triangle.
+/// Solves the systems by the decomposition L D L^T.
 void solveHeights(const HeightSystems& systems, HeightSolutions& solutions) {
   enum { u, v, uu, uv, vv, uuu, uuv, uvv, vvv, uuuu, uuuv, uuvv, uvvv, vvvv, h, hu, hv, huu, huv, hvv };
-  // Unknowns of the systems that are solved side by side.
+  // Number of unknowns.
   constexpr int size = 6;
   constexpr int lower[size][size] = {
       {},  // the count
@@ -186,15 +186,15 @@ void solveHeights(const HeightSystems& systems, HeightSolutions& solutions) {
   store(largest, solutions.most_pivot);
 }
 
-/// If the two smallest eigenvalues differ by more than this part of the largest, the closed form is as exact as the
-/// iteration of Eigen.
+/// If the two smallest eigenvalues differ by more than this share of the largest, the closed form is as exact as
+/// Eigen's iteration.
 constexpr double least_gap = 1e-3;
-/// Steps of Newton's method. It converges quadratically, and slowly only towards the double roots that Eigen solves
-/// for.
+/// Greatest number of steps of Newton's method. It converges quadratically, but slowly towards double roots, which are
+/// left to Eigen.
 constexpr int most_steps = 8;
 
-/// The smallest eigenvalue by Newton's method on the characteristic polynomial, which from 0 rises to its first root,
-/// and the eigenvector as a cross product.
+/// The smallest eigenvalue by Newton's method on the characteristic polynomial, which increases from 0 to its first
+/// root, and its eigenvector as a cross product.
 void findSmallest(const Covariances& given, SmallestAxes& axes) {
   const Packet xx = load(given.xx), xy = load(given.xy), xz = load(given.xz);
   const Packet yy = load(given.yy), yz = load(given.yz), zz = load(given.zz);
@@ -202,26 +202,27 @@ void findSmallest(const Covariances& given, SmallestAxes& axes) {
   const Packet minors = x_minor + (xx * zz - xz * xz) + (xx * yy - xy * xy);
   const Packet determinant = xx * x_minor - xy * (xy * zz - yz * xz) + xz * (xy * yz - yy * xz);
   Packet smallest = broadcast(0);
-  Mask converged = none();  // slowly towards a double root, or not at all
+  Mask converged = none();
   for (int step = 0; step < most_steps && countOf(converged) < packet_size; ++step) {
     const Packet value = ((smallest - trace) * smallest + minors) * smallest - determinant;
     const Packet slope = (broadcast(3) * smallest - broadcast(2) * trace) * smallest + minors;
     const Packet change = value / slope;
-    smallest = select(converged, smallest, smallest - change);  // each as if it were alone
+    smallest = select(converged, smallest, smallest - change);  // lanes that converged keep their bits
     converged =
-        logicalOr(converged, isAtMost(absolute(change), broadcast(1e-9) * trace));  // and quadratically it went further
+        // the error is about the square of this change
+        logicalOr(converged, isAtMost(absolute(change), broadcast(1e-9) * trace));
   }
-  const Packet rest = trace - smallest;  // sum and product of the other two
+  const Packet rest = trace - smallest;  // sum of the other two eigenvalues
   const Packet product = minors - smallest * rest;
   const Packet root = squareRoot(max(broadcast(0), rest * rest - broadcast(4) * product));
   const Packet middle = broadcast(0.5) * (rest - root), largest = broadcast(0.5) * (rest + root);
   const Mask is_found = logicalAnd(converged, isLess(broadcast(least_gap) * largest, middle - smallest));
 
-  // Two rows of the matrix less the eigenvalue span what is perpendicular to the eigenvector.
+  // The eigenvector is the longest cross product of two rows of the matrix minus the eigenvalue.
   const Packet xs = xx - smallest, ys = yy - smallest, zs = zz - smallest;
   const Packet ax = xy * yz - xz * ys, ay = xz * xy - xs * yz, az = xs * ys - xy * xy;  // rows x and y
-  const Packet bx = ys * zs - yz * yz, by = yz * xz - xy * zs, bz = xy * yz - ys * xz;  // y and z
-  const Packet cx = yz * xz - zs * xy, cy = zs * xs - xz * xz, cz = xz * xy - yz * xs;  // z and x
+  const Packet bx = ys * zs - yz * yz, by = yz * xz - xy * zs, bz = xy * yz - ys * xz;  // rows y and z
+  const Packet cx = yz * xz - zs * xy, cy = zs * xs - xz * xz, cz = xz * xy - yz * xs;  // rows z and x
   const Packet a = ax * ax + ay * ay + az * az, b = bx * bx + by * by + bz * bz, c = cx * cx + cy * cy + cz * cz;
   const Mask second = isLess(a, b), third = isLess(max(a, b), c);
   const auto longest = [&](Packet of_a, Packet of_b, Packet of_c) {
@@ -257,14 +258,14 @@ TUFTED_INLINE Part lengthOf(const double* x, const double* y, const double* z) {
   return squareRoot(a * a + b * b + c * c);
 }
 
-/// 4 A cot of the angle opposite a.
+/// 4 A cot(alpha) for the area A and the angle alpha opposite a, as in cover/geometry.h.
 TUFTED_INLINE Part cotanNumerator(Part a, Part b, Part c) {
   const Part shorter = min(b, c), longer = max(b, c);
   return shorter * shorter + (longer - a) * (longer + a);
 }
 
 void measureTriangleFans(const TriangleFans& given) {
-  const TriangleFans fans = given;  // a copy, which what is written below cannot change
+  const TriangleFans fans = given;  // copied, so that stores below cannot alias it
   for (int i = 0; i < fans.count + 1; i += part_size)
     store(lengthOf(fans.spoke_x + i, fans.spoke_y + i, fans.spoke_z + i), fans.spoke + i);
   for (int i = 0; i < fans.count; i += part_size) {

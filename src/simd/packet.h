@@ -1,9 +1,9 @@
 #pragma once
 
-// Arithmetic on eight numbers at once, a Packet, for the sources of kernels only. A Part is as much of a packet as one
-// register holds; loops that treat each number alone go by parts, since whole packets would fill all registers. This
-// header includes none with functions of others: a copy of one that is compiled for one kind of processor could be
-// linked into code for another.
+// Arithmetic on eight numbers at once, a Packet, only for the sources of kernels. A Part is as much of a packet as one
+// register holds; loops without operations across lanes go by parts, since whole packets would fill all registers. This
+// header includes none that defines functions: a copy of one that is compiled for one kind of processor could be linked
+// into code for another.
 #include <cstdint>
 #if defined(TUFTED_WIDE_PACKETS) || defined(__SSE2__)
 #include <immintrin.h>

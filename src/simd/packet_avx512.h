@@ -6,7 +6,7 @@ namespace tufted {
 namespace {
 
 using Packet = __m512d;
-using Mask = __mmask8;  // a bit for each number
+using Mask = __mmask8;  // bit i is that of number i
 using Part = Packet;
 using PartMask = Mask;
 constexpr int part_size = packet_size;
@@ -62,18 +62,17 @@ TUFTED_INLINE Mask logicalOr(Mask a, Mask b) {
 TUFTED_INLINE bool any(Mask mask) {
   return mask != 0;
 }
-/// Bit i is number i's.
 TUFTED_INLINE unsigned bitsOf(Mask mask) {
   return mask;
 }
-/// The inverse of bitsOf(), for as many numbers as a part has.
+/// The inverse of bitsOf() for the numbers of a part.
 TUFTED_INLINE PartMask maskOf(unsigned bits) {
   return static_cast<PartMask>(bits);
 }
 TUFTED_INLINE Mask none() {
   return 0;
 }
-/// The first `count` numbers, all of them for more.
+/// The first `count` numbers, at most all.
 TUFTED_INLINE Mask firstOf(int count) {
   return static_cast<Mask>(count < packet_size ? (1U << count) - 1 : 0xFF);
 }
@@ -85,9 +84,9 @@ TUFTED_INLINE int countOf(Mask mask) {
   return __builtin_popcount(mask);
 }
 
-/// Writes the chosen numbers to the front and anything behind them, a whole packet.
+/// Writes the chosen numbers to the front of a whole packet, followed by arbitrary values.
 TUFTED_INLINE void compress(Mask chosen, Packet a, double* to) {
-  // In the register: compressing stores are slow on some processors.
+  // Compresses in the register, because compressing stores are slow on some processors.
   _mm512_storeu_pd(to, _mm512_maskz_compress_pd(chosen, a));
 }
 TUFTED_INLINE void compress(Mask chosen, const int* a, int* to) {
@@ -100,7 +99,7 @@ TUFTED_INLINE void storeFloats(Packet a, float* to) {
   _mm256_storeu_ps(to, _mm512_cvtpd_ps(a));
 }
 
-/// How many of the values are less than each of `some`, which are so many packets of floats.
+/// For each number in `some`, `packets` packets of floats, how many of the values are less.
 template <int packets>
 TUFTED_INLINE void rankFloats(const float* some, const float* values, int count, int* rank) {
   __m512 mine[packets];

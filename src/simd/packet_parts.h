@@ -1,11 +1,11 @@
 #pragma once
 
-// Packets in several registers, by the vectors of GCC and Clang; see packet.h.
+// Packets in several registers, as vectors of GCC and Clang; see packet.h.
 
 namespace tufted {
 namespace {
 
-// Vectors that are wider than registers are left to the compiler, which takes them apart badly.
+// Compilers generate slow code for vectors wider than a register, so a packet is an array of parts.
 #ifdef __AVX2__
 /// Doubles in an AVX2 register.
 constexpr int part_size = 4;
@@ -84,7 +84,7 @@ TUFTED_INLINE PartMask maskOf(unsigned bits) {
 TUFTED_INLINE Part select(PartMask mask, Part a, Part b) {
   return mask ? a : b;
 }
-#ifdef __AVX2__  // what the compiler makes of the generic ones below takes longer
+#ifdef __AVX2__  // faster than what the compiler makes of the generic functions below
 TUFTED_INLINE Part squareRoot(Part x) {
   return _mm256_sqrt_pd(x);
 }
@@ -97,7 +97,7 @@ TUFTED_INLINE Part max(Part x, Part y) {
 TUFTED_INLINE Part absolute(Part x) {
   return _mm256_andnot_pd(broadcastPart(-0.0), x);
 }
-/// Bit i is number i's.
+/// Bit i is that of number i.
 TUFTED_INLINE unsigned bitsOf(PartMask mask) {
   return static_cast<unsigned>(_mm256_movemask_pd(reinterpret_cast<Part>(mask)));
 }
@@ -215,7 +215,7 @@ TUFTED_INLINE int countOf(const Mask& mask) {
 
 template <class Value>
 TUFTED_INLINE void compressEach(unsigned chosen, const Value* values, Value* to) {
-  for (int i = 0; i < packet_size; ++i) {  // without a branch: which are chosen cannot be foreseen
+  for (int i = 0; i < packet_size; ++i) {  // without a branch, which would be hard to predict
     *to = values[i];
     to += chosen >> i & 1U;
   }

@@ -10,10 +10,10 @@ TUFTED_INLINE Part differenceOf(const double* values, int shift, int at) {
   return loadPart(values + shift + at) - loadPart(values + at);
 }
 
-/// JumpTest of depth_image/surface_windows.h.
+/// See JumpTest in depth_image/surface_windows.h.
 void joinPixels(const PixelPoints& pixels, const PixelSteps& steps, double of_inverse, double of_depth,
                 std::uint64_t* joined) {
-  const PixelPoints given = pixels;  // a copy, which what is written below cannot change
+  const PixelPoints given = pixels;  // copied, so that stores below cannot alias it
   for (int s = 0; s < steps.count; ++s) joined[s] = 0;
   for (int at = 0; at < pixels_in_word; at += part_size) {
     const Part range = loadPart(given.range + at), allowed = broadcastPart(of_inverse) * range;
@@ -43,7 +43,7 @@ void spacingsOf(const PixelPoints& pixels, const double* inverse_depth, const in
       across = across + select(is_beside, x * x + y * y + z * z - along * along, zero);
       count = count + select(is_beside, one, zero);
     }
-    // A way d along the ray changes the inverse depth by d over range and depth.
+    // A step d along the ray changes the inverse depth by the share d / range.
     const Part change = loadPart(inverse_depth + at) / loadPart(pixels.range + at);
     store(select(isLess(zero, count), across / count * change * change, zero), squared + at);
   }
@@ -51,7 +51,7 @@ void spacingsOf(const PixelPoints& pixels, const double* inverse_depth, const in
 
 unsigned squaresWithin(const double* values, const std::ptrdiff_t* shift, const double* slope, const double* tolerance,
                        unsigned wanted, unsigned char* within) {
-  // Rings of 8, 16 and 24.
+  // Rings of 8, 16 and 24 pixels.
   const auto compare = [&](int part, const auto& take) {
     const Part middle = loadPart(values + part), rise = loadPart(slope + part), rest = loadPart(tolerance + part);
     for (int ring = 1, i = 0; ring <= 3; ++ring) {

@@ -7,11 +7,11 @@
 namespace tufted {
 namespace {
 
-/// Sine between the changes of positions with rows and with columns below which a plane is none.
+/// There is no plane if the sine between the changes of positions with rows and with columns is below this.
 constexpr double least_sine = 1e-6;
-/// Pixels of ring 3 are this many times as far as those of ring 2, as in isCertain() of image_stars.cpp.
+/// Ring 3 is this many times as far as ring 2, as in isCertain() of image_stars.cpp.
 constexpr double next_ring = 3.0 / 2;
-/// Pixels that are diagonally beside one.
+/// Number of diagonally adjacent pixels.
 constexpr int corners = pixels_beside / 2;
 
 struct VectorPart {
@@ -40,7 +40,7 @@ TUFTED_INLINE Part sizeOf(const PlanarPart& a) {
   return absolute(a.x) + absolute(a.y);
 }
 
-/// An edge of the hull of inverted points, counterclockwise; of many points at once.
+/// An edge of the hull of inverted points, counterclockwise; one star per lane.
 struct EdgePart {
   PlanarPart from, to, along;
 };
@@ -48,7 +48,7 @@ TUFTED_INLINE EdgePart edgeBetween(const PlanarPart& from, const PlanarPart& to)
   return {from, to, {to.x - from.x, to.y - from.y}};
 }
 
-/// Whether the hull turns left from one edge to the next beyond doubt, as in measureEdges().
+/// Whether the hull certainly turns left from one edge to the next, with the bound of measureEdges().
 TUFTED_INLINE PartMask turnsLeft(const EdgePart& first, const EdgePart& second) {
   const Part u = sizeOf(first.along), v = sizeOf(second.along);
   const Part a = sizeOf(first.from), b = sizeOf(first.to), c = sizeOf(second.to);
@@ -56,9 +56,9 @@ TUFTED_INLINE PartMask turnsLeft(const EdgePart& first, const EdgePart& second) 
   return isLess(doubt, first.along.x * second.along.y - first.along.y * second.along.x);
 }
 
-/// The plane along which positions change with rows and columns.
+/// The plane spanned by the changes of positions with rows and with columns.
 struct PlaneOfPixels {
-  VectorPart normal, x, y;  ///< y is x turned towards where columns grow
+  VectorPart normal, x, y;  ///< y is x turned by pi / 2 towards growing columns
   PartMask is_found;
 };
 
@@ -83,10 +83,11 @@ TUFTED_INLINE PlaneOfPixels planeOfPixels(const VectorPart* offset) {
   return plane;
 }
 
-/// The inverted points, and what else is found of the points in the plane.
+/// The projected and inverted points.
 struct InvertedPixels {
   PlanarPart point[pixels_around];
-  Part nearest_of_ring;  ///< squared distance in space of the nearest of ring 2, or of its rows
+  /// squared distance in space to the nearest point of ring 2, or of its two rows if `is_stretched`
+  Part nearest_of_ring;
   PartMask is_in_range;
 };
 
@@ -114,8 +115,8 @@ TUFTED_INLINE InvertedPixels invertPixels(const VectorPart* offset, const PlaneO
   return inverted;
 }
 
-/// The hull of the pixels above, below, left and right, and of those diagonally between them that lie outside of the
-/// others' edges; then whether it is the hull of all points as surely as judge() asks.
+/// The hull of the pixels above, below, left and right, and of diagonal ones outside of their edges. Returns the lanes
+/// where it is certainly the hull of all points, as in judge(), and no circle reaches ring 3.
 TUFTED_INLINE PartMask hullOfPixels(const InvertedPixels& pixels, int part, PixelStars& stars) {
   const PlanarPart* const point = pixels.point;
   EdgePart edge[pixels_beside];
@@ -145,7 +146,7 @@ TUFTED_INLINE PartMask hullOfPixels(const InvertedPixels& pixels, int part, Pixe
     size = max(size, sizeOf(from));
     store(broadcastPart(0.5) / squareRoot(square), stars.radius[e] + part);
   }
-  // Its four quarters take less than half a turn each, so it goes around once.
+  // Each of its four quarters spans less than half a turn, so it goes around once.
   for (int c = 0; c < corners; ++c) {
     const PlanarPart &from = point[2 * c], &to = point[(2 * c + 2) % pixels_beside];
     least_cross = min(least_cross, from.x * to.y - from.y * to.x);
@@ -165,7 +166,7 @@ TUFTED_INLINE PartMask hullOfPixels(const InvertedPixels& pixels, int part, Pixe
     outermost = max(outermost, select(has_corner[c], broadcastPart(0), gauge(point[2 * c + 1])));
   for (int i = pixels_beside; i < pixels_around; ++i) outermost = max(outermost, gauge(point[i]));
   is_hull = logicalAnd(is_hull, isLess(outermost, limit));
-  // The widest circle, of diameter 1 / inner, ends before ring 3.
+  // The widest circle, of diameter 1 / inner, must end before ring 3.
   const Part next = broadcastPart(next_ring * next_ring) * pixels.nearest_of_ring;
   return logicalAnd(is_hull, isLess(broadcastPart(1), next * inner_square));
 }

@@ -6,11 +6,12 @@
 namespace tufted {
 namespace {
 
-/// Least squares over {1, i, j, i j, i^2 - m, j^2 - m}, which are orthogonal on the square.
+/// Least squares fit over {1, i, j, i j, i^2 - m, j^2 - m}, which are orthogonal on the square; i and j are steps of
+/// rows and columns, m is the mean of i^2.
 template <int Reach>
 TUFTED_INLINE void fitSquare(const PixelRows& rows, int part, SquareFits& fits) {
   const int side = 2 * Reach + 1, pixels = side * side;
-  const double mean_square = Reach * (Reach + 1) / 3.0;  // of i
+  const double mean_square = Reach * (Reach + 1) / 3.0;  // mean of i^2
   const double square = pixels * mean_square;            // sum of i^2
   const double fourth = pixels * mean_square * (3.0 * Reach * (Reach + 1) - 1) / 5;
   const double bowl = fourth - pixels * mean_square * mean_square;  // sum of (i^2 - m)^2

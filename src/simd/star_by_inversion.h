@@ -8,18 +8,19 @@ namespace {
 
 constexpr int most_given = PlanarOffsets::most;
 /// Candidates that are wrapped first, two packets (all 30 at once cost 1.3 instead of 0.9 us per point), rounds of
-/// adding what lies outside of the hull before the careful way takes over, and the mark for no number.
+/// adding what lies outside of the hull before the careful way takes over, and the mark of an empty place.
 constexpr int near_part = 16, most_rounds = 4, missing = -1;
-/// The sine of the angle between circles from which on they differ: a hundred times the tie band of sideOfCircle().
+/// Circles that meet at an angle with at least this sine are distinct: a hundred times the tie band of sideOfCircle().
 constexpr double distinct = 1e-7;
-/// A point counts as inside of an edge if it lies this far from it: a hundred times `distinct`, which also holds for
-/// the edge that is left when tied vertices go.
+/// A point is inside of an edge if it is at least this far from it: a hundred times `distinct`, which also holds for
+/// the edge that remains when tied vertices are removed.
 constexpr double inside = 1e-5;
-/// Up to here, a hundredth of the tie band, there is a tie however many add up. Between this and `distinct` the order
-/// in which vertices are looked at may decide.
+/// Below this, a hundredth of the tie band, there is a tie however many differences add up. Between this and `distinct`
+/// the order in which vertices are tested may decide.
 constexpr double surely_tied = 1e-11;
-constexpr double rounding = 1e-14;                          // of coordinates and products of them, a dozen roundings
-constexpr double least_square = 1e-60, most_square = 1e60;  // of distances, which keeps all products in range
+constexpr double rounding = 1e-14;  // bound on the rounding of coordinates and their products, a dozen operations
+// squared distances in this range keep all products in range
+constexpr double least_square = 1e-60, most_square = 1e60;
 
 /// The inverted candidates, q / |q|^2.
 struct Inverted {
@@ -27,15 +28,15 @@ struct Inverted {
   alignas(64) double x[most_given], y[most_given];
 };
 
-/// Some of the inverted candidates, and room for whole packets behind them.
+/// Some of the inverted candidates, with room for whole packets.
 struct Subset {
   int size;
   alignas(64) double x[most_given + packet_size], y[most_given + packet_size];
   int of[most_given + packet_size];
 };
 
-/// Points by direction from the origin, as a ring: the first stands at 1, the last also at 0, and the first once more
-/// behind it.
+/// Points by direction from the origin, cyclically: the first is at 1, the last also at 0, and the first again behind
+/// the last.
 struct Ring {
   int size;
   double x[most_given + 3 * packet_size], y[most_given + 3 * packet_size];
@@ -51,7 +52,7 @@ struct Ring {
   }
 };
 
-/// False where a point lies too near or too far for the bounds to hold.
+/// Inverts the candidates; false if one is too near or too far for the bounds to hold.
 TUFTED_INLINE bool invert(const PlanarOffsets& planar, Inverted& points) {
   points.count = planar.count;
   Packet nearest = broadcast(most_square), furthest = broadcast(least_square);
@@ -68,8 +69,7 @@ TUFTED_INLINE bool invert(const PlanarOffsets& planar, Inverted& points) {
   return reduceMin(nearest) > least_square && reduceMax(furthest) < most_square;
 }
 
-/// Sorts by direction, counterclockwise from the u axis. Of points in one direction the first
-/// alone is left.
+/// Sorts points by direction, counterclockwise from the u axis. Of points in one direction only the first is kept.
 TUFTED_INLINE void sortByDirection(const Subset& given, Ring& ring) {
   alignas(64) float key[most_given + float_packet_size];  // a pseudo-angle, 0 to 4
   for (int i = 0; i < given.size; i += packet_size) {
@@ -90,7 +90,7 @@ TUFTED_INLINE void sortByDirection(const Subset& given, Ring& ring) {
   }
   ring.size = given.size;
   if (sum == given.size * (given.size - 1) / 2) return;
-  ring.size = 0;  // places are missing, where points had one direction
+  ring.size = 0;  // equal directions have left places empty
   for (int i = 1; i <= given.size; ++i) {
     if (ring.of[i] == missing) continue;
     const int at = ++ring.size;
@@ -100,8 +100,8 @@ TUFTED_INLINE void sortByDirection(const Subset& given, Ring& ring) {
   }
 }
 
-/// Removes all at once the vertices where a ring does not turn left, until it turns left everywhere. Such a vertex lies
-/// within the triangle of the origin and its neighbours, removed or not, so it is none of the hull's.
+/// Removes all vertices where the ring does not turn left, until it turns left everywhere. Such a vertex lies in the
+/// triangle of the origin and its neighbours, even if these are removed, so it is no vertex of the hull.
 TUFTED_INLINE void removeReflex(Ring& first, Ring& second, Ring*& hull) {
   Ring *ring = &first, *next = &second;
   for (;;) {
@@ -129,18 +129,18 @@ TUFTED_INLINE void removeReflex(Ring& first, Ring& second, Ring*& hull) {
 
 enum class Verdict { certain, tied, incomplete, open, doubtful };
 
-/// The edges of a hull. The line through one is dual . x = 1, and inside of it dual . x < 1.
+/// The edges of a hull. The line through an edge is dual . x = 1, with dual . x < 1 inside.
 struct Edges {
   int count;
   alignas(64) double dual_x[InvertedStar::most], dual_y[InvertedStar::most];
-  bool is_open;       ///< the origin is not inside of all
-  bool has_ties;      ///< the hull turns by less than `distinct` somewhere
-  bool is_ambiguous;  ///< and there by more than `surely_tied`
+  bool is_open;       ///< whether the origin is not inside of all edges
+  bool has_ties;      ///< whether the hull turns by less than `distinct` at a vertex
+  bool is_ambiguous;  ///< whether it also turns by more than `surely_tied` there
   double ratio;       ///< the distance of the farthest vertex over that of the nearest edge
-  double limit;       ///< of dual . x, from which on a point is too near to an edge
+  double limit;       ///< points with a larger dual . x are too near to an edge
 };
 
-/// @param[out] radius of each edge's circle, before inversion
+/// @param[out] radius circumradius of each triangle, before inversion
 TUFTED_INLINE void measureEdges(Ring& hull, Edges& edges, double* radius) {
   hull.close(toPackets(hull.size) - hull.size + 2);
   edges.count = hull.size;
@@ -153,7 +153,7 @@ TUFTED_INLINE void measureEdges(Ring& hull, Edges& edges, double* radius) {
     const Packet ux = bx - ax, uy = by - ay, vx = cx - bx, vy = cy - by;
     const Packet u = absolute(ux) + absolute(uy), v = absolute(vx) + absolute(vy);
     const Packet a = absolute(ax) + absolute(ay), b = absolute(bx) + absolute(by), c = absolute(cx) + absolute(cy);
-    // A difference is off by the rounding of its ends, and counts times the length of the other.
+    // A difference is wrong by the rounding of its two ends, times the length of the other factor.
     const Packet doubt = broadcast(distinct) * u * v + broadcast(rounding) * ((a + b) * v + (b + c) * u);
     const Packet cross = ax * by - ay * bx, turn = ux * vy - uy * vx;
     const Mask turns_little = isAtMost(turn, doubt);
@@ -162,7 +162,7 @@ TUFTED_INLINE void measureEdges(Ring& hull, Edges& edges, double* radius) {
     is_ambiguous = logicalOr(is_ambiguous, logicalAnd(turns_little, isLess(broadcast(surely_tied) * u * v, turn)));
     store(uy / cross, edges.dual_x + i);
     store(-ux / cross, edges.dual_y + i);
-    const Packet square = cross * cross / (ux * ux + uy * uy);  // of the distance from the origin to the edge
+    const Packet square = cross * cross / (ux * ux + uy * uy);  // squared distance from the origin to the edge
     inner_square = min(inner_square, square);
     least_cross = min(least_cross, cross);
     most_size = max(most_size, a);
@@ -176,8 +176,8 @@ TUFTED_INLINE void measureEdges(Ring& hull, Edges& edges, double* radius) {
   edges.limit = 1 - 2 * inside * edges.ratio - rounding * size * size / reduceMin(least_cross);
 }
 
-/// The gauge of each point in the hull, max dual . x: less than 1 inside, more outside; 0 for the hull's own vertices.
-/// Returns the largest.
+/// The gauge of each point, max dual . x over all edges: below 1 inside of the hull, above 1 outside; set to 0 for its
+/// vertices. Returns the largest.
 TUFTED_INLINE double gaugePoints(const Inverted& points, const Ring& hull, const Edges& edges, double* gauge) {
   for (int i = 0; i < points.count; i += packet_size) {
     const Packet x = load(points.x + i), y = load(points.y + i);
@@ -192,7 +192,7 @@ TUFTED_INLINE double gaugePoints(const Inverted& points, const Ring& hull, const
   return reduceMax(outermost);
 }
 
-/// Whether a point is so near to an edge that it may or may not be tied with its ends.
+/// Whether it is uncertain for any point if it is tied with the ends of an edge.
 TUFTED_INLINE bool isAmbiguous(const Inverted& points, const double* gauge, double ratio) {
   const Packet from = broadcast(1 - distinct * ratio), to = broadcast(1 - surely_tied * ratio);
   Mask is_ambiguous = none();
@@ -208,8 +208,8 @@ TUFTED_INLINE void takeVertices(const Ring& hull, InvertedStar& star) {
   for (int i = 0; i < hull.size; ++i) star.link[i] = hull.of[i + 1];
 }
 
-/// Makes `given` the vertices of the hull and all points outside of it or too near, by ascending distance. Returns
-/// whether all of them were given before.
+/// Sets `given` to the vertices of the hull and all points outside or too near, by ascending distance. Returns whether
+/// all of them were given before.
 TUFTED_INLINE bool takeCandidates(const Inverted& points, const double* gauge, double limit, const bool* is_vertex,
                                   Subset& given) {
   bool was_given[most_given] = {};
@@ -226,16 +226,16 @@ TUFTED_INLINE bool takeCandidates(const Inverted& points, const double* gauge, d
   return is_complete;
 }
 
-/// Whether the hull is beyond doubt that of all points, with the origin inside and no tie among the circles. Where
-/// points that were not `given` are outside of it or too near, it is incomplete and `given` becomes what the hull must
-/// be made of. Where only points that were given are too near, the star is tied and has as `link` all that may be in
-/// it. Where the origin is not inside, or too near to the hull, it is open.
+/// Judges the hull. It is certain if it is the hull of all points, has the origin inside and no ties. If points that
+/// were not given are outside or too near, it is incomplete, and `given` becomes the points for the next hull. If only
+/// given points are too near, the star is tied, and `link` becomes all points that may be in it. If the origin is
+/// outside, or too near to the hull, it is open.
 ///
-/// Between two vertices of the hull, in direction, whatever link the careful routine is left with turns inwards at the
-/// one and comes back at the other. Where no point is seen from either of them at less than the angle `distinct` to
-/// their edge, one of the vertices between them turns the wrong way by far more than the tie band, so all are removed;
-/// and the vertices of the hull, which turn by more than that, are not. Points are asked to keep `inside` instead,
-/// which also holds for the edge that is left when tied vertices of the hull are removed.
+/// Proof. In direction between two vertices of the hull, any link that delaunayStar() is left with turns inwards at the
+/// one vertex and returns at the other. If every point is seen from both at more than the angle `distinct` to their
+/// edge, one of the link vertices in between turns the wrong way by far more than the tie band, so all are removed; the
+/// vertices of the hull, which turn by more than that, are not. Points must keep `inside` instead of `distinct`, which
+/// also holds for the edge that remains when tied vertices of the hull are removed.
 TUFTED_INLINE Verdict judge(const Inverted& points, Ring& hull, Subset& given, InvertedStar& star) {
   if (hull.size < 3) return Verdict::open;
   if (hull.size > InvertedStar::most) return Verdict::doubtful;

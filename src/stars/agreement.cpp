@@ -7,7 +7,7 @@
 namespace tufted {
 namespace {
 
-/// Whether the stars of p and of link vertex i have the same two triangles at their edge.
+/// Whether the stars of p and of link vertex i have the same two triangles at the edge between both.
 bool agreeOn(const Stars& stars, int p, int i) {
   const Sides here(stars, p, i);
   if (!here.areWhole()) return false;
@@ -24,7 +24,7 @@ Buffer<std::uint8_t> findDisagreement(const Stars& stars, const Workers& workers
       if (!among.empty() && among[p] == 0) continue;
       for (int i = stars.offset[p]; i < stars.offset[p + 1]; ++i) {
         if (agreeOn(stars, p, i)) continue;
-        // Link vertex i may not know of p at all. Several threads may write the same 1.
+        // The star of link vertex i need not contain p. Several threads may write the same 1.
         for (const int q : {p, stars.link[i]}) std::atomic_ref(disagrees[q]).store(1, std::memory_order_relaxed);
       }
     }

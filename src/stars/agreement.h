@@ -8,13 +8,14 @@
 
 namespace tufted {
 
-/// Which points do not agree with those around them, n flags by rank.
+/// Finds the points that do not agree with their neighbours (section 7 of docs/algorithm.md): n flags by rank, 1 if
+/// not.
 ///
-/// A point p agrees when its star is closed and lost nothing, every link vertex has p in its own link between the same
-/// two neighbours, and no other star has p in its link. Then each edge at p lies in two triangles, of which all three
-/// stars have a copy, and the cover around p is known from its star: with Gluing::star all copies of an edge have two
-/// faces, and front and back mirror each other.
-/// @param among n flags of the points that may not agree; empty: all
+/// A point p agrees if its star is closed and lost no triangle, every link vertex has p in its own link between the
+/// same two neighbours, and no other star has p in its link. Then each edge at p lies in two triangles, of which all
+/// three stars have a copy, and the cover around p is known from its star: with Gluing::star all copies of an edge have
+/// two faces, and front and back mirror each other.
+/// @param among n flags; only points with flag 1 are tested. Empty: all points
 Buffer<std::uint8_t> findDisagreement(const Stars& stars, const Workers& workers,
                                       const Buffer<std::uint8_t>& among = {});
 
@@ -30,7 +31,7 @@ inline int before(const Stars& stars, int p, int i) {
   return i == stars.offset[p] ? stars.offset[p + 1] - 1 : i - 1;
 }
 
-/// The neighbours of link vertex i of star p in the link, if there is a triangle towards both.
+/// The two neighbours of link vertex i in the link of p; -1 on a side without a triangle.
 struct Sides {
   int left = -1, right = -1;
 
@@ -41,7 +42,7 @@ struct Sides {
   }
   bool has(int q) const { return q == left || q == right; }
   bool areWhole() const { return left >= 0 && right >= 0; }
-  /// Either way round: the sign of normals is arbitrary.
+  /// Whether both have the same neighbours, in either order, because the sign of normals is arbitrary.
   bool areThoseOf(const Sides& other) const {
     return (left == other.left && right == other.right) || (left == other.right && right == other.left);
   }

@@ -10,7 +10,7 @@
 
 namespace tufted {
 
-/// What one block of points leaves behind.
+/// The stars of one block of points.
 struct BlockOfStars {
   Buffer<int> link;
   Buffer<std::uint8_t> triangle;
@@ -28,18 +28,19 @@ struct BlockOfStars {
   }
 };
 
-/// Puts stars one after the other in the order of their blocks, whichever is done first.
+/// Appends the stars of blocks in the order of the blocks, in whatever order the threads finish them.
 class BlocksInOrder {
  public:
   BlocksInOrder(std::int64_t blocks, BuiltStars& built) : waiting_(static_cast<std::size_t>(blocks)), built_(built) {
-    constexpr std::size_t usual_degree = 8;  // on average over a cloud, or less
+    constexpr std::size_t usual_degree = 8;  // upper estimate of the mean over a cloud
     const std::size_t likely = usual_degree * static_cast<std::size_t>(built.stars.size());
     built.stars.link.reserve(likely);
     built.stars.triangle.reserve(likely);
     built.support.radius.reserve(likely);
   }
 
-  /// @param block left empty, mostly with its memory
+  /// Takes the stars of block `number`.
+  /// @param block emptied; mostly keeps its memory
   void take(std::size_t number, BlockOfStars& block) {
     const std::lock_guard lock(mutex_);
     if (number != next_) {

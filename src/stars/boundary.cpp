@@ -13,11 +13,11 @@
 namespace tufted {
 namespace {
 
-/// Times k, as far as neighbourhoods grow: what is looked through for points beyond a gap.
+/// Points beyond a gap are searched among this many times k neighbours, the greatest growth of a neighbourhood.
 constexpr int search_factor = 8;
-constexpr double off_plane = 0.25;  // of the fit radius, as between the heights of two sheets
-constexpr double farthest = 2;      // times the longest edge; what lies farther does not bound this gap
-/// Median spreads; a viewpoint farther away is taken to be there, as its square must fit a double.
+constexpr double off_plane = 0.25;  // share of the fit radius, as between the heights of two sheets
+constexpr double farthest = 2;      // points farther away than this many longest edges do not count as beyond a gap
+/// Bound on the coordinates of a viewpoint, in median spreads, since their squares must fit a double.
 constexpr double infinity = 1e70;
 
 enum class View { along_normal, from_viewpoint };
@@ -28,7 +28,7 @@ class Chart {
   Chart(const PointsView& positions, int p, const Eigen::Vector3d& normal)
       : positions_(positions), p_(p), x_(tangentOf(normal)), y_(normal.cross(x_)) {}
 
-  /// From p to q.
+  /// The projected vector from p to q.
   Eigen::Vector2d offset(int q) const {
     const Eigen::Vector3d d = positions_.row(q) - positions_.row(p_);
     return {d.dot(x_), d.dot(y_)};
@@ -50,13 +50,13 @@ struct WorkerState {
   Buffer<Neighbor> near;
 };
 
-/// Looks through the gaps between a point's triangles.
+/// Classifies what lies beyond the gaps of a star.
 class BoundaryFinder {
  public:
   BoundaryFinder(const BuiltStars& built, const PointsView& points, const NeighborSource& source)
       : stars_(built.stars), support_(built.support), points_(points), source_(source) {}
 
-  /// Has find() look from there as well.
+  /// find() tests gaps in the image seen from `viewpoint`, too.
   void lookFrom(const Eigen::Vector3d& viewpoint, const Workers& workers) {
     directions_.resize(points_.rows());
     workers.forBlocks("boundary", points_.rows(), usual_block, [&](std::int64_t begin, std::int64_t end, int) {
@@ -76,13 +76,13 @@ class BoundaryFinder {
 
     const Eigen::Vector3d sight = directions_.row(p);
     seen_->nearest(p, search_factor * source_.k, state.near, NeighborOrder::any, &state.seen_before);
-    const Chart image(directions_, p, sight.dot(normal) < 0 ? -sight : sight);  // gaps run the same way round
+    const Chart image(directions_, p, sight.dot(normal) < 0 ? -sight : sight);  // keeps gaps counterclockwise
     const Boundary in_image = lookBeyond(p, View::from_viewpoint, image, state);
     return in_image == Boundary::jump ? Boundary::jump : along_normal;
   }
 
  private:
-  /// The square of the longest edge in the chart of a star that has triangles.
+  /// Squared length of the longest projected spoke of a star that has triangles.
   double longestEdge(int p, const Chart& chart) const {
     double longest = 0;
     forEachTriangle(stars_, p, [&](int a, int b) {
@@ -91,8 +91,8 @@ class BoundaryFinder {
     return longest;
   }
 
-  /// Whether q is too far off the tangent plane of p to lie on one surface with it. Along the normal, a surface that
-  /// bends away in the distance may be the same; what is seen beside p from the viewpoint is near or elsewhere.
+  /// Whether q is too far off the tangent plane of p to lie on the same surface. Along the normal, a surface may bend
+  /// away with distance; what a viewpoint sees beside p is near p or elsewhere.
   bool isElsewhere(int p, int q, View view) const {
     const Eigen::RowVector3d d = points_.row(q) - points_.row(p);
     const double height = std::abs(d.dot(support_.normals.row(p)));

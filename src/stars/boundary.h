@@ -10,8 +10,9 @@
 
 namespace tufted {
 
-/// Why the surface ends at each point, by rank; none where `stars.ends` is 0, lost where no triangle is left.
-/// @param viewpoint in the caller's unit; null: what lies beyond a point's gaps is judged along its normal alone
+/// Why the surface ends at each point, by rank (section 8 of docs/algorithm.md): none where `stars.ends` is 0, lost
+/// where no triangle is left.
+/// @param viewpoint the sensor, in the caller's unit; null: gaps are only tested along normals
 Buffer<Boundary> findBoundary(const BuiltStars& built, const RankedCloud& cloud, const NeighborSource& source,
                               const Eigen::Vector3d* viewpoint, const Workers& workers);
 

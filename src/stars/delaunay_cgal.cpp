@@ -26,11 +26,11 @@ void delaunayStarCgal(const Buffer<PlanarPoint>& candidates, int p, StarScratch&
     if (q.u == 0 && q.v == 0) continue;
     const auto before = triangulation.number_of_vertices();
     const auto vertex = triangulation.insert(Kernel::Point_2(q.u, q.v));
-    if (triangulation.number_of_vertices() > before) vertex->info() = &q;  // the first of equal places stays
+    if (triangulation.number_of_vertices() > before) vertex->info() = &q;  // of equal positions the first is kept
   }
 
-  // CGAL cuts cocircular polygons as it likes. So p's star is handed over together with every vertex that is
-  // cocircular across one of its link edges, and our own tie rule decides among them.
+  // CGAL triangulates cocircular polygons arbitrarily. So the link of p and all vertices that are cocircular across its
+  // link edges go to wrapChosen(), whose tie rule decides.
   scratch.chosen.clear();
   const auto circulator = triangulation.incident_vertices(center);
   if (circulator != nullptr) {
@@ -54,7 +54,7 @@ void delaunayStarCgal(const Buffer<PlanarPoint>& candidates, int p, StarScratch&
       const PlanarPoint& a = *inner->vertex(Triangulation::ccw(edge))->info();
       const PlanarPoint& c = *inner->vertex(Triangulation::cw(edge))->info();
       const int opposite = outer->index(inner);
-      if (outer->vertex(opposite) == center) continue;  // back in the star, through another link edge
+      if (outer->vertex(opposite) == center) continue;  // the star again, through another link edge
       const PlanarPoint& b = *outer->vertex(opposite)->info();
       if (orientation(a, b) <= 0 || orientation(b, c) <= 0 || sideOfCircle(a, b, c) != CircleSide::tie) continue;
       scratch.chosen.push_back(b);

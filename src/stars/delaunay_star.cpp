@@ -12,18 +12,19 @@
 namespace tufted {
 namespace {
 
-/// Most stars are settled by so many nearest candidates; the others are asked only within the widest circle.
+/// Most stars are found among this many nearest candidates; farther ones are tested only if the circles of that star
+/// reach them.
 constexpr std::size_t near_part = 12;
-/// Pseudo-angles that differ by less, which rounding moves by a few 1e-16, are compared exactly.
+/// Pseudo-angles that differ by less than this are compared exactly; rounding moves them by a few 1e-16.
 constexpr double key_rounding = 1e-14;
-/// Times the squared diameter of the widest circle: covers the tie band.
+/// Factor on the squared diameter of the widest circle that covers the tie band.
 constexpr double reach_slack = 1.001;
 
 double squaredNorm(const PlanarPoint& q) {
   return q.u * q.u + q.v * q.v;
 }
 
-/// Nearer to the origin, for points in exactly the same direction.
+/// Whether a is nearer to the origin than b, in exactly the same direction.
 bool isNearer(const PlanarPoint& a, const PlanarPoint& b) {
   return std::abs(a.u) + std::abs(a.v) < std::abs(b.u) + std::abs(b.v);
 }
@@ -33,7 +34,7 @@ bool comesBefore(const Directed& a, const Directed& b) {
   return std::abs(difference) > key_rounding ? difference > 0 : orientation(a.point, b.point) > 0;
 }
 
-/// Sorts by direction and keeps the nearest in each; of those at one place the first.
+/// Sorts points by direction and keeps the nearest in each direction; of equal positions the first.
 void sortByDirection(Buffer<PlanarPoint>& points, Buffer<Directed>& directed, Buffer<Directed>& scratch) {
   directed.clear();
   for (const PlanarPoint& q : points) directed.push_back({pseudoAngle(q.u, q.v), q});
@@ -49,11 +50,11 @@ void sortByDirection(Buffer<PlanarPoint>& points, Buffer<Directed>& directed, Bu
   }
 }
 
-/// Whether link vertex b leaves the star: the diagonal (a, c) is Delaunay in the quadrilateral (p, a, b, c).
+/// Whether link vertex b is removed: the diagonal (a, c) of the quadrilateral (p, a, b, c) is Delaunay.
 bool isCutOff(int p, const PlanarPoint& a, const PlanarPoint& b, const PlanarPoint& c) {
   const CircleSide side = sideOfCircle(a, b, c);
   if (side == CircleSide::outside) return false;
-  if (orientation(a, c) <= 0) return false;  // without b the gap would be pi or more
+  if (orientation(a, c) <= 0) return false;  // the gap without b would be pi or more
   return side == CircleSide::inside || std::min(a.index, c.index) < std::min(p, b.index);
 }
 
@@ -62,7 +63,7 @@ bool isCutOff(int p, const PlanarPoint& a, const PlanarPoint& b, const PlanarPoi
 double circumradius(const PlanarPoint& a, const PlanarPoint& b) {
   const double cross = a.u * b.v - a.v * b.u;
   if (!(cross > 0)) return std::numeric_limits<double>::infinity();
-  // Root by root: the product of the squares could leave the range of a double.
+  // Root by root: the product of the squares could overflow.
   const double opposite = (a.u - b.u) * (a.u - b.u) + (a.v - b.v) * (a.v - b.v);
   return std::sqrt(squaredNorm(a)) * std::sqrt(squaredNorm(b)) * std::sqrt(opposite) / (2 * cross);
 }
@@ -105,7 +106,7 @@ void wrapChosen(int p, StarScratch& scratch, DelaunayStar& star) {
   scratch.previous[0] = m - 1;
   int left = m;
   int first = 0;
-  int settled = 0;  // vertices in a row that stay
+  int settled = 0;  // consecutive vertices that are not cut off
   for (int b = 0; settled < left && left > 2;) {
     const int a = scratch.previous[b], c = scratch.next[b];
     const bool is_end = !star.closed && (b == first || c == first);
@@ -135,8 +136,7 @@ void delaunayStar(const Buffer<PlanarPoint>& candidates, int p, StarScratch& scr
   wrapChosen(p, scratch, star);
   if (near == candidates.size()) return;
 
-  // Circles through p reach no further than twice their radius, so only candidates within that can change a closed
-  // star. The slack covers the tie band.
+  // Circles through p reach at most twice their radius, so only candidates within that can change a closed star.
   double reach = std::numeric_limits<double>::infinity();
   if (star.closed) reach = std::pow(2 * star.largestCircumradius(), 2) * reach_slack;
   chosen.clear();

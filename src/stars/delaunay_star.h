@@ -7,10 +7,10 @@ namespace tufted {
 
 /// The triangles around p in the Delaunay triangulation of p and its projected neighbours.
 struct DelaunayStar {
-  Buffer<PlanarPoint> link;  ///< counterclockwise; triangle i is (p, link[i], link[i + 1])
-  bool closed = false;       ///< the last link vertex is joined to the first; else p is a boundary point
+  Buffer<PlanarPoint> link;  ///< counterclockwise; triangle i is (p, link[i], link[i + 1]), cyclically
+  bool closed = false;       ///< whether the last link vertex has a triangle with the first; else p is a boundary point
 
-  /// Circumradius of each triangle; infinite where it is too flat for a double.
+  /// Circumradius of each triangle; infinite if it is too flat for a double.
   Buffer<double> radius;
 
   int triangles() const { return static_cast<int>(link.size()) - (closed || link.empty() ? 0 : 1); }
@@ -18,10 +18,10 @@ struct DelaunayStar {
   double largestCircumradius() const;
 };
 
-/// The circumradius of the triangle (origin, a, b), counterclockwise; infinite where it is too flat for a double.
+/// The circumradius of the counterclockwise triangle (origin, a, b); infinite if it is too flat for a double.
 double circumradius(const PlanarPoint& a, const PlanarPoint& b);
 
-/// A planar point with a number that grows with the angle of its direction.
+/// A planar point with a key that increases with the angle of its direction.
 struct Directed {
   double key;
   PlanarPoint point;
@@ -34,19 +34,20 @@ struct StarScratch {
   Buffer<Directed> directed, sorted;
 };
 
-/// The star of the origin among `candidates`, which are given by ascending distance in space; of those that project to
-/// one place the first counts, and one that projects onto p has no direction and is dropped. A gap of pi or more
-/// between neighbouring directions leaves the star open.
+/// The star of the origin among `candidates`, in ascending order of distance in space (section 6 of docs/algorithm.md).
+/// Of candidates that project to one position the first is used; one that projects onto p is dropped. A gap of pi or
+/// more between neighbouring directions leaves the star open.
 ///
-/// Cocircular neighbours are decided by rank: of the two diagonals (p, b) and (a, c) the one with the smallest vertex
-/// stands, which is the same choice in the stars of all four points.
+/// Of cocircular points, of the two diagonals (p, b) and (a, c), the one with the smallest rank is an edge, which is
+/// the same choice in the stars of all four points.
+/// @param p rank of the origin
 void delaunayStar(const Buffer<PlanarPoint>& candidates, int p, StarScratch& scratch, DelaunayStar& star);
 
-/// Same triangles by CGAL::Delaunay_triangulation_2. Only with TUFTED_WITH_GPL.
+/// The same star by CGAL::Delaunay_triangulation_2. Only with TUFTED_WITH_GPL.
 void delaunayStarCgal(const Buffer<PlanarPoint>& candidates, int p, StarScratch& scratch, DelaunayStar& star);
 
-/// The star among `scratch.chosen` alone (reordered here): sort by angle, then remove link vertices by the in-circle
-/// test until stable.
+/// The star among `scratch.chosen`, which is reordered: sorts by angle, then removes link vertices by the in-circle
+/// test until none is cut off.
 void wrapChosen(int p, StarScratch& scratch, DelaunayStar& star);
 
 }  // namespace tufted

@@ -14,24 +14,24 @@
 namespace tufted {
 namespace {
 
-// Bounds of the difference of two sums of opposite angles. Both sums are compared as pseudo-angles, which for sums near
-// two right angles, as those of cells of grids are, differ by as much as the sums do in rad.
+// Bounds on the difference of two sums of opposite angles. Sums are compared as pseudo-angles, whose differences equal
+// those in rad near two right angles, as in cells of grids.
 
-/// Sums of opposite angles that differ by less than this count as equal, as on a circle; exact rectangles differ by
-/// rounding, 1e-15.
+/// Sums that differ by less than this count as equal; those of exact rectangles differ by rounding, 1e-15.
 constexpr double tie = 1e-9;
-/// Where sums differ by more each star keeps its diagonal, which tells something of a surface that the points barely
-/// resolve. Cells of grids differ by less than 0.003; with 0.03 real shapes have 1.03 times the error.
+/// If sums differ by more than this each star keeps its diagonal: the surface is barely resolved there. Cells of grids
+/// differ by less than 0.003; with 0.03 real shapes have 1.03 times the error.
 constexpr double most_difference = 0.01;
-/// Neighbours that a closed star keeps; two triangles back to back are no surface.
+/// Neighbours that a closed star keeps at least; two triangles back to back are no surface.
 constexpr int least_degree = 3;
 
-/// What the star of one corner of a quadrilateral has between the two corners beside it.
+/// What the star of a corner v of a quadrilateral contains between the two corners beside v.
 struct Corner {
-  int entry = -1;     ///< of the far corner if the star sees that, else of the triangle between both; -1: neither
-  bool sees = false;  ///< the far corner
+  /// link entry of the far corner if the star has it in its link, else of the triangle (v, x, y); -1: neither
+  int entry = -1;
+  bool sees = false;  ///< whether the far corner is in the link
 
-  /// @param x,y the corners beside v
+  /// @param x,y beside v; `far` is opposite
   Corner(const Stars& stars, int v, int x, int far, int y) {
     int at_x = -1, at_y = -1, at_far = -1;
     for (int i = stars.offset[v]; i < stars.offset[v + 1]; ++i) {
@@ -59,15 +59,15 @@ struct Corner {
   }
 };
 
-/// A quadrilateral whose stars disagree, its corners one after the other.
+/// A quadrilateral whose stars chose different diagonals, its corners in cyclic order.
 struct Quadrilateral {
   std::array<int, 4> corner;
   std::array<int, 4> entry;     ///< see Corner
-  std::array<bool, 4> changes;  ///< which stars are to see their far corner, or not to see it any more
+  std::array<bool, 4> changes;  ///< stars that must gain or lose their far corner
   std::array<bool, 4> sees;
 };
 
-/// Pseudo-angle of the sum of two angles, each between 0 and pi, given as unit vectors: grows with the sum.
+/// Pseudo-angle of the sum of two angles in [0, pi], given as (cosine, sine); increases with the sum.
 double pseudoSum(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
   return pseudoAngle(a[0] * b[0] - a[1] * b[1], a[1] * b[0] + a[0] * b[1]);
 }
@@ -78,8 +78,8 @@ bool isBefore(const Eigen::RowVector3d& a, const Eigen::RowVector3d& b) {
 
 enum class Diagonal { first, other, both };
 
-/// Which diagonal is to stay: that from corner 0 to corner 2, the other, or whatever each star has chosen. Each corner,
-/// and each diagonal, may come first: the answer, to the last bit, is that of the four points.
+/// Chooses the diagonal: from corner 0 to corner 2, the other, or whatever each star has (`both`). The answer is the
+/// same, to the last bit, whichever corner comes first.
 Diagonal diagonalOf(const PointsView& points, const std::array<int, 4>& corner) {
   std::array<Eigen::RowVector3d, 4> place, side;
   for (int k = 0; k < 4; ++k) place[k] = points.row(corner[k]);
@@ -108,7 +108,7 @@ class DiagonalSettler {
   DiagonalSettler(const PointsView& points, const Buffer<std::uint8_t>& disagrees, Stars& stars)
       : points_(points), disagrees_(disagrees), stars_(stars), claims_(stars.link.size()) {}
 
-  /// Finds the quadrilaterals of which p has the least number, and claims the triangles of their corners.
+  /// Finds the quadrilaterals in which p has the least rank, and claims the triangles of their corners.
   void find(int p, Buffer<Quadrilateral>& found) {
     if (disagrees_[p] == 0) return;
     for (int i = stars_.offset[p]; i < stars_.offset[p + 1]; ++i) {
@@ -119,14 +119,14 @@ class DiagonalSettler {
       if (b < p) continue;
       const int j = entryOf(stars_, a, p);
       if (j < 0) continue;
-      // The far corner is beside p in the star of a, or beyond b there.
+      // The far corner is beside p in the star of a, or beyond b.
       const int left = farCorner(a, j, b, true), right = farCorner(a, j, b, false);
       if (left != p) judge({p, a, left, b}, false, found);
       if (right != left && right != p) judge({p, a, right, b}, false, found);
     }
   }
 
-  /// Whether no other quadrilateral claims a triangle of this one's, and all closed stars keep enough neighbours.
+  /// Whether no other quadrilateral claims a triangle of this one, and all closed stars keep enough neighbours.
   bool isFree(const Quadrilateral& quad) const {
     for (int k = 0; k < 4; ++k) {
       const int v = quad.corner[k], i = quad.entry[k];
@@ -141,7 +141,7 @@ class DiagonalSettler {
 
   void prepareChanges() { change_.assign(stars_.link.size(), unchanged); }
 
-  /// Notes what changes, unless the quadrilateral is not free.
+  /// Records the changes of a quadrilateral; false if it is not free.
   bool change(const Quadrilateral& quad) {
     if (!isFree(quad)) return false;
     for (int k = 0; k < 4; ++k)
@@ -184,7 +184,8 @@ class DiagonalSettler {
  private:
   enum Change : int { unchanged = -1, dropped = -2 };
 
-  /// In the star of a, what lies beside link vertex j on one side, or beyond that if it is b; p itself: nothing does.
+  /// The link vertex of star a next to link vertex j (which is p) on one side, or the one after if that is b; p if
+  /// there is none.
   int farCorner(int a, int j, int b, bool forward) const {
     const int p = stars_.link[j];
     for (int steps = 0; steps < 2; ++steps) {
@@ -196,8 +197,8 @@ class DiagonalSettler {
     return p;
   }
 
-  /// Claims the triangles of the quadrilateral if its stars disagree.
-  /// @param sees whether the star of corner 0, the least, is to see the far corner
+  /// Adds a quadrilateral whose stars disagree to `found` and claims its triangles.
+  /// @param sees whether the star of corner 0, the least, must have the far corner in its link
   void judge(const std::array<int, 4>& corner, bool sees, Buffer<Quadrilateral>& found) {
     if (corner[1] == corner[3]) return;
     for (int k = 1; k < 4; ++k)
@@ -227,8 +228,9 @@ class DiagonalSettler {
   const PointsView& points_;
   const Buffer<std::uint8_t>& disagrees_;
   Stars& stars_;
-  Buffer<std::uint8_t> claims_;  ///< per link entry: twice how many claim its triangle, and 1 where it is to be dropped
-  Buffer<int> change_;           ///< per link entry: a vertex to be put behind it, `dropped` or `unchanged`
+  /// per link entry: twice the number of claims on its triangle, plus 1 if it will be dropped
+  Buffer<std::uint8_t> claims_;
+  Buffer<int> change_;  ///< per link entry: a vertex to insert after it, `dropped` or `unchanged`
 };
 
 }  // namespace

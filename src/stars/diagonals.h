@@ -9,19 +9,19 @@
 
 namespace tufted {
 
-/// Makes stars choose the same diagonal of a quadrilateral.
+/// Makes stars choose the same diagonal of a quadrilateral (*Diagonals* in section 7 of docs/algorithm.md).
 ///
-/// The tangent planes of four neighbours p, a, c, b foreshorten their quadrilateral differently. So where it is nearly
-/// a rectangle, as on a grid that lies on a curved surface, all four stars may have their far corner in the link: its
-/// four triangles then have two votes each, and the union counts 4/3 of its area. Where the surface is a saddle, none
-/// of them may, and the union counts 2/3. Of quadrilaterals whose stars disagree the diagonal stays whose opposite
-/// corners have the smaller sum of angles in space; of equal ones that which the first of the four points ends, by x,
-/// then y, then z. Where the sums differ by more than 0.01 rad, which cells of grids do not, each star keeps what it
-/// has. No star changes at a triangle that belongs to two such quadrilaterals, and a closed star keeps three
-/// neighbours. All is decided by the stars as they are given, so the result depends on neither order nor threads.
+/// The tangent planes of four neighbours foreshorten their quadrilateral differently. Where it is nearly a rectangle,
+/// as on a grid on a curved surface, all four stars may contain their far corner, so that the union counts 4/3 of the
+/// area; on a saddle none may, so that it counts 2/3. Of both diagonals the one is chosen whose opposite corners have
+/// the smaller sum of angles in space; if the sums are equal, the one that ends at the least of the four points, by x,
+/// then y, then z. If the sums differ by more than 0.01 rad, which those of grid cells do not, each star keeps its own.
+/// A quadrilateral is left as it is if it shares a triangle of a star with another one, or if a closed star would have
+/// fewer than three neighbours. All decisions use the stars as given, so the result depends on neither order nor
+/// threads.
 ///
-/// @param disagrees see findDisagreement(); the four points of such a quadrilateral all do
-/// @returns how many quadrilaterals were settled
+/// @param disagrees see findDisagreement(); all four points of such a quadrilateral disagree
+/// @returns the number of quadrilaterals that were changed
 std::int64_t settleDiagonals(const PointsView& points, const Buffer<std::uint8_t>& disagrees, const Workers& workers,
                              Stars& stars);
 

@@ -15,9 +15,10 @@ inline double turn(double a, double b) {
 
 /// A gap between the triangles of a star, counterclockwise.
 struct Gap {
-  static constexpr double margin = 0.25;  ///< of the gap, on either side: neighbours along its border may reach into it
+  /// share of the gap on either side, which neighbours along its border may reach into
+  static constexpr double margin = 0.25;
 
-  double begin = 0;  ///< direction, rad
+  double begin = 0;  ///< direction of its first border, rad
   double angle = 0;  ///< (0, 2 pi]
 
   bool holdsInTheMiddle(double direction) const {
@@ -32,15 +33,15 @@ inline bool hasTriangles(const Stars& stars, int p) {
   return false;
 }
 
-/// Calls visit(a, b) for the link vertices of every triangle of p.
+/// Calls visit(a, b) with the two link vertices of every triangle of p.
 template <class Visit>
 void forEachTriangle(const Stars& stars, int p, const Visit& visit) {
   for (int i = stars.offset[p]; i < stars.offset[p + 1]; ++i)
     if (stars.hasTriangle(i)) visit(stars.link[i], stars.link[stars.after(p, i)]);
 }
 
-/// Finds the gaps between the triangles of p, which has some.
-/// @param direction of a link vertex as seen from p, rad
+/// Finds the gaps between the triangles of p, which must have at least one.
+/// @param direction direction(q): angle of link vertex q seen from p, rad
 template <class Direction>
 void findGaps(const Stars& stars, int p, const Direction& direction, Buffer<Gap>& gaps) {
   gaps.clear();

@@ -11,18 +11,18 @@
 namespace tufted {
 namespace {
 
-/// A neighbourhood grows to at most so many times k: rings at anisotropy 80 need that.
+/// A neighbourhood grows to at most this many times k: rings with an anisotropy of 80 need that.
 constexpr int most_growth = 8;
-/// Times the square that holds twice as many neighbours where they are spread evenly.
+/// Factor on the expected squared radius of a larger neighbourhood, if points are spread evenly.
 constexpr double more_likely = 1.2;
-/// More than this share of the neighbours within half the radius is uneven; an even surface has a quarter.
+/// A larger share of the neighbours within half the radius is uneven; an evenly sampled surface has a quarter.
 constexpr double crowd = 0.4;
-constexpr int least_neighbors = 3;  // for a plane and a star
+constexpr int least_neighbors = 3;  // the least for a plane and a star
 
-/// Planes per point: of the nearest few, and of all.
+/// Planes per point: of the nearest 8, the nearest 13 and all.
 constexpr std::size_t nested_sets = few_neighbors.size() + 1;
 
-/// The numbers of neighbours that planes are fitted to: the first few, if there are so many, then all.
+/// Covariances of the nearest few neighbours, if there are that many, and of all.
 std::array<Covariance, nested_sets> nestedCovariances(const Offsets& neighbors, double radius) {
   std::array<int, nested_sets> ends;
   for (std::size_t j = 0; j < few_neighbors.size(); ++j) ends[j] = std::min(few_neighbors[j], neighbors.count);
@@ -128,7 +128,7 @@ void NeighborhoodFinder::refine(int p, Neighborhood& neighborhood, OffsetBuffer&
   }
   neighborhood.fit_radius = neighborhood.radius;
   if (!splitsSheets()) return;
-  if (neighborhood.grown) {  // a scan may know other ways to the nearest few by now
+  if (neighborhood.grown) {  // the nearest few may have changed
     std::array<PrincipalAxes, nested_sets> axes;
     principalAxes(nestedCovariances(offsets.view(), neighborhood.radius), axes);
     for (std::size_t j = 0; j < nested_sets; ++j) takeAxes(j, axes[j], neighborhood);

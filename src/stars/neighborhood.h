@@ -14,22 +14,23 @@
 
 namespace tufted {
 
-/// Between two sheets the plane of all neighbours stands across them; that of the nearest few mostly does not. Not
-/// varied since the first design.
+/// Planes are also fitted to this many nearest neighbours: between two sheets the plane of all stands across them, that
+/// of the nearest few mostly does not. Not varied since the first design.
 constexpr std::array<int, 2> few_neighbors = {8, 13};
 
-/// The neighbours of one point and the plane through them.
+/// The neighbours of one point and the plane through them (sections 3 and 4 of docs/algorithm.md).
 struct Neighborhood {
-  Buffer<Neighbor> neighbors;  ///< ascending; those of other sheets left out
+  Buffer<Neighbor> neighbors;  ///< by ascending distance; without those on other sheets
   PrincipalAxes axes;
-  std::array<PrincipalAxes, few_neighbors.size()> axes_of_few;  ///< of the first few, where there are more of them
-  int k = 0;                                                    ///< neighbours asked for
-  double radius = 0;                                            ///< distance to the last of them
-  double fit_radius = 0;                                        ///< the radius that the plane was fitted in, S(p)
-  bool grown = false;                                           ///< the plane was fitted to more than the caller's k
-  bool split = false;                                           ///< neighbours of another sheet were left out
-  bool restored = false;                                        ///< there were some, but without them there is no plane
-  bool isolated = false;                                        ///< next to all neighbours belong to other sheets
+  /// of the nearest few_neighbors, if there are more neighbours
+  std::array<PrincipalAxes, few_neighbors.size()> axes_of_few;
+  int k = 0;              ///< number of neighbours that were searched
+  double radius = 0;      ///< radius of the ball that was searched
+  double fit_radius = 0;  ///< `radius` when the plane was fitted, S(p)
+  bool grown = false;     ///< whether more than the caller's k neighbours were taken for the plane
+  bool split = false;     ///< whether neighbours on another sheet were removed
+  bool restored = false;  ///< whether all were kept because the rest was no plane
+  bool isolated = false;  ///< whether nearly all neighbours belong to other sheets
 };
 
 /// Memory that one worker reuses from point to point.
@@ -40,43 +41,43 @@ struct NeighborhoodScratch {
   SearchBefore before;
 };
 
-/// Finds the neighbourhoods of points and fits planes to them.
+/// Finds the neighbourhoods of points and fits their planes.
 class NeighborhoodFinder {
  public:
   /// All arguments are borrowed.
   NeighborhoodFinder(const PointsView& points, const NeighborSource& source, const CloudOptions& options)
       : points_(points), source_(source), options_(options) {}
 
-  /// For each of `count` points from `first` on the caller's k neighbours, or the caller's own list. What is asked of
-  /// these points later with the same scratch takes least time.
+  /// The k neighbours of each point of [first, first + count), or the caller's lists. More neighbours of these points,
+  /// with the same scratch, are then fast to find.
   void find(int first, int count, NeighborhoodScratch& scratch, Neighborhood* neighborhoods) const;
 
-  /// Begins with neighbours that were found elsewhere, ascending.
+  /// Sets the neighbours of a neighbourhood, by ascending distance.
   void start(std::span<const Neighbor> neighbors, Neighborhood& neighborhood) const;
 
-  /// Planes that are fitted together, two packets.
+  /// Number of planes that are fitted at once: two packets.
   static constexpr int most_planes = 16;
-  /// Fits planes to at most most_planes neighbourhoods, and to the first few of each where sheets are split.
-  /// @param offsets of the neighbours of each; there may be more
+  /// Fits planes to at most most_planes neighbourhoods, and to the nearest few of each if sheets are split.
+  /// @param offsets of the neighbours, at least one buffer per neighbourhood
   void fitPlanes(std::span<Neighborhood> neighborhoods, std::span<const OffsetBuffer> offsets) const;
 
-  /// Doubles the neighbourhood while it says too little about the surface, with a plane fitted anew, and leaves other
-  /// sheets out.
+  /// Doubles the neighbourhood and fits its plane anew while it is uneven or a line, then splits sheets.
   /// @param offsets of the neighbours, before and after
   void refine(int p, Neighborhood& neighborhood, OffsetBuffer& offsets, NeighborhoodScratch& scratch) const;
 
-  /// Asks for twice as many neighbours, at most `most`; other sheets are left out as before, the plane stays as it is.
-  /// False when there are no more to be had.
+  /// Doubles the number of neighbours, up to `most`, without those on other sheets; the plane does not change. Returns
+  /// false if there are no more neighbours.
   /// @param offsets of the neighbours, before and after
   bool grow(int p, int most, Neighborhood& neighborhood, OffsetBuffer& offsets, NeighborhoodScratch& scratch) const;
 
-  /// The most neighbours that refine() asks for.
+  /// The greatest number of neighbours that refine() takes.
   int mostNeighbors() const;
 
  private:
   void take(int k, double radius, Neighborhood& neighborhood) const;
+  /// Searches k neighbours; false if there are no more than before.
   bool query(int p, int k, Neighborhood& neighborhood, OffsetBuffer& offsets, NeighborhoodScratch& scratch) const;
-  /// Rings, and the far side of a small cloud, would be taken for sheets.
+  /// Not on rings and in small clouds, where other rings and the far side would be taken for sheets.
   bool splitsSheets() const;
   bool isUneven(const Neighborhood& neighborhood) const;
 

@@ -10,10 +10,10 @@
 
 namespace tufted {
 
-/// Memory for the offsets of one neighbourhood, as large as any before.
+/// The offsets q - p of one neighbourhood, padded to whole packets with 0.
 class OffsetBuffer {
  public:
-  /// Takes the offsets from p to the neighbours.
+  /// Sets the offsets from p to the neighbours.
   void take(const PointsView& points, int p, std::span<const Neighbor> neighbors) {
     const double* const all = points.data();
     const double* const origin = all + 3 * std::ptrdiff_t{p};
@@ -23,7 +23,7 @@ class OffsetBuffer {
     });
   }
 
-  /// Takes what offset(0), offset(1), ... return.
+  /// Sets the offsets to offset(0), offset(1), ...
   template <class Offset>
   void fill(int count, const Offset& offset) {
     resize(count);
@@ -37,7 +37,7 @@ class OffsetBuffer {
     for (int i = count; i < toPackets(count); ++i) x[i] = y[i] = z[i] = 0;
   }
 
-  /// Takes those of the given offsets whose heights are in the range; they may be a view of this buffer.
+  /// Keeps those of the given offsets whose heights are in the range; `given` may be a view of this buffer.
   void takeConnected(const Offsets& given, const double* heights, const HeightRange& range) {
     const bool is_own = !memory_.empty() && given.x == axis(0);
     if (!is_own) resize(given.count);
@@ -63,7 +63,7 @@ class OffsetBuffer {
   const double* axis(int c) const { return (memory_.data() + c * room_)->value; }
 
   RawBuffer<Values> memory_;  ///< x, y, z, one after the other
-  std::size_t room_ = 0;      ///< of each, in packets
+  std::size_t room_ = 0;      ///< packets per axis
   int count_ = 0;
 };
 

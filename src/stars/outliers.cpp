@@ -9,24 +9,24 @@
 namespace tufted {
 namespace {
 
-/// Sine of the angle between a tangent plane and the way to a point above which the point hovers; a curved surface
-/// stays below within its neighbourhood.
+/// A point hovers over a tangent plane if the sine of its angle to the plane exceeds this; a curved surface stays below
+/// within its neighbourhood.
 constexpr double steep = 0.5;
 
-/// Whether p lies beyond the neighbours that q looked at.
+/// Whether p lies beyond the fit radius of q.
 bool isUnseen(const StarSupport& support, const PointsView& points, int p, int q) {
   return (points.row(p) - points.row(q)).squaredNorm() > support.fit_radius[q] * support.fit_radius[q];
 }
 
-/// Whether p lies far off the tangent plane of q, for its distance.
+/// Whether p is far off the tangent plane of q, relative to its distance.
 bool isOffPlane(const StarSupport& support, const PointsView& points, int p, int q) {
   const Eigen::RowVector3d d = points.row(p) - points.row(q);
   const double height = std::abs(d.dot(support.normals.row(q)));
   return height > steep * d.norm();
 }
 
-/// Whether the star alone allows p to be an outlier. It does not for nearly all points, which need no search then.
-/// @param is_known what was isolated since then is all that could have changed
+/// Whether p may be an outlier, judged by its star without a search; nearly all points are not.
+/// @param is_known p was tested before; only newly isolated points change the answer
 bool isSuspect(const BuiltStars& built, const PointsView& points, int p, bool is_known) {
   const auto& [stars, support] = built;
   const auto begin = stars.link.begin() + stars.offset[p], end = stars.link.begin() + stars.offset[p + 1];
@@ -42,7 +42,7 @@ bool isOutlier(const StarSupport& support, const PointsView& points, int p, cons
   return 2 * hovered > static_cast<std::ptrdiff_t>(neighbors.size());
 }
 
-/// Leaves the point without a triangle. Returns how many it loses.
+/// Removes all triangles of the star of p and returns their number.
 int isolate(BuiltStars& built, int p) {
   Stars& stars = built.stars;
   int dropped = 0;
@@ -62,7 +62,7 @@ void isolateOutliers(BuiltStars& built, const RankedCloud& cloud, const Neighbor
   const Stars& stars = built.stars;
   enum Verdict : std::uint8_t { untried, sound, outlier, isolated };
   Buffer<Verdict> verdicts(stars.size(), untried);
-  // Outliers that see each other alone become suspect once one of them is isolated.
+  // A group of outliers that see each other is found one round after the other.
   bool found = true;
   for (int round = 0; found; ++round) {
     found = false;

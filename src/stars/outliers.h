@@ -6,13 +6,13 @@
 
 namespace tufted {
 
-/// Takes the stars of outliers away, however many there are, and marks them in `isolated`.
+/// Removes the stars of outliers and marks these points in `isolated` (*Outliers* in section 7 of docs/algorithm.md).
 ///
-/// An outlier sees a surface that does not see it: most of its k neighbours q lie further from it than the neighbours
-/// of q from q, and have it more than 30 degrees off their own tangent plane. Where a sparse part of a surface borders
-/// on a dense one, its points are not seen either, but lie in the plane. Nothing is done where the neighbours are not
-/// the nearest points: with the caller's lists or the structure of a scan.
-/// @param cloud,source what the stars were built from
+/// A point is an outlier if most of its k neighbours q are farther from it than their own fit radius, and have it more
+/// than 30 degrees off their tangent plane. Where a sparse part of a surface borders on a dense one, its points are
+/// beyond these radii too, but lie in the planes. Does nothing with the caller's lists or rings, whose neighbours are
+/// not the nearest points.
+/// @param cloud,source those that the stars were built from
 void isolateOutliers(BuiltStars& built, const RankedCloud& cloud, const NeighborSource& source, const Workers& workers,
                      Report& report);
 

@@ -9,19 +9,19 @@ namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 
-/// Four points whose angles miss pi by less, in rad, are on one circle: wide enough for lattices of rounded
-/// coordinates, and so narrow that random points hardly ever are.
+/// Four points count as on one circle if opposite angles sum to pi within this, in rad: wide enough for lattices of
+/// rounded coordinates, and so narrow that random points hardly ever do.
 constexpr double tie_angle = 1e-9;
-/// Four points flatter than this are nearly collinear: there is no choice of two diagonals, and the exact predicate
-/// decides.
+/// Four points are nearly collinear if the sine of the angle at a is below this: there are no two diagonals to choose
+/// from, and the exact predicate decides.
 constexpr double flat_sine = 1e-6;
-/// The rounding of a determinant over its two products: three roundings of at most half an ulp each.
+/// Rounding of a determinant over the sum of its two products: three roundings of half an ulp at most.
 constexpr double determinant_rounding = 4e-16;
 /// Products below this may have underflowed.
 constexpr double least_bound = 1e-290;
-/// The rounding of a product above this is exact by fused multiply-add.
+/// The rounding error of a product above this is found exactly by a fused multiply-add.
 constexpr double least_exact = 1e-270;
-/// Products of squared sides between these have all their digits and do not overflow.
+/// Products of squared sides between these bounds have all their digits.
 constexpr double least_sides = 1e-280, most_sides = 1e280;
 
 Kernel::Point_2 toCgal(const PlanarPoint& p) {
@@ -44,7 +44,7 @@ int orientation(const PlanarPoint& a, const PlanarPoint& b) {
   const double bound = determinant_rounding * (std::abs(left) + std::abs(right));
   if (std::abs(determinant) > bound && bound > least_bound) return determinant > 0 ? 1 : -1;
   if (bound > least_exact) {
-    // So nearly equal, the products have an exact difference, and what is left are their own roundings.
+    // The difference of products that are so nearly equal is exact; what is missing are their rounding errors.
     const double rest = std::fma(a.v, b.u, -right) - std::fma(a.u, b.v, -left);
     if (determinant != rest) return determinant > rest ? 1 : -1;
     if (rest == 0) return 0;
@@ -66,8 +66,7 @@ CircleSide sideOfCircle(const PlanarPoint& a, const PlanarPoint& b, const Planar
   if (in_range && sine * sine > tie_angle * tie_angle * sides) {
     return sine > 0 ? CircleSide::inside : CircleSide::outside;
   }
-  // Within the band the sum is near 0, pi or 2 pi. Near pi it is a tie, unless all four points are nearly collinear:
-  // such a quadrilateral has no two diagonals to choose from.
+  // Within the band the sum is near 0, pi or 2 pi. Near pi it is a tie, unless all four points are nearly collinear.
   const double cross_a = cross(-a.u, -a.v, -abu, -abv);
   const double sides_a = dot(a.u, a.v, a.u, a.v) * dot(abu, abv, abu, abv);
   if (in_range && cosine < 0 && cross_a * cross_a > flat_sine * flat_sine * sides_a) return CircleSide::tie;

@@ -9,43 +9,45 @@
 namespace tufted {
 namespace {
 
-/// The plane of the nearest few, 8 or 13, is taken if its flatness is below this part of that of all.
+/// The plane of the nearest 8, or 13, is used if its flatness is below this share of that of all.
 constexpr std::array<double, few_neighbors.size()> flatter = {0.1, 0.5};
-/// The smallest variance of such a plane is below this part of the second. Not varied since the first design.
+/// The smallest variance of such a plane must also be below this share of the second. Not varied since the first
+/// design.
 constexpr double plane_of_few = 0.05;
-/// Cuts along the plane of what is left, at most. Not varied since the first design.
+/// Cuts along the plane of the rest at most. Not varied since the first design.
 constexpr int most_splits = 3;
-/// Points, p included: with up to `least_sheet` p is isolated, and `least_plane` make a plane believable, as many as a
-/// quadratic fit needs.
+/// Numbers of remaining points, p included: with up to `least_sheet` p is isolated; a plane needs `least_plane`, as
+/// many as a quadratic fit does.
 constexpr int least_sheet = 3, least_plane = 9;
-/// What is left is a plane if its smallest variance is below this part of the second, or below `flat_few` if the plane
-/// was found from two neighbours alone.
+/// The remaining points are a plane if their smallest variance is below this share of the second, or below `flat_few`
+/// if the plane was found from two neighbours.
 constexpr double flat_sheet = 0.1, flat_few = 0.05;
-/// A plane that is left is flatter than before by this factor; a cut that helps less has cut a curved surface.
+/// The flatness of an accepted plane must be below this share of the former one; a cut that helps less has cut a curved
+/// surface.
 constexpr double far_flatter = 0.25;
-/// Nearest neighbours whose pairs give planes with p to cut along: six planes, one packet.
+/// Number of nearest neighbours whose pairs give, with p, planes to cut along: six planes, one packet.
 constexpr int most_corners = 4;
-/// Two neighbours whose angle at p has a smaller sine are nearly in line with p and give no plane.
+/// Two neighbours whose angle at p has a smaller sine are nearly collinear with p and give no plane.
 constexpr double least_sine = 0.3;
 
 double flatness(const PrincipalAxes& axes) {
   return axes.variance[1] > 0 ? axes.variance[0] / axes.variance[1] : 0;
 }
 
-/// Whether what is left of a neighbourhood is a plane, as flat as asked and far flatter than it was.
+/// Whether the remaining neighbours are a plane: flatter than `flat`, and far flatter than before.
 bool isSheet(int neighbors, const PrincipalAxes& axes, const PrincipalAxes& before, double flat) {
   return neighbors + 1 >= least_plane && !liesOnOneLine(axes) && flatness(axes) < flat &&
          flatness(axes) < far_flatter * flatness(before);
 }
 
-/// Whether all are reached from p along `normal`. Leaves their heights and the range of those that are.
+/// Whether all neighbours are reached from p along `normal`. Stores their heights and the reached range in `scratch`.
 bool isOneSheet(const Offsets& neighbors, const Eigen::Vector3d& normal, double fit_radius, SheetScratch& scratch) {
   scratch.heights.resize(static_cast<std::size_t>(toPackets(neighbors.count)));
   scratch.range = kernels().connectedHeights(neighbors, normal.data(), sheet_gap * fit_radius, scratch.heights.data());
   return isWhole(scratch.range);
 }
 
-/// Keeps the neighbours that isOneSheet() has found within reach of p.
+/// Keeps the neighbours in the range that isOneSheet() has stored.
 void takeReached(Neighborhood& neighborhood, OffsetBuffer& offsets, const SheetScratch& scratch) {
   Buffer<Neighbor>& neighbors = neighborhood.neighbors;
   std::size_t kept = 0;
@@ -57,7 +59,7 @@ void takeReached(Neighborhood& neighborhood, OffsetBuffer& offsets, const SheetS
   offsets.takeConnected(offsets.view(), scratch.heights.data(), scratch.range);
 }
 
-/// As keepSheet(), and saves all neighbours before the first are left out.
+/// keepSheet() that stores all neighbours before the first cut, because they are restored if no sheet is found.
 bool keepSheetOfAll(const Eigen::Vector3d& normal, Neighborhood& neighborhood, OffsetBuffer& offsets,
                     SheetScratch& scratch) {
   if (neighborhood.neighbors.empty() || isOneSheet(offsets.view(), normal, neighborhood.fit_radius, scratch))
@@ -70,7 +72,7 @@ bool keepSheetOfAll(const Eigen::Vector3d& normal, Neighborhood& neighborhood, O
   return true;
 }
 
-/// The planes through p and two of the nearest four others, but for those that are nearly in line with p.
+/// The planes through p and two of its nearest four neighbours not nearly collinear with p. Returns their number.
 int planesThroughNearest(const Offsets& neighbors, Normals& planes) {
   const auto offset = [&](int i) { return Eigen::Vector3d(neighbors.x[i], neighbors.y[i], neighbors.z[i]); };
   int count = 0;
@@ -87,7 +89,7 @@ int planesThroughNearest(const Offsets& neighbors, Normals& planes) {
   return count;
 }
 
-/// Takes what is reached from p along each of these planes, where that is a part of all, and large enough.
+/// Cuts the neighbourhood along each of these planes; keeps the cuts that removed points and left enough.
 std::span<TriedSheet> trySheets(const OffsetBuffer& all, double fit_radius, SheetScratch& scratch) {
   Normals planes{};
   const int plane_count = planesThroughNearest(all.view(), planes);
@@ -109,7 +111,7 @@ std::span<TriedSheet> trySheets(const OffsetBuffer& all, double fit_radius, Shee
   return std::span(scratch.tried).first(count);
 }
 
-/// Fits a plane to each, of several at once.
+/// Fits a plane to each sheet, several at once.
 void fitPlanes(std::span<TriedSheet* const> sheets, double radius) {
   std::array<Covariance, SheetScratch::most_tried> covariances;
   std::array<PrincipalAxes, SheetScratch::most_tried> axes;
@@ -118,7 +120,7 @@ void fitPlanes(std::span<TriedSheet* const> sheets, double radius) {
   for (std::size_t i = 0; i < sheets.size(); ++i) sheets[i]->axes = axes[i];
 }
 
-/// Cuts each sheet once more, along its own plane, and fits planes to what is left.
+/// Cuts each sheet once more, along its own plane, and fits a plane to the rest.
 void cutAlongOwnPlanes(std::span<TriedSheet> sheets, const Neighborhood& neighborhood, SheetScratch& scratch) {
   std::array<TriedSheet*, SheetScratch::most_tried> listed;
   std::size_t count = 0;
@@ -134,7 +136,7 @@ void cutAlongOwnPlanes(std::span<TriedSheet> sheets, const Neighborhood& neighbo
   fitPlanes(std::span(listed).first(count), neighborhood.radius);
 }
 
-/// The sheet with the most points, the first of several; null if none is one.
+/// The sheet with the most points, the first of equal ones; null if none is a plane.
 const TriedSheet* largestSheet(std::span<const TriedSheet> tried, const PrincipalAxes& before) {
   const TriedSheet* largest = nullptr;
   for (const TriedSheet& sheet : tried) {
@@ -144,8 +146,8 @@ const TriedSheet* largestSheet(std::span<const TriedSheet> tried, const Principa
   return largest;
 }
 
-/// For where the planes of several neighbours stand across two sheets: keeps the largest sheet along a plane through p
-/// and two of the nearest four. False, and the neighbourhood as it was before any were left out, if there is none.
+/// Step 4 in section 4 of docs/algorithm.md: keeps the largest sheet along a plane through p and two of its nearest
+/// four neighbours. Returns false and the whole neighbourhood if there is none.
 bool findSheet(const PrincipalAxes& before, Neighborhood& neighborhood, OffsetBuffer& offsets, SheetScratch& scratch) {
   if (!scratch.all.empty()) {
     neighborhood.neighbors = scratch.all;
@@ -162,8 +164,8 @@ bool findSheet(const PrincipalAxes& before, Neighborhood& neighborhood, OffsetBu
   return true;
 }
 
-/// Leaves out what is not reached from p along the plane of the nearest few, where that is far flatter than the plane
-/// of all, and then along the plane of those that are left.
+/// Steps 1 and 2: cuts along the plane of the nearest few, if that is far flatter than the plane of all, then along the
+/// planes of the remaining neighbours.
 void cutAlongPlanes(const PrincipalAxes& before, Neighborhood& neighborhood, OffsetBuffer& offsets,
                     SheetScratch& scratch) {
   for (std::size_t j = 0; j < few_neighbors.size(); ++j) {

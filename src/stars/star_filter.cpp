@@ -14,20 +14,21 @@
 namespace tufted {
 namespace {
 
-/// P sees further than the other corners if its fit radius exceeds theirs by this factor. Less takes triangles from
-/// steps of density (1.5: 1.24 times the error of the core, 3: 1.18), more leaves bridges from the last ring of a scan.
+/// p sees further than the other two corners if its fit radius exceeds theirs by this factor. A smaller one removes
+/// triangles at steps of density (1.5: 1.24 times the error of the core, 3: 1.18), a larger one leaves bridges from the
+/// last ring of a scan.
 constexpr double further = 2.75;
-/// A triangle whose projected circumradius exceeds so many fit radii of its point is dropped. Not varied
-/// since the first design.
+/// A triangle is dropped if its projected circumradius exceeds this many fit radii of its point. Not varied since the
+/// first design.
 constexpr double far_larger = 3;
-/// A triangle of one star alone is dropped if its circumradius exceeds twice the smallest fit radius, here squared. Not
-/// varied since the first design.
+/// A triangle with one vote is dropped if its squared circumradius exceeds this times the square of the smallest fit
+/// radius. Not varied since the first design.
 constexpr double doubtful_squared = 4;
-/// With Filter::radius a triangle is dropped as a bridge if its circumradius exceeds so many smallest fit radii; clean,
-/// nonuniform and scan-line clouds lose nothing.
+/// With Filter::radius a triangle is dropped as a bridge if its circumradius exceeds this many smallest fit radii;
+/// clean, nonuniform and scan-line clouds lose nothing.
 constexpr double bridge = 4;
 
-/// Whether the star of `a` contains the triangle (a, b, c), either way round.
+/// Whether the star of `a` contains the triangle (a, b, c) in either orientation.
 bool contains(const Stars& stars, int a, int b, int c) {
   for (int i = stars.offset[a]; i < stars.offset[a + 1]; ++i) {
     const int x = stars.link[i], y = stars.link[stars.after(a, i)];
@@ -36,13 +37,13 @@ bool contains(const Stars& stars, int a, int b, int c) {
   return false;
 }
 
-/// How many of the other two corners' stars contain the triangle at entry i of star p.
+/// How many stars of the other two corners contain the triangle at entry i of star p.
 int otherVotes(const Stars& stars, int p, int i) {
   const int a = stars.link[i], b = stars.link[stars.after(p, i)];
   return (contains(stars, a, b, p) ? 1 : 0) + (contains(stars, b, p, a) ? 1 : 0);
 }
 
-/// Counts the other votes for every triangle of star p, with one look at the star of each link vertex.
+/// otherVotes() for every triangle of star p; reads the star of each link vertex once.
 /// @param[out] votes one per link entry
 void countOtherVotes(const Stars& stars, int p, Buffer<int>& votes) {
   const int first = stars.offset[p], last = stars.offset[p + 1];
@@ -56,13 +57,13 @@ void countOtherVotes(const Stars& stars, int p, Buffer<int>& votes) {
   }
 }
 
-/// The circumradius in space over `length`, squared: as a fraction, which no comparison need divide. It is infinite for
-/// a triangle without area.
+/// The squared circumradius in space over `length`, as a fraction, so that comparisons need no division; infinite for a
+/// triangle without area.
 struct SquaredRadius {
   double numerator, denominator;
 
   SquaredRadius(const PointsView& points, int p, int a, int b, double length) {
-    // In a unit near `length`: sixth powers of what the points are scaled to may leave the range of a double.
+    // In a unit near `length`, because sixth powers of scaled coordinates may leave the range of a double.
     const double unit = magnitudeOf(length), in_units = 1 / unit, measure = length * in_units;
     const Eigen::Vector3d u = in_units * (points.row(a) - points.row(p));
     const Eigen::Vector3d v = in_units * (points.row(b) - points.row(p));
@@ -72,8 +73,8 @@ struct SquaredRadius {
   bool isAtMost(double square) const { return denominator > 0 && numerator <= square * denominator; }
 };
 
-/// Filter::radius: circumradius R > r_k(p), which are slivers along a rim, or R > 4 times the smallest r_k of
-/// the three corners, which are bridges to outliers.
+/// Filter::radius: the circumradius exceeds S(p), as slivers along a rim do, or 4 times the smallest S of the three
+/// corners, as bridges to outliers do.
 bool isTooLarge(const BuiltStars& built, int p, int i) {
   const auto& [stars, support] = built;
   const int a = stars.link[i], b = stars.link[stars.after(p, i)];
@@ -81,8 +82,8 @@ bool isTooLarge(const BuiltStars& built, int p, int i) {
   return support.radius[i] > support.fit_radius[p] || support.radius[i] > bridge * smallest;
 }
 
-/// Filter::votes: far larger than the neighbourhood; or of one star alone and, in space, large for its corners: for
-/// any of them, or for those around a point that sees further than they do.
+/// Filter::votes: the triangle is far larger than S(p), or has one vote and is large in space for the smallest S of its
+/// corners, with a lower bound if p sees further than the other two.
 bool isImplausible(const BuiltStars& built, const PointsView& points, int p, int i) {
   const auto& [stars, support] = built;
   const int a = stars.link[i], b = stars.link[stars.after(p, i)];
@@ -95,7 +96,7 @@ bool isImplausible(const BuiltStars& built, const PointsView& points, int p, int
   return otherVotes(stars, p, i) == 0;
 }
 
-/// Drops the triangles that `test(p, i)` condemns, after all were tested. Returns their number.
+/// Tests all triangles, then drops those with test(p, i). Returns their number.
 template <class Test>
 std::int64_t dropTriangles(Stars& stars, const Workers& workers, const Test& test) {
   Buffer<std::uint8_t> condemned(stars.link.size());
@@ -128,7 +129,7 @@ void filterStars(BuiltStars& built, const PointsView& points, Filter filter, con
   if (stars.size() == 0) return;
   const bool any_isolated =
       std::any_of(support.isolated.begin(), support.isolated.end(), [](auto is) { return is != 0; });
-  // No triangle smaller than this is condemned, so that their corners need not be looked at.
+  // Smaller triangles pass in any case, so their corners need not be read.
   const double harmless = *std::min_element(support.fit_radius.begin(), support.fit_radius.end());
   report.dropped_triangles += dropTriangles(stars, workers, [&](int p, int i) {
     if (any_isolated && (support.isolated[stars.link[i]] != 0 || support.isolated[stars.link[stars.after(p, i)]] != 0))
@@ -155,7 +156,7 @@ void countVotes(const Stars& stars, const Buffer<std::uint8_t>& disagrees, const
     }
     for (int v = 0; v < 3; ++v) copies[v] += found[v];
   });
-  for (int v = 0; v < 3; ++v) report.votes[v] = copies[v] / (v + 1);  // v + 1 stars each count it once
+  for (int v = 0; v < 3; ++v) report.votes[v] = copies[v] / (v + 1);  // each triangle was counted by v + 1 stars
 }
 
 }  // namespace tufted

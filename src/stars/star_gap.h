@@ -7,11 +7,11 @@
 
 namespace tufted {
 
-/// The direction in the middle of the gap of an open star, of any length; zero where the star has no link.
+/// The direction of the middle of the gap of an open star, not normalised; zero if the star has no link.
 Eigen::Vector2d middleOfGap(const DelaunayStar& star);
 
-/// Whether the points leave a gap of pi or more around a direction, so that their star is open. Exact where it says so.
-/// Where more points stand around an open star, a gap that is left holds the middle of the one before.
+/// Whether the points leave a gap of pi or more around a direction, so that their star is open; exact if true. If
+/// points are added to an open star, any gap that remains contains the middle of the former one.
 bool leaveGap(const Buffer<PlanarPoint>& points, const Eigen::Vector2d& middle);
 
 }  // namespace tufted

@@ -11,7 +11,7 @@ namespace {
 #ifdef TUFTED_WITH_GPL
 constexpr auto by_cgal = delaunayStarCgal;
 #else
-constexpr auto by_cgal = delaunayStar;  // not reached: options are checked first
+constexpr auto by_cgal = delaunayStar;  // never called: options are checked before
 #endif
 
 }  // namespace
@@ -32,7 +32,7 @@ void StarWrapping::wrap(int p, const Eigen::Vector3d& normal, double unit, const
   });
   if (kind == StarKind::unknown) {
     wrap_(memory.planar, p, memory.scratch, memory.star);
-  } else if (kind != StarKind::closed) {  // no few of them decide it, and the short cut takes none that lie on p
+  } else if (kind != StarKind::closed) {  // tied or open: all of these candidates are needed, and none lies on p
     memory.scratch.chosen.swap(memory.planar);
     wrapChosen(p, memory.scratch, memory.star);
   }

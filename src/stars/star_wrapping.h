@@ -16,7 +16,7 @@
 
 namespace tufted {
 
-/// Calls visit(planar, neighbors) for neighbours projected to the tangent plane, times `unit`, as many at a time as
+/// Projects neighbours to the tangent plane, times `unit`, and calls visit(planar, neighbors) for as many at a time as
 /// `planar` holds, until it returns false.
 /// @param offsets of the neighbours
 template <class Visit>
@@ -36,7 +36,7 @@ inline void append(const PlanarOffsets& planar, std::span<const Neighbor> neighb
   for (int i = 0; i < planar.count; ++i) points.push_back({planar.u[i], planar.v[i], neighbors[i].index});
 }
 
-/// Memory of one worker for the star of one point after the other.
+/// Memory and counts of one worker, reused for each star.
 struct StarMemory {
   Buffer<PlanarPoint> planar;
   StarScratch scratch;
@@ -45,13 +45,13 @@ struct StarMemory {
   std::int64_t open_stars = 0, unusable_triangles = 0;
 };
 
-/// Finds Delaunay stars as the options say.
+/// Finds Delaunay stars as the options say (section 6 of docs/algorithm.md).
 class StarWrapping {
  public:
   explicit StarWrapping(Delaunay delaunay);
 
-  /// memory.star becomes the star of p among the neighbours.
-  /// @param unit of the plane: about one over the size of the neighbourhood, a power of two
+  /// Sets memory.star to the star of p among the neighbours.
+  /// @param unit factor from offsets to the plane: a power of two near the inverse size of the neighbourhood
   void wrap(int p, const Eigen::Vector3d& normal, double unit, const Offsets& offsets,
             std::span<const Neighbor> neighbors, StarMemory& memory) const;
 
@@ -63,11 +63,11 @@ class StarWrapping {
   bool has_short_cut_;
 };
 
-/// Memory for the stars of n points.
+/// Resizes the arrays per point for n points.
 void makeRoom(int n, BuiltStars& built);
 
-/// Puts memory.star, times `unit`, into memory.block, and whether it ends into `stars`.
-/// @param keeps(a, b) whether a triangle with link vertices a and b may stay
+/// Appends memory.star to memory.block, with radii times `unit`; sets `ends` and the size of star p.
+/// @param keeps keeps(a, b): whether a triangle with link vertices a and b may stay
 template <class Keeps>
 void storeStar(int p, double unit, const Keeps& keeps, StarMemory& memory, Stars& stars) {
   const DelaunayStar& star = memory.star;
@@ -88,7 +88,7 @@ void storeStar(int p, double unit, const Keeps& keeps, StarMemory& memory, Stars
   }
 }
 
-/// Turns the sizes of stars, of which `stars.offset` holds those before each, into offsets.
+/// Turns sizes, that of star p in stars.offset[p + 1], into offsets.
 void finishOffsets(Stars& stars);
 
 }  // namespace tufted

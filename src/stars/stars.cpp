@@ -19,13 +19,13 @@
 namespace tufted {
 namespace {
 
-constexpr int group_size = NeighborhoodFinder::most_planes;  // frames come first, then stars from the same offsets
-/// Link vertices per star on average over a block, for the first memory.
+constexpr int group_size = NeighborhoodFinder::most_planes;  // points whose frames, and then stars, are found together
+/// Mean number of link vertices per star, for the first allocation.
 constexpr std::size_t usual_degree = 7;
-/// Doublings of the neighbours of an open star: rings around a pole see only themselves among 60 (error at anisotropy
-/// 20: 1.9e-2 to 7.9e-3).
+/// How often the neighbours of an open star are doubled: points on rings around a pole see only their own ring among 60
+/// (error at anisotropy 20: 1.9e-2 to 7.9e-3).
 constexpr int most_doublings = 2;
-/// A neighbourhood counts as thick if its smallest variance exceeds this part of the second: 84 % of a cable 8 spacings
+/// A neighbourhood is thick if its smallest variance exceeds this share of the second: 84 % of a cable 8 spacings
 /// around (its area is 0.52 of the true one), 56 % at 9 (0.76), 7 % at 11 (1.08), 78 % of a volume.
 constexpr double thick_share = 0.5;
 
@@ -39,7 +39,7 @@ struct WorkerState {
   StarMemory memory;
   std::int64_t grown_neighborhoods = 0, split_neighborhoods = 0, thick = 0, isolated = 0, grown_stars = 0,
                closed_stars = 0;
-  std::array<double, 3> seconds = {};  // neighbours, frames, stars
+  std::array<double, 3> seconds = {};  // of neighbours, frames, stars
 };
 
 class StarBuilder {
@@ -53,7 +53,7 @@ class StarBuilder {
         stars_(built.stars),
         support_(built.support) {}
 
-  /// Leaves the stars in state.memory.block.
+  /// Builds the stars of [begin, end) in state.memory.block.
   void build(std::int64_t begin, std::int64_t end, WorkerState& state) const {
     const int count = static_cast<int>(end - begin);
     const int first = static_cast<int>(begin);
@@ -94,12 +94,12 @@ class StarBuilder {
     support_.isolated[p] = neighborhood.isolated ? 1 : 0;
   }
 
-  /// The star among the neighbours.
+  /// Finds the star among the neighbours.
   void wrap(int p, const Neighborhood& neighborhood, double unit, const Offsets& offsets, WorkerState& state) const {
     wrapping_.wrap(p, neighborhood.axes.normal, unit, offsets, neighborhood.neighbors, state.memory);
   }
 
-  /// Whether the star is open among more neighbours as well, without building it.
+  /// Whether the star is still open among the grown neighbours, without building it.
   bool staysOpen(const Eigen::Vector2d& gap, const Neighborhood& neighborhood, double unit, const Offsets& offsets,
                  WorkerState& state) const {
     state.memory.planar.clear();
@@ -111,8 +111,8 @@ class StarBuilder {
     return leaveGap(state.memory.planar, gap);
   }
 
-  /// Wraps the star, and looks further where what was found is no proof that the star is right: a circle of a closed
-  /// star leaves the ball that was searched, or the star is open and might not be among more neighbours.
+  /// Finds the star, and takes more neighbours if it is not certain: a circle of a closed star leaves the ball that was
+  /// searched, or an open star might close among more neighbours (*The certificate* in section 6 of docs/algorithm.md).
   void wrapUntilCertain(int p, Neighborhood& neighborhood, double unit, OffsetBuffer& offsets,
                         WorkerState& state) const {
     const bool is_thorough = options_.steps.star_search == StarSearch::thorough;
@@ -120,14 +120,14 @@ class StarBuilder {
     const int most = has_grown_most ? neighborhood.k : 2 * neighborhood.k;
     wrap(p, neighborhood, unit, offsets.view(), state);
     coverCircles(p, most, neighborhood, unit, offsets, state);
-    // Graded neighbours reach past the star as it is.
+    // Neighbours on rings already reach far beyond the star.
     if (state.memory.star.closed || !is_thorough || source_.isGraded()) return;
     if (closesAmongMore(p, neighborhood, unit, offsets, state))
       coverCircles(p, std::max(most, 2 * neighborhood.k), neighborhood, unit, offsets, state);
   }
 
-  /// Asks for more neighbours, at most `most`, while a circle of the closed star leaves the ball that was searched: a
-  /// point in the circle, but outside of the ball, would change the star.
+  /// Takes more neighbours, at most `most`, while a circle of the closed star leaves the ball that was searched: a
+  /// point within the circle but outside of the ball would change the star.
   void coverCircles(int p, int most, Neighborhood& neighborhood, double unit, OffsetBuffer& offsets,
                     WorkerState& state) const {
     const DelaunayStar& star = state.memory.star;
@@ -138,7 +138,7 @@ class StarBuilder {
     }
   }
 
-  /// Whether the open star closes among twice or four times as many neighbours. If not, it is left as it was.
+  /// Whether the open star closes among twice or four times as many neighbours. If not, it is restored.
   bool closesAmongMore(int p, Neighborhood& neighborhood, double unit, OffsetBuffer& offsets,
                        WorkerState& state) const {
     state.saved_star = state.memory.star;
@@ -159,7 +159,7 @@ class StarBuilder {
   }
 
   void wrapStar(int p, Neighborhood& neighborhood, OffsetBuffer& offsets, WorkerState& state) const {
-    // A power of two near the fit radius, so that the predicates meet numbers near 1 and scaling rounds nothing.
+    // A power of two near the fit radius: the predicates get numbers near 1, and scaling is exact.
     const double unit = magnitudeOf(neighborhood.fit_radius);
     DelaunayStar& star = state.memory.star;
     if (neighborhood.isolated) {

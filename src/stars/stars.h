@@ -13,11 +13,11 @@
 
 namespace tufted {
 
-/// The Delaunay stars of all points, one after the other, everything by rank.
+/// The Delaunay stars of all points, stored one after the other, by rank.
 ///
 /// Star p has the link vertices link[offset[p] .. offset[p + 1]), counterclockwise in the tangent plane of p. Entry i
-/// stands for the triangle (p, link[i], successor of i). There is none at the last link vertex of an open star, and
-/// where a filter dropped it.
+/// stands for the triangle (p, link[i], successor of i). There is no triangle at the last link vertex of an open star
+/// and where a filter dropped it.
 struct Stars {
   Buffer<int> offset;                ///< n + 1
   RawBuffer<int> link;               ///< ranks
@@ -32,12 +32,13 @@ struct Stars {
   std::size_t bytes() const;
 };
 
-/// What the steps from stars to the cover look at beside the stars: the neighbourhoods in which they were found.
+/// What later steps need of the neighbourhoods in which the stars were found.
 struct StarSupport {
-  RawBuffer<double> radius;          ///< circumradius in the tangent plane, per link entry as stars were wrapped
-  RawBuffer<double> fit_radius;      ///< n, r_k: distance to the last neighbour before a star grows
-  RawBuffer<std::uint8_t> isolated;  ///< n, 1 for points without a star: outliers, and where all others lie elsewhere
-  PointBuffer normals;               ///< n x 3
+  RawBuffer<double> radius;  ///< circumradius in the tangent plane, per link entry; not updated when stars change later
+  RawBuffer<double> fit_radius;  ///< n, S(p): distance to the last neighbour of the plane
+  /// n, 1 for points without a star: outliers, and points whose neighbours lie on other sheets
+  RawBuffer<std::uint8_t> isolated;
+  PointBuffer normals;  ///< n x 3
 
   std::size_t bytes() const;
 };
@@ -47,8 +48,8 @@ struct BuiltStars {
   StarSupport support;
 };
 
-/// For every point the neighbourhood, the tangent frame, the projection and the Delaunay star with its certificate.
-/// Counts growth, splits and open stars, and books the three stages' costs.
+/// Finds neighbourhood, tangent plane and Delaunay star of every point (sections 3, 4 and 6 of docs/algorithm.md).
+/// Reports growth, splits, open stars and the cost of three stages.
 BuiltStars buildStars(const RankedCloud& cloud, const NeighborSource& source, const CloudOptions& options,
                       const Workers& workers, Report& report);
 

@@ -18,7 +18,7 @@ SurfaceStars filteredStars(BuiltStars built, bool is_whole_cloud, const PointsVi
   result.disagrees = findDisagreement(result.stars, workers);
   if (options.steps.settle_diagonals) {
     report.settled_diagonals = settleDiagonals(points, result.disagrees, workers, result.stars);
-    // A point that agrees is no corner of what was settled, and agrees still.
+    // A point that agrees is no corner of a changed quadrilateral, so it still agrees.
     if (report.settled_diagonals > 0) result.disagrees = findDisagreement(result.stars, workers, result.disagrees);
   }
   countVotes(result.stars, result.disagrees, workers, report);
@@ -28,7 +28,7 @@ SurfaceStars filteredStars(BuiltStars built, bool is_whole_cloud, const PointsVi
 
 SurfaceStars surfaceStars(const RankedCloud& cloud, const NeighborSource& source, const CloudOptions& options,
                           const Workers& workers, Report& report) {
-  BuiltStars built = buildStars(cloud, source, options, workers, report);  // books its own stages
+  BuiltStars built = buildStars(cloud, source, options, workers, report);  // records its own stages
   StageClock clock(report);
   const bool is_whole_cloud = source.isWholeCloud(cloud.size());
   if (options.steps.isolate_outliers && !is_whole_cloud) isolateOutliers(built, cloud, source, workers, report);

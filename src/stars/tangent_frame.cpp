@@ -14,11 +14,11 @@ namespace tufted {
 
 namespace {
 
-/// Points whose second variance is below this part of the largest lie on one line. With a fixed k scan lines of
+/// Neighbours whose second variance is below this share of the largest lie on one line. With a fixed k scan lines of
 /// anisotropy 20 fall apart into thousands of components.
 constexpr double line_share = 0.1;
 
-/// The axes by Eigen's iteration, for matrices with two eigenvalues close together.
+/// The axes by Eigen's iteration, for covariances with two nearly equal eigenvalues.
 PrincipalAxes carefulAxes(const Covariance& a) {
   Eigen::Matrix3d matrix;
   matrix << a.xx, a.xy, a.xz, a.xy, a.yy, a.yz, a.xz, a.yz, a.zz;
@@ -36,13 +36,13 @@ void findCovariances(const Offsets& neighbors, double size, std::span<const int>
     std::ranges::fill(covariances, Covariance());
     return;
   }
-  // A power of two keeps squares in range at any scale, exactly.
+  // Dividing by a power of two is exact and keeps squares in range.
   const double power = magnitudeOf(size);
   std::array<OffsetSums, most_sets> sums;
   kernel.sumOffsets(neighbors, 1 / power, ends.data(), static_cast<int>(ends.size()), sums.data());
   for (std::size_t i = 0; i < ends.size(); ++i) {
     const OffsetSums& sum = sums[i];
-    const double share = 1 / static_cast<double>(ends[i] + 1);  // p adds nothing but itself
+    const double share = 1 / static_cast<double>(ends[i] + 1);  // p counts, with offset 0
     const double x = sum.x * share, y = sum.y * share, z = sum.z * share;
     covariances[i] = {sum.xx * share - x * x,
                       sum.xy * share - x * y,

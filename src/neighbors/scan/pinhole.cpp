@@ -13,22 +13,23 @@
 namespace tufted {
 namespace {
 
-/// Pixels that a camera is fitted to.
+/// Number of sampled pixels that a camera is fitted to.
 constexpr std::int64_t samples = 2000;
-/// Rows and columns of an image at least.
+/// Least number of rows, and of columns, of an image.
 constexpr int least_side = 8;
-/// Pixels that the 8 unknowns of a camera need.
+/// Least number of samples for the 8 unknowns of a camera.
 constexpr int least_samples = 100;
 /// The median error of a camera is at most this, in pixels, as that of the depth images of PCL is.
 constexpr double usual_error = 0.5;
-/// The error, in pixels, that most samples keep: lenses and rounding cause no more.
+/// Most samples have at most this error, in pixels: lenses and rounding cause no more.
 constexpr double most_error = 2;
-/// The share of the samples that keep `most_error`, and that lie in front of the camera.
+/// Least share of the samples with at most `most_error`, and of those in front of the camera.
 constexpr double most_share = 0.95;
 
 Buffer<Sighting> takeSightings(const Points& points, int width, int height, const Eigen::Vector3d& origin) {
   Buffer<Sighting> sightings;
-  const std::int64_t stride = std::max<std::int64_t>(1, points.rows() / samples) | 1;  // odd: not always one column
+  // odd, so that not all samples are in one column
+  const std::int64_t stride = std::max<std::int64_t>(1, points.rows() / samples) | 1;
   for (std::int64_t i = 0; i < points.rows(); i += stride) {
     const Eigen::Vector3d ray = points.row(i).transpose() - origin;
     if (!ray.allFinite() || ray.isZero(0)) continue;
@@ -39,7 +40,7 @@ Buffer<Sighting> takeSightings(const Points& points, int width, int height, cons
   return sightings;
 }
 
-/// The camera that sees (x, y, 1) ~ camera ray, by least squares of the linear equations.
+/// The camera matrix with (x, y, 1) ~ camera * ray, by linear least squares.
 Eigen::Matrix3d fitCamera(std::span<const Sighting> sightings) {
   Eigen::Matrix<double, 9, 9> normal = Eigen::Matrix<double, 9, 9>::Zero();
   for (const Sighting& sighting : sightings) {
@@ -64,7 +65,7 @@ std::optional<Eigen::Vector3d> opticalAxis(std::span<const Sighting> sightings, 
   const Eigen::Matrix3d camera = fitCamera(sightings);
   Buffer<double> errors;
   errors.reserve(sightings.size());
-  std::int64_t before = 0;  // points in front of the camera, one way round
+  std::int64_t before = 0;  // points in front of the camera if its matrix has the right sign
   for (const Sighting& sighting : sightings) {
     const Eigen::Vector3d seen = camera * sighting.ray;
     before += seen.z() > 0 ? 1 : 0;

@@ -11,37 +11,37 @@
 
 namespace tufted {
 
-/// The rows or the columns of an image that hold points, as the caller numbers them, ascending.
+/// The caller's numbers of the rows, or of the columns, of an image that hold points, ascending.
 using PixelLines = Buffer<std::int64_t>;
 
-/// The median distance from line to line; 1 for a single one.
+/// The median difference of consecutive numbers; 1 for a single line.
 inline double medianStep(const PixelLines& lines) {
   Buffer<double> steps;
   for (std::size_t i = 1; i < lines.size(); ++i) steps.push_back(static_cast<double>(lines[i] - lines[i - 1]));
   return steps.empty() ? 1 : medianOf(std::move(steps));
 }
 
-/// Whether rows are too far apart, by columns, or columns by rows, for windows of a few lines each way.
+/// Whether the median steps of rows and columns differ too much for windows of a few lines each way.
 inline bool isStretched(const PixelLines& rows, const PixelLines& columns) {
-  // Rows of an image apart by columns, or columns by rows, at most. An exact ball of area 6.9 has 6.2 as an image and
-  // 6.3 by the tree with 12, 7.8 and 6.6 with 14.
+  // Greatest ratio of the two steps. An exact ball of area 6.9 has 6.2 as an image and 6.3 by the tree with 12, 7.8 and
+  // 6.6 with 14.
   constexpr double most_stretch = 12;
   const double stretch = medianStep(rows) / medianStep(columns);
   return stretch > most_stretch || 1 / stretch > most_stretch;
 }
 
-/// Of the pixels of 5 x 5 around those that hold points, the share that hold points as well, in the mean over the
-/// latter, from samples. Holes do not count, but what is left between them: near 1 for an image with holes of any size,
-/// half where every second pixel is missing at random. Pixels of lines that hold nothing are none, unless these are
-/// stretched. 0 without pixels.
-/// @param holds whether the pixel of (rows[i], columns[j]) holds a point, by i and j
+/// How densely an image is filled: of the 5 x 5 pixels around a pixel that holds a point, the mean share that hold
+/// points as well, from samples. Near 1 for an image with holes of any size, and 1/2 if every second pixel is missing
+/// at random. Rows and columns without points are not counted as missing, unless the lines are stretched, see
+/// isStretched(). 0 without pixels.
+/// @param holds holds(i, j): whether the pixel of (rows[i], columns[j]) holds a point
 template <class Holds>
 double pixelFill(const PixelLines& rows, const PixelLines& columns, const Holds& holds) {
-  constexpr std::int64_t samples = 1 << 15;  // of the pixels: the share is off by 0.002
+  constexpr std::int64_t samples = 1 << 15;  // number of sampled pixels: the share is off by 0.002
   constexpr int reach = 2;                   // lines on each side: windows of 5 x 5 hold most stars
   const bool counts_missing = isStretched(rows, columns);
   const auto height = static_cast<int>(rows.size()), width = static_cast<int>(columns.size());
-  // Of the lines that hold points, those up to `reach` away.
+  // The range of the lines with points that are at most `reach` away from `line`.
   const auto around = [counts_missing](const PixelLines& lines, int line) {
     const auto isNear = [&](int other) { return !counts_missing || std::abs(lines[other] - lines[line]) <= reach; };
     int begin = std::max(0, line - reach), end = std::min(static_cast<int>(lines.size()), line + reach + 1);
@@ -49,14 +49,14 @@ double pixelFill(const PixelLines& rows, const PixelLines& columns, const Holds&
     while (!isNear(end - 1)) --end;
     return std::pair(begin, end);
   };
-  // The lines up to `reach` away, within the image.
+  // How many lines of the image are at most `reach` away.
   const auto countAround = [&](const PixelLines& lines, int line, const std::pair<int, int>& held) {
     if (!counts_missing) return std::int64_t{held.second} - held.first;
     return std::min(lines.back(), lines[line] + reach) - std::max(lines.front(), lines[line] - reach) + 1;
   };
   const std::int64_t pixels = std::int64_t{height} * width;
   std::int64_t stride = std::max<std::int64_t>(1, pixels / samples);
-  while (std::gcd(stride, width) > 1) ++stride;  // so that samples lie in all columns
+  while (std::gcd(stride, width) > 1) ++stride;  // samples then lie in all columns
   std::int64_t near = 0, held = 0;
   for (std::int64_t i = 0; i < pixels; i += stride) {
     const int row = static_cast<int>(i / width), column = static_cast<int>(i % width);

@@ -14,7 +14,7 @@
 namespace tufted {
 namespace {
 
-/// How messages begin; made only where there is one, as a frame takes nothing from the heap.
+/// Start of an error message; a string only where an error is thrown, as a frame must not allocate from the heap.
 std::string nameIn(const char* function, const char* member) {
   return std::string(function) + ": structure." + member;
 }

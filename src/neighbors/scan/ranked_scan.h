@@ -10,18 +10,20 @@
 
 namespace tufted {
 
-/// The places of ranked points in a scan.
+/// Rows and positions of the points of a scan, by rank.
 struct RankedScan {
-  Buffer<int> row;          ///< n, -1: no place
+  Buffer<int> row;  ///< n; -1: none
+  /// n; columns, or azimuths in [0, 2 pi).
   Buffer<double> position;  ///< n
-  Eigen::Vector3d origin;   ///< in units of the cloud
-  std::int64_t entries;     ///< of the structure: points of the caller, those that are not usable too
-  const char* function;     ///< of the library that was called, for messages
+  Eigen::Vector3d origin;   ///< the sensor, in units of the ranked cloud
+  std::int64_t entries;     ///< size of the caller's structure, unusable points included
+  const char* function;     ///< the public function that was called, for messages
 };
 
-/// Brings a structure into rank order; of coincident points that with the smallest row and position stands for all.
-/// @param function of the library that was called, for messages; a literal
-/// @throws InvalidInput for arrays that do not have one entry per point, and columns of an image that are no columns
+/// Brings a structure into rank order. Coincident points get the smallest (row, position) among them.
+/// @param function the public function that was called, for messages; a literal
+/// @throws InvalidInput for arrays that do not have one entry per point, an origin that is not finite, and columns of
+/// an image that are not whole numbers >= 0
 RankedScan rankScan(const ScanStructure& structure, const RankedCloud& cloud, const std::vector<PointStatus>& status,
                     const std::vector<int>& representative, const char* function = "pointCloudLaplacian");
 

@@ -10,31 +10,31 @@
 namespace tufted {
 namespace {
 
-/// First step of the search for the nearest point of a ring, so long that noise of single points does not stop it.
+/// First step of the search for the foot on a ring, so long that noise of single points does not stop it.
 constexpr int first_stride = 16;
-/// So many points of a ring on either side are all taken; of those beyond ever fewer, as they are for the plane and not
-/// for the star.
+/// The first 16 points of a ring on either side are all candidates; farther ones, ever more sparsely, serve the plane
+/// and not the star.
 constexpr int dense_steps = 16;
-/// Rings that are searched on each side; those beyond have no part in a star.
+/// Rings that are searched on each side; farther ones have no part in a star.
 constexpr int most_rings = 2;
-/// Points in a ball of one spacing, half the default k: with k = 30 the ball has 1.4 spacings.
+/// Number of neighbours whose ball has a radius of one spacing, half the default k: with k = 30 it has 1.4 spacings.
 constexpr double neighbors_per_spacing = 15;
-/// A ring ends after so many points one after the other that are too far: the surface has ended.
+/// The walk along a ring ends after this many consecutive points outside the ball: the surface has ended.
 constexpr int most_misses = 2;
 
-/// The radius that is searched: as far as a star reaches where points are nowhere denser than across the rings, 1.4
-/// spacings for 30 neighbours. What lies beyond, above all on a sparse ring, is on the other side of a crease or jump
-/// more often than not.
+/// The radius of the ball that is searched: as far as a star reaches if points are nowhere denser than across the
+/// rings, 1.4 spacings for 30 neighbours. Points beyond, above all on a sparse ring, mostly lie behind a crease or
+/// jump.
 double ballRadius(int k, double spacing) {
   return std::sqrt(k / neighbors_per_spacing) * spacing;
 }
 
-/// The larger of those that are finite; 0 without any.
+/// The largest finite number of the two; 0 if there is none.
 double larger(double a, double b) {
   return std::max(std::isfinite(a) ? a : 0, std::isfinite(b) ? b : 0);
 }
 
-/// Every point up to 16, then 24, 32, 48, 64, ...: two per octave.
+/// The step after `steps`: all up to 16, then 24, 32, 48, 64, ..., two per octave.
 int nextStep(int steps) {
   if (steps < dense_steps) return steps + 1;
   const bool is_power = (steps & (steps - 1)) == 0;
@@ -126,7 +126,7 @@ void RingSearch::addRing(int self, int foot, double radius, Buffer<Neighbor>& fo
   const double most = radius * radius;
   const int size = ringSize(ring_[foot]);
   for (const int side : {1, -1}) {
-    const int half = (side > 0 ? size : size - 1) / 2;  // the point opposite comes once
+    const int half = (side > 0 ? size : size - 1) / 2;  // so that the opposite point is visited once
     int misses = 0;
     for (int steps = 1; steps <= half; steps = nextStep(steps)) {
       const int place = stepped(foot, side * steps);

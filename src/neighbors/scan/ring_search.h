@@ -10,20 +10,20 @@
 
 namespace tufted {
 
-/// Neighbours in the scan of a spinning scanner, without a tree: those on the own ring and on those beside it.
+/// Neighbours in the scan of a spinning scanner, on the own ring and those beside it, without a tree (*Rows of a scan*
+/// in section 2 of docs/algorithm.md).
 ///
 /// Distances along a ring are often a tenth to a hundredth of those between rings: a ball that reaches a few rings
-/// holds thousands of points, nearly all of them on p's own ring and of no use. Of each ring those nearest to p count,
-/// for an empty circle through p that misses its neighbours on the ring meets other rings nowhere else; of the others
-/// every second, every fourth and so on tell the plane. A ring that is too far hides those behind it.
+/// holds thousands of points, nearly all on p's own ring and of no use. For the star the nearest points of each ring
+/// suffice, because an empty circle through p that misses its neighbours on the ring meets other rings nowhere else.
+/// Farther points, ever more sparsely, serve the plane. Rings behind one that is out of reach are not searched.
 class RingSearch : public InWorkspace {
  public:
   RingSearch(const RankedScan& scan, const RankedCloud& cloud);
 
-  /// About k points around p, itself left out, ascending by (distance, index); fewer where the scan holds no more.
-  /// They get sparser with their distance, so that they are crowded in the middle. `found` is overwritten and keeps its
-  /// memory. Safe to call from several threads.
-  /// @returns the radius of the ball that was searched, short of points that a ring's own hide
+  /// About k points around p, which is left out, ascending by (distance, index); fewer if the scan holds no more. They
+  /// get sparser with their distance. `found` is overwritten and keeps its memory. Safe to call from several threads.
+  /// @returns the radius of the ball that was searched, of which `found` has not all points
   double nearest(int p, int k, Buffer<Neighbor>& found) const;
 
   std::size_t bytes() const;
@@ -31,18 +31,18 @@ class RingSearch : public InWorkspace {
  private:
   int ringSize(int ring) const { return begin_[ring + 1] - begin_[ring]; }
 
-  /// So many points further around the ring; -1 where that is the point itself.
+  /// The place `steps` points further around the ring, cyclically; -1 if that is the same point.
   int stepped(int place, int steps) const;
   double squaredDistance(int a, int b) const { return (points_.row(a) - points_.row(b)).squaredNorm(); }
   double distanceTo(int a, int b) const;
-  /// A point of the ring that is nearer to `self` than those around it, sought from the azimuth of `from`; -1 if there
-  /// is no such ring.
+  /// The foot of `self` on a ring: a point nearer to it than those beside, searched from the azimuth of `from`; -1
+  /// without such a ring.
   int footOn(int ring, int self, int from) const;
-  /// Adds the points of a ring around `foot` that lie in the ball around `self`.
+  /// Adds points of a ring on both sides of `foot` that lie in the ball around `self`.
   void addRing(int self, int foot, double radius, Buffer<Neighbor>& found) const;
 
-  Buffer<int> place_;       ///< of each rank in the order of rings and azimuths, -1: none
-  Buffer<int> rank_;        ///< the inverse
+  Buffer<int> place_;       ///< by rank, the position of the point in the order of (ring, azimuth); -1: none
+  Buffer<int> rank_;        ///< by place, the rank
   Buffer<int> ring_;        ///< by place
   Buffer<double> azimuth_;  ///< by place
   Buffer<int> begin_;       ///< first place of each ring; number of places at the end

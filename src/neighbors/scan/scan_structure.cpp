@@ -13,12 +13,12 @@
 namespace tufted {
 namespace {
 
-/// Rings are found by their elevations if the gaps between rings are so many times those within.
+/// Rings are separated by elevation if the gaps between rings exceed those within rings by this factor.
 constexpr double least_contrast = 4;
-/// With fewer groups of elevations it is no scanner.
+/// Fewer groups of elevations are no scanner.
 constexpr int least_rings = 4;
-/// Points of a ring in the mean: of a random cloud a few gaps are tiny by chance, and nearly each point would be a
-/// ring; real rings have hundreds.
+/// Mean number of points of a ring at least: in a random cloud a few gaps are tiny by chance, so that nearly each point
+/// would be a ring; real rings have hundreds.
 constexpr std::size_t least_per_ring = 16;
 constexpr double rounding = 1e-9;  // gaps below this, in rad, are rounding of coordinates
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
@@ -35,8 +35,8 @@ double elevationOf(const Eigen::Vector3d& ray) {
   return std::atan2(ray.z(), std::hypot(ray.x(), ray.y()));
 }
 
-/// The gap that every gap between two rings exceeds and none within one: where the gaps, from the widest down, fall
-/// by the largest factor, and leave enough rings of enough points.
+/// The widest gap of elevations within a ring; those between rings are wider. From the widest gap down, gaps fall by
+/// the largest factor there, among the places that leave enough rings of enough points.
 double widestInnerGap(std::vector<double> gaps) {
   std::sort(gaps.begin(), gaps.end(), std::greater<>());
   const std::size_t most_rings = (gaps.size() + 1) / least_per_ring;
