@@ -3,12 +3,12 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-tools/install_dependencies.sh
+tools/install_dependencies.sh --command
 # shellcheck source=tools/build_settings.sh
 source tools/build_settings.sh
 
 echo "Building the command"
-cmake --preset release "${configure_arguments[@]}" >/dev/null  # errors and warnings go to stderr
+cmake --preset command "${configure_arguments[@]}" >/dev/null  # errors and warnings go to stderr
 cmake --build build/release --target tufted_command
 
 if samples=$(tools/fetch_samples.sh); then

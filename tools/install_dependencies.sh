@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs what tufted, its tests and its benchmark need, on Debian 12 and Ubuntu 22.04 and 24.04. Does nothing, and
 # asks for no rights, where all of it is there already.
+#   --command  only what the command `tufted` needs: a third of the packages, without PCL, Python, tests and benchmark
 #   --tests  also what the checks of tools/test.sh need: clang with its sanitizers, clang-format, doxygen, pytest, and a
 #            browser where it is a package (on Ubuntu it is none, and the tests of pages in a browser skip themselves)
 #   --all    that, and clang-tidy
@@ -9,15 +10,18 @@
 # GCC 11, CMake 3.22, PCL 1.12 and CGAL 5.4, which suffice.
 set -euo pipefail
 
-packages=(
+command_packages=(
   g++ cmake ninja-build ccache pkg-config
   libeigen3-dev libflann-dev liblz4-dev libcgal-dev libtbb-dev      # the core
   libsuitesparse-dev libopenblas-dev  # CHOLMOD, and the BLAS that it finds through Debian's alternatives: the reference
                                       # BLAS, which it takes otherwise, makes a factorisation 2 to 4 times slower
-  libpcl-dev                                                        # the classes for PCL
   liblzf-dev libzip-dev libmatio-dev nlohmann-json3-dev libcli11-dev  # files and the command
-  help2man                                                            # its manual pages
   zlib1g-dev libpng-dev libfreetype-dev  # pages and pictures to look at
+)
+packages=(
+  "${command_packages[@]}"
+  libpcl-dev  # the classes for PCL
+  help2man    # the manual pages of the command
   python3 python3-dev pybind11-dev python3-numpy python3-scipy python3-pip python3-venv  # the package for Python
   libgtest-dev libgmock-dev libspectra-dev libbenchmark-dev libnanoflann-dev  # tests and benchmark
 )
@@ -25,13 +29,14 @@ packages=(
 sanitizers=false
 case "${1-}" in
   '') ;;
+  --command) packages=("${command_packages[@]}") ;;
   --tests | --all)
     sanitizers=true
     packages+=(clang clang-format-14 doxygen python3-pytest)
     [[ $1 == --tests ]] || packages+=(clang-tidy)
     ;;
   *)
-    echo "usage: tools/install_dependencies.sh [--tests | --all]" >&2
+    echo "usage: tools/install_dependencies.sh [--command | --tests | --all]" >&2
     exit 2
     ;;
 esac

@@ -17,6 +17,9 @@ def sphere(count, seed=11, noise=0.0):
     return points * (1 + noise * generator.normal(size=(count, 1)))
 
 
+CLOUD = sphere(3000)
+
+
 def torus_mesh(n=40, m=20):
     """Vertices and faces of a torus of radii 1 and 0.4."""
     u, v = np.meshgrid(np.arange(n) * 2 * np.pi / n, np.arange(m) * 2 * np.pi / m, indexing="ij")
