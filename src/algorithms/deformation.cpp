@@ -80,7 +80,7 @@ struct DeformationSolver::State {
         smoothing[i] = options.smoothness * frame.areaToFrame(areas[pinned.components.of[i]]);
       rigid.emplace(function, laplacian, pinned, x, std::move(smoothing), options.solver);
     } else {
-      linear.emplace(laplacian, handles, Interpolation::biharmonic, options.solver);
+      linear.emplace(given, handles, Interpolation::biharmonic, options.solver);
     }
     options.solver.progress = {};
   }

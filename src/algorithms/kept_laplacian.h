@@ -13,6 +13,7 @@ inline Laplacian keptLaplacian(const Laplacian& laplacian) {
   kept.M = laplacian.M;
   kept.status = laplacian.status;
   kept.representative = laplacian.representative;
+  kept.boundary = laplacian.boundary;
   kept.component = laplacian.component;
   kept.component_edges = laplacian.component_edges;
   return kept;
