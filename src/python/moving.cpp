@@ -1,4 +1,4 @@
-// New places of the points: in the plane, on minimal surfaces, beside handles, smoothed, out of the noise.
+// New positions of the points: parameterisation, minimal surfaces, deformation, smoothing, denoising.
 #include <optional>
 #include <string>
 #include <utility>
@@ -33,7 +33,7 @@ SmoothingSolver smoothingSolver(const Shared& laplacian, double time_step, const
   });
 }
 
-/// What smooth() and smooth_values() take.
+/// Options of smooth() and smooth_values(), with the arrays that they borrow.
 struct Smoothing {
   SmoothingOptions options;
   std::optional<std::vector<std::uint8_t>> fixed;
