@@ -14,8 +14,8 @@ namespace tufted::io {
 
 namespace {
 
-/// Refuses the first side whose mate is another's, before there is memory for those behind it: nothing that repeats is
-/// a gluing, so no file holds many more sides than it has bytes.
+/// Reads the mate of each side. The first side that is glued to itself or not back ends the reading, which bounds the
+/// memory: numbers without repetition hardly deflate, so a file holds few more sides than it has bytes.
 std::vector<int> readGlue(NpzArray& array, const std::filesystem::path& path) {
   const double last = static_cast<double>(array.size()) - 1;
   std::vector<int> glue;
