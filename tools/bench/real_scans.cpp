@@ -17,7 +17,7 @@ namespace {
 
 constexpr std::uint64_t seed = 101;  // chooses the points that are predicted
 constexpr int most_queries = 4000;
-constexpr double most_height = 5;  // spacings; greater heights are no noise, and do not count
+constexpr double most_height = 5;  // spacings; greater heights are no noise and are clamped to this
 constexpr int icp_rounds = 30;
 constexpr double overlap = 3;  // spacings; points farther from the other scan are outside of the overlap
 
