@@ -34,7 +34,7 @@ std::optional<Places> find(const std::vector<Field>& fields, const Names& names)
   return found;
 }
 
-/// Whether columns 3, 4, 5 hold unit vectors (or zero, or NaN), so that they are normals and not colours.
+/// Whether columns 3, 4, 5 hold unit vectors (or zero, or NaN), not colours.
 bool holdNormals(const Columns& columns) {
   bool any = false;
   for (std::size_t i = 0; i < static_cast<std::size_t>(columns.rows); ++i) {

@@ -15,8 +15,7 @@ inline constexpr const char* component_edges_name = "component_edges.npy";
 void writeComponentEdges(const OutputPath& to, const std::vector<ComponentEdges>& edges);
 
 /// Reads the edges of components.
-/// @param components number of components
-/// @return one entry per component, or none if the file is empty
+/// @return one entry per component, or none
 /// @throws IoError for another number of rows, or numbers that no edges can have
 std::vector<ComponentEdges> readComponentEdges(const std::filesystem::path& path, std::size_t components);
 

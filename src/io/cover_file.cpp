@@ -14,8 +14,8 @@ namespace tufted::io {
 
 namespace {
 
-/// Reads the mate of each side. The first side that is glued to itself or not back ends the reading, which bounds the
-/// memory: numbers without repetition hardly deflate, so a file holds few more sides than it has bytes.
+/// Reads the mate of each side. Stops at the first side that is glued to itself or not back, to bound the memory: a
+/// file holds few more different numbers than bytes.
 std::vector<int> readGlue(NpzArray& array, const std::filesystem::path& path) {
   const double last = static_cast<double>(array.size()) - 1;
   std::vector<int> glue;

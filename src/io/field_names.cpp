@@ -35,8 +35,8 @@ void addAxes(Names& names, const std::array<const char*, 3>& axes, const std::ve
   }
 }
 
-/// Maps lettersOf() of the names that programs write to ours: PCL, PDAL, CloudCompare, MeshLab, ParaView, VeloView and
-/// surveying software. ParaView and VeloView append a colon and a number to the values of one array.
+/// Maps lettersOf() of names by PCL, PDAL, CloudCompare, MeshLab, ParaView, VeloView and surveyors to ours. ParaView
+/// and VeloView append a colon and a number to the values of one array.
 Names makeNames() {
   Names names;
   for (const char* name : {"rgb",

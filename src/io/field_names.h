@@ -10,7 +10,6 @@
 
 namespace tufted::io {
 
-/// The text in lower case.
 std::string lower(std::string_view text);
 
 /// Whether a text equals one of `others`.

@@ -20,8 +20,7 @@ Eigen::Matrix<double, Eigen::Dynamic, 9, Eigen::RowMajor> axesOf(const Frames& f
 /// Writes frames as N x 3 x 3, float64.
 void writeFrames(const OutputPath& to, const Frames& frames);
 
-/// Reads frames. Their orientation is not in the file and stays arbitrary.
-/// @return a frame for each point, or none if the file has none
+/// Reads frames, a frame per point or none. Their orientation is not in the file and stays arbitrary.
 /// @throws IoError for another number of frames
 Frames readFrames(const std::filesystem::path& path, std::size_t points);
 

@@ -90,7 +90,7 @@ class LasHeaderParser {
                      std::to_string(format) + " has " + std::to_string(lasPointBytes(format)));
   }
 
-  /// Reads the number of points: LAS 1.4 has 64 bits for it; if these are zero, the 32 bits of older versions count.
+  /// Reads the number of points: 64 bits in LAS 1.4, or if they are zero the 32 bits of older versions.
   void readCount() {
     std::uint64_t count = at<std::uint32_t>(107);
     std::size_t place = 107;
@@ -161,7 +161,7 @@ class LasHeaderParser {
     if (extra.count > 0) header_.extras.push_back(extra);
   }
 
-  /// Adds the bytes of a record that no Extra Bytes record describes as a field.
+  /// Adds undescribed bytes of a record as a field.
   void describeTheRest() {
     std::size_t described = lasPointBytes(header_.point_format);
     for (const LasExtra& extra : header_.extras) described += sizeOf(extra.type) * extra.count;

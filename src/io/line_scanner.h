@@ -52,8 +52,8 @@ class LineScanner {
 
  private:
   void appendTokens();
-  /// Refuses an empty value, or a delimiter other than the one between the line's first two tokens.
-  /// @param gap the separators before the next token or, if `at_end`, before the end of the line
+  /// Refuses a gap before a token or the end of the line with an empty value, or another delimiter than the line's
+  /// first.
   void checkGap(std::string_view gap, bool at_end);
 
   const std::filesystem::path& path_;

@@ -40,9 +40,7 @@ struct NpyHeader {
 
 constexpr std::size_t npy_beginning = 12;  ///< number of bytes that npyHeaderBytes() needs
 
-/// The size of the header in bytes.
-/// @param beginning the first `npy_beginning` bytes of the file
-/// @param shown the path to name in errors
+/// The size of the header in bytes, by the first `npy_beginning` bytes of a file called `shown`.
 /// @throws IoError for a file that is not a .npy file of version 1 to 3
 std::size_t npyHeaderBytes(std::string_view beginning, const std::filesystem::path& shown);
 

@@ -23,13 +23,14 @@ struct NpyColumn {
 /// An array of N or H x W items, each a structure or c values, of any real types, in any byte order and order of
 /// dimensions. Borrows the bytes of the file.
 struct NpyTable {
-  std::string type;                                                ///< "float16", "int32", ..., or "structures"
-  std::vector<NpyColumn> members;                                  ///< members of a structure; empty for a plain array
-  NpyColumn value;                                                 ///< the first value of each item of a plain array
-  std::int64_t columns = 0;                                        ///< number of values of each item
-  std::size_t dimensions = 0;                                      ///< number of dimensions of the array
-  std::int64_t width = 0, height = 1;                              ///< W and H; N and 1 for N items
-  std::size_t column_stride = 0, item_stride = 0, row_stride = 0;  ///< bytes from one to the next in a plain array
+  std::string type;                    ///< "float16", "int32", ..., or "structures"
+  std::vector<NpyColumn> members;      ///< members of a structure; empty for a plain array
+  NpyColumn value;                     ///< the first value of each item of a plain array
+  std::int64_t columns = 0;            ///< number of values of each item
+  std::size_t dimensions = 0;          ///< number of dimensions of the array
+  std::int64_t width = 0, height = 1;  ///< W and H; N and 1 for N items
+  /// Bytes from one to the next in a plain array.
+  std::size_t column_stride = 0, item_stride = 0, row_stride = 0;
   const char* values = nullptr;
   std::size_t end = 0;  ///< byte at which the values end in the file
 

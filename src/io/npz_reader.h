@@ -18,8 +18,7 @@ class NpzArray {
   const NpyHeader& header() const { return header_; }
   std::int64_t size() const { return header_.size(); }
 
-  /// Reads the next number, in C order. To be called size() times.
-  /// @throws IoError for a damaged array, or one that does not hold numbers
+  /// Reads the next of size() numbers, in C order. @throws IoError for a damaged array, or one without numbers
   double next();
   /// Reads the next number, which must be an integer in [least, most].
   /// @throws IoError naming the value that is not, and as next()

@@ -51,8 +51,7 @@ class ObjReader {
       geometry.normals = Eigen::Map<const Points>(normals_.data(), geometry.width, 3);
     if (!colors_.moveTo(geometry.fields, false))
       note(colors_.given(), "vertices have a colour and others none, so none is kept", geometry);
-    if (geometry.fields.size() == 4 && fourth_is_one_ &&
-        !last_is_one_) {  // the fourth value is the weight w of x y z w r g b
+    if (geometry.fields.size() == 4 && fourth_is_one_ && !last_is_one_) {  // x y z w r g b
       for (std::size_t c = 3; c > 0; --c) geometry.fields[c].name = geometry.fields[c - 1].name;
       geometry.fields.erase(geometry.fields.begin());
     }

@@ -25,8 +25,7 @@ struct FirstWord {
 
 std::optional<FirstWord> parseFirstWord(std::string_view word) {
   FirstWord first;
-  const bool is_small =
-      lower(word) == word;  // lower case is accepted too, but not the n of nOFF, points of n dimensions
+  const bool is_small = lower(word) == word;  // but not nOFF, points of n dimensions
   const auto take = [&](std::string_view prefix) {
     const bool found = word.starts_with(is_small ? lower(prefix) : std::string(prefix));
     if (found) word.remove_prefix(prefix.size());

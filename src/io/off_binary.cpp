@@ -147,8 +147,7 @@ class BinaryOff {
     if (dialect_.has_face_colors) offset_ += 4 * count(offset_, "colour values");
   }
 
-  /// Reads a number of values, and checks that the rest of the file can hold them.
-  /// @param face byte at which the face begins, for errors
+  /// Reads a number of values of the face at byte `face`, and checks that the rest of the file can hold them.
   std::size_t count(std::size_t face, const char* what) {
     const std::int32_t value = integer();
     if (value < 0 || static_cast<std::size_t>(value) > (bytes_.size() - offset_) / 4)

@@ -33,7 +33,7 @@ inline bool isPadding(const Field& field) {
 /// Allocates the values of all fields except padding, which may be far larger than the file.
 void allocate(PcdHeader& header);
 
-/// Parses and checks a header: counts and sizes are in range and points = width x height.
+/// Parses a header, and checks that counts and sizes are in range and points = width x height.
 /// @param text at least the header
 /// @throws IoError naming the line
 PcdHeader parsePcdHeader(const std::filesystem::path& path, std::string_view text);

@@ -10,7 +10,6 @@
 namespace tufted::io {
 
 /// Writes points.pcd as documented at writeLaplacian().
-/// @param M N masses to write
 /// @throws IoError
 void writePcd(const OutputPath& to, const Laplacian& laplacian, const Geometry& geometry, const VectorXd& M,
               const std::vector<Convention>& conventions);

@@ -23,8 +23,7 @@ Columns readVertices(const std::filesystem::path& path, std::int64_t header_line
   Columns columns;
   for (const PlyProperty& property : element.properties)
     if (!property.is_list) columns.fields.push_back({property.name, property.type, 1, {}});
-  nameColumns(path, header_lines,
-              columns.fields);  // before allocating: a header without properties may announce any number of vertices
+  nameColumns(path, header_lines, columns.fields);  // before allocating, as a point may have no values
   allocate(columns, element.count);
   for (std::int64_t i = 0; i < element.count; ++i) {
     body.beginItem(element);

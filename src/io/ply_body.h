@@ -34,12 +34,10 @@ class PlyBody {
   void skip(const PlyProperty& property);
 
  protected:
-  virtual std::int64_t mostValues(
-      FieldType type) const = 0;  ///< most values that the rest of the item or file can hold
+  virtual std::int64_t mostValues(FieldType type) const = 0;  ///< how many the rest of the item or file can hold
 };
 
-/// Makes the reader for the header's format.
-/// @param path,bytes (the whole file) borrowed
+/// Makes the reader for the header's format. `path` and `bytes`, the whole file, are borrowed.
 std::unique_ptr<PlyBody> makePlyBody(const std::filesystem::path& path, std::string_view bytes,
                                      const PlyHeader& header);
 

@@ -114,8 +114,7 @@ class PlyHeaderParser {
     return std::move(header_);
   }
 
-  /// Checks that the file is long enough for its elements, if all lists are empty and, in ascii, each number is a digit
-  /// and a separator.
+  /// Checks that the file is long enough for its elements, with empty lists and, in ascii, two bytes per number.
   void checkSize() const {
     std::uint64_t least = 0;  // cannot overflow: counts are below 2^31
     for (const PlyElement& element : header_.elements) {

@@ -14,8 +14,7 @@ inline constexpr const char* positions_name = "measured_positions.npy";
 /// Writes Laplacian::positions as N x 3, float64.
 void writePositions(const OutputPath& to, const Points& positions);
 
-/// Reads positions.
-/// @return a position for each point, or none if the file has none
+/// Reads positions, one per point or none.
 /// @throws IoError for another number of positions
 Points readPositions(const std::filesystem::path& path, std::size_t points);
 

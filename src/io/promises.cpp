@@ -67,7 +67,7 @@ class MatrixCheck {
                         ", must sum to 0 within rounding");
   }
 
-  /// Refuses an entry below the diagonal that differs from its partner above; 0 stands for an entry that is not stored.
+  /// Refuses L(i, j) = below unless L(j, i) = above is the same; 0: not stored.
   void compare(int i, int j, double below, double above) const {
     if (below != above) refuse(path_, entry(i, j, below) + ", " + entry(j, i, above) + ", must be equal");
   }

@@ -46,7 +46,7 @@ Report readReport(const Json& json, const Path& path) {
   return report;
 }
 
-/// Reads the kind. In reports of older versions without `kind` it follows from the options of the build, if present.
+/// Reads the kind, which in reports of older versions follows from the options of the build, if present.
 /// @param needed whether an unknown kind is an error, because the scale of the cover depends on it
 Kind readKind(const Json& json, bool needed, const Path& path) {
   const Json kind = json.value("kind", Json());
@@ -59,7 +59,7 @@ Kind readKind(const Json& json, bool needed, const Path& path) {
   return of_cloud ? Kind::cloud : Laplacian().kind;
 }
 
-/// Reads the orientation of the frames; arbitrary in reports of older versions, which have none.
+/// Reads the orientation of the frames; arbitrary in reports of older versions.
 Orientation readOrientation(const Json& json, const Path& path) {
   const Json orientation = json.value("orientation", Json());
   if (orientation.is_null()) return Orientation::arbitrary;
@@ -92,8 +92,7 @@ void removeDummies(Laplacian& laplacian) {
     if (laplacian.status[i] != PointStatus::active) laplacian.M[static_cast<Eigen::Index>(i)] = 0;
 }
 
-/// Reads the edges of each component. In results of older versions all components get those of the whole surface, from
-/// the report.
+/// Reads the edges of each component. Older versions wrote only those of the whole surface, into the report.
 /// @param laplacian with components and report
 std::vector<ComponentEdges> readEdges(const io::ResultFolder& folder, const Laplacian& laplacian) {
   const std::size_t components = componentSizes(laplacian.component).size();

@@ -12,8 +12,8 @@
 
 namespace tufted::io {
 
-/// Reads a member of a report into `value`. If the member is missing, as in older versions, or null, as JSON has it for
-/// numbers that are not finite, `value` stays as it is.
+/// Reads a member of a report into `value`, which stays as it is if the member is missing, as in older versions, or
+/// null, as JSON has it for numbers that are not finite.
 /// @throws IoError naming `path` for another type, an integer that does not fit, or an array of another length
 template <class Value>
 void readMember(const nlohmann::json& json, const std::string& name, const std::filesystem::path& path, Value& value) {

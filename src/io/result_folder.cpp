@@ -45,7 +45,7 @@ std::vector<std::string> filesOfResult(const std::filesystem::path& dir) {
 Geometry readPoints(const std::filesystem::path& dir, const Progress& progress) {
   const io::ResultFolder folder(dir);
   const nlohmann::json kind = folder.report().value("kind", nlohmann::json());
-  // For a cloud PCD is preferred, which holds all fields unchanged; for a mesh PLY, which holds the triangles.
+  // For clouds PCD is preferred, which keeps all fields; for meshes PLY, which has triangles.
   std::vector<std::string> names = {"points.ply", "points.pcd"};
   if (kind == "cloud") std::swap(names[0], names[1]);
   const auto name = std::find_if(names.begin(), names.end(), [&](const std::string& each) { return folder.has(each); });

@@ -12,8 +12,7 @@
 namespace tufted {
 namespace {
 
-constexpr double slack =
-    1.001;  // azimuths may exceed a full turn by this factor: rounding, and the last firing's points
+constexpr double slack = 1.001;  // azimuths may exceed a turn by this factor: rounding, the last firing
 
 const Field* fieldNamed(const Geometry& geometry, const char* name) {
   const auto field = std::find_if(geometry.fields.begin(), geometry.fields.end(),
@@ -54,8 +53,7 @@ ScanStructure ringsOf(const Geometry& geometry, const std::string& name) {
   const auto& pose = geometry.viewpoint;
   const Eigen::Vector3d origin(pose[0], pose[1], pose[2]);
   Eigen::Quaterniond turn(pose[3], pose[4], pose[5], pose[6]);
-  turn.coeffs() /=
-      turn.coeffs().cwiseAbs().maxCoeff();  // so that the square of its length neither overflows nor underflows
+  turn.coeffs() /= turn.coeffs().cwiseAbs().maxCoeff();  // so that squares neither overflow nor underflow
   // Points in the frame of the scanner, which turns around the z axis.
   const Points seen = (geometry.points.rowwise() - origin.transpose()) * turn.normalized().toRotationMatrix();
   const auto byElevation = [&] {

@@ -55,8 +55,7 @@ std::uint32_t binaryCount(std::string_view bytes) {
   return count;
 }
 
-/// Whether the file is long enough for the count in bytes 80 to 83. Characters of a text there would count more
-/// triangles than fit into any file below 7 GB.
+/// Whether the file is long enough for the count in bytes 80 to 83. Text there would be too large a count below 7 GB.
 bool isBinary(std::string_view bytes) {
   return bytes.size() >= header_bytes && (bytes.size() - header_bytes) / facet_bytes >= binaryCount(bytes);
 }

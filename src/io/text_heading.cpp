@@ -16,7 +16,7 @@ std::string_view strip(std::string_view text) {
   return text.substr(begin, text.find_last_not_of(blanks) + 1 - begin);
 }
 
-/// Removes the next line, which ends with \n, \r\n or a lone \r, from `rest` and returns it.
+/// Takes the next line, which ends with \n, \r\n or a lone \r, off `rest`.
 std::string_view takeLine(std::string_view& rest) {
   const std::size_t end = std::min(rest.find_first_of("\r\n"), rest.size());
   const std::string_view line = rest.substr(0, end);

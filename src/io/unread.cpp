@@ -7,8 +7,7 @@
 namespace tufted::io {
 namespace {
 
-/// Notes that bytes are skipped, or refuses them if no point was read.
-/// @param rest the bytes
+/// Notes that the bytes `rest` are skipped, or refuses them if no point was read.
 void note(const std::filesystem::path& path, const std::string& place, std::string_view rest, Geometry& geometry) {
   const bool are_zero = rest.find_first_not_of('\0') == std::string_view::npos;  // padding by PCL's writer
   const std::string count =

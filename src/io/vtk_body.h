@@ -89,7 +89,7 @@ class VtkBody {
   void setBinary(bool binary) { is_binary_ = binary; }
   bool isBinary() const { return is_binary_; }
 
-  /// Reads `rows` times `count` values. Refuses files that are too short for them before it allocates.
+  /// Reads `rows` times `count` values.
   Field values(std::string name, FieldType type, std::int64_t rows, std::int64_t count) {
     const std::size_t size = sizeOf(type), rest = bytes_.size() - offset_;
     // In text a value takes at least a digit and a blank; the last blank may be missing.

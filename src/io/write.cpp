@@ -55,7 +55,7 @@ void writeReport(const OutputPath& to, const Results& results) {
 }
 
 struct ResultFile {
-  std::optional<Format> format;  ///< format to which the file belongs; nullopt: always written
+  std::optional<Format> format;  ///< nullopt: always written
   const char* name;
   void (*write)(const OutputPath& to, const Results& results);
 };

@@ -42,8 +42,7 @@ struct Step {
   double length = 0;       ///< length from the beginning, in pixels
 };
 
-/// How far behind the visible disc or triangle a path still counts as on it; for a disc its radius, because its middle
-/// bulges towards the eye.
+/// How far behind a disc or triangle a path counts as on it: by a disc's radius, because its middle bulges to the eye.
 double toleranceAt(const SeenScene& seen, std::uint32_t number) {
   const auto n = static_cast<std::uint32_t>(seen.scene.positions.rows());
   if (number < n) return seen.radii[number];

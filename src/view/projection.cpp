@@ -160,7 +160,7 @@ void chooseDirections(const NormalizedPoints& points, const std::vector<int>& in
   eye = aside * level + 0.4 * up;
 }
 
-/// Moves the target, unless `keeps_target`, and the eye so that the points just fit into the viewport, with a margin.
+/// Moves the target, unless `keeps_target`, and the eye so that the points just fit, with a margin.
 void fit(const NormalizedPoints& points, const std::vector<int>& inside, const Viewport& port, bool keeps_target,
          Projection& projection) {
   const double half_width = 0.5 * std::max(port.right - port.left, 1) / projection.focal * fill;

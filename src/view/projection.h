@@ -54,8 +54,7 @@ constexpr double nearest_depth = 1e-3;
 /// @throws InvalidInput for a camera that is not finite or out of range
 void checkCamera(const Camera& camera, const char* function);
 
-/// Places the camera, and chooses what it leaves open.
-/// @param camera checked by checkCamera()
+/// Places the camera, which passed checkCamera(), and chooses what it leaves open.
 Projection project(const NormalizedPoints& points, const Camera& camera, const Viewport& viewport);
 
 }  // namespace tufted::view

@@ -68,8 +68,7 @@ void drawDisc(SeenScene& seen, int i) {
   if (!seen.normals.empty()) {
     const Vector3f& n = seen.normals[static_cast<std::size_t>(i)];
     if (n.squaredNorm() > 0) {
-      const float down =
-          std::min(n.z(), -least_cosine);  // negative: normals face the eye, and depth grows away from it
+      const float down = std::min(n.z(), -least_cosine);  // negative: depth grows away from the eye
       slope_x = -n.x() / down;
       slope_y = -n.y() / down;
     }

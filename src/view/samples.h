@@ -29,12 +29,12 @@ struct SeenScene {
   const Scene& scene;
   const NormalizedPoints& points;
   Projection projection;
-  int width = 0, height = 0;             ///< samples
-  std::vector<Eigen::Vector3f> views;    ///< N positions by Projection::toView(); 0 for points that are not finite
-  std::vector<Eigen::Vector3f> normals;  ///< N unit normals towards the eye, 0 if unknown; empty if all are unknown
-  std::vector<float> radii;              ///< N radii of discs, in normalised coordinates
+  int width = 0, height = 0;             ///< in samples
+  std::vector<Eigen::Vector3f> views;    ///< N, by Projection::toView(); 0 if not finite
+  std::vector<Eigen::Vector3f> normals;  ///< N of length 1 towards the eye, 0 if unknown; empty if all are unknown
+  std::vector<float> radii;              ///< N radii of discs, normalised
   std::vector<float> screen_radii;       ///< N radii of discs, in samples
-  std::vector<Sample> samples;           ///< width x height, rows from the top
+  std::vector<Sample> samples;           ///< rows from the top
 };
 
 /// Draws discs and triangles into samples.

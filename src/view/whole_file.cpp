@@ -19,7 +19,7 @@ namespace {
   throw IoError(path.string() + ": cannot write: " + std::system_category().message(error));
 }
 
-/// Follows links to the file that a path names, which need not exist. @throws IoError if it is no regular file
+/// Follows links to a file, which need not exist. @throws IoError if it is no regular file
 std::filesystem::path behindLinks(const std::filesystem::path& path) {
   namespace fs = std::filesystem;
   std::error_code error;

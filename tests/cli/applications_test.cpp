@@ -110,7 +110,7 @@ TEST_F(ApplicationCommands, PlacesComeFromFiles) {
 
 TEST_F(ApplicationCommands, PlacesAreCheckedBeforeTheBuild) {
   const std::string cloud = dir_.write("sphere.xyz", sphere(100));
-  // The file has no normals, so a build fails with --normals, but only after options are checked.
+  // A build fails with --normals, because the file has none.
   expectRefusal({"distance", cloud, "--normals", "--source", "0"}, "--normals", 1);
   expectRefusal({"distance", cloud, "--normals", "--source", "100"}, "--source 100 is no index in [0, 100)");
   expectRefusal({"distance", cloud, "--normals", "--near", "0,0,nan"}, "--near 0,0,nan is not finite");

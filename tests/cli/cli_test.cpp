@@ -197,8 +197,7 @@ TEST_F(Command, OptionsOfCloudsAreRefusedForAMesh) {
 
 TEST_F(Command, WritesTheFormatsItIsAskedForAndNoOthers) {
   const std::string file = dir_.write("sphere.xyz", sphere(200));
-  ASSERT_EQ(runTufted({"laplacian", "--out", out(), "--format", "mtx,spmat", file}).code,
-            0);  // FILE is not taken for a format
+  ASSERT_EQ(runTufted({"laplacian", "--out", out(), "--format", "mtx,spmat", file}).code, 0);  // FILE is no format
   for (const char* name : {"L.mtx", "M.mtx", "L.spmat", "M.spmat", "report.json"})
     EXPECT_TRUE(std::filesystem::exists(dir_ / "out" / name)) << name;
   for (const char* name : {"L.npz", "points.ply", "points.pcd", "laplacian.mat"})

@@ -28,13 +28,11 @@ class Process {
   int out_ = -1, err_ = -1;
 };
 
-/// Starts the command `tufted`.
 Process startTufted(const std::vector<std::string>& arguments, const std::string& input = "/dev/null");
 
 /// Runs the command `tufted` and waits for it.
 Result runTufted(const std::vector<std::string>& arguments, const std::string& input = "/dev/null");
 
-/// Path of the command `tufted`.
 std::string tuftedCommand();
 
 /// Runs any program and waits for it.

@@ -105,8 +105,7 @@ TEST_F(SignalCommands, FilterKeepsLongWavesAndTakesOutShortOnes) {
     std::vector<std::string> arguments = {"filter", file, "--values", array, "--out", in("out")};
     arguments.insert(arguments.end(), how.begin(), how.end());
     run(arguments);
-    EXPECT_EQ(report("out")["eigenvectors"],
-              8);  // those of the eigenvalues 2 and 6, waves of 4.4 and 2.6; the next is 1.8
+    EXPECT_EQ(report("out")["eigenvectors"], 8);  // of eigenvalues 2 and 6, waves of 4.4 and 2.6; the next is 1.8
     const std::vector<double> filtered = values("out/filtered.npy");
     ASSERT_EQ(filtered.size(), 2000u);
     for (int i = 0; i < 1000; ++i) {

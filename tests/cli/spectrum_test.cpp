@@ -41,8 +41,7 @@ TEST_F(SpectrumCommand, HasItsResidualsWhereMostOfTheSpaceIsAskedFor) {
 
 TEST_F(SpectrumCommand, TakesAFormerLaplacianAsItWouldBuildItself) {
   std::string points = sphere(400);
-  points +=
-      points.substr(0, points.find('\n') + 1) + "nan 0 0\n";  // a copy of the first point, and one that is not finite
+  points += points.substr(0, points.find('\n') + 1) + "nan 0 0\n";  // a copy of the first, and one not finite
   const std::string file = dir_.write("sphere.xyz", points);
   run({"spectrum", file, "--out", in("built"), "--count", "6"});
   const std::string evals = readAll(dir_ / "built/evals.npy"), evecs = readAll(dir_ / "built/evecs.npy");

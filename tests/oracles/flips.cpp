@@ -123,8 +123,7 @@ class Flipper {
   }
 
   std::vector<Face> faces_;
-  std::deque<Side>
-      waiting_;  ///< sides to examine, first in, first out; some occur twice, because sides of faces change
+  std::deque<Side> waiting_;  ///< sides to examine, some of them twice, because sides of faces change
 };
 
 }  // namespace

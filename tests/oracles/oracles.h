@@ -63,7 +63,6 @@ struct Topology {
 /// Triangles with a repeated vertex are left out.
 Topology topology(const Triangles& triangles);
 
-/// Sum of the triangles' areas.
 double surfaceArea(const Points& points, const Triangles& triangles);
 
 }  // namespace tufted::oracles

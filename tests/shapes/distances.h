@@ -26,7 +26,6 @@ inline double toCube(const Eigen::RowVector3d& x) {
   return std::min(0.0, out.maxCoeff()) + out.max(0.0).matrix().norm();
 }
 
-/// The root mean squared distance.
 inline double rmsDistance(const Points& points, const SurfaceDistance& distance) {
   double sum = 0;
   for (Eigen::Index i = 0; i < points.rows(); ++i) sum += std::pow(distance(points.row(i)), 2);

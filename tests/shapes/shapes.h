@@ -140,8 +140,8 @@ struct LidarOptions {
   double first_azimuth = 0;   ///< azimuth of the first column, in steps
   double noise = 0;           ///< standard deviation of the range, m
 };
-/// A scan by a spinning scanner at the origin, with the floor at z = -1.8. Organized: a column per step of azimuth, a
-/// row per ring from the lowest. The area is that of everything seen between the outermost rings.
+/// Scanner at the origin, floor at z = -1.8. Organized: a column per step of azimuth, a row per ring from the lowest.
+/// The area is that of everything seen between the outermost rings.
 Cloud lidar(const LidarOptions& options = {}, std::uint64_t seed = 1);
 
 /// Facts about a scan without noise, for judging a noisy scan with the same rays.
@@ -215,8 +215,7 @@ Mesh moebius(int n);          ///< strip of width 0.8 about the unit circle, 4n 
 Mesh kleinBottle(int n);      ///< figure-eight immersion, 2n x n; crosses itself, no points coincide
 /// gridSquare with caps of height 1e-10 along its middle row (n even).
 Mesh slivers(int n);
-Mesh zeroLengthEdges(
-    int n);  ///< gridSquare with two copies of its middle row, joined by triangles without area (n even)
+Mesh zeroLengthEdges(int n);       ///< gridSquare with its middle row twice, joined by triangles without area (n even)
 Mesh repeatedVertices(int n);      ///< gridSquare with additional triangles (a, a, b) and (a, a, a)
 Mesh unreferencedVertices(int n);  ///< gridSquare with 3 unused points, the first one among them
 Mesh duplicateTriangles(int n);    ///< gridSquare with its first triangle three times, once reversed

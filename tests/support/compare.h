@@ -17,7 +17,6 @@ inline Points permuted(const Points& points, const std::vector<int>& source) {
   return result;
 }
 
-/// The mean of |d - exact| over the mean of exact.
 inline double meanError(const VectorXd& distance, const VectorXd& exact) {
   return (distance - exact).cwiseAbs().sum() / exact.sum();
 }

@@ -126,7 +126,7 @@ void registerCloud(const CloudCase& c, std::int64_t points) {
       ->Unit(benchmark::kMillisecond);
 }
 
-/// Registers a case with one thread and with all, for the presets clean and scan.
+/// Registers a case with one and with all threads, clean and scan.
 void registerPresets(CloudCase c, std::int64_t points) {
   for (const int threads : {1, 0}) {
     for (const Preset preset : {Preset::clean, Preset::scan}) {

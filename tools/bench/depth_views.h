@@ -39,7 +39,6 @@ struct View {
 /// A room, things on a table, a ball, a corner, walls and a floor. In the room the seed does not rotate the camera.
 std::vector<View> views(std::uint64_t seed);
 
-/// The ball of views().
 View ballView(std::uint64_t seed);
 constexpr double ball_depth = 1.2, ball_radius = 0.4;  // m
 

@@ -21,7 +21,7 @@ class NearestPoints {
     index_.buildIndex();
   }
   const Points& points() const { return points_; }
-  /// Indices of the `count` points nearest to a position, ascending by distance.
+  /// The `count` nearest points, ascending by distance.
   std::vector<std::size_t> of(const Eigen::RowVector3d& place, int count) const {
     const auto k = std::min(static_cast<std::size_t>(count), static_cast<std::size_t>(points_.rows()));
     flann::KNNSimpleResultSet<double> nearest(k);

@@ -76,7 +76,7 @@ double shareOf(const Build& build, const Test& isWrong) {
   return wrong / whole;
 }
 
-/// The body of a label: 0 for floor, ceiling and walls, 1 for the box, 2 for the pole.
+/// 0 for the labels of floor, ceiling and walls, 1 for the box, 2 for the pole.
 int bodyOf(int label) {
   if (label == static_cast<int>(RoomSurface::pole)) return 2;
   return label < static_cast<int>(RoomSurface::box_west) ? 0 : 1;

@@ -10,7 +10,7 @@ enum ExitCode : int {
   exit_done = 0,
   exit_failed = 1,       ///< the data or the numerics are at fault
   exit_usage = 2,        ///< the command line is at fault
-  exit_cancelled = 130,  ///< ended by Ctrl-C, SIGTERM or SIGHUP; as shells report Ctrl-C
+  exit_cancelled = 130,  ///< Ctrl-C, SIGTERM or SIGHUP; as shells report Ctrl-C
 };
 
 /// Set by the subcommand that the command line names: does its work, and returns an exit code or throws. Each function

@@ -83,7 +83,7 @@ void addRange(const tufted::Curvatures& found, const tufted::Laplacian& laplacia
 Results compute(Settings& settings, Operator& source) {
   Results results;
   source.laplacian.frames = orientedFrames(settings.orienting, source, results);
-  source.geometry.normals = {};  // copies get the normals that determine the signs, not those of the file
+  source.geometry.normals = {};  // copies get the normals of the signs, not those of the file
   settings.options.threads = source.threads;
   settings.options.progress = source.progress;
   const tufted::Curvatures found = tufted::curvatures(source.laplacian, settings.options);

@@ -96,8 +96,7 @@ tufted::Spectrum longWaves(const Operator& source, double wavelength) {
   options.null_space = false;
   const std::string name = "--wavelength " + numberText(wavelength);
   const double most = tufted::mostEigenpairs(laplacian, false);
-  const double weyl =
-      laplacian.M.sum() * eigenvalueOf(wavelength) / (4 * std::numbers::pi);  // their number by Weyl's law
+  const double weyl = laplacian.M.sum() * eigenvalueOf(wavelength) / (4 * std::numbers::pi);  // about how many
   for (double count = 16 + 1.1 * weyl; weyl <= most && most >= 1; count *= 1.5) {
     tufted::Spectrum spectrum = tufted::spectrum(laplacian, static_cast<int>(std::min(count, most)), options);
     if (keepLongWaves(source, wavelength, spectrum)) return spectrum;

@@ -103,9 +103,7 @@ void addExtent(const tufted::CloudDescription& points, Json& info) {
   info["coincident"] = points.coincident;
 }
 
-/// Adds what is known of a cloud.
-/// @param asked neighbours per point that were asked for
-/// @param structure the one by which the cloud would be built
+/// Adds what is known of a cloud, with `asked` neighbours per point and the structure that a build would use.
 void addCloud(const tufted::CloudDescription& cloud, int asked, Structure structure, Json& info) {
   const bool is_image = structure == Structure::image;
   info["neighbors"] = cloud.neighbors;

@@ -36,7 +36,7 @@ const std::map<std::string, Eigen::Vector3d> axes = {
     {"x", Eigen::Vector3d::UnitX()},   {"y", Eigen::Vector3d::UnitY()},   {"z", Eigen::Vector3d::UnitZ()},
     {"-x", -Eigen::Vector3d::UnitX()}, {"-y", -Eigen::Vector3d::UnitY()}, {"-z", -Eigen::Vector3d::UnitZ()}};
 
-/// Parses WIDTHxHEIGHT; false if the text is not of this form or out of range.
+/// Parses WIDTHxHEIGHT; false if it is none or out of range.
 bool parseSize(const std::string& text, int& width, int& height) {
   char end = 0;
   if (std::sscanf(text.c_str(), "%5dx%5d%c", &width, &height, &end) != 2) return false;

@@ -35,7 +35,6 @@ inline std::string countText(std::int64_t count, const std::string& thing) {
   return std::to_string(count) + " " + thing + (count == 1 ? "" : "s");
 }
 
-/// The names in `values`.
 template <class T>
 std::vector<std::string> namesIn(const std::map<std::string, T>& values) {
   std::vector<std::string> names;

@@ -19,9 +19,8 @@ void addFormats(CLI::App& command, std::vector<tufted::Format>& target,
 /// Adds --format for the copies of the points: ply and pcd.
 void addCopies(CLI::App& command, std::vector<tufted::Format>& target);
 
-/// Checks before the build that results can be written.
+/// Checks before the build that `files` can be written into `out`.
 /// @param inputs files and folders that the command reads
-/// @param files names of the files that will be written into `out`
 /// @throws InvalidInput if `out` or one of the files is an input; IoError as tufted::checkWritable()
 void checkOutput(const std::vector<NamedInput>& inputs, const std::filesystem::path& out,
                  const std::vector<std::string>& files);

@@ -10,7 +10,6 @@
 #include "point_options.h"
 #include "tufted/interpolation.h"
 
-/// Values of the options for pins.
 struct PinOptions {
   std::vector<std::string> pins;
   std::filesystem::path by_index, by_position;

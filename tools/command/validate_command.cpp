@@ -86,8 +86,7 @@ struct Settings {
 
 /// The arguments with which this program judges one file.
 std::vector<std::string> wordsForOne(const std::filesystem::path& path, bool is_operator, const Settings& settings) {
-  const double seconds =
-      settings.seconds > 0 ? std::max(1e-6, settings.seconds) : 0;  // to_string() prints six decimals
+  const double seconds = settings.seconds > 0 ? std::max(1e-6, settings.seconds) : 0;  // printed with six decimals
   std::vector<std::string> words = {
       "validate", "--one", "--jobs", std::to_string(settings.jobs), "--time", std::to_string(seconds)};
   if (settings.memory) words.insert(words.end(), {"--memory", std::to_string(*settings.memory)});

@@ -135,7 +135,7 @@ class Mesh(Surface):
         return self._faces
 
     def triangles(self):
-        """The same as `faces`: PointCloud has a method of this name."""
+        """The same as `faces`."""
         return self._faces
 
     def _mesh_frames(self):

@@ -21,7 +21,7 @@ export async function unpacked(scene, index, column) {
   const key = `${index} ${column}`;
   const values = kept.get(key) ?? (await unpack(scene.fields[index], column));
   kept.delete(key);
-  kept.set(key, values); // moves it to the end: the first one is the least recently used
+  kept.set(key, values); // moves it to the end: the first one is the oldest
   if (kept.size > most_kept) kept.delete(kept.keys().next().value);
   return values;
 }
